@@ -130,12 +130,14 @@ struct Run {
 Run prepare(const CvtRequest& request, Progress& progress) {
   progress.stage("reading the density");
   Run run{read_input(request), {}, {}, {}};
+  const Format format = format_of(request.mesh, write_options(request).format);
+  if (const Surface& surface = run.input.recipe.surface; !surface.is_sphere())
+    require_planar_format(request.mesh, surface, format);
   run.schedule = plan_of(run.input);
   require_used(request, run.schedule);
   run.input.recipe.start.points.resize(3, 0); // the schedule has them
   const Recipe& recipe = run.schedule.recipe;
-  require_space(request.mesh, file_bytes(format_of(request.mesh, write_options(request).format),
-                                         recipe.cells, recipe.density.uniform()));
+  require_space(request.mesh, file_bytes(format, recipe.cells, recipe.density.uniform()));
   run.configuration = configuration_of(request, run.input, run.schedule);
   if (!request.resume.empty()) {
     run.state = read_checkpoint(request.resume, run.configuration);

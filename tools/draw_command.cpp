@@ -82,8 +82,7 @@ void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptio
 }
 
 /// \throws Error invalid_argument in a plane without an end, whose cells nothing clips, and for a
-/// mesh
-///         that ends at walls; as operator_errors().
+///         mesh that ends at walls; as operator_errors().
 OperatorErrors errors_of(const Mesh& mesh) {
   if (mesh.surface == Surface::plane())
     throw Error(ErrorCode::invalid_argument,

@@ -47,7 +47,7 @@ double implied_cells(const CellWidth& cell_width, double radius_km = earth_radiu
 
 /// The same integral over the sphere or a region of it; over a region within about 0.2%, as a mean
 /// over 2^18 random places.
-/// \throws Error as above and as require_region(); invalid_argument for a plane.
+/// \throws Error as above; invalid_argument for a plane.
 double implied_cells(const CellWidth& cell_width, const Surface& surface,
                      double radius_km = earth_radius_km);
 
@@ -55,8 +55,7 @@ double implied_cells(const CellWidth& cell_width, const Surface& surface,
 /// are at most half of the widest step away, between the last longitude and the first one and
 /// beyond the outer latitudes at most 1.5 of it.
 /// \throws Error invalid_argument, naming the extent of the nodes and a place of the region
-/// outside; for
-///         a plane; as require_region().
+///         outside; for a plane.
 void require_covering(const CellWidth& cell_width, const Surface& surface = {});
 
 /// The gradient of the cell width at one location.
@@ -69,9 +68,9 @@ struct Gradient {
 /// The largest |grad h| that cells see: the largest mean of the gradient over a square of the width
 /// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
 /// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
-/// sampled.) Most models need a value below about 0.03. \param radius_km radius of the sphere, > 0
-/// and finite; default that of the Earth. \throws Error as density_of; invalid_argument for a
-/// radius out of range.
+/// sampled.) Most models need a value below about 0.03.
+/// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
+/// \throws Error as density_of; invalid_argument for a radius out of range.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// Widths for the polygons of a GeoJSON file, all in km, see read_cell_width(). A width of 0, the

@@ -84,9 +84,9 @@ struct CullReport {
 /// NAME.graph.info is written beside NAME.nc. All files are complete or absent: they get their
 /// names when all are written, the mesh last.
 /// \throws Error invalid_argument as land_fractions(), cells_on_lines() and sea_cells(); for a
-/// source
-///         that holds no mesh of the sphere with connectivity, a fraction out of range, and if
-///         there is neither a coast nor a raster nor a field nor a barrier; parse; cancelled; file.
+///         source that holds no mesh of the sphere with connectivity, a fraction out of range, and
+///         if there is neither a coast nor a raster nor a field nor a barrier; parse; cancelled;
+///         file.
 CullReport cull(const std::string& source, const std::string& target,
                 const CullOptions& options = {});
 

@@ -68,10 +68,9 @@ struct CutReport {
 /// NAME.graph.info is written beside NAME.nc. Both are complete or absent. The file is a classic
 /// one, with 64-bit offsets if possible.
 /// \param source an MPAS file with connectivity, written by any program.
-/// \throws Error invalid_argument as require_region() and limited_area_mask(), for a source that
-/// holds no
-///         such mesh, for a radius that is not positive and finite, and for a variable with two of
-///         the dimensions; parse; cancelled; file.
+/// \throws Error invalid_argument as limited_area_mask(), for a source that holds no such mesh, for
+///         a radius that is not positive and finite, and for a variable with two of the dimensions;
+///         parse; cancelled; file.
 CutReport cut(const std::string& source, const std::string& target, const Surface& region,
               const CutOptions& options = {});
 

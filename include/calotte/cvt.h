@@ -166,8 +166,7 @@ struct Cvt {
 /// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
 ///          collapsed edge, then the midpoints of split ones; on the sphere unit columns.
 /// \throws Error invalid_argument for a negative number, more than 2^30 points, an id out of range,
-/// or an
-///         ill-formed density.
+///         or an ill-formed density.
 Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t splits,
                            std::int64_t collapses);
 

@@ -78,13 +78,12 @@ struct Triangulation {
 /// \param surface where the points live. Default: the sphere.
 /// \param options merge_within is an angle in radians on the sphere, in the plane a distance.
 /// \throws Error invalid_argument: another number of rows, more than 2^30 points, an option out of
-/// range
-///         (see DelaunayOptions and Partition); with its index a point that has a z in the plane or
-///         is outside the box; a plane with one period, whose meshes come from make_grid() or a
-///         file. Also not_finite, zero_vector (on the sphere), duplicate
-///         (when refused); too_few_sites, for fewer than 3 distinct points, and if a circle wider
-///         than half of the box holds none; degenerate, for points on one great circle or line;
-///         cancelled by options.progress.
+///         range (see DelaunayOptions and Partition); with its index a point that has a z in the
+///         plane or is outside the box; a plane with one period, whose meshes come from make_grid()
+///         or a file. Also not_finite, zero_vector (on the sphere), duplicate (when refused);
+///         too_few_sites, for fewer than 3 distinct points, and if a circle wider than half of the
+///         box holds none; degenerate, for points on one great circle or line; cancelled by
+///         options.progress.
 Triangulation triangulate(const PointsRef& points, const Surface& surface = {},
                           const DelaunayOptions& options = {});
 

@@ -73,8 +73,7 @@ Density site_density(const Density& density, const Surface& surface = {});
 /// \param surface where the points are; in a periodic plane the density is periodic. Its rings have
 ///        no effect. Default: the sphere.
 /// \throws Error invalid_argument: another number of rows, or a z in the plane; an ill-formed
-/// density; a
-///         callable's value that is negative, infinite or NaN.
+///         density; a callable's value that is negative, infinite or NaN.
 DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface = {});
 
 /// The density that values at the sites of a mesh give everywhere on its surface: rho^(-1/4), which

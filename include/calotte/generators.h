@@ -12,9 +12,8 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// Starts of a CVT and test sets. All functions return 3 x n points: Cartesian unit columns on the
-/// sphere, with the same bits on every machine; x, y and 0 in the plane, in its unit of length;
-/// those of a PlanarDomain 2 x n. They throw Error invalid_argument for a count out of range; the
-/// largest count is 2^30.
+/// sphere, with the same bits on every machine; x, y and 0 in the plane, in its unit of length.
+/// They throw Error invalid_argument for a count out of range; the largest count is 2^30.
 
 /// Independent random points of a surface. They depend on n, surface, density and seed, not on the
 /// number of threads; a smaller n gives the first points of a larger n.
@@ -31,8 +30,8 @@ namespace calotte {
 /// \param surface the sphere, a region of it, a box, or a part of the plane.
 /// \param density default: uniform.
 /// \param seed any value; default 1.
-/// \throws Error invalid_argument for a plane without rings and two periods; as require_region() or
-///         require_domain(); if the density is ill-formed; negative, infinite or NaN somewhere;
+/// \throws Error invalid_argument for a plane without rings and two periods;
+///         if the density is ill-formed; negative, infinite or NaN somewhere;
 ///         zero everywhere; or a callable without a maximum.
 Points3 random_points(std::int64_t n, const Surface& surface, const Density& density = {},
                       std::uint64_t seed = 1);
@@ -56,8 +55,7 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 /// \param density uniform gives the points above.
 /// \param seed any value; default 1.
 /// \throws Error invalid_argument if the density is ill-formed; negative, infinite or NaN
-/// somewhere; zero
-///         everywhere; or a callable without a maximum.
+///         somewhere; zero everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
 /// Generators along the boundary of a region, ring by ring, for Recipe::fixed of a run with
@@ -71,9 +69,8 @@ Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed
 /// \param surface the sphere or a region of it.
 /// \param cells number of generators of the run, 4 to 2^30.
 /// \returns 3 x n unit columns; none for the whole sphere.
-/// \throws Error as require_region(); invalid_argument for a plane, an ill-formed density, cells
-/// out of
-///         range, and if the boundary takes all of the cells.
+/// \throws Error invalid_argument for a plane, an ill-formed density, cells out of range, and if
+///         the boundary takes all of the cells.
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density = {});
 
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
@@ -158,9 +155,7 @@ Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing);
 /// gives its points.
 /// \param n approximate number of points, 1 to 2^30; in a periodic box >= 12.
 /// \throws Error invalid_argument for the sphere, and for a plane without rings and two periods;
-/// for
-///         fewer points than 12 in a periodic box; if no lattice point is inside; as
-///         require_domain().
+///         for fewer points than 12 in a periodic box; if no lattice point is inside.
 Points3 hexagonal_lattice(std::int64_t n, const Surface& surface);
 
 } // namespace calotte

@@ -80,8 +80,8 @@ struct Stop {
   /// Whether shapes are brought within the limits of models at the end. A pure CVT has few others,
   /// at dislocations, pairs of cells with 5 and 7 neighbours. First, dislocations at short Voronoi
   /// edges are moved along their rows, the generators around them relax, and the descent goes on.
-  /// Then the energy plus a penalty for what is left beyond the limits is minimised: angles of
-  /// triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the length of the
+  /// Then the polish minimises the energy plus a penalty for what is left beyond the limits: angles
+  /// of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the length of the
   /// Delaunay edges across, and these from least_spacing to 1.3 times the spacing that the density
   /// demands. It moves generators next to such shapes away from their centroids. The mesh is
   /// well-centred if no cotangent and no ratio exceeds its limit by 0.03. Default: with kind
@@ -145,8 +145,7 @@ struct Schedule {
 
 /// Makes all choices of a recipe.
 /// \throws Error invalid_argument, with what is out of range or does not fit together, and the
-/// remedy;
-///         with the index of a fixed generator that leaves no free one. As implied_cells(),
+///         remedy; with the index of a fixed generator that leaves no free one. As implied_cells(),
 ///         require_covering(), with_rings(), boundary_points() and evaluate().
 Schedule plan(Recipe recipe);
 

@@ -30,8 +30,7 @@ inline constexpr int limited_area_rings = 7;
 /// \param rings number of rings, 0 to limited_area_rings.
 /// \returns by cell: 0 inside, 1 to `rings` for the cells of a ring, -1 for cells not selected.
 /// \throws Error invalid_argument for rings out of range, if no cell is inside, if all are removed,
-/// and
-///         if all cells of a closed mesh are selected, so that there is no boundary.
+///         and if all cells of a closed mesh are selected, so that there is no boundary.
 Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
                       const std::vector<std::uint8_t>& inside, int rings = limited_area_rings);
 

@@ -100,14 +100,14 @@ struct MeshFile {
   const Mesh* plane() const { return mesh && !mesh->surface.is_sphere() ? &*mesh : nullptr; }
 };
 
-/// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell
-/// r columns + c has its centre at ((c + 1/2) d, (r + 1) d sqrt(3)/2), in odd rows at ((c + 1) d,
+/// Regular hexagons in a plane that is periodic, as planar_hex of MPAS-Tools makes them: cell r
+/// columns + c has its centre at ((c + 1/2) d, (r + 1) d sqrt(3)/2), in odd rows at ((c + 1) d,
 /// ...), moved into the period. The periods are columns d and rows d sqrt(3)/2.
 ///
 /// At walls the cells are whole hexagons, and the boundary runs along their sides: as in planar_hex
 /// the mesh has a row or a column more on either side, which is then removed (r and c count from
-/// 1). Periods across walls are 0. \param columns, rows numbers of cells, at most 2^28 in all:
-/// columns >= 3, with walls in x >= 2;
+/// 1). Periods across walls are 0.
+/// \param columns, rows numbers of cells, at most 2^28 in all: columns >= 3, with walls in x >= 2;
 ///        rows >= 4 and even, with walls in y >= 2.
 /// \param spacing d, the distance of neighbours, in any unit of length; from 1e-20 to 1e20.
 /// \returns `mesh` of a box without walls, else `polygons`.
@@ -116,12 +116,12 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
 
 /// The Voronoi cells of a doubly periodic box whose sites lie in a part of it, from 0 to `extent`
 /// in the directions of the walls; in the others the box stays periodic. The boundary runs along
-/// the sides of whole cells, as MPAS-Ocean has it. \param box as make_grid() makes it with
-/// Recipe::walls: its period is that of the part where there is no wall, and larger where there is
-/// one. \returns `polygons`, in the order of the sites.
+/// the sides of whole cells, as MPAS-Ocean has it.
+/// \param box as make_grid() makes it with Recipe::walls: its period is that of the part where
+///        there is no wall, and larger where there is one.
+/// \returns `polygons`, in the order of the sites.
 /// \throws Error invalid_argument for no wall, an extent that is not below the box's period, or no
-/// cell;
-///         as voronoi().
+///         cell; as voronoi().
 MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 
 /// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
@@ -165,8 +165,7 @@ std::optional<Surface> filled_surface(const MeshFile& file);
 /// a Voronoi tessellation, such as the cells of an ocean or a limited area. Polygons keep their
 /// corners; edges at their boundary have one cell, as in a bounded plane.
 /// \throws Error as voronoi(); invalid_argument for polygons that are no Voronoi cells, with the
-/// reason,
-///         and for a plane whose surface is not bounded, without polygons.
+///         reason, and for a plane whose surface is not bounded, without polygons.
 Voronoi voronoi(const MeshFile& file);
 
 /// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
@@ -184,7 +183,7 @@ struct EarReport {
 
 /// What is left without ears.
 struct WithoutEars {
-  MeshFile file;
+  MeshFile file;     ///< the rest
   EarReport removed; ///< counts
 };
 
@@ -207,8 +206,9 @@ struct WrittenFields {
 /// is no mesh. Fields for whose values the format has no place are left out. MPAS needs Voronoi
 /// cells: the polygons of an open mesh are written if each corner of three cells is the
 /// circumcentre of their centres, within a millionth of a cell's width. Density and fields at cells
-/// go along. \param options its density, if not uniform, replaces the file's. \throws Error as
-/// write(); invalid_argument if the format cannot hold the mesh, with the reason.
+/// go along.
+/// \param options its density, if not uniform, replaces the file's.
+/// \throws Error as write(); invalid_argument if the format cannot hold the mesh, with the reason.
 WrittenFields write(const std::string& path, const MeshFile& file,
                     const WriteOptions& options = {});
 

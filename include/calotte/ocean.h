@@ -26,7 +26,7 @@ struct Coast {
 /// The land around a place, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.
 /// \param place direction of any norm.
-/// \throws Error invalid_argument for a place in the sea; as require_region() for the rings around
+/// \throws Error invalid_argument for a place in the sea; as Surface::within() for the rings around
 /// it.
 Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
 
@@ -38,8 +38,7 @@ Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
 ///        cells are read.
 /// \returns n fractions from 0 to 1.
 /// \throws Error invalid_argument, for cells that do not cover the sphere; for an area that is not
-/// that
-///         of the rings, and for places covered twice.
+///         that of the rings, and for places covered twice.
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
 /// The land by a raster of longitudes and latitudes, which may be irregular. A value holds in the
@@ -60,8 +59,7 @@ struct LandRaster {
 /// \param cells as above.
 /// \returns n fractions from 0 to 1.
 /// \throws Error invalid_argument, for cells that do not cover the sphere, and for shapes,
-/// coordinates or
-///         values that violate the conditions of LandRaster.
+///         coordinates or values that violate the conditions of LandRaster.
 DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
@@ -90,8 +88,8 @@ struct SeaReport {
 
 /// The sea, and how it was decided.
 struct SeaCells {
-  Ids mask; ///< by cell: 0 for the sea, -1 for land
-  SeaReport report;
+  Ids mask;         ///< by cell: 0 for the sea, -1 for land
+  SeaReport report; ///< counts
 };
 
 /// The cells of a connected sea: first closed and opened cells, then filled ones, then the parts

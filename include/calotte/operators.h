@@ -96,8 +96,7 @@ inline double diffusion_step(double eigenvalue, double viscosity) {
 /// \param density weights the centroids, as in quality(). Default: uniform. Without effect on an
 ///        open mesh of the sphere.
 /// \throws Error invalid_argument as voronoi() and quality(), but open meshes of the sphere are
-/// measured;
-///         for a mesh that fails check_surface() or has edges that are not Delaunay, see
+///         measured; for a mesh that fails check_surface() or has edges that are not Delaunay, see
 ///         count_edges(); for an open mesh of the sphere no site of which is surrounded by
 ///         triangles.
 OperatorErrors operator_errors(const Mesh& mesh, const Density& density = {});

@@ -36,14 +36,13 @@ Density density_of(const PlanarCellWidth& cell_width);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over a box or a
 /// part of the plane, within about 0.2%: a mean over 2^18 random places.
-/// \throws Error as above and as require_domain(); invalid_argument for the sphere, and for a plane
+/// \throws Error as above; invalid_argument for the sphere, and for a plane
 ///         without rings and two periods.
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);
 
 /// Throws unless the nodes cover a box or a part of the plane, except for half of the widest step.
 /// \throws Error invalid_argument, naming the extents; for the sphere, and for a plane without
-/// rings and
-///         two periods; as require_domain().
+///         rings and two periods.
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface);
 
 } // namespace calotte

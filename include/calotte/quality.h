@@ -33,8 +33,8 @@ struct Percentiles {
 
 /// Limits beyond which models object to an edge.
 inline constexpr double short_voronoi_edge = 0.18; ///< of dv/dc
-inline constexpr double least_dc_over_h = 0.75;    ///< of dc/h
-inline constexpr double greatest_dc_over_h = 1.4;  ///< of dc/h
+inline constexpr double shortest_dc_over_h = 0.75; ///< dc/h of the shortest edge that fits
+inline constexpr double longest_dc_over_h = 1.4;   ///< dc/h of the longest
 
 /// Quality of a mesh and its Voronoi cells. On the sphere lengths are arcs in radians, and areas
 /// are in steradians; in a plane lengths are in the unit of the points, and areas in its square.
@@ -92,8 +92,8 @@ struct Quality {
   /// sphere; 1/sqrt(3) for regular hexagons, 0 where cocircular sites share a corner.
   Range dv_over_dc;
   std::int64_t short_edges = 0; ///< number of edges with dv/dc below short_voronoi_edge
-  std::int64_t mismatched_edges =
-      0; ///< number of edges with dc/h outside least_dc_over_h to greatest_dc_over_h
+  /// Number of edges with dc/h outside shortest_dc_over_h to longest_dc_over_h.
+  std::int64_t mismatched_edges = 0;
   /// Number of cells that a model may object to: with a side or a neighbour counted above, or with
   /// a corner that is the centre of an obtuse triangle.
   std::int64_t bad_cells = 0;
@@ -116,10 +116,9 @@ struct Quality {
 ///        norm; in a part of the plane of points inside it or on its boundary.
 /// \param density default: uniform.
 /// \throws Error invalid_argument, for a mesh that fails check(); for an open mesh of the sphere,
-/// whose
-///         cells do not cover it, see open_quality(); for a plane without rings and two periods;
-///         with the index of a point outside its surface; for a density that is ill-formed,
-///         negative, infinite or NaN somewhere, or zero over a whole cell.
+///         whose cells do not cover it, see open_quality(); for a plane without rings and two
+///         periods; with the index of a point outside its surface; for a density that is
+///         ill-formed, negative, infinite or NaN somewhere, or zero over a whole cell.
 Quality quality(const Mesh& mesh, const Density& density = {});
 
 /// Measures the triangles of a mesh that need be neither closed nor Delaunay; rings of its surface
@@ -156,10 +155,10 @@ struct CellMeasures {
   /// n: the spacing h that the density demands of n cells, see Quality::dc_over_h. Empty for an
   /// open mesh.
   DoubleVector prescribed;
-  DoubleVector least_dc_over_h;    ///< n: least dc/h of the edges at the site; or empty
-  DoubleVector greatest_dc_over_h; ///< n: greatest dc/h of these edges; or empty
-  DoubleVector triangle_angle;     ///< m: largest angle, degrees
-  DoubleVector triangle_quality;   ///< m: as Quality::triangle_quality
+  DoubleVector min_dc_over_h;    ///< n: least dc/h of the edges at the site; or empty
+  DoubleVector max_dc_over_h;    ///< n: greatest dc/h of these edges; or empty
+  DoubleVector triangle_angle;   ///< m: largest angle, degrees
+  DoubleVector triangle_quality; ///< m: as Quality::triangle_quality
 };
 
 /// Measures the cells and triangles of a mesh. One of the sphere may be open, and need not be
@@ -168,16 +167,14 @@ struct CellMeasures {
 /// \param mesh in the plane as in quality().
 /// \param density as in quality(); without effect on an open mesh of the sphere.
 /// \throws Error invalid_argument, for a mesh that fails check_surface(); for a density as
-/// quality(); in
-///         the plane as quality() and voronoi().
+///         quality(); in the plane as quality() and voronoi().
 CellMeasures cell_measures(const Mesh& mesh, const Density& density = {});
 
 /// For each site whether the boundary of the mesh's surface clips its cell, or the site lies
 /// outside. quality() leaves these cells out of `degrees`. The whole sphere and a box clip no cell.
 /// \param mesh its points and its surface only.
 /// \throws Error invalid_argument for a region of the sphere, whose cells quality() does not clip,
-/// and
-///         for a plane without rings and two periods.
+///         and for a plane without rings and two periods.
 std::vector<bool> clipped_cells(const Mesh& mesh);
 
 } // namespace calotte

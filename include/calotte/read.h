@@ -27,10 +27,10 @@ enum class Columns {
 };
 
 /// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
-/// Columns::xy. The result is 3 x n. Blanks or tabs, and
-/// at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank lines are
-/// ignored; one header line without numbers may precede the points; further columns are ignored.
-/// Lines end in LF, CRLF or CR; a missing final newline loses nothing.
+/// Columns::xy. The result is 3 x n. Blanks or tabs, and at most one of comma, semicolon and bar,
+/// separate them; `#` starts a comment; blank lines are ignored; one header line without numbers
+/// may precede the points; further columns are ignored. Lines end in LF, CRLF or CR; a missing
+/// final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
@@ -64,8 +64,8 @@ PointLines read_point_lines(const std::string& path, Columns columns = Columns::
 /// multi-segment files), ends a ring.
 ///
 /// A ring may repeat its first corner at its end.
-/// \throws Error parse, naming the line, or the feature and its ring; as require_domain(), with the
-///         file's name; file.
+/// \throws Error parse, naming the line, or the feature and its ring; as Surface::within(), with
+///         the file's name; file.
 Surface read_domain(const std::string& path);
 
 /// Reads a region of the sphere. The name selects the format. An edge is the shorter arc of a great
@@ -87,8 +87,8 @@ Surface read_domain(const std::string& path);
 /// z. The file SaveLoopCounts... beside it has on each line the first and the last corner of a
 /// loop, counted from 1, or the number of its corners; without it there is one loop. The region is
 /// what all loops enclose together.
-/// \throws Error parse, naming the line, or the feature and its ring; as require_region(), with the
-///         file's name; invalid_argument for an unknown suffix; file.
+/// \throws Error parse, naming the line, or the feature and its ring; as Surface::within(), with
+///         the file's name; invalid_argument for an unknown suffix; file.
 Surface read_region(const std::string& path);
 
 /// The same from a stream.
@@ -123,8 +123,7 @@ Surface read_region(std::istream& in, const std::string& name);
 ///         ignore them. A column in no triangle is a duplicate of a column of the same direction,
 ///         or else a site without triangles. Default null.
 /// \throws Error invalid_argument for an unknown suffix, or a .txt or .tri file without `points`;
-/// parse;
-///         file; for sites that delaunay() refuses, its code.
+///         parse; file; for sites that delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
@@ -186,8 +185,7 @@ struct CellField {
 /// \param cells number of columns of read_sites(): cells of MPAS and UGRID files, nodes of UGRID
 ///        triangles.
 /// \throws Error invalid_argument if the file has no such variable, naming the variables of that
-/// size;
-///         parse; file.
+///         size; parse; file.
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells);
 
 /// The kilometres in a unit of length: 1 for km and 0.001 for m, by symbol or by name as UDUNITS
@@ -222,9 +220,9 @@ double kilometres_in(const std::string& unit);
 /// \param polygons widths for GeoJSON; other formats ignore them.
 /// \param region which the widths must cover; default the sphere.
 /// \throws Error invalid_argument for an unknown suffix, a width, transition or radius that is
-/// missing or
-///         not positive, a transition narrower than 0.2 degrees, or points of a mesh within a
-///         hemisphere; parse, naming the variable and its index, the line or the feature; file.
+///         missing or not positive, a transition narrower than 0.2 degrees, or points of a mesh
+///         within a hemisphere; parse, naming the variable and its index, the line or the feature;
+///         file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
                           const Surface& region = {});
 
@@ -241,8 +239,8 @@ PlanarRaster read_planar_raster(const std::string& path);
 
 /// Reads the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
 /// domain, which is that of x and y. Where cellWidth and x both have an attribute `units`, widths
-/// in km are converted to metres and the reverse, see kilometres_in(). \throws Error parse, naming
-/// the variable and its index; file.
+/// in km are converted to metres and the reverse, see kilometres_in().
+/// \throws Error parse, naming the variable and its index; file.
 PlanarCellWidth read_planar_cell_width(const std::string& path);
 
 } // namespace calotte

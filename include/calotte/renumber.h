@@ -22,9 +22,8 @@ enum class Numbering {
 /// \param mesh as delaunay() or read_mesh() returns it; it may be open.
 /// \param numbering by_format and input return the mesh unchanged.
 /// \throws Error invalid_argument for ids out of range, or neighbours that do not match the
-/// triangles;
-///         with Numbering::curve not_finite and zero_vector (on the sphere), with the index of the
-///         point.
+///         triangles; with Numbering::curve not_finite and zero_vector (on the sphere), with the
+///         index of the point.
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 } // namespace calotte

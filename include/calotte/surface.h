@@ -12,9 +12,8 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-class Surface;
 namespace domain_detail {
-Surface unchecked(bool sphere, std::vector<DoubleMatrix> rings, const Eigen::Vector2d& period);
+struct UncheckedSurface;
 }
 
 /// Where points live: the unit sphere, the plane, or a plane that is periodic in one direction or
@@ -50,11 +49,10 @@ public:
   /// point is inside if it lies inside an odd number of rings, of either orientation. The corners
   /// are finite, in the plane at most 1e30.
   /// \throws Error invalid_argument: a plane with a period, or a surface that is bounded already;
-  /// naming
-  ///         ring and corner, with the ring as index(): another number of rows; fewer than three
-  ///         corners; a corner that is no direction, or not finite; neighbours that are equal, or
-  ///         opposite on the sphere; edges that meet elsewhere than in the corner that joins them;
-  ///         on the sphere, rings of which one does not have the part to its left.
+  ///         naming ring and corner, with the ring as index(): another number of rows; fewer than
+  ///         three corners; a corner that is no direction, or not finite; neighbours that are
+  ///         equal, or opposite on the sphere; edges that meet elsewhere than in the corner that
+  ///         joins them; on the sphere, rings of which one does not have the part to its left.
   Surface within(Rings rings) const;
 
   bool is_sphere() const { return sphere_; }                   ///< otherwise a plane
@@ -76,7 +74,7 @@ public:
   friend bool operator==(const Surface& a, const Surface& b) { return a.equals(b); }
 
 private:
-  friend Surface domain_detail::unchecked(bool sphere, Rings rings, const Eigen::Vector2d& period);
+  friend struct domain_detail::UncheckedSurface;
   struct Bounds;
   bool equals(const Surface& other) const;
 
@@ -135,8 +133,7 @@ Surface channel(double lower, double upper, int corners = 360);
 /// meet, both sides of such a cut may differ by 1e-9 radians (6 mm on the Earth), and in their
 /// corners.
 /// \param rings as for Surface::within(); at least one. Several enclose one of the two parts into
-/// which they
-///        cut the sphere, such that every arc is between both.
+///        which they cut the sphere, such that every arc is between both.
 /// \throws Error as Surface::within(), orientation aside.
 Surface enclosed_region(const std::vector<Points3>& rings);
 

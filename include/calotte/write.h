@@ -62,8 +62,8 @@ struct WriteOptions {
   /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0 and
   /// finite; default 1. A plane and the other formats store the points unchanged.
   double sphere_radius = 1;
-  /// Density of the mesh, for fields such as meshDensity and nominalMinDc; in a plane uniform.
-  /// Default: uniform.
+  /// Density of the mesh, for fields such as meshDensity and nominalMinDc; in a plane its values at
+  /// the sites. Default: uniform.
   Density density = {};
   /// n values >= 0, one of them positive, by site; they replace `density`. Default: none.
   DoubleVector site_density = {};
@@ -108,8 +108,8 @@ struct WriteOptions {
 /// plane, which clips the cells, mpas, ugrid, vtp_cells, vtu_cells and geojson. An MPAS file has
 /// the boundary that voronoi() describes, with 0 for what is missing. NetCDF files call the unit of
 /// the points metre, GeoJSON has x and y in place of longitude and latitude. Fields at vertices are
-/// not written to formats of clipped cells, whose corners are not those of the triangles. \param
-/// mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
+/// not written to formats of clipped cells, whose corners are not those of the triangles.
+/// \param mesh as delaunay() or read_mesh() returns it: on the sphere columns of any norm,
 ///        triangles counter-clockwise seen from outside.
 /// \throws Error invalid_argument for an unknown suffix, a format that does not support the mesh, a
 ///         radius out of range, an ill-formed density, or ids out of range; in the plane for

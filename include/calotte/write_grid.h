@@ -38,8 +38,7 @@ struct GridFile {
 /// \param options `density` and `site_density` have no effect; fields apply to a mesh that is
 ///        written whole.
 /// \throws Error as write(), write_limited_area() and walled(); invalid_argument for a mesh of
-/// another
-///         surface than the schedule's, and for a limited area in another format.
+///         another surface than the schedule's, and for a limited area in another format.
 GridFile write_grid(const std::string& path, const Mesh& mesh, const Recipe& recipe,
                     const Schedule& schedule, const WriteOptions& options = {});
 

@@ -56,19 +56,19 @@ private:
 /// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
   Placement placement(n > 1 ? thread_count() : 1);
-  HappensBefore handover;
-  handover.fork();
+  HappensBefore order;
+  order.fork();
   tbb::parallel_for(
       tbb::blocked_range<std::int64_t>(0, n, 1),
       [&](const tbb::blocked_range<std::int64_t>& range) CALOTTE_UNSEEN {
-        handover.enter();
+        order.enter();
         placement.keep_apart();
         for (std::int64_t i = range.begin(); i != range.end(); ++i)
           body(i);
-        handover.leave();
+        order.leave();
       },
       tbb::simple_partitioner());
-  handover.join();
+  order.join();
 }
 
 /// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n

@@ -59,8 +59,7 @@ inline Points2Ref places_of(const PointsRef& points, const std::string& spherica
 
 /// A caller's points in the plane, in place: without their z.
 /// \throws Error invalid_argument unless they have 2 rows, or 3 of which z is 0; with the index of
-/// the
-///         first other point.
+///         the first other point.
 inline Points2Ref plane_points_of(const PointsRef& points) {
   if (points.rows() != 3) {
     require_rows(points, 2, "2 x n columns x y, or 3 x n with z = 0", {});

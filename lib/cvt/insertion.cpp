@@ -141,7 +141,7 @@ template <class AnyMesh> std::vector<std::uint8_t> hull_of(const AnyMesh& mesh) 
   return hull;
 }
 
-/// Relaxation does not mend cells with 8 sides or 4: 1 for many, -1 for few, 0 for others.
+/// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others.
 template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) {
   constexpr int many = 8, few = 4;
   std::vector<std::int32_t> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
@@ -205,7 +205,7 @@ Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& spli
 template <class AnyMesh, class Space>
 Points3 change_edges(const AnyMesh& mesh, const Points3& points, const Density& density,
                      const Space& space, const EdgeChanges& numbers) {
-  require_counts(points.cols(), numbers.inserted, numbers.contracted);
+  require_counts(points.cols(), numbers.splits, numbers.collapses);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
   const auto middle = [&](const Edge& edge) {
     return space.middle(column(points, edge.a), column(points, edge.b));
@@ -213,12 +213,12 @@ Points3 change_edges(const AnyMesh& mesh, const Points3& points, const Density& 
   const auto may_split = [&](const Edge& edge) {
     return edge.b >= numbers.fixed || !space.keeps(column(points, edge.a), column(points, edge.b));
   };
-  const auto may_contract = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
+  const auto may_collapse = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
   Choice choice(points.cols(), edges); // whose neighbours are those of all edges
   std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
-  const std::vector<Edge> split = choice.choose(edges, numbers.inserted, is_longer, may_split),
+  const std::vector<Edge> split = choice.choose(edges, numbers.splits, is_longer, may_split),
                           contracted =
-                              choice.choose(edges, numbers.contracted, is_shorter, may_contract);
+                              choice.choose(edges, numbers.collapses, is_shorter, may_collapse);
   return split_and_collapsed(points, split, contracted, numbers.fixed, middle);
 }
 
@@ -329,9 +329,9 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
 
 } // namespace cvt_detail
 
-Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t inserted,
-                           std::int64_t contracted) {
-  const EdgeChanges numbers{inserted, contracted};
+Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t splits,
+                           std::int64_t collapses) {
+  const EdgeChanges numbers{splits, collapses};
   if (!mesh.surface.is_sphere())
     return split_and_collapsed_in_plane(mesh_detail::planar(mesh), mesh.points,
                                         domain_of(mesh.surface), density, numbers);

@@ -23,7 +23,7 @@ double dislocations(const PlanarMesh& mesh, const Density& density);
 
 /// What a split and collapse of edges does.
 struct EdgeChanges {
-  std::int64_t inserted = 0, contracted = 0; ///< numbers of edges
+  std::int64_t splits = 0, collapses = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
   /// contracted; one to another point is contracted to the fixed one.
   std::int64_t fixed = 0;

@@ -56,8 +56,7 @@ struct ShapeTerms {
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
 /// \param fixed a flag for each generator that does not move; empty if there is none. Shapes of
-/// such
-///        alone do not count.
+///        such alone do not count.
 template <class Cells>
 ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
                            std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,

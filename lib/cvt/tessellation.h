@@ -53,13 +53,13 @@ struct Division {
 };
 
 /// The Voronoi cells of points that move, divided into regions, each with a task of its own. The
-/// mesh is kept between evaluations and mended where points have moved out of it; the regions are
+/// mesh is kept between evaluations and repaired where points have moved out of it; the regions are
 /// chosen anew when points have drifted.
 ///
 /// An evaluation at new points is
 ///
 ///     move -> [ drifted? divide ] -> [ restless? find_faults ]
-///          -> [ faults? mend, or else rebuild ] -> integrate, until it finds no faults
+///          -> [ faults? repair, or else rebuild ] -> integrate, until it finds no faults
 ///
 /// divide() and rebuild() sort or triangulate the points, which takes more memory than all else.
 ///

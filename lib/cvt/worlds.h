@@ -22,8 +22,7 @@ namespace calotte::cvt_detail {
 [[noreturn]] void refuse_state();
 
 /// \throws Error invalid_argument for a number of fixed generators out of range; duplicate, with
-/// the index
-///         of a fixed generator that merges with an earlier one.
+///         the index of a fixed generator that merges with an earlier one.
 void require_fixed(const Sites& sites, std::int64_t fixed);
 
 /// The sites of a start, distinct as unit columns: directions that differ by less than rounding are

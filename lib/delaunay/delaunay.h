@@ -48,8 +48,7 @@ namespace calotte {
 /// \param points 3 x n directions of any norm from 1e-200 to 1e200, n from 3 to 2^30.
 /// \param report if not null, receives times and counts; default null.
 /// \throws Error invalid_argument (not 3 rows, more than 2^30 points, or an option out of range;
-/// see
-///         DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
+///         see DelaunayOptions and Partition), not_finite, zero_vector, duplicate (when refused),
 ///         too_few_sites (fewer than 3 distinct), degenerate (all on one great circle), cancelled
 ///         (by options.progress).
 ///
@@ -87,8 +86,7 @@ PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& optio
 /// \param points 2 x n places inside the box.
 /// \param period side lengths of the box, positive, at most 1e300, in the unit of the points.
 /// \throws Error as planar_delaunay(); invalid_argument for a period out of range or a point
-/// outside the
-///         box; too_few_sites if a circle wider than half of the box holds no site.
+///         outside the box; too_few_sites if a circle wider than half of the box holds no site.
 PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
                              const DelaunayOptions& options = {}, DelaunayReport* report = nullptr);
 

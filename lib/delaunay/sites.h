@@ -53,8 +53,7 @@ constexpr std::int64_t site_steps = 4;
 
 /// \param monitor if not null, receives site_steps steps.
 /// \throws Error not_finite, zero_vector, duplicate, too_few_sites, invalid_argument (for more than
-/// 2^30
-///         points, too).
+///         2^30 points, too).
 Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within,
                  Monitor* monitor = nullptr);
 

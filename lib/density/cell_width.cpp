@@ -224,9 +224,9 @@ Cover cover_of(const DoubleVector& longitudes, const DoubleVector& latitudes) {
 
 /// A place of the region that is not covered, if there is one: on the boundary, which is sampled,
 /// or else the region holds all of a part that is not covered.
-std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& region) {
+std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Surface& region) {
   constexpr double apart = 1e-3; // radians
-  for (const Points3& ring : region.rings)
+  for (const Points3 ring : region.rings())
     for (Eigen::Index i = 0; i < ring.cols(); ++i) {
       const Eigen::Vector3d from = ring.col(i).normalized(),
                             to = ring.col((i + 1) % ring.cols()).normalized();
@@ -237,7 +237,6 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
           return at;
       }
     }
-  const Surface part = region;
   std::vector<Eigen::Vector3d> others;
   if (!cover.to_south || !cover.around)
     others.emplace_back(0, 0, -1);
@@ -249,7 +248,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
     others.emplace_back(std::cos(opposite), std::sin(opposite), 0);
   }
   for (const Eigen::Vector3d& at : others)
-    if (part.contains(at))
+    if (region.contains(at))
       return at;
   return std::nullopt;
 }
@@ -257,7 +256,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Region& r
 } // namespace
 
 std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,
-                      const Region& region, const std::string& longitude,
+                      const Surface& region, const std::string& longitude,
                       const std::string& latitude) {
   const Cover cover = cover_of(longitudes, latitudes);
   if (cover.whole())
@@ -265,7 +264,7 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
   const auto extent = [](const std::string& name, const DoubleVector& values) {
     return name + " runs from " + shortly(values[0]) + " to " + shortly(values[values.size() - 1]);
   };
-  if (region.whole())
+  if (!region.is_bounded())
     return (cover.around ? extent(latitude, latitudes) : extent(longitude, longitudes)) +
            " and leaves part of the sphere out; give a global raster in degrees";
   const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
@@ -280,10 +279,10 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
 } // namespace density_detail
 
 void require_covering(const CellWidth& cell_width, const Surface& surface) {
-  const Region region = part_of_sphere(surface, widths_are);
+  part_of_sphere(surface, widths_are);
   const WidthField field(cell_width); // throws if it is ill-formed
   const std::string problem = density_detail::uncovered(cell_width.longitudes, cell_width.latitudes,
-                                                        region, "longitude", "latitude");
+                                                        surface, "longitude", "latitude");
   base_detail::require(problem.empty(), "cell width: " + problem);
 }
 

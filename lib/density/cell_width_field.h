@@ -3,7 +3,6 @@
 
 #include "density/room.h"
 #include "density/width_table.h"
-#include "domain/region.h"
 
 #include <calotte/cell_width.h>
 
@@ -73,9 +72,8 @@ private:
 
 /// Why nodes do not cover a region, see require_covering(); empty if they do.
 /// \param longitude, latitude names of the coordinates in the message.
-/// \throws Error as require_region().
 std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,
-                      const Region& region, const std::string& longitude,
+                      const Surface& region, const std::string& longitude,
                       const std::string& latitude);
 
 /// The callable of a density (h_min/h)^4. DensityEvaluator calls the second operator.

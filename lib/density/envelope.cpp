@@ -96,11 +96,20 @@ Shown RegionMap::shown(const Box& box) const {
   return outline_->side(around.middle) == Side::outside ? Shown::none : shown;
 }
 
+namespace {
+
+/// The domain, or the rectangle of a periodic box.
+PlanarDomain bounded(const PlanarDomain& domain) {
+  if (!domain.periodic())
+    return domain;
+  require_domain(domain);
+  return rectangle({0, 0}, domain.period);
+}
+
+} // namespace
+
 PlanarMap::PlanarMap(const PlanarDomain& domain)
-    : outline_(domain.periodic()
-                   ? PlanarDomain(rectangle({0, 0}, periodic_box(domain.period).period))
-                   : domain),
-      periodic_(domain.periodic()) {
+    : outline_(bounded(domain)), periodic_(domain.periodic()) {
   const auto& [low, high] = outline_.box();
   half_extent_ = {(high.x - low.x) / 2, (high.y - low.y) / 2};
   middle_ = {low.x + half_extent_.x, low.y + half_extent_.y};

@@ -123,8 +123,7 @@ template <class Map> class EnvelopeOf {
 public:
   /// \param density of places of the map.
   /// \throws Error invalid_argument if the density is ill-formed, negative, infinite or NaN, or
-  /// zero
-  ///         everywhere.
+  ///         zero everywhere.
   explicit EnvelopeOf(const Density& density, Map map = Map());
 
   /// The box for a number from [0, 1): the probability of a box is proportional to the integral of

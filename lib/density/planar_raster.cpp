@@ -143,7 +143,7 @@ double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) 
     const double width = field.at(places(0, i), places(1, i));
     sum += 1 / (width * width);
   }
-  return 2 / std::numbers::sqrt3 * area(domain) * (sum / static_cast<double>(samples));
+  return 2 / std::numbers::sqrt3 * surface.area() * (sum / static_cast<double>(samples));
 }
 
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {

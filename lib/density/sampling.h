@@ -28,7 +28,7 @@ Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& out
              std::uint64_t seed);
 
 /// The same in a domain of the plane. \param density uniform, or a callable of places (x, y, 0).
-/// \throws Error invalid_argument as random_places(n, domain, density, seed).
+/// \throws Error invalid_argument as random_points().
 Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
              std::uint64_t seed);
 

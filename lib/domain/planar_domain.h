@@ -32,21 +32,11 @@ struct PlanarDomain {
   bool periodic() const { return rings.empty(); }
 };
 
-/// The doubly periodic box [0, period.x) x [0, period.y).
-/// \param period side lengths, from 1e-30 to 1e30, in any unit of length.
-/// \throws Error invalid_argument for a side length out of range.
-PlanarDomain periodic_box(const Eigen::Vector2d& period);
-
 /// Throws unless the rings bound a well-defined region, or the period is valid. Absolute
 /// coordinates are at most 1e30; the domain's extent is at least 1e-30.
 /// \throws Error invalid_argument, naming ring and corner: no ring and no period; a ring that has
-/// not 2
-///         rows; fewer than three corners; a coordinate that is not finite; an edge without length;
-///         edges that meet elsewhere than in the corner that joins them.
+///         not 2 rows; fewer than three corners; a coordinate that is not finite; an edge without
+///         length; edges that meet elsewhere than in the corner that joins them.
 void require_domain(const PlanarDomain& domain);
-
-/// The area of the domain, in the square of its unit.
-/// \throws Error as require_domain() if the domain has rings.
-double area(const PlanarDomain& domain);
 
 } // namespace calotte

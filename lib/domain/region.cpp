@@ -156,8 +156,4 @@ void require_region(const Region& region) {
     SphericalOutline{region};
 }
 
-double area(const Region& region) {
-  return region.whole() ? 4 * half_turn : SphericalOutline(region).area();
-}
-
 } // namespace calotte

@@ -40,17 +40,23 @@ struct Surface::Bounds {
   mutable std::optional<domain_detail::Outline> planar;
 };
 
-Surface domain_detail::unchecked(bool sphere, Surface::Rings rings, const Eigen::Vector2d& period) {
+Surface domain_detail::UncheckedSurface::of_sphere(Surface::Rings rings) {
   Surface surface;
-  surface.sphere_ = sphere;
-  if (rings.empty())
-    surface.period_ = period;
-  else
+  if (!rings.empty())
     surface.bounds_ = std::make_shared<Surface::Bounds>(std::move(rings));
   return surface;
 }
 
-Surface Surface::plane() { return domain_detail::unchecked(false, {}, {0, 0}); }
+Surface domain_detail::UncheckedSurface::of_plane(Surface::Rings rings,
+                                                  const Eigen::Vector2d& period) {
+  Surface surface = of_sphere(std::move(rings));
+  surface.sphere_ = false;
+  if (!surface.bounds_)
+    surface.period_ = period;
+  return surface;
+}
+
+Surface Surface::plane() { return domain_detail::UncheckedSurface::of_plane({}, {0, 0}); }
 
 Surface Surface::periodic(const Eigen::Vector2d& period) {
   const auto good = [](double side) { return side == 0 || (side >= 1e-30 && side <= 1e30); };
@@ -58,7 +64,7 @@ Surface Surface::periodic(const Eigen::Vector2d& period) {
                        "the period is " + std::to_string(period.x()) + " x " +
                            std::to_string(period.y()) +
                            "; give two lengths from 1e-30 to 1e30, or one and 0");
-  return domain_detail::unchecked(false, {}, period);
+  return domain_detail::UncheckedSurface::of_plane({}, period);
 }
 
 Surface Surface::within(Rings rings) const {
@@ -121,7 +127,7 @@ Region::Region(const Surface& surface) {
 }
 
 Region::operator Surface() const {
-  return domain_detail::unchecked(true, {rings.begin(), rings.end()}, {0, 0});
+  return domain_detail::UncheckedSurface::of_sphere({rings.begin(), rings.end()});
 }
 
 PlanarDomain::PlanarDomain(const Surface& surface)
@@ -129,7 +135,9 @@ PlanarDomain::PlanarDomain(const Surface& surface)
   base_detail::require(!surface.is_sphere(), "the surface is on the sphere; give one of the plane");
 }
 
-PlanarDomain::operator Surface() const { return domain_detail::unchecked(false, rings, period); }
+PlanarDomain::operator Surface() const {
+  return domain_detail::UncheckedSurface::of_plane(rings, period);
+}
 
 namespace domain_detail {
 

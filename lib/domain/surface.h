@@ -8,12 +8,15 @@
 #include <calotte/surface.h>
 
 #include <string>
-#include <vector>
 
 namespace calotte::domain_detail {
 
-/// A part of the sphere, or a plane, which may have a period in place of rings; not checked.
-Surface unchecked(bool sphere, std::vector<DoubleMatrix> rings, const Eigen::Vector2d& period);
+/// Makes surfaces without a check.
+struct UncheckedSurface {
+  static Surface of_sphere(Surface::Rings rings);
+  /// \param period without effect if there are rings.
+  static Surface of_plane(Surface::Rings rings, const Eigen::Vector2d& period);
+};
 
 /// The part of the sphere. \pre the surface is on the sphere.
 Region region_of(const Surface& surface);

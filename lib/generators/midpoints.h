@@ -6,7 +6,6 @@
 #include "generators/room.h"
 #include "mesh/planar_mesh.h"
 
-#include "generators/room.h"
 #include <calotte/types.h>
 
 /// The points that a bisection or an insertion adds.

@@ -2,7 +2,6 @@
 #include <calotte/limited_area.h>
 
 #include "base/require.h"
-#include "domain/region.h"
 #include "domain/surface.h"
 #include "grids/room.h"
 
@@ -100,12 +99,12 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 
 Surface with_rings(const Surface& surface, const CellWidth& widths, double radius_km) {
   constexpr int beyond = 4; // cells
-  const Region region = domain_detail::part_of_sphere(surface, "a limited area is");
-  Region meshed = region;
+  domain_detail::part_of_sphere(surface, "a limited area is");
+  Surface meshed = surface;
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;
-    for (const Region* boundary : std::initializer_list<const Region*>{&region, &meshed})
-      for (Points3 ring : boundary->rings) {
+    for (const Surface* part : std::initializer_list<const Surface*>{&surface, &meshed})
+      for (Points3 ring : part->rings()) {
         for (auto corner : ring.colwise())
           corner /= corner.norm();
         widest = std::max(widest, evaluate(widths, ring).maxCoeff());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grids/start.h"
 
+#include "base/points.h"
 #include "base/require.h"
 #include "cvt/region_world.h"
 #include "cvt/worlds.h"
@@ -19,6 +20,7 @@ namespace calotte::grids_detail {
 namespace {
 
 using base_detail::require;
+using base_detail::with_z;
 
 /// Below that a grid of a density that is not uniform does not resolve it.
 constexpr std::int64_t fewest_graded = 642;

@@ -194,7 +194,7 @@ std::vector<CellCorner> cell_of(std::vector<Wedge> star) {
         std::find_if(star.begin() + static_cast<std::ptrdiff_t>(k) + 1, star.end(),
                      [&](const Wedge& w) { return w.next == star[k].previous; });
     if (following == star.end())
-      break; // the mesh is about to be mended
+      break; // the mesh is about to be repaired
     std::swap(star[k + 1], *following);
     cell.push_back(star[k + 1].corner);
   }

@@ -35,8 +35,9 @@ std::string head() {
 
 /// One list of fields serves writing and reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
-  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.linear_density), visit(i.l2), visit(i.linf), visit(i.gradient),
-      visit(i.energy), visit(i.shape_excess), visit(i.off_centroid), visit(i.largest_offset);
+  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.linear_density), visit(i.l2),
+      visit(i.linf), visit(i.gradient), visit(i.energy), visit(i.shape_excess),
+      visit(i.off_centroid), visit(i.largest_offset);
   visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
   visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
   visit(i.seconds_solver);

@@ -18,8 +18,7 @@ namespace calotte::io_detail {
 class MpasSource {
 public:
   /// \throws Error file; parse; invalid_argument for a file that holds no mesh of the sphere, or
-  /// one
-  ///         without these lists.
+  ///         one without these lists.
   explicit MpasSource(const std::string& path);
 
   const NetcdfSource& netcdf() const { return netcdf_; }

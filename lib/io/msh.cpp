@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/points.h"
 #include "io/formats.h"
 #include "io/gmsh.h"
 #include "io/jigsaw.h"
@@ -32,11 +33,8 @@ RawMesh get_msh(std::istream& in, const std::string& name) {
   if (file.points.cols() == 0)
     throw Error(ErrorCode::parse,
                 name + ": no POINT section; give a mesh of the sphere, with points");
-  if (file.dimensions == 2 && file.kind == "euclidean-mesh") { // of the plane
-    Points3 places = Points3::Zero(3, file.points.cols());
-    places.topRows<2>() = file.points;
-    return {std::move(places), file.triangles};
-  }
+  if (file.dimensions == 2 && file.kind == "euclidean-mesh") // of the plane
+    return {with_z(file.points), file.triangles};
   if (file.dimensions == 3)
     return {file.points, file.triangles};
   const auto& [a, b, c] = file.radii;

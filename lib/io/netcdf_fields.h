@@ -21,9 +21,9 @@ struct NetcdfMeshNames {
   std::set<std::string> derived = {}; ///< that writers make themselves; they may be read as fields
 };
 
-/// Reads the variables with numbers for each cell, edge or vertex into the raw's fields, and lists
-/// all others that do not describe the mesh as ignored. A dimension of the mesh's own variables,
-/// such as the edges of a cell, whose order another file would not keep, makes no field.
+/// Reads the variables with numbers for each cell, edge or vertex into the raw mesh's fields, and
+/// lists all others that do not describe the mesh as ignored. A dimension of the mesh's own
+/// variables, such as the edges of a cell, whose order another file would not keep, makes no field.
 /// \throws Error parse, file.
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
                  RawMesh& raw);

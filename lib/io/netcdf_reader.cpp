@@ -248,7 +248,7 @@ double NetcdfReader::number(const std::string& variable, const std::string& attr
 std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t fallback) const {
   const double start = number(variable, "start_index", fallback);
   if (start != 0 && start != 1)
-    fail("the attribute start_index of " + variable + " is neither 0 nor 1; mend it");
+    fail("the attribute start_index of " + variable + " is neither 0 nor 1; correct it");
   return static_cast<std::int32_t>(start);
 }
 

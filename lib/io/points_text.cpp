@@ -89,13 +89,12 @@ void require_finite(const LineReader& reader, const double* values, const Row& r
                   row.use + "; remove the point or correct it");
 }
 
-} // namespace
-
-PointLines read_point_lines(std::istream& in, const std::string& name, Columns columns) {
+/// \param lines receives those of the columns, unless it is null.
+Points3 read_rows(std::istream& in, const std::string& name, Columns columns,
+                  std::vector<std::int64_t>* lines) {
   const Row row = row_of(columns);
   LineReader reader(in, name);
   std::vector<double> coordinates;
-  PointLines result;
   bool header = false;
   for (std::string_view line; reader.next_content(line);) {
     double values[3];
@@ -109,13 +108,21 @@ PointLines read_point_lines(std::istream& in, const std::string& name, Columns c
     require_finite(reader, values, row);
     row.require(reader, values);
     row.append(coordinates, values);
-    result.lines.push_back(reader.number());
+    if (lines != nullptr)
+      lines->push_back(reader.number());
   }
   if (coordinates.empty())
     throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
                                       (reader.number() == 1 ? " line" : " lines") + "; " +
                                       row.expected);
-  result.points = Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
+  return Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
+}
+
+} // namespace
+
+PointLines read_point_lines(std::istream& in, const std::string& name, Columns columns) {
+  PointLines result;
+  result.points = read_rows(in, name, columns, &result.lines);
   return result;
 }
 
@@ -125,11 +132,12 @@ PointLines read_point_lines(const std::string& path, Columns columns) {
 }
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns) {
-  return read_point_lines(in, name, columns).points;
+  return read_rows(in, name, columns, nullptr);
 }
 
 Points3 read_points(const std::string& path, Columns columns) {
-  return read_point_lines(path, columns).points;
+  std::ifstream in = io_detail::open_input(path);
+  return read_points(in, path, columns);
 }
 
 namespace {

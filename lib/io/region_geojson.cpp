@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "domain/region.h"
 #include "io/geojson_areas.h"
 #include "io/region_file.h"
 
@@ -33,8 +32,11 @@ Surface read_region_geojson(std::istream& in, const std::string& name) {
     rings = joined(std::move(rings));
     if (rings.empty())
       throw Error(ErrorCode::parse, "its polygons cover the sphere; give no region for that");
-    Region region{corners_of(rings)};
-    with_origins(rings, [&] { require_region(region); });
+    const std::vector<Points3> corners = corners_of(rings);
+    Surface region;
+    with_origins(rings, [&] {
+      region = Surface::sphere().within({corners.begin(), corners.end()});
+    });
     return region;
   });
 }

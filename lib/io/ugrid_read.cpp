@@ -50,7 +50,7 @@ Topology topology_of(const NetcdfReader& file) {
     file.fail("the mesh variable " + mesh + " names no face_node_connectivity; add the attribute");
   if (topology.nodes.size() != 2)
     file.fail("the node_coordinates of the mesh variable " + mesh +
-              " are not the names of two variables, longitude and latitude; mend the attribute");
+              " are not the names of two variables, longitude and latitude; correct the attribute");
   topology.planar = file.text(topology.nodes[0], "standard_name").starts_with("projection_");
   if (is_second(file, topology.nodes[0]))
     std::swap(topology.nodes[0], topology.nodes[1]);
@@ -60,7 +60,7 @@ Topology topology_of(const NetcdfReader& file) {
     std::swap(topology.faces[0], topology.faces[1]);
   if (!topology.sites.empty() && topology.sites.size() != 3)
     file.fail(std::string("the ") + site_coordinates + " of the mesh variable " + mesh +
-              " are not the names of three variables; mend the attribute or remove it");
+              " are not the names of three variables; correct the attribute or remove it");
   return topology;
 }
 

@@ -47,8 +47,7 @@ struct EdgeCount {
 };
 
 /// \throws Error invalid_argument if the mesh lacks neighbours, has a vertex outside of it, or more
-/// edges
-///         and sites than most_points.
+///         edges and sites than most_points.
 template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
   const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();
   require(mesh.neighbours.cols() == triangles,

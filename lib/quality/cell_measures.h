@@ -46,15 +46,15 @@ inline void set_angles(const Subject& subject, CellMeasures& out) {
 /// Sets the spacings that the density prescribes, and the least and the greatest dc/h at each site.
 inline void set_fits(const Subject& subject, CellMeasures& out) {
   out.prescribed = subject.inverse_spacing.cwiseInverse();
-  out.least_dc_over_h = DoubleVector::Constant(out.prescribed.size(), no_value);
-  out.greatest_dc_over_h = out.least_dc_over_h;
+  out.min_dc_over_h = DoubleVector::Constant(out.prescribed.size(), no_value);
+  out.max_dc_over_h = out.min_dc_over_h;
   for (std::int64_t t = 0; t < subject.shapes.size(); ++t)
     for (int v = 0; v < 3 && subject.has(t); ++v) {
       const double fit = subject.fit(t, v);
       for (const int end : {next_vertex(v), previous_vertex(v)}) {
         const std::int32_t site = subject.triangles(end, t);
-        out.least_dc_over_h[site] = std::fmin(out.least_dc_over_h[site], fit);
-        out.greatest_dc_over_h[site] = std::fmax(out.greatest_dc_over_h[site], fit);
+        out.min_dc_over_h[site] = std::fmin(out.min_dc_over_h[site], fit);
+        out.max_dc_over_h[site] = std::fmax(out.max_dc_over_h[site], fit);
       }
     }
 }

@@ -135,7 +135,7 @@ inline bool is_obtuse(const Shape& shape) {
 inline bool is_short(const Edge& edge) { return edge.voronoi < short_voronoi_edge * edge.arc; }
 
 inline bool is_mismatched(double fit) {
-  return !(fit >= least_dc_over_h && fit <= greatest_dc_over_h);
+  return !(fit >= shortest_dc_over_h && fit <= longest_dc_over_h);
 }
 
 inline void add_triangle(TrianglePart& part, const Shape& shape) {

@@ -10,7 +10,6 @@
 #include "domain/clipped_cell.h"
 #include "domain/planar_domain.h"
 #include "domain/surface.h"
-#include "mesh/planar_mesh.h"
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
 #include "quality/parts.h"
@@ -164,23 +163,23 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
 
 /// The integral of rho^(1/2) over the domain. Errors of 1e-6 remain with few points a cell, if
 /// there are many cells: in the sum most of them cancel.
-double root_integral(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+double root_integral(const Points3& points, const Connectivity& mesh, const Surface& surface,
                      const Density& planar) {
   if (planar.uniform())
-    return area(domain);
+    return surface.area();
   constexpr Eigen::Index many = 10000;
   const bool few = points.cols() < many;
   double sum = 0;
   for (const double mass :
-       evaluated(points, mesh, domain, site_density(planar), few ? 6 : 3, few ? 2 : 1).mass)
+       evaluated(points, mesh, surface, site_density(planar), few ? 6 : 3, few ? 2 : 1).mass)
     sum += mass;
   return sum;
 }
 
-void require_mesh(const PlanarMesh& mesh, const PlanarDomain& domain) {
+void require_mesh(const Mesh& mesh, const PlanarDomain& domain) {
   require_domain(domain);
   require_voronoi_mesh(mesh);
-  require_inside(mesh.points, domain);
+  require_inside(Points2(mesh.points.topRows<2>()), domain);
 }
 
 /// Sets the measures of clipped cells, too. \param cells clipped by the domain.
@@ -208,17 +207,16 @@ void set_sides(const Voronoi& cells, CellMeasures& out) {
 } // namespace
 } // namespace quality_detail
 
-CellMeasures quality_detail::cell_measures_in_plane(const Mesh& given, const Density& density) {
-  const PlanarDomain domain = domain_detail::domain_of(given.surface);
-  const PlanarMesh mesh = mesh_detail::planar(given);
+CellMeasures quality_detail::cell_measures_in_plane(const Mesh& mesh, const Density& density) {
+  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
   require_mesh(mesh, domain);
   const Density planar = planar_density(density, domain);
-  const Points3& points = given.points;
-  const Vec2 period{mesh.period.x(), mesh.period.y()};
+  const Points3& points = mesh.points;
+  const Vec2 period{domain.period.x(), domain.period.y()};
   PlanarCells cells(domain);
   cells.move(points);
   const Connectivity closed = cells.signs().triangulate();
-  const double root = root_integral(points, closed, domain, planar);
+  const double root = root_integral(points, closed, mesh.surface, planar);
   Subject subject{
       mesh.triangles,
       mesh.neighbours,
@@ -232,7 +230,7 @@ CellMeasures quality_detail::cell_measures_in_plane(const Mesh& given, const Den
   CellMeasures out = unset_measures(points.cols(), mesh.triangles.cols());
   set_angles(subject, out);
   set_fits(subject, out);
-  set_sides(voronoi(given), out);
+  set_sides(voronoi(mesh), out);
   const Points3 centroids = evaluated(points, closed, domain, planar).centroids;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     out.off_centroid[i] =
@@ -242,7 +240,7 @@ CellMeasures quality_detail::cell_measures_in_plane(const Mesh& given, const Den
 
 Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& density) {
   const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
-  require_mesh(mesh_detail::planar(mesh), domain);
+  require_mesh(mesh, domain);
   const Density planar = planar_density(density, domain);
   const Points3& points = mesh.points;
   PlanarCells cells(domain);
@@ -252,7 +250,7 @@ Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& densit
                    of_density =
                        density.uniform() ? Evaluation{} : evaluated(points, closed, domain, planar);
   const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
-  const double root = root_integral(points, closed, domain, planar);
+  const double root = root_integral(points, closed, mesh.surface, planar);
   Quality result =
       measure(cells, closed, domain, points.cols(), inverse_spacings(points, planar, root));
   Tally areas;
@@ -261,20 +259,20 @@ Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& densit
   result.cell_area = areas.range();
   result.residual = measured.l2 / measured.spacing;
   set_energy(result, measured.energy, root);
-  result.cells_area = areas.sum / area(domain);
+  result.cells_area = areas.sum / mesh.surface.area();
   return result;
 }
 
-Quality quality_detail::measure_open_plane(const PlanarMesh& mesh, bool cells) {
+Quality quality_detail::measure_open_plane(const Mesh& mesh, bool cells) {
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
                                                  found.failure + "; triangulate the points anew");
-  const Points3 points = with_z(mesh.points);
+  const Eigen::Vector2d& period = mesh.surface.period();
   const Subject subject{mesh.triangles,
                         mesh.neighbours,
                         {},
-                        shapes_of(mesh.triangles, {mesh.period.x(), mesh.period.y()},
-                                  [&](std::int32_t site) { return column(points, site); }),
+                        shapes_of(mesh.triangles, {period.x(), period.y()},
+                                  [&](std::int32_t site) { return column(mesh.points, site); }),
                         {},
                         {},
                         {}};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "quality/room.h"
 
 #include <calotte/quality.h>
@@ -16,6 +14,6 @@ CellMeasures cell_measures_in_plane(const Mesh& mesh, const Density& density);
 
 /// What triangle_quality() measures in a plane, and with `cells` what open_quality() does.
 /// \throws Error as these.
-Quality measure_open_plane(const PlanarMesh& mesh, bool cells);
+Quality measure_open_plane(const Mesh& mesh, bool cells);
 
 } // namespace calotte::quality_detail

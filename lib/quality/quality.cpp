@@ -111,7 +111,7 @@ namespace {
 /// \param cells whether the Voronoi cells are measured, too.
 Quality measure_open(const Mesh& mesh, bool cells) {
   if (!mesh.surface.is_sphere())
-    return measure_open_plane(mesh_detail::planar(mesh), cells);
+    return measure_open_plane(mesh, cells);
   const Check found = check_surface(mesh);
   if (!found.passed())
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +

@@ -4,7 +4,6 @@
 #include "base/points.h"
 #include "exact/predicates.h"
 #include "mesh/connectivity.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -31,17 +30,14 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
 
 /// The part of a triangle that is nearer to one end of a side than to its other vertices, on that
 /// side's side of the circumcentre; signed (see Shape::delta).
-double half_kite(const Mesh& /*sphere*/, double side, double delta) {
-  return 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2));
-}
-double half_kite(const PlanarMesh& /*plane*/, double side, double delta) {
-  return side / 2 * delta / 2;
+double half_kite(const Surface& surface, double side, double delta) {
+  return surface.is_sphere() ? 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2))
+                             : side / 2 * delta / 2;
 }
 
 /// Adds a side of a triangle to the cells of its two ends; its edge, if it has not been added from
 /// the other triangle.
-template <class AnyMesh>
-void add_side(const AnyMesh& mesh, const Shapes& shapes, std::int64_t t, int v,
+void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
               std::vector<Sides>& cells) {
   const std::int32_t other = mesh.neighbours(v, t);
   const auto& [angle, side, delta] = shapes[t];
@@ -53,7 +49,7 @@ void add_side(const AnyMesh& mesh, const Shapes& shapes, std::int64_t t, int v,
   }
   for (const int end : {next_vertex(v), previous_vertex(v)}) {
     Sides& cell = cells[static_cast<std::size_t>(mesh.triangles(end, t))];
-    cell.area += half_kite(mesh, side[corner], delta[corner]);
+    cell.area += half_kite(mesh.surface, side[corner], delta[corner]);
     cell.open = cell.open || other < 0;
     cell.bad = cell.bad || is_obtuse(shapes[t]) || (edge && is_short(*edge));
     if (edge || other < 0)
@@ -61,14 +57,6 @@ void add_side(const AnyMesh& mesh, const Shapes& shapes, std::int64_t t, int v,
     if (edge)
       cell.voronoi.add(edge->voronoi);
   }
-}
-
-template <class AnyMesh> std::vector<Sides> sides_of(const AnyMesh& mesh, const Shapes& shapes) {
-  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v)
-      add_side(mesh, shapes, t, v, cells);
-  return cells;
 }
 
 } // namespace
@@ -95,10 +83,11 @@ Shapes make_shapes(const Mesh& mesh) {
 }
 
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes) {
-  return sides_of(mesh, shapes);
-}
-std::vector<Sides> sides_of_cells(const PlanarMesh& mesh, const Shapes& shapes) {
-  return sides_of(mesh, shapes);
+  std::vector<Sides> cells(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      add_side(mesh, shapes, t, v, cells);
+  return cells;
 }
 
 double set_whole_cells(const std::vector<Sides>& cells, Quality& result) {

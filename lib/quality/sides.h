@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "mesh/planar_mesh.h"
 #include "quality/parts.h"
 #include "quality/room.h"
 
@@ -34,7 +33,6 @@ struct Sides {
 /// By site.
 /// \param mesh may be open; \param shapes of its triangles.
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes);
-std::vector<Sides> sides_of_cells(const PlanarMesh& mesh, const Shapes& shapes);
 
 /// Sets sigma, cell_quality, cell_area, bad_cells and bad_spacing by the cells that triangles
 /// surround. \returns the sum of their areas.

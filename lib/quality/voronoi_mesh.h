@@ -13,7 +13,7 @@ namespace calotte::quality_detail {
 /// \param mesh of the sphere or the plane.
 /// \returns what check() or, with such diagonals, check_surface() finds.
 /// \throws Error invalid_argument.
-template <class AnyMesh> Check require_voronoi_mesh(const AnyMesh& mesh) {
+inline Check require_voronoi_mesh(const Mesh& mesh) {
   Check found = check(mesh);
   if (found.passed())
     return found;

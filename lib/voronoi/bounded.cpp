@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
+#include "base/points.h"
 #include "base/require.h"
 #include "domain/clipped_cell.h"
 #include "domain/planar_domain.h"
@@ -20,8 +21,9 @@
 #include <vector>
 
 // The Voronoi cells of a bounded plane. The boundary's vertices form closed walks in the
-// triangulation (boundary.h). How often these turn around a triangle tells whether its circumcentre
-// is inside, and on each Voronoi edge the ends alternate: no rounding makes cells that do not fit.
+// triangulation (boundary_walk.h). How often these turn around a triangle tells whether its
+// circumcentre is inside, and on each Voronoi edge the ends alternate: no rounding makes cells that
+// do not fit.
 
 namespace calotte::voronoi_detail {
 namespace {
@@ -337,8 +339,7 @@ Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
 
   Voronoi out;
   out.on_sphere = false;
-  out.cells = Points3::Zero(3, mesh.points.cols());
-  out.cells.topRows<2>() = mesh.points;
+  out.cells = with_z(mesh.points);
   set_vertices(mesh, vertex_of_triangle, rings, inner, out);
   std::vector<Side> sides;
   add_inner_sides(edges, crossings, vertex_of_triangle, inner, sides);

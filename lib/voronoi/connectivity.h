@@ -20,8 +20,7 @@ struct Rings {
 /// The first of two stages that set the ids of the tessellation dual to a closed surface: begin.
 /// \pre as many neighbours as triangles; at most 2^29 sites.
 /// \throws Error invalid_argument if ids are out of range, the neighbours do not match the
-/// triangles, or
-///         the triangles at a site do not form one ring.
+///         triangles, or the triangles at a site do not form one ring.
 Rings find_rings(const Faces& surface, Voronoi& out);
 
 /// Sets the other lists, pairs and triples, but for cells_on_vertex, the surface's triangles.

@@ -20,9 +20,8 @@ namespace calotte::voronoi_detail {
 /// flips, each decided exactly; on a boundary of k sites they take O(k^2) time at worst.
 /// \param mesh open.
 /// \throws Error invalid_argument, naming a site, for a mesh whose boundary is not that of the
-/// sites'
-///         hull: it has several parts, a corner to the inside, or sites without triangles; for one
-///         that fails check_surface().
+///         sites' hull: it has several parts, a corner to the inside, or sites without triangles;
+///         for one that fails check_surface().
 Mesh hull_of(const Mesh& mesh);
 
 /// Sets the kites of a triangle on the far side, and its area.

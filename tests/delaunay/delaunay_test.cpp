@@ -56,8 +56,8 @@ DelaunayOptions with_centres(const Points3& centres) {
   return options;
 }
 
-/// every overlap and every kind of centres. The given centres include some at sites and some opposite
-/// to sites.
+/// Every overlap and every kind of centres. The given centres include some at sites and some
+/// opposite to sites.
 std::vector<Setting> settings(const Points3& points) {
   std::vector<Setting> out;
   for (const int regions : {2, 12, 42}) {

@@ -71,7 +71,8 @@ TEST_CASE("each site is owned by the nearest centre, by brute force") {
   }
 }
 
-TEST_CASE("members ascend, hold all owned sites and all sites of the covered part, for every overlap") {
+TEST_CASE(
+    "members ascend, hold all owned sites and all sites of the covered part, for every overlap") {
   const Sites sites = make_sites(random_sphere(4000, 9), Duplicates::merge, 0);
   for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi})
     for (const int count : {2, 12, 60}) {
@@ -96,8 +97,8 @@ TEST_CASE("members ascend, hold all owned sites and all sites of the covered par
     }
 }
 
-TEST_CASE(
-    "what the voronoi overlap calls covered is, though centres stand too close to tell owners apart") {
+TEST_CASE("what the voronoi overlap calls covered is, though centres stand too close to tell "
+          "owners apart") {
   // Near the centres and their antipodes, each site is equally near to both centres in doubles.
   Points3 points = random_sphere(20000, 6), centres = random_sphere(40, 7);
   const Eigen::Vector3d middle = centres.col(0);

@@ -32,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CvtIteration* before = nullptr;
     for (const CvtIteration& iteration : result.report.iterations)
       if (iteration.accepted) {
-        if (before != nullptr && before->rule == iteration.rule && before->linear_density == iteration.linear_density)
+        if (before != nullptr && before->rule == iteration.rule &&
+            before->linear_density == iteration.linear_density)
           require(iteration.energy <= before->energy * (1 + 1e-9));
         before = &iteration;
       }

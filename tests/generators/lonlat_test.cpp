@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 using namespace calotte;
@@ -53,6 +54,17 @@ TEST_CASE("longitudes and latitudes there and back, for directions of any norm")
   const Points2 polar = to_lonlat(Eigen::Vector3d(-1e-200, 1e-200, 1));
   CHECK(std::abs(polar(0, 0) - 135) < 1e-13);
   CHECK(polar(1, 0) == 90);
+}
+
+TEST_CASE("longitudes and latitudes are those of the C library's functions") {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const Points3 points = random_sphere(20'000, 8);
+  const Points2 places = to_lonlat(points);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double x = points(0, i), y = points(1, i), z = points(2, i);
+    CHECK(std::abs(places(0, i) - degrees * std::atan2(y, x)) < 1e-13);
+    CHECK(std::abs(places(1, i) - degrees * std::atan2(z, std::hypot(x, y))) < 1e-13);
+  }
 }
 
 TEST_CASE("longitudes and latitudes out of range name their index") {

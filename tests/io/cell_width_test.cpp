@@ -9,6 +9,7 @@
 #include "exact/predicates.h"
 #include "io/netcdf_writer.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/cvt.h>

@@ -4,6 +4,7 @@
 #include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>

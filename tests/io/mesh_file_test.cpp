@@ -201,7 +201,8 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
   CHECK_FALSE(std::filesystem::exists(scratch / "bad.data"));
 }
 
-TEST_CASE("a raw is written as triangles without fields; reading refuses triangles that overlap") {
+TEST_CASE(
+    "a raw mesh is written as triangles without fields; reading refuses triangles that overlap") {
   const Scratch scratch;
   Mesh raw = calotte::spherical_delaunay(octahedron());
   raw.triangles.col(7) = raw.triangles.col(0); // as many as a closed mesh has, but open edges

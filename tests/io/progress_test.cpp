@@ -189,6 +189,19 @@ TEST_CASE("write reports progress; if cancelled, it leaves no file") {
   }
 }
 
+TEST_CASE("outside of make_grid() stop is as cancel") {
+  const auto stop = [](const Progress& progress) {
+    return progress.fraction > 0.1 ? Next::stop : Next::proceed;
+  };
+  const Points3 points = random_sphere(20'000, 4);
+  CHECK(error_of([&] { spherical_delaunay(points, with(stop)); }).code() == ErrorCode::cancelled);
+  const Scratch scratch;
+  const Mesh mesh = spherical_delaunay(points);
+  CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(stop)); }).code() ==
+        ErrorCode::cancelled);
+  CHECK(scratch.files() == 0);
+}
+
 TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
   const Mesh mesh = spherical_delaunay(random_sphere(20'000, 4));
   const Scratch scratch;

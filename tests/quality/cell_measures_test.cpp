@@ -84,9 +84,9 @@ TEST_CASE("the lists have the ranges of quality() on closed meshes") {
       check_ranges(cells, quality);
       check_range("triangle quality", cells.triangle_quality, quality.triangle_quality);
       CHECK(cells.triangle_angle.maxCoeff() == doctest::Approx(quality.angles.max));
-      CHECK(cells.least_dc_over_h.minCoeff() == doctest::Approx(quality.dc_over_h.min));
-      CHECK(cells.greatest_dc_over_h.maxCoeff() == doctest::Approx(quality.dc_over_h.max));
-      CHECK((cells.least_dc_over_h.array() <= cells.greatest_dc_over_h.array()).all());
+      CHECK(cells.min_dc_over_h.minCoeff() == doctest::Approx(quality.dc_over_h.min));
+      CHECK(cells.max_dc_over_h.maxCoeff() == doctest::Approx(quality.dc_over_h.max));
+      CHECK((cells.min_dc_over_h.array() <= cells.max_dc_over_h.array()).all());
       CHECK(cells.area.sum() == doctest::Approx(4 * pi));
       // The residual is the root of the mean of the squared distances, over h.
       const double squares = cells.off_centroid.cwiseProduct(cells.spacing).squaredNorm();
@@ -106,7 +106,7 @@ TEST_CASE("an open mesh has measures of the cells that triangles surround") {
   CHECK(numbers_in(cells.area) < 400);
   CHECK(numbers_in(cells.spacing) == 400); // also at the boundary
   CHECK(numbers_in(cells.off_centroid) == 0);
-  CHECK(cells.least_dc_over_h.size() == 0);
+  CHECK(cells.min_dc_over_h.size() == 0);
 }
 
 TEST_CASE("a mesh that is not Delaunay has measures of its triangles") {
@@ -132,7 +132,7 @@ TEST_CASE("in the plane the lists have the ranges of quality()") {
   const CellMeasures of_torus = cell_measures(torus);
   check_ranges(of_torus, whole);
   check_range("triangle quality", of_torus.triangle_quality, whole.triangle_quality);
-  CHECK(least_of(of_torus.least_dc_over_h) == doctest::Approx(whole.dc_over_h.min));
+  CHECK(least_of(of_torus.min_dc_over_h) == doctest::Approx(whole.dc_over_h.min));
   const double squares = of_torus.off_centroid.cwiseProduct(of_torus.spacing).squaredNorm();
   CHECK(std::sqrt(squares / (1.01 * 1.02)) == doctest::Approx(whole.residual).epsilon(1e-9));
 }

@@ -40,6 +40,10 @@ inline bool contains(const PlanarDomain& domain, const Eigen::Vector2d& place) {
   return containing(domain)(place);
 }
 
+inline PlanarDomain periodic_box(const Eigen::Vector2d& period) {
+  return Surface::periodic(period);
+}
+
 // ---- Places
 
 inline Points2 random_places(std::int64_t n, const PlanarDomain& domain, const Density& density,

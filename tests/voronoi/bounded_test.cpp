@@ -368,10 +368,4 @@ TEST_CASE("what does not fit is refused") {
         std::string::npos);
 }
 
-TEST_CASE("a periodic domain gives the cells of the box") {
-  const PlanarMesh mesh = periodic_delaunay(random_places(200, periodic_box({2, 1}), 1), {2, 1});
-  const Voronoi v = voronoi(in_domain(periodic_box({2, 1}), mesh)), w = voronoi(mesh);
-  CHECK((v.cell_area.array() == w.cell_area.array()).all());
-}
-
 } // namespace

@@ -96,8 +96,7 @@ struct DrawOptions {
 /// slightly larger than the sites does; triangles are not clipped. Of a periodic plane the box is
 /// drawn, with the Delaunay triangles of its own sites.
 /// \throws Error invalid_argument, also for cells' area or quality of an open mesh, and for a
-/// density or
-///         field that does not fit; file.
+///         density or field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});
 
 /// Draws cells that need not be Voronoi cells, coloured by area (the default in place of spacing),

@@ -30,8 +30,7 @@ struct SpacingLaw {
 inline constexpr double law_band = 0.05;
 
 /// \throws Error invalid_argument for a mesh without bounded cells, or a density that is 0 at a
-/// site; as
-///         evaluate().
+///         site; as evaluate().
 SpacingLaw spacing_law(const Mesh& mesh, const Density& density);
 
 /// The layout of the picture of a law, in pixels. The frames share the axis of the spacings by the

@@ -24,8 +24,7 @@ void add_depths(CLI::App& command, DepthWords& words);
 /// Sets the depths of a file that is written.
 /// \param file as it is written: its fields may have the depth of the bottom.
 /// \throws Error invalid_argument, for what are no numbers, and for a field that the file does not
-/// have;
-///         file.
+///         have; file.
 void set_depths(const DepthWords& words, const MeshFile& file, WriteOptions& options);
 
 } // namespace calotte::tools

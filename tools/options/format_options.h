@@ -47,10 +47,9 @@ bool is_mpas(Format format);
 /// Without density and history, for a file of this name. A model determines what the other options
 /// do not give.
 /// \throws Error invalid_argument, before any work: for a name that is no mesh's, or of another
-/// format
-///         than --format or the model's; for a radius that the model cannot use, or one that is not
-///         positive, or not 1 where the format takes points as they are; for an order of triangles
-///         alone, which go with the points they were made from.
+///         format than --format or the model's; for a radius that the model cannot use, or one that
+///         is not positive, or not 1 where the format takes points as they are; for an order of
+///         triangles alone, which go with the points they were made from.
 WriteOptions options_of(const FormatWords& words, const std::string& path);
 
 } // namespace calotte::tools

@@ -26,8 +26,7 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
 CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 
 /// \throws Error as read_mesh_file and read_points do; invalid_argument, with --plane, for a mesh
-/// of the
-///         sphere.
+///         of the sphere.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
 /// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.

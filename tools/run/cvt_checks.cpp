@@ -39,8 +39,6 @@ void require_walls_format(const CvtRequest& request, const WriteOptions& options
 
 /// Rejects options that a planar run does not support.
 void require_plane(const CvtRequest& request, const WriteOptions& options) {
-  require_planar_format(request.mesh, *surface_of(*request.domain),
-                        format_of(request.mesh, options.format));
   require_walls_format(request, options);
   if (!request.points.empty() && request.domain->walls)
     throw Error(ErrorCode::invalid_argument,

@@ -80,13 +80,13 @@ void add_fits(const CellMeasures& measures, const Unit& unit, std::vector<Quanti
              .label = "least dc/h",
              .help = "Least distance to a neighbour, over the spacing that the density prescribes.",
              .worst = Worst::low,
-             .values = measures.least_dc_over_h});
+             .values = measures.min_dc_over_h});
   add(list,
       {.name = "dc_h_greatest",
        .label = "greatest dc/h",
        .help = "Greatest distance to a neighbour, over the spacing that the density prescribes.",
        .worst = Worst::high,
-       .values = measures.greatest_dc_over_h});
+       .values = measures.max_dc_over_h});
   if (!uniform)
     add(list, {.name = "prescribed",
                .label = "prescribed spacing",

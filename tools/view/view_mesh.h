@@ -47,8 +47,7 @@ struct ViewChoice {
 };
 
 /// \throws Error invalid_argument for a field that the file does not have at cells or triangles,
-/// and for
-///         a domain of another period; as cell_measures() and voronoi().
+///         and for a domain of another period; as cell_measures() and voronoi().
 ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& choice);
 
 /// The numbers of one cell, a line each: its location and its quantities.

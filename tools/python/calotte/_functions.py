@@ -94,6 +94,9 @@ def in_domain(mesh, domain):
 
 def _require_end(mesh):
     """Cells at the hull of a mesh in a plane are unbounded."""
+    if mesh.surface.period.any() and not mesh.surface.period.all():
+        raise Error("a mesh with one period has no Voronoi cells at its walls; give one of a "
+                    "periodic box")
     if math.isinf(mesh.surface.area):
         raise Error("a mesh in a plane without an end needs a domain, which clips its cells; give "
                     "domain=")
@@ -303,7 +306,7 @@ class Cvt:
     def __repr__(self) -> str:
         end = "converged after" if self.converged else "not converged in"
         shape = ("well-centred, " if self.well_centred else
-                 f"{_display.counted(self.cells_beyond_limits, 'shape_excess cell')}, "
+                 f"{_display.counted(self.cells_beyond_limits, 'cell')} beyond limits, "
                  if self.cells_beyond_limits else "")
         return (f"<calotte.Cvt: {_display.counted(len(self._grid()), 'cell')}, {end} "
                 f"{_display.counted(self.iterations, 'iteration')}, {shape}residual "

@@ -374,9 +374,9 @@ void set_land(const Land& land, CullOptions& options) {
   options.field.path = land.field_file;
   options.field.variable = land.field;
   if (land.sea_from)
-    options.field.least = *land.sea_from;
+    options.field.lower = *land.sea_from;
   if (land.sea_from || land.sea_below)
-    options.field.most = land.sea_below.value_or(std::numeric_limits<double>::infinity());
+    options.field.upper = land.sea_below.value_or(std::numeric_limits<double>::infinity());
 }
 
 py::dict cull_mesh(const std::string& source, const std::string& target, const py::dict& words,

@@ -25,12 +25,7 @@ Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
       "lesser coordinates first");
   Points2 ring(2, 4);
   ring << lower.x(), upper.x(), upper.x(), lower.x(), lower.y(), lower.y(), upper.y(), upper.y();
-  return PlanarDomain({ring});
-}
-
-PlanarDomain periodic_box(const Eigen::Vector2d& period) {
-  require_box(period);
-  return {{}, period};
+  return Surface::plane().within({ring});
 }
 
 void require_domain(const PlanarDomain& domain) {
@@ -38,10 +33,6 @@ void require_domain(const PlanarDomain& domain) {
     require_box(domain.period);
   else
     domain_detail::Outline{domain};
-}
-
-double area(const PlanarDomain& domain) {
-  return domain.periodic() ? domain.period.prod() : domain_detail::Outline(domain).area();
 }
 
 } // namespace calotte
