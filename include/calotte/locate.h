@@ -12,8 +12,6 @@ namespace calotte {
 
 /// Where positions lie in a mesh; one element, or column, for each position.
 struct Locations {
-  using Ids = calotte::Ids; ///< of triangles or sites
-
   /// The triangle that holds the position, of several that hold it the lowest: triangles include
   /// their edges and vertices. -1 outside of an open mesh. Exact.
   Ids triangle;

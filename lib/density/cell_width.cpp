@@ -279,7 +279,7 @@ std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitu
 } // namespace density_detail
 
 void require_covering(const CellWidth& cell_width, const Surface& surface) {
-  part_of_sphere(surface, widths_are);
+  domain_detail::require_sphere(surface, widths_are);
   const WidthField field(cell_width); // throws if it is ill-formed
   const std::string problem = density_detail::uncovered(cell_width.longitudes, cell_width.latitudes,
                                                         surface, "longitude", "latitude");

@@ -145,9 +145,13 @@ Region region_of(const Surface& surface) { return surface; }
 
 PlanarDomain domain_of(const Surface& surface) { return surface; }
 
-Region part_of_sphere(const Surface& surface, const std::string& what) {
+void require_sphere(const Surface& surface, const std::string& what) {
   base_detail::require(surface.is_sphere(), what + " for the sphere, and the surface is a plane; "
                                                    "give one of the sphere");
+}
+
+Region part_of_sphere(const Surface& surface, const std::string& what) {
+  require_sphere(surface, what);
   return region_of(surface);
 }
 

@@ -21,6 +21,10 @@ struct UncheckedSurface {
 /// The part of the sphere. \pre the surface is on the sphere.
 Region region_of(const Surface& surface);
 
+/// \param what is for the sphere alone, for the message: "a limited area is".
+/// \throws Error invalid_argument for a plane.
+void require_sphere(const Surface& surface, const std::string& what);
+
 /// The part of the sphere, or of the plane, for a function that knows this kind of surface alone.
 /// \param what is of that kind, for the message: "a lattice is".
 /// \throws Error invalid_argument for a surface of the other kind.

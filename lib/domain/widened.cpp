@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/region.h"

@@ -4,8 +4,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "density/planar_density.h"
-#include "density/sampling.h"
 #include "domain/outline.h"
 #include "domain/planar_domain.h"
 #include "domain/surface.h"

@@ -99,7 +99,7 @@ Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64
 
 Surface with_rings(const Surface& surface, const CellWidth& widths, double radius_km) {
   constexpr int beyond = 4; // cells
-  domain_detail::part_of_sphere(surface, "a limited area is");
+  domain_detail::require_sphere(surface, "a limited area is");
   Surface meshed = surface;
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;

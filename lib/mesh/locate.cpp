@@ -246,7 +246,7 @@ private:
 
 template <class Space, class AnyMesh>
 Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count) {
-  Locations out{Locations::Ids(count), Triples(3, count), Locations::Ids(count)};
+  Locations out{Ids(count), Triples(3, count), Ids(count)};
   const Locator<Space, AnyMesh> locator(mesh, space);
   Array<std::uint64_t> keys(count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -283,8 +283,8 @@ TEST_CASE("the same for any number of threads and order of positions") {
   CHECK(one.triangle == four.triangle);
   CHECK(one.weights == four.weights);
   CHECK(one.nearest == four.nearest);
-  CHECK(one.triangle == Locations::Ids(back.triangle.reverse()));
-  CHECK(one.nearest == Locations::Ids(back.nearest.reverse()));
+  CHECK(one.triangle == Ids(back.triangle.reverse()));
+  CHECK(one.nearest == Ids(back.nearest.reverse()));
 }
 
 TEST_CASE("bad input of locate is one clear line with the index") {
