@@ -126,7 +126,7 @@ Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& 
 /// midpoint between two of them along the boundary.
 ///
 /// \param start 3 x n directions inside the region, 4 distinct at least.
-/// \throws Error as above and as require_region(); invalid_argument with the index of a generator
+/// \throws Error as above and as Surface::within(); invalid_argument with the index of a generator
 ///         outside the region.
 Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options = {},
                   const CvtCallback& callback = {});

@@ -19,7 +19,7 @@ public:
   static constexpr std::int64_t fewest = 4;
   static constexpr bool at_sites = true;
 
-  /// \pre not the whole sphere. \throws Error as require_region().
+  /// \pre not the whole sphere. \throws Error as Surface::within().
   explicit RegionWorld(const Region& region)
       : outline_(std::make_shared<const SphericalOutline>(region)) {}
 

@@ -151,9 +151,4 @@ Surface enclosed_region(const std::vector<Points3>& rings) {
   return Region(corners_of(enclosed(written(rings))));
 }
 
-void require_region(const Region& region) {
-  if (!region.whole())
-    SphericalOutline{region};
-}
-
 } // namespace calotte

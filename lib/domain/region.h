@@ -28,11 +28,4 @@ struct Region {
   bool whole() const { return rings.empty(); }
 };
 
-/// Throws unless the rings bound a region. The whole sphere is valid.
-/// \throws Error invalid_argument, naming ring and corner, with the ring as index(): fewer than
-///         three corners; a corner that is no direction; equal or opposite neighbours; arcs that
-///         meet elsewhere than in the corner that joins them; rings of which one does not have the
-///         region to its left.
-void require_region(const Region& region);
-
 } // namespace calotte

@@ -21,7 +21,7 @@ public:
   /// The region lies to the left of an arc, which is shorter than a half circle; unit vectors.
   using Edge = Arc;
 
-  /// \pre the region is not the whole sphere. \throws Error as require_region().
+  /// \pre the region is not the whole sphere. \throws Error as Surface::within().
   explicit SphericalOutline(const Region& region);
 
   double area() const { return area_; }                            ///< steradians

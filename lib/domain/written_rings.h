@@ -54,12 +54,12 @@ void enclose(WrittenRing& ring, bool hole = false);
 std::vector<WrittenRing> joined(std::vector<WrittenRing> rings);
 
 /// Joined rings, turned so that what they enclose together is to the left of each.
-/// \throws Error as require_region(), orientation aside.
+/// \throws Error as Surface::within(), orientation aside.
 std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings);
 
 /// Joined rings, turned so that the side that contains a place is to the left of each.
 /// \param place unit vector.
-/// \throws Error as require_region(), orientation aside; invalid_argument for a place on the
+/// \throws Error as Surface::within(), orientation aside; invalid_argument for a place on the
 /// boundary.
 std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place);
 

@@ -24,6 +24,10 @@ namespace calotte {
 
 // ---- Parts of the sphere and of the plane
 
+inline void require_region(const Region& region) {
+  if (!region.whole())
+    Surface::sphere().within({region.rings.begin(), region.rings.end()});
+}
 inline double area(const Surface& surface) { return surface.area(); }
 inline bool contains(const Surface& surface, const Eigen::Vector3d& place) {
   return surface.contains(place);
