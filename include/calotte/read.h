@@ -27,10 +27,10 @@ enum class Columns {
 };
 
 /// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
-/// Columns::xy. The result is 3 x n. Blanks or tabs, and
-/// at most one of comma, semicolon and bar, separate them; `#` starts a comment; blank lines are
-/// ignored; one header line without numbers may precede the points; further columns are ignored.
-/// Lines end in LF, CRLF or CR; a missing final newline loses nothing.
+/// Columns::xy. The result is 3 x n. Blanks or tabs, and at most one of comma, semicolon and bar,
+/// separate them; `#` starts a comment; blank lines are ignored; one header line without numbers
+/// may precede the points; further columns are ignored. Lines end in LF, CRLF or CR; a missing
+/// final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
