@@ -19,7 +19,8 @@ struct Locations {
   /// vertices, unit vectors on the sphere, times the weights, up to a factor. From 0 to 1, their
   /// sum is 1; exactly 0 on the edge across. NaN outside.
   Triples weights;
-  /// The nearest site, the lowest of those that are equally near. Exact.
+  /// The nearest site, the lowest of those that are equally near. Exact in a Delaunay triangulation
+  /// and in a part of one.
   Ids nearest;
 };
 
@@ -29,8 +30,8 @@ struct Locations {
 /// The positions are sorted along a space-filling curve; from the triangle of each, a walk leads to
 /// that of the next across edges that separate them (Lawson, in: Mathematical Software III, 1977),
 /// in parallel. Sites without triangles are not found.
-/// \param mesh a Delaunay triangulation. In a closed mesh that is none, the nearest site may be
-///        another one; the triangle is exact.
+/// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest site
+///        may be another one; the triangle is exact.
 /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0, in
 ///        the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
 /// \throws Error invalid_argument: another number of rows, a mesh without triangles, and with the

@@ -48,15 +48,19 @@ public:
   /// Sets the location of a position. Returns a triangle near it.
   std::int32_t locate(const Position& p, std::int32_t from, std::int64_t i, Locations& out) const {
     const std::int32_t end = walk(p, from);
-    const std::int32_t holder = end >= 0 ? lowest_at(end, p) : search(p);
+    const std::int32_t holder = end >= 0                     ? lowest_at(end, p)
+                                : end == outside && convex() ? outside
+                                                             : search(p);
     out.triangle[i] = holder;
     set_weights(holder, p, i, out);
     const std::int32_t near = holder >= 0 ? holder : from;
-    out.nearest[i] = mesh_.closed() ? nearest_from(near, p) : nearest_of_all(near, p);
+    out.nearest[i] = nearest_from(near, p);
     return near;
   }
 
 private:
+  static constexpr std::int32_t outside = -1, lost = -2; ///< instead of a triangle
+
   void set_starts() {
     constexpr std::int64_t most = 4096;
     const std::int64_t triangles = mesh_.triangles.cols(), count = std::min(most, triangles);
@@ -72,8 +76,8 @@ private:
 
   /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
   /// to a higher plane of the convex hull over p, so that no triangle comes twice. Returns the
-  /// triangle that holds p, or -1 at an open edge, or where a mesh that is not Delaunay leads
-  /// round.
+  /// triangle that holds p; `outside` where it leaves the mesh; `lost` where a mesh that is not
+  /// Delaunay leads round.
   std::int32_t walk(const Position& p, std::int32_t t) const {
     int came = 3; // from across this vertex: p is on the inner side there
     for (std::int64_t steps = 0; steps <= mesh_.triangles.cols(); ++steps) {
@@ -84,20 +88,20 @@ private:
         return t;
       const std::int32_t beyond = mesh_.neighbours(v, t);
       if (beyond < 0)
-        return -1;
+        return outside;
       came = vertex_across(mesh_.neighbours, beyond, t);
       t = beyond;
     }
-    return -1;
+    return lost;
   }
 
   bool holds(std::int64_t t, const Position& p) const {
     return space_.side(t, 0, p) >= 0 && space_.side(t, 1, p) >= 0 && space_.side(t, 2, p) >= 0;
   }
 
-  /// Of all triangles, the lowest that holds p; -1 without one. For a walk that left the mesh.
+  /// Of all triangles, the lowest that holds p, or `outside`.
   std::int32_t search(const Position& p) const {
-    std::int32_t lowest = -1;
+    std::int32_t lowest = outside;
     for (int k = 0; k < Space::copies; ++k) {
       const Position copy = space_.copy(p, k);
       const Vec3 at = space_.coordinates(copy);
@@ -130,33 +134,40 @@ private:
     return lowest;
   }
 
-  /// The corners at a site, from one of them in both directions.
-  template <class Body> void for_each_around(Corner corner, const Body& body) const {
+  /// The corners at a site, from one of them in both directions. Returns the last one before a
+  /// boundary, or none.
+  template <class Body> Corner for_each_around(Corner corner, const Body& body) const {
     const auto next = [&](Corner c) { return next_around(faces_, c); };
-    if (!exists(walk_around(corner, next, body)))
-      return;
+    const Corner last = walk_around(corner, next, body);
+    if (!exists(last))
+      return last;
     const auto before = [&](Corner c) {
       const std::int32_t beyond = mesh_.neighbours(previous_vertex(c.vertex), c.triangle);
       return beyond < 0 ? no_corner
                         : Corner{beyond, vertex_at(mesh_.triangles, beyond, site_at(faces_, c))};
     };
     walk_around(corner, before, body);
+    return last;
   }
 
-  /// Calls body(site, corner at it) for the neighbours of a site of a closed mesh.
-  template <class Body> void for_each_neighbour(Corner corner, const Body& body) const {
-    for_each_around(corner, [&](Corner c) {
+  /// Calls body(site, corner at it) for the neighbours of a site. Returns whether it has all that
+  /// it has in a triangulation of all of the space: the mesh has no boundary there.
+  template <class Body> bool for_each_neighbour(Corner corner, const Body& body) const {
+    const Corner last = for_each_around(corner, [&](Corner c) {
       body(following_site(faces_, c), Corner{c.triangle, next_vertex(c.vertex)});
     });
+    if (exists(last))
+      body(preceding_site(faces_, last), Corner{last.triangle, previous_vertex(last.vertex)});
+    return !exists(last) || convex();
   }
 
   /// From site to site, each nearer than the last. A site of a Delaunay triangulation is nearest if
-  /// none of its neighbours is nearer.
+  /// none of its neighbours is nearer; where the mesh lacks some, all sites are searched.
   std::int32_t nearest_from(std::int32_t t, const Position& p) const {
     for (Corner here{t, 0};;) {
       Corner best = here;
       bool tied = false;
-      for_each_neighbour(here, [&](std::int32_t site, Corner corner) {
+      const bool all = for_each_neighbour(here, [&](std::int32_t site, Corner corner) {
         const int order = space_.compare(p, site, site_at(faces_, best));
         if (order < 0)
           best = corner;
@@ -164,7 +175,7 @@ private:
       });
       const std::int32_t site = site_at(faces_, here);
       if (site_at(faces_, best) == site)
-        return tied ? lowest_tie(here, p) : site;
+        return !all ? nearest_of_all(here.triangle, p) : tied ? lowest_tie(here, p) : site;
       here = best;
     }
   }
@@ -173,13 +184,16 @@ private:
   std::int32_t lowest_tie(Corner from, const Position& p) const {
     std::vector<Corner> found{from};
     std::int32_t lowest = site_at(faces_, from);
-    for (std::size_t k = 0; k < found.size(); ++k)
-      for_each_neighbour(Corner(found[k]), [&](std::int32_t site, Corner corner) {
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      const bool all = for_each_neighbour(Corner(found[k]), [&](std::int32_t site, Corner corner) {
         const bool known = std::any_of(found.begin(), found.end(),
                                        [&](Corner c) { return site_at(faces_, c) == site; });
         if (!known && space_.compare(p, site, lowest) == 0)
           found.push_back(corner);
       });
+      if (!all)
+        return nearest_of_all(from.triangle, p);
+    }
     for (const Corner& corner : found)
       lowest = std::min(lowest, site_at(faces_, corner));
     return lowest;
@@ -222,6 +236,11 @@ private:
     out.weights.col(i) /= out.weights.col(i).sum();
   }
 
+  bool convex() const {
+    std::call_once(asked_, [&] { convex_ = space_.has_convex_boundary(); });
+    return convex_;
+  }
+
   const BoxTree& tree() const {
     std::call_once(made_, [&] {
       const std::int64_t count = mesh_.triangles.cols();
@@ -240,8 +259,10 @@ private:
   Faces faces_;
   const Space& space_;
   std::vector<KeyedItem> starts_; ///< some triangles, by key
+  mutable std::once_flag asked_;
+  mutable bool convex_ = false; ///< of the boundary, once a position is near it
   mutable std::once_flag made_;
-  mutable BoxTree tree_; ///< of all triangles, once a walk leaves an open mesh
+  mutable BoxTree tree_; ///< of all triangles, once a position needs them
 };
 
 template <class Space, class AnyMesh>

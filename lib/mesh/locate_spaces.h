@@ -7,6 +7,7 @@
 #include "curve/hilbert.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
+#include "mesh/convex_boundary.h"
 #include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
@@ -36,6 +37,9 @@ public:
   Position copy(const Position& p, int) const { return p; }
   Vec3 coordinates(const Position& p) const { return normalised(p); }
   CubePoint square(const Vec3& coordinates) const { return to_cube(coordinates); }
+  /// Whether a walk that leaves the mesh leaves it for good, and sites at the boundary have all
+  /// neighbours that they have anywhere. Beside a part of the sphere there is its far side.
+  bool has_convex_boundary() const { return mesh_.closed(); }
   Vec3 vertex(std::int32_t site) const { return normalised(at(site)); }
 
   /// The sign of the side of the edge across from a triangle's vertex on which p lies: 1 inside.
@@ -113,6 +117,9 @@ public:
       return std::clamp((value - low) / half_ - 1, -1.0, 1.0);
     };
     return {0, part(x.x, low_.x()), part(x.y, low_.y())};
+  }
+  bool has_convex_boundary() const {
+    return mesh_.closed() || (mesh_.period.isZero() && is_convex(mesh_));
   }
   Vec3 coordinates(const Position& p) const {
     return {p.site.x + p.i * period_.x, p.site.y + p.j * period_.y, 0};

@@ -8,6 +8,7 @@
 #include "domain/planar_domain.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
+#include "mesh/convex_boundary.h"
 #include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/planes.h"
@@ -127,6 +128,22 @@ Points3 from_weights(const Mesh& mesh, const Locations& at) {
   return out.colwise().normalized();
 }
 
+/// The triangles that keep(t) keeps.
+template <class AnyMesh, class Keep> AnyMesh part_of(AnyMesh mesh, const Keep& keep) {
+  std::vector<Eigen::Index> kept;
+  std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    if (keep(t)) {
+      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(t);
+    }
+  mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
+  mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
+    return t < 0 ? t : name[static_cast<std::size_t>(t)];
+  });
+  return mesh;
+}
+
 /// Positions with ties: sites, midpoints of edges, centroids and circumcentres.
 Points3 special(const Mesh& mesh) {
   Points3 out(3, mesh.points.cols() + 3 * mesh.triangles.cols());
@@ -188,21 +205,12 @@ TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
   check_located(mesh, random_sphere(600, 6));
 
   // Without the triangles of a hole and of a bay, so that a walk leaves the mesh on its way.
-  Mesh cut = spherical_delaunay(all);
-  std::vector<Eigen::Index> kept;
-  std::vector<std::int32_t> name(static_cast<std::size_t>(cut.triangles.cols()), -1);
-  for (Eigen::Index t = 0; t < cut.triangles.cols(); ++t) {
-    const Eigen::Vector3d x = cut.points.col(cut.triangles(0, t)) +
-                              cut.points.col(cut.triangles(1, t)) +
-                              cut.points.col(cut.triangles(2, t));
-    if (x.normalized().z() < 0.7 && !(x.normalized().x() > 0.3 && std::abs(x.y()) < 0.4)) {
-      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(t);
-    }
-  }
-  cut.triangles = Triangles(cut.triangles(Eigen::all, kept));
-  cut.neighbours = Triangles(cut.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
-    return name[static_cast<std::size_t>(t)];
+  const Mesh whole = spherical_delaunay(all);
+  const Mesh cut = part_of(whole, [&](Eigen::Index t) {
+    const Eigen::Vector3d x = whole.points.col(whole.triangles(0, t)) +
+                              whole.points.col(whole.triangles(1, t)) +
+                              whole.points.col(whole.triangles(2, t));
+    return x.normalized().z() < 0.7 && !(x.normalized().x() > 0.3 && std::abs(x.y()) < 0.4);
   });
   check_located(cut, random_sphere(800, 7));
   check_located(cut, special(cut));
@@ -233,30 +241,53 @@ TEST_CASE("the plane and periodic boxes") {
   CHECK(found.nearest[2] == 3);
 }
 
+TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
+  const Points2 positions = random_places(600, rectangle({-2, -1}, {8, 5}), 3);
+  Points2 grid(2, 7 * 5);
+  for (Eigen::Index i = 0; i < grid.cols(); ++i)
+    grid.col(i) << static_cast<double>(i % 7), static_cast<double>(i / 7) / 2;
+  for (const Points2& points : {random_places(300, rectangle({0, 0}, {6, 2})), grid}) {
+    const PlanarMesh whole = planar_delaunay(points);
+    const auto centre = [&](Eigen::Index t) {
+      return Eigen::Vector2d((points.col(whole.triangles(0, t)) +
+                              points.col(whole.triangles(1, t)) +
+                              points.col(whole.triangles(2, t))) /
+                             3);
+    };
+    const auto check_part = [&](bool convex, const auto& keep) {
+      const PlanarMesh part = part_of(whole, keep);
+      CHECK(mesh_detail::is_convex(part) == convex);
+      check_located(part, positions);
+      check_located(part, points);
+      check_located(part, Points2(points.colwise() + Eigen::Vector2d(0.5, 0.25)));
+    };
+    check_part(true, [](Eigen::Index) { return true; });
+    check_part(true, [](Eigen::Index t) { return t == 7; });
+    check_part(false, [&](Eigen::Index t) {
+      const Eigen::Vector2d x = centre(t);
+      return (x - Eigen::Vector2d(1.5, 1)).norm() > 0.6 &&
+             !(x.x() > 4 && std::abs(x.y() - 1) < 0.5);
+    });
+    check_part(false, [&](Eigen::Index t) { return std::abs(centre(t).x() - 3) > 1; });
+  }
+}
+
 TEST_CASE("a channel, and a periodic box with land") {
   const Points2 points = random_places(200, periodic_box({4, 3}));
   for (const bool channel : {true, false}) {
-    PlanarMesh mesh = periodic_delaunay(points, {4, 3});
-    CHECK(mesh.closed());
-    std::vector<Eigen::Index> kept;
-    std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
-    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const PlanarMesh whole = periodic_delaunay(points, {4, 3});
+    CHECK(whole.closed());
+    PlanarMesh mesh = part_of(whole, [&](Eigen::Index t) {
       double low = 3, high = 0;
       bool land = false;
       for (int v = 0; v < 3; ++v) {
-        const Eigen::Vector2d x = points.col(mesh.triangles(v, t));
+        const Eigen::Vector2d x = points.col(whole.triangles(v, t));
         low = std::min(low, x.y());
         high = std::max(high, x.y());
         land = land || (x - Eigen::Vector2d(2, 1.5)).norm() < 0.8;
       }
-      if (channel ? high - low < 1.5 : !land) { // without those that join the walls, or of the land
-        name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
-        kept.push_back(t);
-      }
-    }
-    mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
-    mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
-      return t < 0 ? t : name[static_cast<std::size_t>(t)];
+      return channel ? high - low < 1.5
+                     : !land; // without those that join the walls, or of the land
     });
     if (channel)
       mesh.period.y() = 0;
