@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "help/help.h"
+#include "io/command.h"
 #include "options/config_option.h"
 #include "options/density_option.h"
 #include "options/depth_option.h"

@@ -5,6 +5,7 @@
 #include "draw/text.h"
 #include "draw/title.h"
 #include "help/help.h"
+#include "io/command.h"
 #include "options/coastlines_option.h"
 #include "options/density_option.h"
 #include "options/files.h"

@@ -75,8 +75,8 @@ Surface read_domain(const std::string& path);
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, in
 /// longitude (any, the edge takes the shorter way) and latitude in degrees; all of them are one
 /// region. An outer ring encloses its polygon, and a hole what is left out of it, by the rule of
-/// enclosed_region() whichever way they run. If a feature names a place inside by the property
-/// "inside": [longitude, latitude], its rings enclose the side that contains the place.
+/// enclosed_region() whichever way they run. If a feature names a point inside by the property
+/// "inside": [longitude, latitude], its rings enclose the side that contains the point.
 ///
 /// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
@@ -126,10 +126,6 @@ Surface read_region(std::istream& in, const std::string& name);
 ///         parse; file; for sites that delaunay() refuses, its code.
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
-/// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
-/// \throws Error file.
-bool is_netcdf_file(const std::string& path);
-
 /// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites
 /// the points are the nodes. The function also reads the region centres of MPI-SCVT: from
 /// RegionList, or for a name that starts with RegionTriangulation from the RegionList beside it.
@@ -164,13 +160,9 @@ LandRaster read_land_raster(const std::string& path, const std::string& variable
 
 /// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude
 /// and latitude in degrees, alone or in features or collections.
-/// \returns for each line its places, unit columns.
+/// \returns for each line its points, unit columns.
 /// \throws Error parse, naming the feature; file.
 std::vector<Points3> read_lines(const std::string& path);
-
-/// Reads all bytes of a file.
-/// \throws Error file.
-std::string read_file(const std::string& path);
 
 /// A variable of a NetCDF file with one number for each cell.
 struct CellField {

@@ -12,7 +12,6 @@
 
 #include <iosfwd>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,7 +68,7 @@ struct WriteOptions {
   DoubleVector site_density = {};
   /// Fields of the mesh, in its order. NetCDF formats hold them at cells, all but SCRIP at
   /// vertices, full MPAS at edges. VTK holds those at cells and vertices, GeoJSON those at cells,
-  /// with one number for each place. Other formats and places ignore them. In names, NetCDF formats
+  /// with one number for each. Other formats ignore them. In names, NetCDF formats
   /// replace characters other than letters, digits and _.+-@ by _. Default: none.
   std::vector<MeshField> fields = {};
   /// Dimensions of complete MPAS files besides those of the mesh and of fields: some models look
@@ -133,20 +132,6 @@ Format format_of(const std::string& path, Format option = Format::by_name);
 
 /// The words for formats, such as "ugrid-triangles", without by_name and vtk.
 const std::vector<std::pair<std::string, Format>>& format_words();
-
-/// True if the format stores Voronoi cells and thus requires a closed mesh, or a domain of the
-/// plane.
-bool holds_cells(Format format);
-
-/// Throws unless `write` supports meshes of a plane in the format.
-/// \param path for the message.
-/// \param format not by_name.
-/// \throws Error invalid_argument.
-void require_planar_format(const std::string& path, const Surface& plane, Format format);
-
-/// Writes bytes to a file, which is complete or absent as described above.
-/// \throws Error file.
-void write_file(const std::string& path, std::string_view bytes);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -3,6 +3,7 @@
 
 #include "domain/spherical_area.h"
 #include "io/coast_file.h"
+#include "io/command.h"
 #include "io/file.h"
 #include "io/geojson_areas.h"
 

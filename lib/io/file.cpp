@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/file.h"
 
+#include "io/command.h"
 #include "io/output_queue.h"
 #include "io/temporary_file.h"
 

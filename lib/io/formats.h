@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/command.h"
 #include "io/room.h"
 #include "io/text.h"
 

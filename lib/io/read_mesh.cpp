@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cell_rows.h"
+#include "io/command.h"
 #include "io/file.h"
 #include "io/file_names.h"
 #include "io/formats.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command.h"
 #include "io/write_mesh.h"
 
 #include "io/model_grid.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
 #include "cvt/cvt.h"
+#include "io/command.h"
 #include "scratch_file.h"
 
 #include <calotte/cvt.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command.h"
 #include "support/files.h"
 #include "support/planes.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command.h"
 #include "io/netcdf_header.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"

@@ -57,13 +57,13 @@ TEST_CASE("the mesh of the whole sphere is written with the density of its recip
   WriteOptions options;
   options.density = made.recipe.density;
   write(scratch / "whole.nc", made.mesh, options);
-  const std::string expected = calotte::read_file(scratch / "whole.nc");
+  const std::string expected = calotte::test::read_file(scratch / "whole.nc");
   const GridFile file = write_grid(scratch / "whole.nc", made.mesh, made.recipe, made.schedule);
   CHECK(file.cells == 400);
   CHECK(file.inside == 400);
-  CHECK(calotte::read_file(scratch / "whole.nc") == expected);
+  CHECK(calotte::test::read_file(scratch / "whole.nc") == expected);
   write_grid(scratch / "whole.nc", std::move(made.mesh), made.recipe, made.schedule);
-  CHECK(calotte::read_file(scratch / "whole.nc") == expected);
+  CHECK(calotte::test::read_file(scratch / "whole.nc") == expected);
   CHECK(made.mesh.points.cols() == 0);
 }
 
@@ -71,13 +71,13 @@ TEST_CASE("a limited area is the region and its rings") {
   const Scratch scratch;
   const Made made(limited_area());
   const GridFile file = write_grid(scratch / "area.nc", made.mesh, made.recipe, made.schedule);
-  const std::string written = calotte::read_file(scratch / "area.nc");
+  const std::string written = calotte::test::read_file(scratch / "area.nc");
   const CutReport report = write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface);
   CHECK(file.cells == report.cells);
   CHECK(file.inside == report.cells_by_mask.front());
   CHECK(file.inside < file.cells);
   CHECK(file.cells < made.mesh.points.cols());
-  CHECK(written == calotte::read_file(scratch / "area.nc"));
+  CHECK(written == calotte::test::read_file(scratch / "area.nc"));
   CHECK_THROWS_AS(write_grid(scratch / "area.vtp", made.mesh, made.recipe, made.schedule), Error);
   const Made other(graded());
   CHECK_THROWS_AS(write_grid(scratch / "other.nc", other.mesh, made.recipe, made.schedule), Error);

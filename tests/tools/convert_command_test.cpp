@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/planar_mesh.h"
 #include "support/command.h"
+#include "support/files.h"
 #include "support/planes.h"
 
 #include <calotte/density.h>
@@ -351,7 +352,8 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
   CHECK(info.out.find("not convex            1; the first is cell 5\n") != std::string::npos);
   CHECK(info.out.find("not centroidal        2; the farthest centre is ") != std::string::npos);
   CHECK(info.out.find("not Delaunay") == std::string::npos); // of no triangles
-  const auto report = nlohmann::json::parse(calotte::read_file(in_folder(bench, "report.json")));
+  const auto report =
+      nlohmann::json::parse(calotte::test::read_file(in_folder(bench, "report.json")));
   CHECK(report["not_convex"] == 1);
   CHECK(report["first_not_convex"] == 5);
   CHECK(report["not_centroidal"] == 2);

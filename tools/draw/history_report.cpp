@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/history_report.h"
 
+#include "io/command.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/picture.h"
 
+#include "io/command.h"
+
 #include <calotte/error.h>
 #include <calotte/io.h>
 

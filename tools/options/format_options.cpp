@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/format_options.h"
 
+#include "io/command.h"
 #include "options/numbers.h"
 
 #include <calotte/error.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/mesh_source.h"
 
+#include "io/command.h"
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
