@@ -17,6 +17,7 @@
 #include <calotte/interpolate.h>
 #include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/lists.h>
 #include <calotte/locate.h>
 #include <calotte/lonlat.h>
 #include <calotte/matrices.h>

@@ -46,7 +46,7 @@ DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points);
 double implied_cells(const CellWidth& cell_width, double radius_km = earth_radius_km);
 
 /// The same integral over the sphere or a region of it; over a region within about 0.2%, as a mean
-/// over 2^18 random places.
+/// over 2^18 random points.
 /// \throws Error as above; invalid_argument for a plane.
 double implied_cells(const CellWidth& cell_width, const Surface& surface,
                      double radius_km = earth_radius_km);
@@ -54,7 +54,7 @@ double implied_cells(const CellWidth& cell_width, const Surface& surface,
 /// Throws unless the nodes cover the sphere, or a region of it: at its boundary the nearest nodes
 /// are at most half of the widest step away, between the last longitude and the first one and
 /// beyond the outer latitudes at most 1.5 of it.
-/// \throws Error invalid_argument, naming the extent of the nodes and a place of the region
+/// \throws Error invalid_argument, naming the extent of the nodes and a point of the region
 ///         outside; for a plane.
 void require_covering(const CellWidth& cell_width, const Surface& surface = {});
 

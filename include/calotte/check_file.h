@@ -17,11 +17,11 @@ struct Deviation {
   /// The largest relative difference between a stored and the derived value; 1 for ids and for
   /// rules without a measure; infinite for values that are not finite.
   double difference = 0;
-  std::int64_t index = -1; ///< 0-based place of that value in the variable; -1 without a place
+  std::int64_t index = -1; ///< 0-based, of that value in the variable; -1 for none
   /// True if all its differences are a known fault of MpasMeshConverter (MPAS-Tools), in variables
   /// that do not enter a model's equations.
   bool known = false;
-  std::string text; ///< one line: the variable, the rule, the place, and both values
+  std::string text; ///< one line: the variable, the rule, the index, and both values
 };
 
 /// Compares the variables of a NetCDF mesh file with what follows from its mesh, and with the rules
@@ -29,7 +29,7 @@ struct Deviation {
 /// of edges and vertices, the first entry of a cyclic list, and the first cell of an edge are free.
 ///
 /// The mesh is that of the cells and of cellsOnVertex (MPAS), or of the polygons. All else follows
-/// from it, so that a wrong place of a cell makes many variables deviate.
+/// from it, so that a wrong position of a cell makes many variables deviate.
 ///
 /// Differences count from 1e-6 of a value's scale on, because MpasMeshConverter computes lengths
 /// and areas in single precision; angles are compared modulo 2 pi. The scale is local: that of
@@ -44,7 +44,7 @@ struct Deviation {
 /// that are independent random sites of uniform density, and CVTs of any density.
 /// Files with coordinates in single precision have a wider tolerance.
 ///
-/// Not checked: what depends on the missing cells of an open MPAS mesh, and the places of its
+/// Not checked: what depends on the missing cells of an open MPAS mesh, and the positions of its
 /// vertices on the boundary; fields; masks, but for
 /// values other than 0 and 1; areas in units other than radians^2; centres that are inside their
 /// cells, where most of the cells are not Voronoi cells.

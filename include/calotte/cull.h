@@ -34,13 +34,13 @@ struct CullOptions {
   /// than 1.
   double land_fraction = 0.5;
   SeaField field = {}; ///< in addition to these. Default: none.
-  /// Lines that stay open: all cells on them are sea. Each 3 x places, unit columns, joined by arcs
+  /// Lines that stay open: all cells on them are sea. Each 3 x points, unit columns, joined by arcs
   /// of great circles. One that is on land and reaches no sea is an error. Default: none.
   std::vector<Points3> passages = {};
   std::vector<Points3> barriers = {}; ///< lines whose cells are land, unless on a passage
   /// Cells with a single neighbour in the sea become land, repeatedly. Default: true.
   bool fill = true;
-  Points3 seeds = {}; ///< places in the sea, unit columns. Default: none, its largest part.
+  Points3 seeds = {}; ///< points in the sea, unit columns. Default: none, its largest part.
   /// File for what is culled: the variables cullCell and regionCellMasks (1 for land), and
   /// landFraction if there is a coast or a raster (of both the greater), by cell of the source.
   /// Default: empty, no file.

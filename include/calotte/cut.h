@@ -75,7 +75,7 @@ CutReport cut(const std::string& source, const std::string& target, const Surfac
               const CutOptions& options = {});
 
 /// The same with another kind of region.
-/// \param inside whether a place on the sphere of the source lies in the region. Several threads
+/// \param inside whether a point on the sphere of the source lies in the region. Several threads
 ///        call it at once.
 CutReport cut(const std::string& source, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,

@@ -24,23 +24,21 @@ inline constexpr int limited_area_rings = 7;
 /// in ring k - 1 (in ring 0 for k = 1), and the two cells beside both are neighbours of the latter.
 /// Cells are removed from the region itself if there are no rings, and along the boundary of an
 /// open mesh.
-/// \param begin n + 1 offsets.
-/// \param cells_on_cell 0-based neighbours in any order; -1 for a missing one.
+/// \param cells_on_cell the n cells' 0-based neighbours in any order; -1 for a missing one.
 /// \param inside n flags: 1 for the cells of the region, whose generators lie in it; else 0.
 /// \param rings number of rings, 0 to limited_area_rings.
 /// \returns by cell: 0 inside, 1 to `rings` for the cells of a ring, -1 for cells not selected.
 /// \throws Error invalid_argument for rings out of range, if no cell is inside, if all are removed,
 ///         and if all cells of a closed mesh are selected, so that there is no boundary.
-Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
-                      const std::vector<std::uint8_t>& inside, int rings = limited_area_rings);
+Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& inside,
+                      int rings = limited_area_rings);
 
 /// The mask of edges or vertices: the least mask of the selected cells at each.
-/// \param begin n + 1 offsets.
-/// \param ids 0-based edges, or vertices, of each cell; -1 for a missing one.
+/// \param on_cell 0-based edges, or vertices, of each cell; -1 for a missing one.
 /// \param mask by cell; -1 for a cell not selected.
 /// \param count number of edges, or vertices; all ids are less.
 /// \returns by edge or vertex; -1 where no selected cell is.
-Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64_t count);
+Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 
 /// The region that a run meshes for a limited-area grid: another one, the rings around it and some
 /// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger

@@ -11,7 +11,7 @@ namespace calotte {
 /// same bits on every machine. Longitudes that differ by 360 give the same point, and so do all
 /// longitudes at a pole.
 /// \param lonlat 2 x n degrees: longitude (any finite value), latitude (-90 to 90).
-/// \throws Error invalid_argument unless the places have 2 rows, and for a latitude out of range;
+/// \throws Error invalid_argument unless there are 2 rows, and for a latitude out of range;
 ///         not_finite; both with the index of the column.
 Points3 from_lonlat(const PointsRef& lonlat);
 

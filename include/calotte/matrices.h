@@ -51,9 +51,5 @@ using Ids = Eigen::Matrix<std::int32_t, Eigen::Dynamic, 1, Eigen::DontAlign>;
 /// 2 x m ids, one pair a column.
 using Pairs = Eigen::Matrix<std::int32_t, 2, Eigen::Dynamic, Eigen::DontAlign>;
 
-/// Lists of n cells or polygons, such as neighbours or edges: the entries of cell i are begin[i] to
-/// begin[i + 1] - 1.
-using Offsets = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1, Eigen::DontAlign>;
-
 } // namespace calotte
 CALOTTE_API_END

@@ -32,10 +32,10 @@ struct MeshField {
   std::string long_name = {};          ///< attribute in NetCDF files; empty for none
   std::string units = {};              ///< attribute in NetCDF files; empty for none
   Location location = Location::cells; ///< what has the numbers
-  /// count() numbers for each place, place after place, and for each place in the order of
-  /// `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
+  /// count() numbers for the first cell, edge or vertex, then for the next; those of one in the
+  /// order of `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
   DoubleVector values = {};
-  std::vector<FieldDimension> dimensions = {}; ///< none for one number for each place
+  std::vector<FieldDimension> dimensions = {}; ///< none for one number for each
   /// How many of the dimensions come before the location's in a file: 1 for (Time, nCells, levels).
   int leading = 0;
   bool integer = false; ///< all are 32-bit integers, and NetCDF files store them as such
@@ -43,7 +43,7 @@ struct MeshField {
   /// tangent. They change their sign where a numbering exchanges the two sites.
   bool directed = false;
 
-  /// Numbers for each place: the product of the dimensions' sizes.
+  /// Numbers for each cell, edge or vertex: the product of the dimensions' sizes.
   std::int64_t count() const {
     std::int64_t product = 1;
     for (const FieldDimension& dimension : dimensions)

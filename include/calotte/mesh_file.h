@@ -23,17 +23,14 @@ namespace calotte {
 /// sides are arcs of great circles. Or n polygons in a plane, with z = 0. In a direction in which
 /// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
 struct Polygons {
-  Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
-  /// n + 1: polygon i has the corners ids[begin[i]] to ids[begin[i + 1] - 1], counter-clockwise
-  /// seen from outside. 0-based.
-  Offsets begin;
-  Ids ids;                      ///< see `begin`
-  Points3 centres;              ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  bool on_sphere = true;        ///< false in a plane
+  Points3 corners;       ///< 3 x m unit columns; in a plane in any unit of length
+  IdLists ids;           ///< the corners of each polygon, counter-clockwise seen from outside
+  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
+  bool on_sphere = true; ///< false in a plane
   Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it
 
   /// Their number.
-  std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
+  std::int64_t size() const { return ids.size(); }
 };
 
 /// Areas of polygons on the unit sphere, steradians; in a plane in the square of its unit.
@@ -127,7 +124,7 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls);
 /// Which fields read_mesh_file() reads from NetCDF files; the others are among `ignored`.
 enum class FieldChoice {
   none,    ///< none, and no variable is among `ignored`
-  scalars, ///< those with one number for each place
+  scalars, ///< those with one number for each cell, edge or vertex
   all,
 };
 
@@ -203,7 +200,7 @@ struct WrittenFields {
 
 /// Writes what a file holds to another format. The cells keep their shapes: polygons go to formats
 /// of cells, and to those of triangles that can hold other faces (vtp, vtu, off, ply) where there
-/// is no mesh. Fields for whose values the format has no place are left out. MPAS needs Voronoi
+/// is no mesh. Fields that the format cannot hold are left out. MPAS needs Voronoi
 /// cells: the polygons of an open mesh are written if each corner of three cells is the
 /// circumcentre of their centres, within a millionth of a cell's width. Density and fields at cells
 /// go along.

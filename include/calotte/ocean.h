@@ -23,22 +23,22 @@ struct Coast {
   double area = 0; ///< of the land, steradians
 };
 
-/// The land around a place, such as an island with its lakes: the smallest left side of a ring that
+/// The land around a point, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.
-/// \param place direction of any norm.
-/// \throws Error invalid_argument for a place in the sea; as Surface::within() for the rings around
+/// \param point direction of any norm.
+/// \throws Error invalid_argument for a point in the sea; as Surface::within() for the rings around
 /// it.
-Surface land_around(const Coast& coast, const Eigen::Vector3d& place);
+Surface land_around(const Coast& coast, const Eigen::Vector3d& point);
 
 /// The fraction of each cell that is land, from the exact intersections of the coast's arcs with
 /// the cells, whose sides are arcs between their vertices. The areas sum to that of the land within
 /// 1e-10. The arcs are turned by 1e-12 radians so that none passes through a vertex. The result has
 /// the same bits for any number of threads.
-/// \param cells a closed tessellation of the sphere; only its cells, vertices, begin and lists of
-///        cells are read.
+/// \param cells a closed tessellation of the sphere; only its cells, vertices and lists of cells
+///        are read.
 /// \returns n fractions from 0 to 1.
 /// \throws Error invalid_argument, for cells that do not cover the sphere; for an area that is not
-///         that of the rings, and for places covered twice.
+///         that of the rings, and for points covered twice.
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
 /// The land by a raster of longitudes and latitudes, which may be irregular. A value holds in the
@@ -63,9 +63,9 @@ struct LandRaster {
 DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
-/// \param lines each 3 x places, unit columns, joined by arcs shorter than a half circle.
+/// \param lines each 3 x points, unit columns, joined by arcs shorter than a half circle.
 /// \throws Error invalid_argument, for cells that do not cover the sphere, or a line without a
-/// place.
+/// point.
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines);
 
 /// What makes sea of cells that are no land.
@@ -95,12 +95,11 @@ struct SeaCells {
 /// The cells of a connected sea: first closed and opened cells, then filled ones, then the parts
 /// without a seed, are decided. A cell that is filled lies on no way between two others, so that an
 /// opened passage stays open.
-/// \param begin n + 1 offsets.
-/// \param cells_on_cell 0-based neighbours; -1 for a missing one, which counts as land.
-/// \param land n flags: 1 for land.
-/// \throws Error invalid_argument, if no cell is sea, and naming the first seed that is on land.
-SeaCells sea_cells(const Offsets& begin, const Ids& cells_on_cell,
-                   const std::vector<std::uint8_t>& land, const SeaOptions& options = {});
+/// \param cells_on_cell the n cells' 0-based neighbours; -1 for a missing one, which counts as
+/// land. \param land n flags: 1 for land. \throws Error invalid_argument, if no cell is sea, and
+/// naming the first seed that is on land.
+SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& land,
+                   const SeaOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

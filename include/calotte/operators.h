@@ -18,10 +18,10 @@ namespace calotte {
 struct ErrorNorms {
   double l2 = 0;  ///< root of the mean square
   double max = 0; ///< the greatest value
-  /// A cell at the place of the greatest value: the cell itself, the lower cell of an edge, the
+  /// A cell at the greatest value: the cell itself, the lower cell of an edge, the
   /// first of a vertex; -1 if there is none.
   std::int64_t cell = -1;
-  Eigen::Vector3d place{0, 0, 0}; ///< a unit vector; in the plane z = 0
+  Eigen::Vector3d position{0, 0, 0}; ///< of the greatest value: a unit vector; in the plane z = 0
 };
 
 /// Errors by cell, relative as in OperatorErrors. A cell has the greatest error of its edges or
@@ -45,9 +45,9 @@ struct OperatorErrorsByCell {
 /// s. Discrete fields are values at the sites, and normal components at the edges' midpoints; the
 /// result is compared with the exact values at the site, the edge's midpoint or the vertex.
 ///
-/// The error at a place is the root of the sum over all fields of squared errors. l2 is its root
+/// The error at a point is the root of the sum over all fields of squared errors. l2 is its root
 /// mean square, weighted by area (of an edge dc dv), and both norms are divided by the root mean
-/// square of the exact values. Only places with a complete stencil count: cells that no boundary
+/// square of the exact values. Only points with a complete stencil count: cells that no boundary
 /// clips, edges between two of them, vertices between three.
 struct OperatorErrors {
   ErrorNorms divergence;     ///< of a velocity, at cells

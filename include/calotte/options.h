@@ -40,12 +40,12 @@ struct Partition {
   Centres centres = Centres::sample; ///< no effect if given_centres is set
   /// The centres of the regions (MPI-SCVT's RegionList), at least one column; overrides the two
   /// options above. On the sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k
-  /// finite places in the unit of the points, or 3 x k, whose third row is ignored. Default: none.
+  /// finite points in the unit of the points, or 3 x k, whose third row is ignored. Default: none.
   std::optional<DoubleMatrix> given_centres = {};
   Overlap overlap = Overlap::halo; ///< no effect if there is one region
 };
 
-/// What happens to points of equal direction, in the plane of equal place, and to points that
+/// What happens to points of equal direction, in the plane of equal position, and to points that
 /// merge_within joins.
 enum class Duplicates {
   merge,  ///< they become one site, that of the lowest index; the default

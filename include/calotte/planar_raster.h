@@ -35,7 +35,7 @@ struct PlanarCellWidth {
 Density density_of(const PlanarCellWidth& cell_width);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over a box or a
-/// part of the plane, within about 0.2%: a mean over 2^18 random places.
+/// part of the plane, within about 0.2%: a mean over 2^18 random points.
 /// \throws Error as above; invalid_argument for the sphere, and for a plane
 ///         without rings and two periods.
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);

@@ -101,7 +101,7 @@ Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 /// \throws Error invalid_argument for a value out of range.
 Surface circle(const Eigen::Vector3d& centre, double radius, int corners = 360);
 
-/// An ellipse, as a polygon with corners on it: the places whose distances from two foci have a sum
+/// An ellipse, as a polygon with corners on it: the points whose distances from two foci have a sum
 /// of twice the semi-major axis.
 /// \param semi_major, semi_minor angles in radians; 1e-6 <= semi_minor <= semi_major <= pi/2 -
 ///        1e-6.
@@ -137,12 +137,12 @@ Surface channel(double lower, double upper, int corners = 360);
 /// \throws Error as Surface::within(), orientation aside.
 Surface enclosed_region(const std::vector<Points3>& rings);
 
-/// The same for the side of the rings that contains a place.
-/// \param place direction of any norm, not on a ring.
-/// \throws Error as above; invalid_argument for a place on the boundary.
-Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place);
+/// The same for the side of the rings that contains a point.
+/// \param point direction of any norm, not on a ring.
+/// \throws Error as above; invalid_argument for a point on the boundary.
+Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& point);
 
-/// A region that holds all places within a distance of another one, and few more: the boundary
+/// A region that holds all points within a distance of another one, and few more: the boundary
 /// moves outwards in a stereographic projection about the middle of the region. The whole sphere if
 /// the result would reach farther than 2 radians from there.
 /// \param region the sphere or a part of it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/lists.h>
 #include <calotte/matrices.h>
 #include <calotte/surface.h>
 

@@ -35,13 +35,11 @@ struct Voronoi {
                  ///< edge on the boundary its own
   Points3 vertices; ///< 3 x m: circumcentres
 
-  /// The entries of cell i are begin[i] to begin[i + 1] - 1 of the next three arrays. Edge k lies
-  /// between vertices k - 1 and k; neighbour k is the cell across edge k, -1 on the boundary. The
-  /// first edge is the one towards the lowest neighbour.
-  Offsets begin;        ///< n + 1
-  Ids edges_on_cell;    ///< by `begin`
-  Ids vertices_on_cell; ///< by `begin`
-  Ids cells_on_cell;    ///< by `begin`
+  /// n lists, which begin alike in all three: edge k of a cell lies between its vertices k - 1 and
+  /// k. The first edge is the one towards the lowest neighbour.
+  IdLists edges_on_cell;
+  IdLists vertices_on_cell;
+  IdLists cells_on_cell; ///< neighbour k is across edge k, -1 on the boundary
 
   /// 3 x m: the mesh's triangles; on the boundary one or two cells, then -1.
   Triangles cells_on_vertex;
@@ -99,9 +97,8 @@ Voronoi voronoi(const Mesh& mesh);
 /// and for an edge between cells that coincide up to rounding. An edge on the boundary has those of
 /// its one cell.
 struct TangentialWeights {
-  Offsets begin;        ///< entries of the k-th edge: begin[k] to begin[k + 1] - 1
-  Ids edges;            ///< by entry: the other edge e'
-  DoubleVector weights; ///< by entry: its weight, without unit
+  IdLists edges;        ///< of the k-th edge: the other edges e'
+  DoubleVector weights; ///< of each of their items, without unit
 };
 
 /// The weights of edges first to last - 1. A caller may process a large mesh in parts.

@@ -149,9 +149,10 @@ calotte_status calotte_cells_view(const calotte_cells* cells, calotte_tessellati
     const Voronoi& v = cells->cells;
     fill(view,
          {0, v.cells.cols(), v.edges.cols(), v.vertices.cols(), v.edges.data(), v.vertices.data(),
-          v.begin.data(), v.edges_on_cell.data(), v.vertices_on_cell.data(), v.cells_on_cell.data(),
-          v.cells_on_vertex.data(), v.cells_on_edge.data(), v.vertices_on_edge.data(), v.dc.data(),
-          v.dv.data(), v.cell_area.data(), v.vertex_area.data()},
+          v.edges_on_cell.begin.data(), v.edges_on_cell.items.data(),
+          v.vertices_on_cell.items.data(), v.cells_on_cell.items.data(), v.cells_on_vertex.data(),
+          v.cells_on_edge.data(), v.vertices_on_edge.data(), v.dc.data(), v.dv.data(),
+          v.cell_area.data(), v.vertex_area.data()},
          "calotte_tessellation");
   });
 }

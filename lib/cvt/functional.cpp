@@ -341,9 +341,9 @@ template <class Cells> void FunctionalOver<Cells>::hold(Rows& weights) const {
     return;
   for_each_block(weights.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      for (std::int32_t k = weights.begin[i]; k != weights.begin[i + 1]; ++k)
-        if (is_fixed(i) || is_fixed(weights.column[k]))
-          weights.value[k] = 0;
+      for (Element& element : weights[i])
+        if (is_fixed(i) || is_fixed(element.column))
+          element.value = 0;
   });
 }
 

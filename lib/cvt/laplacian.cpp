@@ -279,27 +279,26 @@ Array<std::int32_t> row_begins(const Source& source) {
 
 template <class Edges> Laplacian make_matrix(const Source& source, const Edges& edges) {
   const std::int64_t n = source.rows();
-  Laplacian matrix{{row_begins(source), {}, {}}, Array<double>(n)};
+  Laplacian matrix{{row_begins(source), {}}, Array<double>(n)};
   Rows& rows = matrix.weights;
-  rows.column = Array<std::int32_t>(rows.begin[n]);
-  rows.value = Array<float>(rows.begin[n]);
+  rows.items = Array<Element>(rows.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     SharesTable shares(source.mesh.triangle_ids, edges);
     Row row;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
-      std::int32_t place = rows.begin[i];
       set_row(source, shares, edges, i, row);
       matrix.scale[i] = 1 / std::sqrt(row.diagonal);
-      for (const auto& [j, weight] : row.elements) {
-        rows.column[place] = j;
-        rows.value[place++] = static_cast<float>(weight / row.diagonal);
-      }
+      std::transform(row.elements.begin(), row.elements.end(), rows[i].begin(),
+                     [&](const auto& element) {
+                       const auto& [j, weight] = element;
+                       return Element{j, static_cast<float>(weight / row.diagonal)};
+                     });
     }
   });
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      for (std::int32_t k = rows.begin[i]; k != rows.begin[i + 1]; ++k)
-        rows.value[k] *= static_cast<float>(matrix.scale[rows.column[k]] / matrix.scale[i]);
+      for (Element& element : rows[i])
+        element.value *= static_cast<float>(matrix.scale[element.column] / matrix.scale[i]);
   });
   return matrix;
 }

@@ -15,14 +15,14 @@
 
 namespace calotte::cvt_detail {
 
-/// The elements of a sparse matrix, row by row; columns ascend.
-struct Rows {
-  Array<std::int32_t> begin; ///< of each row, and the end of the last
-  Array<std::int32_t> column;
-  Array<float> value;
-
-  std::int64_t size() const { return begin.size() - 1; }
+/// An element of a row of a sparse matrix.
+struct Element {
+  std::int32_t column;
+  float value;
 };
+
+/// The rows of a sparse matrix; columns ascend.
+using Rows = Lists<Array<Element>, Array<std::int32_t>>;
 
 /// The most generators with a graph Laplacian, whose elements, at most 6 n on average, int32
 /// counts.

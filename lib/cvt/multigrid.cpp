@@ -34,19 +34,11 @@ std::int64_t end_of(std::int64_t aggregate, std::int64_t aggregates, std::int64_
 
 // ---- Set-up
 
-/// An element of a row, or a part of it.
-struct Element {
-  std::int32_t column;
-  float value;
-
-  bool operator<(const Element& other) const {
-    return std::pair(column, value) < std::pair(other.column, other.value);
-  }
-};
-
 /// Sorts parts of a row's elements, and adds those of each element in double precision.
 void merge(std::vector<Element>& row) {
-  std::sort(row.begin(), row.end());
+  std::sort(row.begin(), row.end(), [](const Element& a, const Element& b) {
+    return std::pair(a.column, a.value) < std::pair(b.column, b.value);
+  });
   std::size_t count = 0;
   for (std::size_t first = 0, last = 0; first != row.size(); first = last) {
     double sum = 0;
@@ -77,17 +69,13 @@ template <class SetRow> Rows make_rows(std::int64_t rows, const SetRow& set_row)
     first[static_cast<std::size_t>(block)] = static_cast<std::int32_t>(part.size());
   });
   const std::int32_t count = out.begin[rows] = exclusive_scan(std::span(first));
-  out.column = Array<std::int32_t>(count);
-  out.value = Array<float>(count);
+  out.items = Array<Element>(count);
   for_each_block(rows, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     const std::vector<Element> part = std::move(parts[static_cast<std::size_t>(block)]);
-    std::int32_t to = first[static_cast<std::size_t>(block)];
+    const std::int32_t to = first[static_cast<std::size_t>(block)];
     for (std::int64_t i = begin; i != end; ++i)
       out.begin[i] += to;
-    for (const Element& element : part) {
-      out.column[to] = element.column;
-      out.value[to++] = element.value;
-    }
+    std::copy(part.begin(), part.end(), out.items.begin() + to);
   });
   return out;
 }
@@ -126,9 +114,9 @@ Rows matrix_of_aggregates(const Rows& weights, const Array<float>& constant,
     double sum = 0, others = 0;
     for (std::int64_t i = aggregate_rows * a; i != end_of(a, aggregates, rows); ++i) {
       sum += constant[i] * constant[i];
-      for (std::int32_t k = weights.begin[i]; k != weights.begin[i + 1]; ++k) {
-        const std::int32_t j = weights.column[k], b = aggregate_of(j, aggregates);
-        const float value = weights.value[k] * constant[i] * constant[j];
+      for (const auto& [j, weight] : weights[i]) {
+        const std::int32_t b = aggregate_of(j, aggregates);
+        const float value = weight * constant[i] * constant[j];
         if (b == a) {
           sum -= value;
         } else {
@@ -152,9 +140,8 @@ void scale(const Array<double>& diagonal, Rows& weights, Array<double>& constant
       constant[a] *= root;
       for (std::int64_t i = aggregate_rows * a; i != end_of(a, aggregates, rows); ++i)
         columns[i] = static_cast<float>(columns[i] / root);
-      for (std::int32_t k = weights.begin[a]; k != weights.begin[a + 1]; ++k)
-        weights.value[k] =
-            static_cast<float>(weights.value[k] / (root * std::sqrt(diagonal[weights.column[k]])));
+      for (auto& [b, weight] : weights[a])
+        weight = static_cast<float>(weight / (root * std::sqrt(diagonal[b])));
     }
   });
 }
@@ -169,9 +156,9 @@ CALOTTE_VECTOR_WIDTHS void relax_from_zero(const Rows& w, std::int64_t begin, st
   std::fill(x + begin, x + end, Float4{});
   const auto relax_row = [&](std::int64_t i) {
     Float4 sum = right[i];
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k)
-      if (const std::int32_t j = w.column[k]; j >= begin && j < end) [[likely]]
-        sum += w.value[k] * x[j];
+    for (const auto [j, weight] : w[i])
+      if (j >= begin && j < end) [[likely]]
+        sum += weight * x[j];
     x[i] = sum;
   };
   for (std::int64_t i = begin; i != end; ++i)
@@ -185,8 +172,8 @@ CALOTTE_VECTOR_WIDTHS void set_residual(const Rows& w, std::int64_t begin, std::
                                         Column right, const Float4* x, Float4* residual) {
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = right[i] - x[i];
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k)
-      sum += w.value[k] * x[w.column[k]];
+    for (const auto [j, weight] : w[i])
+      sum += weight * x[j];
     residual[i] = sum;
   }
 }
@@ -197,10 +184,9 @@ CALOTTE_VECTOR_WIDTHS void relax(const Rows& w, std::int64_t begin, std::int64_t
   std::copy(x + begin, x + end, to + begin);
   const auto relax_row = [&](std::int64_t i) {
     Float4 sum = right[i];
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k) {
-      const std::int32_t j = w.column[k];
+    for (const auto [j, weight] : w[i]) {
       const Float4* const from = j >= begin && j < end ? to : x;
-      sum += w.value[k] * from[j];
+      sum += weight * from[j];
     }
     to[i] = sum;
   };
@@ -218,8 +204,8 @@ CALOTTE_VECTOR_WIDTHS void restrict_rows(const Rows& w, std::int64_t begin, std:
   total = Float4{};
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = {};
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k)
-      sum += w.value[k] * residual[w.column[k]];
+    for (const auto [j, weight] : w[i])
+      sum += weight * residual[j];
     total += constant[i] * ((1 - smoothing) * residual[i] + smoothing * sum);
   }
 }
@@ -230,10 +216,8 @@ CALOTTE_VECTOR_WIDTHS void prolong(const Rows& w, std::int64_t begin, std::int64
                                    std::int64_t aggregates, Float4* x) {
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = {};
-    for (std::int32_t k = w.begin[i]; k != w.begin[i + 1]; ++k) {
-      const std::int32_t j = w.column[k];
-      sum += (w.value[k] * constant[j]) * correction[aggregate_of(j, aggregates)];
-    }
+    for (const auto [j, weight] : w[i])
+      sum += (weight * constant[j]) * correction[aggregate_of(j, aggregates)];
     x[i] +=
         (1 - smoothing) * constant[i] * correction[aggregate_of(i, aggregates)] + smoothing * sum;
   }
@@ -260,9 +244,13 @@ Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
     weights = std::move(coarse);
   }
   coarsest_ = Vectors(weights.size());
-  factors_ = Cholesky({weights.begin.begin(), weights.begin.end()},
-                      {weights.column.begin(), weights.column.end()},
-                      {weights.value.begin(), weights.value.end()});
+  std::vector<std::int32_t> columns;
+  std::vector<float> values;
+  for (const auto& [column, value] : weights.items) {
+    columns.push_back(column);
+    values.push_back(value);
+  }
+  factors_ = Cholesky({weights.begin.begin(), weights.begin.end()}, columns, values);
 }
 
 void Multigrid::solve(Points3& vectors) {

@@ -105,15 +105,15 @@ private:
 class Snapper {
 public:
   explicit Snapper(const Rings& rings)
-      : rings_(rings), tree_(rings.arcs), cuts_(rings.arcs.size()) {
-    same_as_.resize(rings.arcs.size());
+      : rings_(rings), tree_(rings.arcs.items), cuts_(rings.arcs.items.size()) {
+    same_as_.resize(rings.arcs.items.size());
     std::iota(same_as_.begin(), same_as_.end(), 0);
   }
 
   /// False if no corner is near an edge elsewhere; or if a great part of the corners are near each
   /// other, which is no cut, and the search would be long.
   bool search() {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(rings_.arcs.size()); ++i) {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(rings_.arcs.items.size()); ++i) {
       compare(i);
       if (near_ > 1000 + 64 * std::int64_t{i})
         return false;
@@ -125,7 +125,7 @@ public:
   std::vector<WrittenRing> snapped(std::vector<WrittenRing> rings) {
     for (std::size_t r = 0; r < rings.size(); ++r) {
       rings[r].corners.clear();
-      for (std::int32_t e = rings_.begin[r]; e < rings_.begin[r + 1]; ++e)
+      for (std::int32_t e = rings_.arcs.begin[r]; e < rings_.arcs.begin[r + 1]; ++e)
         append(e, rings[r].corners);
       drop_repeated(rings[r].corners);
     }
@@ -135,12 +135,9 @@ public:
 private:
   /// The corner where an arc begins; corners and the arcs from them have the same indices.
   const Vec3& corner(std::int32_t i) const { return arc(i).from; }
-  const Arc& arc(std::int32_t e) const { return rings_.arcs[static_cast<std::size_t>(e)]; }
+  const Arc& arc(std::int32_t e) const { return rings_.arc(e); }
 
-  std::int32_t next(std::int32_t e) const {
-    const std::size_t ring = rings_.ring_of(e);
-    return e + 1 == rings_.begin[ring + 1] ? rings_.begin[ring] : e + 1;
-  }
+  std::int32_t next(std::int32_t e) const { return next_in_list(rings_.arcs, e); }
 
   static double square(const Vec3& a, const Vec3& b) { return dot(a - b, a - b); }
 
@@ -190,7 +187,7 @@ private:
   std::int64_t near_ = 0;                       ///< pairs of a corner and an edge
 };
 
-bool any_meet(const Rings& rings) { return first_meeting(rings, ArcTree(rings.arcs)) >= 0; }
+bool any_meet(const Rings& rings) { return first_meeting(rings, ArcTree(rings.arcs.items)) >= 0; }
 
 void require_corners(const WrittenRing& ring, std::int64_t number) {
   const std::size_t count = ring.corners.size();

@@ -61,7 +61,7 @@ Points3 without_loops(const Points3& ring) {
   Points3 result = ring;
   while (true) {
     const Rings rings = rings_of({result});
-    const auto met = meetings(rings, ArcTree(rings.arcs));
+    const auto met = meetings(rings, ArcTree(rings.arcs.items));
     if (met.empty())
       return result;
     const std::vector<bool> leave = corners_of_loops(result.cols(), met);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -87,98 +88,76 @@ std::int64_t Outline::strip(double y) const {
 /// Lists the edges of each strip. There are about as many strips as edges, or fewer if long edges
 /// pass through so many strips that the lists would be long.
 void Outline::make_strips() {
-  const auto edges = std::ssize(edges_);
+  const auto edges = std::ssize(edges_.items);
   constexpr std::int64_t most_strips = 1 << 16, listings = 64;
-  std::int64_t total = 0;
   for (strips_ = std::min(edges, most_strips);; strips_ /= 2) {
-    total = 0;
-    for (const Edge& edge : edges_)
+    std::int64_t total = 0;
+    for (const Edge& edge : edges_.items)
       total += strip(box_of(edge).high.y) - strip(box_of(edge).low.y) + 1;
     if (strips_ == 1 || total <= listings * edges)
       break;
   }
-  begin_.assign(static_cast<std::size_t>(strips_) + 1, 0);
-  const auto for_each_listing = [&](const auto& body) {
-    for (std::int64_t e = 0; e < edges; ++e) {
-      const Box2 own = box_of(edges_[static_cast<std::size_t>(e)]);
+  edges_in_ = lists_by_key<std::int32_t>(strips_, [&](const auto& put) {
+    for (std::int32_t e = 0; e < edges; ++e) {
+      const Box2 own = box_of(edge(e));
       for (std::int64_t s = strip(own.low.y); s <= strip(own.high.y); ++s)
-        body(static_cast<std::size_t>(s), static_cast<std::int32_t>(e));
+        put(s, e);
     }
-  };
-  for_each_listing([&](std::size_t s, std::int32_t) { ++begin_[s + 1]; });
-  for (std::size_t s = 1; s < begin_.size(); ++s)
-    begin_[s] += begin_[s - 1];
-  listed_.resize(static_cast<std::size_t>(total));
-  std::vector<std::int64_t> next = begin_;
-  for_each_listing(
-      [&](std::size_t s, std::int32_t e) { listed_[static_cast<std::size_t>(next[s]++)] = e; });
+  });
 }
 
 void Outline::require_simple() const {
-  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r)
-    for (std::int32_t e = ring_begin_[r]; e != ring_begin_[r + 1]; ++e) {
-      const Edge& edge = edges_[static_cast<std::size_t>(e)];
-      const std::int32_t last = ring_begin_[r + 1] - 1,
-                         following = e == last ? ring_begin_[r] : e + 1;
-      for_each_listed_near(box_of(edge), [&](std::int32_t f) {
-        const Edge& other = edges_[static_cast<std::size_t>(f)];
-        const std::int32_t after_f = ring_of(f) == r ? (f == last ? ring_begin_[r] : f + 1) : -1;
-        const bool bad = f == e           ? false
-                         : f == following ? fold(edge, other)
-                         : after_f == e   ? fold(other, edge)
-                                          : meet(edge, other);
-        if (bad)
-          refuse("the edges from " + name_of(e) + " and from " + name_of(f) +
-                     " meet; rings may neither cross nor touch themselves or each other",
-                 static_cast<std::int64_t>(r));
-      });
-    }
-}
-
-std::size_t Outline::ring_of(std::int32_t edge) const {
-  return static_cast<std::size_t>(std::upper_bound(ring_begin_.begin(), ring_begin_.end(), edge) -
-                                  ring_begin_.begin() - 1);
+  for (std::int32_t e = 0; e < std::ssize(edges_.items); ++e)
+    for_each_listed_near(box_of(edge(e)), [&](std::int32_t f) {
+      const bool bad = f == e                         ? false
+                       : f == next_in_list(edges_, e) ? fold(edge(e), edge(f))
+                       : next_in_list(edges_, f) == e ? fold(edge(f), edge(e))
+                                                      : meet(edge(e), edge(f));
+      if (bad)
+        refuse("the edges from " + name_of(e) + " and from " + name_of(f) +
+                   " meet; rings may neither cross nor touch themselves or each other",
+               list_of(edges_, e));
+    });
 }
 
 std::string Outline::name_of(std::int32_t edge) const {
-  const std::size_t ring = ring_of(edge);
-  return Name{static_cast<std::int64_t>(ring), edge - ring_begin_[ring]}.words();
+  const std::int64_t ring = list_of(edges_, edge);
+  return Name{ring, edge - edges_.begin[static_cast<std::size_t>(ring)]}.words();
 }
 
 /// Reverses the edges of rings that have the domain to their right.
 void Outline::orient() {
-  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
-    const auto begin = edges_.begin() + ring_begin_[r], end = edges_.begin() + ring_begin_[r + 1];
-    const Vec2 corner = begin->from;
+  for (std::int64_t r = 0; r < edges_.size(); ++r) {
+    const std::span<Edge> ring = edges_[r];
+    const Vec2 corner = ring.front().from;
     int around = 0; // number of rings that enclose this one, modulo 2
     for_each_listed_near({corner, {box_.high.x, corner.y}}, [&](std::int32_t e) {
-      around += ring_of(e) != r && crosses_ray(edges_[static_cast<std::size_t>(e)], corner);
+      around += list_of(edges_, e) != r && crosses_ray(edge(e), corner);
     });
     double twice_area = 0;
-    for (auto edge = begin; edge != end; ++edge)
-      twice_area += (edge->from.x - corner.x) * (edge->to.y - corner.y) -
-                    (edge->from.y - corner.y) * (edge->to.x - corner.x);
+    for (const Edge& edge : ring)
+      twice_area += (edge.from.x - corner.x) * (edge.to.y - corner.y) -
+                    (edge.from.y - corner.y) * (edge.to.x - corner.x);
     const bool outer = around % 2 == 0;
     if ((twice_area > 0) != outer)
-      for (auto edge = begin; edge != end; ++edge)
-        std::swap(edge->from, edge->to);
+      for (Edge& edge : ring)
+        std::swap(edge.from, edge.to);
     area_ += (outer ? 1 : -1) * std::abs(twice_area) / 2;
   }
 }
 
 Outline::Outline(const PlanarDomain& domain) {
-  ring_begin_.push_back(0);
   for (std::size_t r = 0; r < domain.rings.size(); ++r) {
     const DoubleMatrix& ring = domain.rings[r];
     require_ring(ring, static_cast<std::int64_t>(r));
     for (Eigen::Index i = 0; i < ring.cols(); ++i) {
       const Eigen::Vector2d from = ring.col(i), to = ring.col((i + 1) % ring.cols());
-      edges_.push_back({{from.x(), from.y()}, {to.x(), to.y()}});
+      edges_.items.push_back({{from.x(), from.y()}, {to.x(), to.y()}});
     }
-    ring_begin_.push_back(static_cast<std::int32_t>(edges_.size()));
+    edges_.begin.push_back(static_cast<std::int32_t>(edges_.items.size()));
   }
-  box_ = box_of(edges_.front());
-  for (const Edge& edge : edges_) {
+  box_ = box_of(edges_.items.front());
+  for (const Edge& edge : edges_.items) {
     const Box2 own = box_of(edge);
     box_ = {{std::min(box_.low.x, own.low.x), std::min(box_.low.y, own.low.y)},
             {std::max(box_.high.x, own.high.x), std::max(box_.high.y, own.high.y)}};
@@ -192,12 +171,12 @@ Outline::Outline(const PlanarDomain& domain) {
 
 std::vector<std::vector<Vec2>> Outline::rings() const {
   std::vector<std::vector<Vec2>> rings;
-  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
-    const auto begin = edges_.begin() + ring_begin_[r], end = edges_.begin() + ring_begin_[r + 1];
+  for (std::int64_t r = 0; r < edges_.size(); ++r) {
+    const std::span<const Edge> ring = edges_[r];
     std::vector<Vec2> corners;
-    for (auto edge = begin; edge != end; ++edge)
-      corners.push_back(edge->from);
-    if (compare(begin->to, (begin + 1)->from) != 0) // orient() turned the edges, not their order
+    for (const Edge& edge : ring)
+      corners.push_back(edge.from);
+    if (compare(ring[0].to, ring[1].from) != 0) // orient() turned the edges, not their order
       std::reverse(corners.begin(), corners.end());
     rings.push_back(std::move(corners));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/lists.h"
 #include "base/points.h"
 #include "domain/planar_domain.h"
 #include "domain/room.h"
@@ -34,7 +35,7 @@ public:
 
   const Box2& box() const { return box_; } ///< the least one around it
   double area() const { return area_; }
-  const std::vector<Edge>& edges() const { return edges_; } ///< ring by ring
+  const std::vector<Edge>& edges() const { return edges_.items; } ///< ring by ring
   /// The corners of each ring in the order that has the domain to the left.
   std::vector<std::vector<Vec2>> rings() const;
 
@@ -43,17 +44,15 @@ public:
 
   /// Calls body(edge) once for each edge whose bounding box meets a box.
   template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {
-    for_each_listed_near(box, [&](std::int32_t e) { body(edges_[static_cast<std::size_t>(e)]); });
+    for_each_listed_near(box, [&](std::int32_t e) { body(edge(e)); });
   }
 
 private:
   template <class Body> void for_each_listed_near(const Box2& box, const Body& body) const {
     const std::int64_t first = strip(box.low.y), last = strip(box.high.y);
     for (std::int64_t s = first; s <= last; ++s)
-      for (auto k = begin_[static_cast<std::size_t>(s)];
-           k != begin_[static_cast<std::size_t>(s + 1)]; ++k) {
-        const std::int32_t e = listed_[static_cast<std::size_t>(k)];
-        const Box2 own = box_of(edges_[static_cast<std::size_t>(e)]);
+      for (const std::int32_t e : edges_in_[s]) {
+        const Box2 own = box_of(edge(e));
         // An edge is reported in the first strip that it shares with the box.
         if (own.low.x <= box.high.x && own.high.x >= box.low.x && own.low.y <= box.high.y &&
             own.high.y >= box.low.y && s == std::max(first, strip(own.low.y)))
@@ -65,19 +64,17 @@ private:
             {std::max(edge.from.x, edge.to.x), std::max(edge.from.y, edge.to.y)}};
   }
   std::int64_t strip(double y) const; ///< clamped to those there are
-  std::size_t ring_of(std::int32_t edge) const;
+  const Edge& edge(std::int32_t e) const { return edges_.items[static_cast<std::size_t>(e)]; }
   std::string name_of(std::int32_t edge) const;
   void make_strips();
   void require_simple() const;
   void orient();
 
-  std::vector<Edge> edges_;
-  std::vector<std::int32_t> ring_begin_; ///< of edges; at the end their number
+  Lists<std::vector<Edge>, std::vector<std::int32_t>> edges_{{0}, {}}; ///< by ring
   Box2 box_{{0, 0}, {0, 0}};
   double area_ = 0;
   std::int64_t strips_ = 1;
-  std::vector<std::int64_t> begin_;
-  std::vector<std::int32_t> listed_;
+  Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> edges_in_; ///< by strip
 };
 
 /// \throws Error invalid_argument with the index of the first place outside the domain.

@@ -41,21 +41,15 @@ void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs)
     append_arc(corners, r, i, arcs);
 }
 
-/// The arc after one of its ring.
-std::int32_t next_of(const Rings& rings, std::int32_t arc) {
-  const std::size_t ring = rings.ring_of(arc);
-  return arc + 1 == rings.begin[ring + 1] ? rings.begin[ring] : arc + 1;
-}
-
 /// True if two arcs have more in common than rings allow.
 bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
-  const Arc &a = rings.arcs[static_cast<std::size_t>(e)],
-            &b = rings.arcs[static_cast<std::size_t>(f)];
+  const Arc &a = rings.arc(e), &b = rings.arc(f);
   if (e == f)
     return false;
-  if (f == next_of(rings, e)) // neighbours meet; not asked, as the answer is slow where it is exact
+  // Neighbours meet; that is not asked, as the answer is slow where it is exact.
+  if (f == next_in_list(rings.arcs, e))
     return fold(a, b);
-  return e == next_of(rings, f) ? fold(b, a) : meet(a, b);
+  return e == next_in_list(rings.arcs, f) ? fold(b, a) : meet(a, b);
 }
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
@@ -63,7 +57,7 @@ constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
 /// The first arc that conflicts with one, or none.
 std::int32_t first_conflict(const Rings& rings, const ArcTree& tree, std::int32_t e) {
   std::int32_t first = none;
-  const Box3 own = box_of(rings.arcs[static_cast<std::size_t>(e)]);
+  const Box3 own = box_of(rings.arc(e));
   tree.visit([&](const Box3& box) { return overlap(box, own); },
              [&](std::int32_t f) {
                if (f < first && conflict(rings, e, f))
@@ -78,14 +72,9 @@ void refuse_region(const std::string& what, std::int64_t ring) {
   throw Error(ErrorCode::invalid_argument, "the region: " + what, ring);
 }
 
-std::size_t Rings::ring_of(std::int32_t arc) const {
-  return static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), arc) -
-                                  begin.begin() - 1);
-}
-
 std::string Rings::name_of(std::int32_t arc) const {
-  const std::size_t ring = ring_of(arc);
-  return corner_name(static_cast<std::int64_t>(ring), arc - begin[ring]);
+  const std::int64_t ring = list_of(arcs, arc);
+  return corner_name(ring, arc - arcs.begin[static_cast<std::size_t>(ring)]);
 }
 
 void require_directions(const Points3& corners, std::int64_t r) {
@@ -98,22 +87,23 @@ void require_directions(const Points3& corners, std::int64_t r) {
 Rings rings_of(const std::vector<Points3>& corners) {
   Rings rings;
   for (std::size_t r = 0; r < corners.size(); ++r) {
-    append_ring(corners[r], static_cast<std::int64_t>(r), rings.arcs);
-    require_count(std::ssize(rings.arcs), 3, "the region's number of corners");
-    rings.begin.push_back(static_cast<std::int32_t>(rings.arcs.size()));
+    append_ring(corners[r], static_cast<std::int64_t>(r), rings.arcs.items);
+    require_count(std::ssize(rings.arcs.items), 3, "the region's number of corners");
+    rings.arcs.begin.push_back(static_cast<std::int32_t>(rings.arcs.items.size()));
   }
   return rings;
 }
 
 std::int64_t first_meeting(const Rings& rings, const ArcTree& tree) {
   FirstFault fault;
-  for_each_block(std::ssize(rings.arcs), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t e = begin; e != end; ++e)
-      if (first_conflict(rings, tree, static_cast<std::int32_t>(e)) != none) {
-        fault.at(e);
-        return;
-      }
-  });
+  for_each_block(std::ssize(rings.arcs.items),
+                 [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t e = begin; e != end; ++e)
+                     if (first_conflict(rings, tree, static_cast<std::int32_t>(e)) != none) {
+                       fault.at(e);
+                       return;
+                     }
+                 });
   return fault.index();
 }
 
@@ -125,12 +115,12 @@ const Rings& simple(const Rings& rings, const ArcTree& tree) {
   refuse_region("the edges from " + rings.name_of(e) + " and from " +
                     rings.name_of(first_conflict(rings, tree, e)) +
                     " meet; rings may neither cross nor touch themselves or each other",
-                static_cast<std::int64_t>(rings.ring_of(e)));
+                list_of(rings.arcs, e));
 }
 
 std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
                                                             const ArcTree& tree) {
-  std::vector<std::int32_t> first(rings.arcs.size());
+  std::vector<std::int32_t> first(rings.arcs.items.size());
   for_each_block(std::ssize(first), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e != end; ++e)
       first[static_cast<std::size_t>(e)] =

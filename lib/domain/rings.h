@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/lists.h"
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/room.h"
@@ -18,17 +19,17 @@ namespace calotte::domain_detail {
 
 /// Closed rings of arcs on the sphere, one after the other.
 struct Rings {
-  std::vector<Arc> arcs;
-  std::vector<std::int32_t> begin{0}; ///< of each ring's arcs; at the end their number
+  Lists<std::vector<Arc>, std::vector<std::int32_t>> arcs{{0}, {}};
 
-  std::size_t count() const { return begin.size() - 1; }
-  std::size_t ring_of(std::int32_t arc) const;
+  const Arc& arc(std::int32_t i) const { return arcs.items[static_cast<std::size_t>(i)]; }
 
   /// "ring 2, corner 5": where an arc begins.
   std::string name_of(std::int32_t arc) const;
 
   /// The first corner of a ring.
-  SideCells::Corner corner_of(std::size_t ring) const { return {begin[ring + 1] - 1, begin[ring]}; }
+  SideCells::Corner corner_of(std::size_t ring) const {
+    return {arcs.begin[ring + 1] - 1, arcs.begin[ring]};
+  }
 };
 
 /// \throws Error invalid_argument, naming ring and corner, for a corner that is no direction.

@@ -65,7 +65,7 @@ SideCells sides_of(const std::vector<WrittenRing>& rings) {
   require(!rings.empty(), "the rings bound nothing; give a ring with a region on one side");
   return with_origins(rings, [&] {
     const Rings arcs = rings_of(corners_of(rings));
-    return SideCells(simple(arcs, ArcTree(arcs.arcs)).arcs, arcs.corner_of(0));
+    return SideCells(simple(arcs, ArcTree(arcs.arcs.items)).arcs.items, arcs.corner_of(0));
   });
 }
 
@@ -133,8 +133,9 @@ std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings) {
   rings = joined(std::move(rings));
   const SideCells cells = sides_of(rings);
   std::vector<WrittenRing> left = turned(rings, cells, true);
-  return enclose_left(rings_of(corners_of(left)).arcs) ? left
-                                                       : turned(std::move(rings), cells, false);
+  return enclose_left(rings_of(corners_of(left)).arcs.items)
+             ? left
+             : turned(std::move(rings), cells, false);
 }
 
 std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place) {

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,10 @@ Vec3 place_at(const Arc& arc, double along) {
 /// the first again.
 class Walk {
 public:
-  Walk(const DemandedSpacing& spacing, const Arc* begin, const Arc* end) : spacing_(spacing) {
-    for (const Arc* arc = begin; arc != end; ++arc)
-      walk(*arc);
-    marks_.push_back({edges_, begin, 0, true});
+  Walk(const DemandedSpacing& spacing, std::span<const Arc> arcs) : spacing_(spacing) {
+    for (const Arc& arc : arcs)
+      walk(arc);
+    marks_.push_back({edges_, arcs.data(), 0, true});
   }
   std::vector<Mark> marks() { return std::move(marks_); }
 
@@ -80,8 +81,7 @@ private:
 
 /// The corners that generators keep, as indices of marks: the boundary turns there by 20 degrees or
 /// more, and two of them are two thirds of an edge or more apart. The sharper one goes first.
-std::vector<std::size_t> kept_corners(const std::vector<Mark>& marks, const Arc* begin,
-                                      const Arc* end) {
+std::vector<std::size_t> kept_corners(const std::vector<Mark>& marks, std::span<const Arc> arcs) {
   constexpr double straight = 0.94; // cosine of 20 degrees
   constexpr double apart = 2.0 / 3;
   struct Corner {
@@ -91,7 +91,7 @@ std::vector<std::size_t> kept_corners(const std::vector<Mark>& marks, const Arc*
   std::vector<Corner> corners;
   for (std::size_t k = 0; k + 1 < marks.size(); ++k)
     if (marks[k].corner) {
-      const Arc* before = marks[k].arc == begin ? end - 1 : marks[k].arc - 1;
+      const Arc* before = marks[k].arc == arcs.data() ? &arcs.back() : marks[k].arc - 1;
       const double cosine = dot(left_of(*before), left_of(*marks[k].arc));
       if (cosine < straight)
         corners.push_back({cosine, k});
@@ -181,10 +181,8 @@ void add_ring(const std::vector<Mark>& marks, std::vector<std::size_t> corners,
 /// Marks of all rings.
 std::vector<std::vector<Mark>> walk_all(const Rings& rings, const DemandedSpacing& spacing) {
   std::vector<std::vector<Mark>> all;
-  for (std::size_t r = 0; r < rings.count(); ++r)
-    all.push_back(
-        Walk(spacing, rings.arcs.data() + rings.begin[r], rings.arcs.data() + rings.begin[r + 1])
-            .marks());
+  for (std::int64_t r = 0; r < rings.arcs.size(); ++r)
+    all.push_back(Walk(spacing, rings.arcs[r]).marks());
   return all;
 }
 
@@ -218,10 +216,8 @@ Points3 boundary_points(const Surface& surface, std::int64_t cells, const Densit
   for (std::size_t r = 0; r < all.size(); ++r) {
     require(all[r].back().edges > 0, "the density is zero along ring " + std::to_string(r) +
                                          " of the boundary; make it positive");
-    add_ring(all[r],
-             kept_corners(all[r], rings.arcs.data() + rings.begin[r],
-                          rings.arcs.data() + rings.begin[r + 1]),
-             outline, places);
+    add_ring(all[r], kept_corners(all[r], rings.arcs[static_cast<std::int64_t>(r)]), outline,
+             places);
   }
   require(std::ssize(places) < cells, "the boundary takes " + std::to_string(places.size()) +
                                           " of the " + std::to_string(cells) +

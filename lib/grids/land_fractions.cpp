@@ -8,11 +8,13 @@
 #include "curve/hilbert.h"
 #include "grids/room.h"
 #include "voronoi/cell_walk.h"
+#include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -94,7 +96,7 @@ public:
 
   void trace(const Arc& arc) {
     Vec3 from = arc.from;
-    cell_ = walk_.walk(cell_, arc, [&](std::int32_t cell, std::int64_t k) {
+    cell_ = walk_.walk(cell_, arc, [&](std::int32_t cell, std::size_t k) {
       const Vec3 place = cross_edge(cell, k, arc);
       add_piece(cell, from, place);
       from = place;
@@ -110,8 +112,8 @@ private:
   }
 
   /// The arc leaves the cell, so that the edge, counter-clockwise, passes to its left.
-  Vec3 cross_edge(std::int32_t cell, std::int64_t k, const Arc& arc) {
-    const std::int32_t a = walk_.start(cell, k), b = walk_.end(k);
+  Vec3 cross_edge(std::int32_t cell, std::size_t k, const Arc& arc) {
+    const std::int32_t a = start_of(cells_, cell, k), b = cells_.vertices_on_cell[cell][k];
     const Vec3 &low = column(cells_.vertices, std::min(a, b)),
                &high = column(cells_.vertices, std::max(a, b));
     const Vec3 normal = cross(low, high - low);
@@ -120,7 +122,7 @@ private:
     const double part = ratio >= 0 && ratio <= 1 ? ratio : ratio > 1 ? 1 : 0;
     const Vec3 place = normalised(arc.from + part * (arc.to - arc.from));
     out_.crossings.push_back(
-        {cells_.edges_on_cell[k], a < b ? 1 : -1, dot(place - low, high - low), place});
+        {cells_.edges_on_cell[cell][k], a < b ? 1 : -1, dot(place - low, high - low), place});
     return place;
   }
 
@@ -154,64 +156,57 @@ Traces traces_of(const Voronoi& cells, const Arcs& arcs) {
 
 // ---- Numbers of areas of land
 
-/// The crossings by edge, along it.
-struct EdgeCrossings {
-  std::vector<Crossing> all;
-  std::vector<std::int64_t> begin; ///< by edge, and one more
+/// The crossings of each edge, along it.
+using EdgeCrossings = Lists<std::vector<Crossing>, std::vector<std::int64_t>>;
 
-  EdgeCrossings(std::vector<Crossing> crossings, std::int64_t edges) : all(std::move(crossings)) {
-    sort_in_groups(
-        edges, [](const Crossing& c) { return c.edge; },
-        [](const Crossing& a, const Crossing& b) {
-          return std::tie(a.along, a.change, a.place.x, a.place.y, a.place.z) <
-                 std::tie(b.along, b.change, b.place.x, b.place.y, b.place.z);
-        },
-        all);
-    begin.resize(static_cast<std::size_t>(edges) + 1);
-    for (const Crossing& crossing : all)
-      ++begin[static_cast<std::size_t>(crossing.edge) + 1];
-    for (std::size_t e = 1; e < begin.size(); ++e)
-      begin[e] += begin[e - 1];
-  }
-  std::int64_t first(std::int32_t edge) const { return begin[static_cast<std::size_t>(edge)]; }
-  std::int64_t last(std::int32_t edge) const { return begin[static_cast<std::size_t>(edge) + 1]; }
-  std::int32_t change(std::int32_t edge) const {
-    std::int32_t sum = 0;
-    for (std::int64_t k = first(edge); k < last(edge); ++k)
-      sum += all[static_cast<std::size_t>(k)].change;
-    return sum;
-  }
-};
+EdgeCrossings by_edge(std::vector<Crossing> crossings, std::int64_t edges) {
+  EdgeCrossings out;
+  out.items = std::move(crossings);
+  out.begin = sort_in_groups(
+      edges, [](const Crossing& c) { return c.edge; },
+      [](const Crossing& a, const Crossing& b) {
+        return std::tie(a.along, a.change, a.place.x, a.place.y, a.place.z) <
+               std::tie(b.along, b.change, b.place.x, b.place.y, b.place.z);
+      },
+      out.items);
+  return out;
+}
+
+/// Along all of an edge.
+std::int32_t change_along(std::span<const Crossing> edge) {
+  std::int32_t sum = 0;
+  for (const Crossing& crossing : edge)
+    sum += crossing.change;
+  return sum;
+}
 
 constexpr std::int32_t unknown = INT32_MIN;
 
 /// By vertex: the number of areas of land there, less that at one of them.
 std::vector<std::int32_t> counts_at_vertices(const Voronoi& cells, const EdgeCrossings& crossings) {
-  const CellWalk walk(cells);
   std::vector<std::int32_t> counts(static_cast<std::size_t>(cells.vertices.cols()), unknown);
   const auto at = [&](std::int32_t v) -> std::int32_t& {
     return counts[static_cast<std::size_t>(v)];
   };
   std::vector<bool> seen(static_cast<std::size_t>(cells.cells.cols()));
   std::vector<std::int32_t> queue{0};
-  at(cells.vertices_on_cell[cells.begin[1] - 1]) = 0;
+  at(cells.vertices_on_cell[0].back()) = 0;
   seen[0] = true;
   while (!queue.empty()) {
     const std::int32_t cell = queue.back();
     queue.pop_back();
-    std::int64_t known = cells.begin[cell];
-    while (at(walk.end(known)) == unknown)
+    const std::span<const std::int32_t> vertices = cells.vertices_on_cell[cell];
+    std::size_t known = 0;
+    while (at(vertices[known]) == unknown)
       ++known;
-    const std::int64_t first = cells.begin[cell], count = cells.begin[cell + 1] - first;
-    for (std::int64_t step = 1; step < count; ++step) {
-      const std::int64_t k = first + (known - first + step) % count;
-      const std::int32_t a = walk.start(cell, k), b = walk.end(k),
-                         change = crossings.change(cells.edges_on_cell[k]);
+    for (std::size_t step = 1; step < vertices.size(); ++step) {
+      const std::size_t k = (known + step) % vertices.size();
+      const std::int32_t a = start_of(cells, cell, k), b = vertices[k],
+                         change = change_along(crossings[cells.edges_on_cell[cell][k]]);
       at(b) = at(a) + (a < b ? change : -change);
     }
-    for (std::int64_t k = first; k < first + count; ++k)
-      if (const std::int32_t other = cells.cells_on_cell[k];
-          other >= 0 && !seen[static_cast<std::size_t>(other)]) {
+    for (const std::int32_t other : cells.cells_on_cell[cell])
+      if (other >= 0 && !seen[static_cast<std::size_t>(other)]) {
         seen[static_cast<std::size_t>(other)] = true;
         queue.push_back(other);
       }
@@ -223,10 +218,9 @@ std::vector<std::int32_t> counts_at_vertices(const Voronoi& cells, const EdgeCro
 
 /// The triangles from a cell's generator to the parts of an edge, times the numbers of land there.
 double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
-                  const std::vector<std::int32_t>& counts, std::int32_t cell, std::int64_t k) {
-  const CellWalk walk(cells);
-  const std::int32_t a = walk.start(cell, k), b = walk.end(k), low = std::min(a, b),
-                     edge = cells.edges_on_cell[k];
+                  const std::vector<std::int32_t>& counts, std::int32_t cell, std::size_t k) {
+  const std::int32_t a = start_of(cells, cell, k), b = cells.vertices_on_cell[cell][k],
+                     low = std::min(a, b);
   const Vec3& generator = column(cells.cells, cell);
   std::int32_t count = counts[static_cast<std::size_t>(low)];
   const Vec3* from = &column(cells.vertices, low);
@@ -236,8 +230,7 @@ double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
       area += count * triangle_area(generator, *from, to);
     from = &to;
   };
-  for (std::int64_t c = crossings.first(edge); c < crossings.last(edge); ++c) {
-    const Crossing& crossing = crossings.all[static_cast<std::size_t>(c)];
+  for (const Crossing& crossing : crossings[cells.edges_on_cell[cell][k]]) {
     add(crossing.place);
     count += crossing.change;
   }
@@ -252,16 +245,17 @@ struct CellAreas {
 CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
                    std::vector<Piece> pieces) {
   const std::vector<std::int32_t> counts = counts_at_vertices(cells, crossings);
-  const CellWalk walk(cells);
   const std::int64_t n = cells.cells.cols();
   CellAreas areas{DoubleVector(n), DoubleVector(n)};
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i < end; ++i) {
       double land = 0, whole = 0;
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
+      const std::span<const std::int32_t> vertices = cells.vertices_on_cell[i];
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
         land += land_along(cells, crossings, counts, i, k);
-        whole += triangle_area(column(cells.cells, i), column(cells.vertices, walk.start(i, k)),
-                               column(cells.vertices, walk.end(k)));
+        whole +=
+            triangle_area(column(cells.cells, i), column(cells.vertices, start_of(cells, i, k)),
+                          column(cells.vertices, vertices[k]));
       }
       areas.land[i] = land;
       areas.whole[i] = whole;
@@ -292,7 +286,8 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
   using namespace grids_detail;
   Traces traces = traces_of(cells, arcs_of(coast));
-  const EdgeCrossings crossings(std::move(traces.crossings), cells.edges_on_cell.maxCoeff() + 1);
+  const EdgeCrossings crossings =
+      by_edge(std::move(traces.crossings), cells.edges_on_cell.items.maxCoeff() + 1);
   return fractions_of(areas_of(cells, crossings, std::move(traces.pieces)), coast.area);
 }
 
@@ -310,8 +305,8 @@ std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector
       const Vec3 next = turned(column(line, k));
       if (next.x == here.x && next.y == here.y && next.z == here.z)
         continue;
-      cell = walk.walk(cell, {here, next}, [&](std::int32_t, std::int64_t place) {
-        found.push_back(cells.cells_on_cell[place]);
+      cell = walk.walk(cell, {here, next}, [&](std::int32_t left, std::size_t place) {
+        found.push_back(cells.cells_on_cell[left][place]);
       });
       here = next;
     }

@@ -17,13 +17,13 @@ using base_detail::require;
 constexpr std::int32_t none = -1;
 
 /// The cells that are neighbours of a ring and in none.
-std::vector<std::int32_t> next_ring(const Offsets& begin, const Ids& cells_on_cell,
+std::vector<std::int32_t> next_ring(const IdLists& cells_on_cell,
                                     const std::vector<std::int32_t>& ring, std::int32_t number,
                                     Ids& mask) {
   std::vector<std::int32_t> next;
   for (const std::int32_t cell : ring)
-    for (std::int64_t k = begin[cell]; k != begin[cell + 1]; ++k)
-      if (const std::int32_t other = cells_on_cell[k]; other >= 0 && mask[other] == none) {
+    for (const std::int32_t other : cells_on_cell[cell])
+      if (other >= 0 && mask[other] == none) {
         mask[other] = number;
         next.push_back(other);
       }
@@ -31,38 +31,37 @@ std::vector<std::int32_t> next_ring(const Offsets& begin, const Ids& cells_on_ce
 }
 
 /// Whether a cell has fewer than two selected neighbours.
-bool is_loose(const Offsets& begin, const Ids& cells_on_cell, const Ids& mask, std::int32_t cell) {
+bool is_loose(const IdLists& cells_on_cell, const Ids& mask, std::int32_t cell) {
   int neighbours = 0;
-  for (std::int64_t k = begin[cell]; k != begin[cell + 1] && neighbours < 2; ++k)
-    neighbours += cells_on_cell[k] >= 0 && mask[cells_on_cell[k]] >= 0;
+  for (const std::int32_t other : cells_on_cell[cell])
+    neighbours += other >= 0 && mask[other] >= 0;
   return neighbours < 2;
 }
 
 /// Removes cells that have fewer than two selected neighbours, until there are none.
-void remove_loose(const Offsets& begin, const Ids& cells_on_cell, Ids& mask) {
+void remove_loose(const IdLists& cells_on_cell, Ids& mask) {
   std::vector<std::int32_t> loose;
   for (std::int32_t cell = 0; cell < mask.size(); ++cell)
-    if (mask[cell] >= 0 && is_loose(begin, cells_on_cell, mask, cell))
+    if (mask[cell] >= 0 && is_loose(cells_on_cell, mask, cell))
       loose.push_back(cell);
   while (!loose.empty()) {
     const std::int32_t cell = loose.back();
     loose.pop_back();
     mask[cell] = none;
-    for (std::int64_t k = begin[cell]; k != begin[cell + 1]; ++k)
-      if (const std::int32_t other = cells_on_cell[k];
-          other >= 0 && mask[other] >= 0 && is_loose(begin, cells_on_cell, mask, other))
+    for (const std::int32_t other : cells_on_cell[cell])
+      if (other >= 0 && mask[other] >= 0 && is_loose(cells_on_cell, mask, other))
         loose.push_back(other);
   }
 }
 
 } // namespace
 
-Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
-                      const std::vector<std::uint8_t>& inside, int rings) {
+Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& inside,
+                      int rings) {
   require(rings >= 0 && rings <= limited_area_rings,
           "the number of rings is " + std::to_string(rings) + "; give one from 0 to " +
               std::to_string(limited_area_rings));
-  const std::int64_t cells = begin.size() - 1;
+  const std::int64_t cells = cells_on_cell.size();
   Ids mask = Ids::Constant(cells, none);
   std::vector<std::int32_t> ring;
   for (std::int32_t i = 0; i < cells; ++i)
@@ -74,26 +73,26 @@ Ids limited_area_mask(const Offsets& begin, const Ids& cells_on_cell,
                              " cells has its generator in the region; give a larger region or a "
                              "finer mesh");
   for (int k = 1; k <= rings; ++k)
-    ring = next_ring(begin, cells_on_cell, ring, k, mask);
-  const bool open = std::any_of(cells_on_cell.begin(), cells_on_cell.end(),
+    ring = next_ring(cells_on_cell, ring, k, mask);
+  const bool open = std::any_of(cells_on_cell.items.begin(), cells_on_cell.items.end(),
                                 [](std::int32_t cell) { return cell < 0; });
   require(open || mask.minCoeff() == none,
           "the region and its " + std::to_string(rings) + " rings hold all " +
               std::to_string(cells) +
               " cells, so that there is no boundary; give a smaller "
               "region, fewer rings or a finer mesh");
-  remove_loose(begin, cells_on_cell, mask);
+  remove_loose(cells_on_cell, mask);
   require(mask.maxCoeff() >= 0, "no cell of the region has two neighbours in it; give a larger "
                                 "region or a finer mesh");
   return mask;
 }
 
-Ids least_mask(const Offsets& begin, const Ids& ids, const Ids& mask, std::int64_t count) {
+Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count) {
   Ids least = Ids::Constant(count, none);
   for (std::int64_t i = 0; i < mask.size(); ++i)
-    for (std::int64_t k = begin[i]; mask[i] >= 0 && k != begin[i + 1]; ++k)
-      if (ids[k] >= 0 && (least[ids[k]] < 0 || mask[i] < least[ids[k]]))
-        least[ids[k]] = mask[i];
+    for (const std::int32_t id : on_cell[i])
+      if (id >= 0 && mask[i] >= 0 && (least[id] < 0 || mask[i] < least[id]))
+        least[id] = mask[i];
   return least;
 }
 

@@ -163,12 +163,12 @@ void choose_start(Recipe& recipe) {
 /// A number of cells that widths imply, within what a grid can have.
 /// \param where " in the region", or "".
 double within_range(double implied, double least, const std::string& where = "") {
-  constexpr double most = 1 << 30;
   const double cells = std::round(implied);
-  require(cells >= least && cells <= most,
+  require(cells >= least && cells <= double(most_points),
           "the widths require " + base_detail::shortly(implied) + " cells" + where +
-              ", but a grid has " + base_detail::shortly(least) +
-              " to 1073741824; give other widths" + (where.empty() ? "" : " or a larger region"));
+              ", but a grid has " + base_detail::shortly(least) + " to " +
+              std::to_string(most_points) + "; give other widths" +
+              (where.empty() ? "" : " or a larger region"));
   return cells;
 }
 
@@ -176,11 +176,10 @@ double within_range(double implied, double least, const std::string& where = "")
 std::int64_t reachable(const Recipe& recipe, double implied) {
   if (recipe.density.uniform())
     return geodesic_count(implied);
-  constexpr std::int64_t coarsest = 642; // see Start::Kind::continuation
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
   while (recipe.start.kind == Start::Kind::continuation &&
-         (cells - 2) / (4 * parts) >= coarsest - 2)
+         (cells - 2) / (4 * parts) >= fewest_graded - 2)
     parts *= 4;
   return (cells - 2 + parts / 2) / parts * parts + 2;
 }
@@ -203,7 +202,7 @@ double cells_in_part(const Recipe& recipe, const Surface& asked, double implied)
                 boundary_points(recipe.surface, static_cast<std::int64_t>(cells), recipe.density)
                     .cols() /
                 2);
-  return std::min(cells, double(1 << 30));
+  return std::min(cells, double(most_points));
 }
 
 /// Sets the number of cells where it follows from widths. \returns what they imply.

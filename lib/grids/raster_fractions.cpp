@@ -8,6 +8,7 @@
 #include "base/spherical_triangle.h"
 #include "grids/room.h"
 #include "voronoi/cell_walk.h"
+#include "voronoi/connectivity.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 // Each node of the raster stands for the rectangle between the middles to its neighbours. A
@@ -94,9 +96,10 @@ private:
     constexpr double part = 0.99;
     const Vec3& generator = column(cells_.cells, i);
     double nearest = std::numeric_limits<double>::infinity(), area = 0;
-    for (std::int64_t k = cells_.begin[i]; k < cells_.begin[i + 1]; ++k) {
-      const Vec3 &from = column(cells_.vertices, walk_.start(i, k)),
-                 &to = column(cells_.vertices, walk_.end(k));
+    const std::span<const std::int32_t> vertices = cells_.vertices_on_cell[i];
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Vec3 &from = column(cells_.vertices, voronoi_detail::start_of(cells_, i, k)),
+                 &to = column(cells_.vertices, vertices[k]);
       const Vec3 normal = cross(from, to - from);
       nearest = std::min(nearest, dot(normal, generator) / std::sqrt(dot(normal, normal)));
       area += triangle_area(generator, from, to);

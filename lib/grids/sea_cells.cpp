@@ -27,11 +27,11 @@ std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids
 }
 
 /// Makes land of cells of the sea with fewer than two neighbours in it. \returns their number.
-std::int64_t fill(const Offsets& begin, const Ids& cells_on_cell, Ids& of_cell) {
+std::int64_t fill(const IdLists& cells_on_cell, Ids& of_cell) {
   const auto is_dead_end = [&](std::int32_t cell) {
     int neighbours = 0;
-    for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
-      neighbours += cells_on_cell[k] >= 0 && of_cell[cells_on_cell[k]] == sea;
+    for (const std::int32_t other : cells_on_cell[cell])
+      neighbours += other >= 0 && of_cell[other] == sea;
     return of_cell[cell] == sea && neighbours < 2;
   };
   std::vector<std::int32_t> ends;
@@ -44,9 +44,9 @@ std::int64_t fill(const Offsets& begin, const Ids& cells_on_cell, Ids& of_cell) 
     ends.pop_back();
     filled += of_cell[cell] == sea;
     of_cell[cell] = land;
-    for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
-      if (cells_on_cell[k] >= 0 && is_dead_end(cells_on_cell[k]))
-        ends.push_back(cells_on_cell[k]);
+    for (const std::int32_t other : cells_on_cell[cell])
+      if (other >= 0 && is_dead_end(other))
+        ends.push_back(other);
   }
   return filled;
 }
@@ -57,7 +57,7 @@ struct Parts {
   std::vector<std::int64_t> size; ///< cells of each
 };
 
-Parts parts_of(const Offsets& begin, const Ids& cells_on_cell, const Ids& of_cell) {
+Parts parts_of(const IdLists& cells_on_cell, const Ids& of_cell) {
   Parts parts{Ids::Constant(of_cell.size(), -1), {}};
   std::vector<std::int32_t> stack;
   for (std::int32_t first = 0; first < of_cell.size(); ++first) {
@@ -71,9 +71,8 @@ Parts parts_of(const Offsets& begin, const Ids& cells_on_cell, const Ids& of_cel
       const std::int32_t cell = stack.back();
       stack.pop_back();
       ++parts.size.back();
-      for (std::int64_t k = begin[cell]; k < begin[cell + 1]; ++k)
-        if (const std::int32_t other = cells_on_cell[k];
-            other >= 0 && of_cell[other] == sea && parts.of_cell[other] < 0) {
+      for (const std::int32_t other : cells_on_cell[cell])
+        if (other >= 0 && of_cell[other] == sea && parts.of_cell[other] < 0) {
           parts.of_cell[other] = part;
           stack.push_back(other);
         }
@@ -99,17 +98,17 @@ std::vector<bool> kept_parts(const Parts& parts, const std::vector<std::int32_t>
 
 } // namespace
 
-SeaCells sea_cells(const Offsets& begin, const Ids& cells_on_cell,
-                   const std::vector<std::uint8_t>& is_land, const SeaOptions& options) {
-  Ids of_cell(begin.size() - 1);
+SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& is_land,
+                   const SeaOptions& options) {
+  Ids of_cell(cells_on_cell.size());
   for (std::int64_t i = 0; i < of_cell.size(); ++i)
     of_cell[i] = is_land[static_cast<std::size_t>(i)] != 0 ? land : sea;
   SeaReport counts;
   counts.closed = set(options.closed, land, of_cell);
   counts.opened = set(options.opened, sea, of_cell);
   if (options.fill)
-    counts.filled = fill(begin, cells_on_cell, of_cell);
-  const Parts parts = parts_of(begin, cells_on_cell, of_cell);
+    counts.filled = fill(cells_on_cell, of_cell);
+  const Parts parts = parts_of(cells_on_cell, of_cell);
   require(!parts.size.empty(), "no cell is sea; check the land");
   const std::vector<bool> kept = kept_parts(parts, options.seeds);
   counts.parts = std::ssize(parts.size);

@@ -22,9 +22,6 @@ namespace {
 using base_detail::require;
 using base_detail::with_z;
 
-/// Below that a grid of a density that is not uniform does not resolve it.
-constexpr std::int64_t fewest_graded = 642;
-
 /// With fewer, cells of five neighbours are so near to each other that a descent may change the
 /// neighbours of cells.
 constexpr std::int64_t fewest_geodesic = 150;

@@ -9,6 +9,10 @@
 
 namespace calotte::grids_detail {
 
+/// Below that a grid of a density that is not uniform does not resolve it; the first level of
+/// Start::Kind::continuation has as many cells or more.
+inline constexpr std::int64_t fewest_graded = 642;
+
 /// The first level of a run, from which bisections lead to the last.
 struct FirstLevel {
   Start::Kind kind = Start::Kind::density; ///< of its points

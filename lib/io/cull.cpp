@@ -36,7 +36,7 @@ void require_options(const CullOptions& options) {
 /// Coasts and rasters are followed from cell to cell all around the sphere.
 /// \throws Error invalid_argument, for a part of the sphere.
 void require_global(const MpasSource& source, const Voronoi& cells) {
-  if (cells.cells_on_cell.minCoeff() < 0)
+  if (cells.cells_on_cell.items.minCoeff() < 0)
     throw Error(
         ErrorCode::invalid_argument,
         source.netcdf().reader().path() +
@@ -47,21 +47,18 @@ void require_global(const MpasSource& source, const Voronoi& cells) {
 
 /// The cells of the source, as far as options need them.
 struct Ground {
-  Offsets begin;
-  Ids cells_on_cell;
+  IdLists cells_on_cell;
   std::optional<Voronoi> cells; ///< for coasts, rasters and lines
 };
 
 Ground ground_of(const MpasSource& source, const CullOptions& options) {
   if (options.coast.rings.empty() && options.raster.land.size() == 0 && options.passages.empty() &&
-      options.barriers.empty() && options.seeds.cols() == 0) {
-    const Offsets begin = source.begins();
-    return {begin, source.lists("cellsOnCell", begin, source.cells()), {}};
-  }
+      options.barriers.empty() && options.seeds.cols() == 0)
+    return {source.lists("cellsOnCell", source.cells()), {}};
   Voronoi cells = tessellation_of(source);
   if (!options.coast.rings.empty() || options.raster.land.size() > 0)
     require_global(source, cells);
-  return {cells.begin, cells.cells_on_cell, std::move(cells)};
+  return {cells.cells_on_cell, std::move(cells)};
 }
 
 /// The fractions of land by the coast or the raster, of both the greater; empty without these.
@@ -82,7 +79,7 @@ struct Land {
 };
 
 Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
-  const std::int64_t n = ground.begin.size() - 1;
+  const std::int64_t n = ground.cells_on_cell.size();
   Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0),
             fractions_of(ground, options)};
   const SeaField& field = options.field;
@@ -245,7 +242,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   CullReport report;
   report.land = std::count(land.flags.begin(), land.flags.end(), 1);
   const SeaCells decided =
-      sea_cells(ground.begin, ground.cells_on_cell, land.flags, sea_options(ground, options));
+      sea_cells(ground.cells_on_cell, land.flags, sea_options(ground, options));
   const Ids& sea = decided.mask;
   report.sea = decided.report;
   require_passages(ground, land, sea, options);

@@ -26,8 +26,7 @@ std::vector<std::uint8_t> flags_of(const Points3& places,
 
 Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
             int rings) {
-  const Offsets begin = source.begins();
-  return limited_area_mask(begin, source.lists("cellsOnCell", begin, source.cells()),
+  return limited_area_mask(source.lists("cellsOnCell", source.cells()),
                            flags_of(source.places(), inside), rings);
 }
 
@@ -40,9 +39,8 @@ Masks masks_of(const MpasPart& part, const Ids& of_all) {
   Masks masks{Ids(part.cells.count()), {}, {}};
   for (std::int64_t i = 0; i < part.cells.count(); ++i)
     masks.cells[i] = of_all[part.cells.old[i]];
-  masks.edges = least_mask(part.begin, part.edges_on_cell, masks.cells, part.edges.count());
-  masks.vertices =
-      least_mask(part.begin, part.vertices_on_cell, masks.cells, part.vertices.count());
+  masks.edges = least_mask(part.edges_on_cell, masks.cells, part.edges.count());
+  masks.vertices = least_mask(part.vertices_on_cell, masks.cells, part.vertices.count());
   return masks;
 }
 

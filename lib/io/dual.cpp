@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -54,12 +55,12 @@ Dual dual_of(const Polygons& polygons, std::int64_t corners) {
   Array<std::array<AtCorner, 3>> at(corners); // filled below before it is read
   std::vector<std::uint8_t> count(static_cast<std::size_t>(corners));
   for (std::int32_t i = 0; i < polygons.size(); ++i) {
-    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
-    for (std::int64_t k = begin; k != end; ++k) {
-      const auto corner = static_cast<std::size_t>(polygons.ids[k]);
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const auto corner = static_cast<std::size_t>(ids[k]);
       if (count[corner] < 3)
-        at[polygons.ids[k]][count[corner]] = {i, polygons.ids[k == begin ? end - 1 : k - 1],
-                                              polygons.ids[k + 1 == end ? begin : k + 1]};
+        at[ids[k]][count[corner]] = {i, k == 0 ? ids.back() : ids[k - 1],
+                                     k + 1 == ids.size() ? ids[0] : ids[k + 1]};
       count[corner] = std::min<std::uint8_t>(count[corner], 3) + 1;
     }
   }

@@ -31,7 +31,7 @@ void add_elements(GridFile& file, const Polygons& cells, int elements) {
   const NetcdfAttributes attributes{{"units", unit},
                                     {"long_name", std::string("number of nodes of the element")}};
   const auto count = [&cells](std::int64_t cell, std::int64_t /*k*/) {
-    return static_cast<std::int32_t>(cells.begin[cell + 1] - cells.begin[cell]);
+    return static_cast<std::int32_t>(cells.ids.count(cell));
   };
   // The manual's type is too small for the cell of a pole among many meridians.
   if (most <= std::numeric_limits<std::int8_t>::max())
@@ -69,10 +69,10 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
                      most = file.shape_of("elementConn")[1];
   const std::vector<std::int32_t> counts = file.ints("numElementConn", {elements});
   const std::int64_t start = file.start_index("elementConn", 1);
-  Polygons polygons{std::move(nodes), {}, {}, std::move(centres)};
-  polygons.begin.resize(elements + 1);
-  polygons.begin[0] = 0;
-  polygons.ids.resize(std::ssize(all));
+  Polygons polygons{
+      std::move(nodes), {Offsets(elements + 1), Ids(std::ssize(all))}, std::move(centres)};
+  auto& [begin, ids] = polygons.ids;
+  begin[0] = 0;
   const auto fail = [&](std::int64_t element, const std::string& problem) {
     file.fail("element " + std::to_string(element) + " (0-based) " + problem +
               "; make the file again");
@@ -87,11 +87,11 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
         fail(i, "has node " + std::to_string(id + start) + " in elementConn, which is not one of " +
                     std::to_string(polygons.corners.cols()) + " from " + std::to_string(start) +
                     " on");
-      polygons.ids[polygons.begin[i] + k] = static_cast<std::int32_t>(id);
+      ids[begin[i] + k] = static_cast<std::int32_t>(id);
     }
-    polygons.begin[i + 1] = polygons.begin[i] + count;
+    begin[i + 1] = begin[i] + count;
   }
-  polygons.ids.conservativeResize(polygons.begin[elements]);
+  ids.conservativeResize(begin[elements]);
   return polygons;
 }
 

@@ -62,8 +62,8 @@ public:
 
   Polygons polygons(Points3 nodes) const {
     return {std::move(nodes),
-            Eigen::Map<const Offsets>(begin_.data(), std::ssize(begin_)),
-            Eigen::Map<const Ids>(ids_.data(), std::ssize(ids_)),
+            {Eigen::Map<const Offsets>(begin_.data(), std::ssize(begin_)),
+             Eigen::Map<const Ids>(ids_.data(), std::ssize(ids_))},
             {}};
   }
 
@@ -94,7 +94,7 @@ private:
 
 bool all_triangles(const Polygons& polygons) {
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    if (polygons.begin[i + 1] - polygons.begin[i] != 3)
+    if (polygons.ids.count(i) != 3)
       return false;
   return true;
 }
@@ -163,7 +163,7 @@ RawMesh read_exodus(const NetcdfReader& file, FieldChoice choice) {
   raw.polygons = elements.polygons(std::move(nodes));
   if (all_triangles(raw.polygons)) {
     raw.points = std::move(raw.polygons.corners);
-    raw.triangles = raw.polygons.ids.reshaped(3, raw.polygons.size());
+    raw.triangles = raw.polygons.ids.items.reshaped(3, raw.polygons.size());
     raw.polygons = {};
     std::swap(names.cells, names.vertices);
   } else {

@@ -17,16 +17,15 @@ using namespace io_detail;
 /// boundaries pass a corner.
 std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
   const Sides sides(polygons);
-  std::vector<std::int32_t> next(static_cast<std::size_t>(sides.nodes()), -1);
-  for (std::int32_t from = 0; from < sides.nodes(); ++from)
-    for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k) {
-      const std::int32_t to = sides.list[k].to;
-      if (sides.polygon_of(to, from) >= 0)
+  std::vector<std::int32_t> next(static_cast<std::size_t>(sides.from.size()), -1);
+  for (std::int32_t from = 0; from < sides.from.size(); ++from)
+    for (const Side& side : sides.from[from]) {
+      if (sides.polygon_of(side.to, from) >= 0)
         continue;
       std::int32_t& after = next[static_cast<std::size_t>(from)];
       if (after >= 0)
         return std::nullopt;
-      after = to;
+      after = side.to;
     }
   return next;
 }

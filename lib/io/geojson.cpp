@@ -72,8 +72,8 @@ void put_property(Writer& out, const char* name, double value) {
 
 std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
   std::vector<Vec3> corners;
-  for (std::int64_t k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k)
-    corners.push_back(column(cells.corners, cells.ids[k]));
+  for (const std::int32_t id : cells.ids[cell])
+    corners.push_back(column(cells.corners, id));
   return corners;
 }
 

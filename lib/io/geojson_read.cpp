@@ -231,16 +231,15 @@ private:
   }
 
   Polygons polygons(Points3 centres) const {
-    Polygons polygons{corners_.columns(), {}, {}, std::move(centres)};
-    polygons.begin.resize(count_ + 1);
-    polygons.begin[0] = 0;
+    Polygons polygons{corners_.columns(), {Offsets(count_ + 1), {}}, std::move(centres)};
+    polygons.ids.begin[0] = 0;
     std::vector<std::int32_t> ids;
     for (std::int64_t i = 0; i < count_; ++i) {
       const CornerRing& ring = rings_[static_cast<std::size_t>(i)];
       ids.insert(ids.end(), ring.begin(), ring.end());
-      polygons.begin[i + 1] = std::ssize(ids);
+      polygons.ids.begin[i + 1] = std::ssize(ids);
     }
-    polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+    polygons.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
     return polygons;
   }
 

@@ -9,20 +9,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace calotte::io_detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-std::int64_t corners_of(const Polygons& polygons, std::int64_t i) {
-  return polygons.begin[i + 1] - polygons.begin[i];
-}
-
-const Vec3& place(const Polygons& polygons, std::int64_t k) {
-  return column(polygons.corners, polygons.ids[k]);
-}
 
 std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
 
@@ -31,7 +24,7 @@ std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (
 void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
   const Broken found = broken(areas.size(), [&](std::int64_t i) {
     // Files of others have cells without corners where their mask is 0.
-    return corners_of(grid.polygons, i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
+    return grid.polygons.ids.count(i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
   });
   if (found.any())
     deviations.add(grid.lists,
@@ -46,10 +39,9 @@ void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviat
 void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
-    const auto begin = polygons.ids.begin() + polygons.begin[i],
-               end = polygons.ids.begin() + polygons.begin[i + 1];
-    for (auto id = begin; id != end; ++id)
-      if (std::find(begin, id, *id) != id)
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    for (auto id = ids.begin(); id != ids.end(); ++id)
+      if (std::find(ids.begin(), id, *id) != id)
         return Verdict::breaks;
     return Verdict::keeps;
   });
@@ -67,10 +59,10 @@ void check_overlap(const StoredGrid& grid, const Sides& sides, const DoubleVecto
   const auto covers = [&](const Side& side) {
     return has_area(grid.polygons, side.polygon, areas[side.polygon]);
   };
-  const Broken found = broken(sides.nodes(), [&](std::int64_t node) {
-    for (std::int64_t k = sides.begin[node] + 1; k < sides.begin[node + 1]; ++k)
-      if (sides.list[k].to == sides.list[k - 1].to && covers(sides.list[k]) &&
-          covers(sides.list[k - 1]))
+  const Broken found = broken(sides.from.size(), [&](std::int64_t node) {
+    const std::span<const Side> from = sides.from[node];
+    for (std::size_t k = 1; k < from.size(); ++k)
+      if (from[k].to == from[k - 1].to && covers(from[k]) && covers(from[k - 1]))
         return Verdict::breaks;
     return Verdict::keeps;
   });
@@ -85,7 +77,7 @@ void check_overlap(const StoredGrid& grid, const Sides& sides, const DoubleVecto
 
 void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
                  Deviations& deviations) {
-  const Broken open = broken(sides.nodes(), [&](std::int64_t node) {
+  const Broken open = broken(sides.from.size(), [&](std::int64_t node) {
     return verdict_of(!sides.is_open(static_cast<std::int32_t>(node)));
   });
   if (!grid.polygons.on_sphere)
@@ -105,10 +97,11 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector&
 /// around the antipodes of the inside.
 double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre) {
   double turn = 0;
-  const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
-  for (std::int64_t k = begin; k != end; ++k) {
-    const Vec3 from = place(polygons, k) - centre,
-               to = place(polygons, k + 1 < end ? k + 1 : begin) - centre;
+  const std::span<const std::int32_t> ids = polygons.ids[i];
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::int32_t next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
+    const Vec3 from = column(polygons.corners, ids[k]) - centre,
+               to = column(polygons.corners, next) - centre;
     if (!polygons.on_sphere) {
       turn += std::atan2(cross(from, to).z, dot(from, to));
       continue;
@@ -125,7 +118,7 @@ constexpr double on_boundary = 1e-3;
 void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
-    if (corners_of(polygons, i) < 3)
+    if (polygons.ids.count(i) < 3)
       return Verdict::untested;
     const double turn = turn_around(polygons, i, column(polygons.centres, i));
     return verdict_of((areas[i] < 0 ? -turn : turn) > (polygons.on_sphere ? pi : on_boundary));
@@ -157,8 +150,8 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
     Range range;
-    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k)
-      range.add(place(polygons, k) - column(polygons.centres, i));
+    for (const std::int32_t id : polygons.ids[i])
+      range.add(column(polygons.corners, id) - column(polygons.centres, i));
     return verdict_of(range.is_one(grid.rounding));
   });
   if (found.any() && found.is_law())
@@ -173,43 +166,41 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
 
 /// Of a corner of three or more cells.
 Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t node) {
-  if (sides.begin[node + 1] - sides.begin[node] < 3)
+  if (sides.from.count(node) < 3)
     return Verdict::untested;
   Range range;
-  for (std::int64_t k = sides.begin[node]; k < sides.begin[node + 1]; ++k)
-    range.add(column(grid.polygons.corners, node) -
-              column(grid.polygons.centres, sides.list[k].polygon));
+  for (const Side& side : sides.from[node])
+    range.add(column(grid.polygons.corners, node) - column(grid.polygons.centres, side.polygon));
   return verdict_of(range.is_one(grid.rounding));
 }
 
 /// Whether all tested corners of a cell break the law, so that its centre is wrong.
 bool centre_is_wrong(const StoredGrid& grid, const Sides& sides, std::int64_t cell) {
-  const Polygons& polygons = grid.polygons;
-  return std::none_of(
-      polygons.ids.begin() + polygons.begin[cell], polygons.ids.begin() + polygons.begin[cell + 1],
-      [&](std::int32_t node) { return is_equidistant(grid, sides, node) == Verdict::keeps; });
+  return std::ranges::none_of(grid.polygons.ids[cell], [&](std::int32_t node) {
+    return is_equidistant(grid, sides, node) == Verdict::keeps;
+  });
 }
 
 void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
-  const Broken found =
-      broken(sides.nodes(), [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
+  const Broken found = broken(sides.from.size(),
+                              [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
   if (!found.any() || !found.is_law())
     return;
   const std::string law = ": " + found.of_all() +
                           " corners are not as far from the centres of all cells around them, as "
                           "the others are; the first is corner " +
                           std::to_string(found.first) + " (0-based)";
-  for (std::int64_t k = sides.begin[found.first]; k < sides.begin[found.first + 1]; ++k)
-    if (centre_is_wrong(grid, sides, sides.list[k].polygon))
+  for (const Side& side : sides.from[found.first])
+    if (centre_is_wrong(grid, sides, side.polygon))
       return deviations.add(grid.centres,
-                            grid.centres + law + "; the centre of " +
-                                cell_name(sides.list[k].polygon) + " is not that of a Voronoi cell",
-                            sides.list[k].polygon);
+                            grid.centres + law + "; the centre of " + cell_name(side.polygon) +
+                                " is not that of a Voronoi cell",
+                            side.polygon);
   deviations.add(grid.corners, grid.corners + law, found.first);
 }
 
 bool has_triangles_only(const Polygons& polygons) {
-  return polygons.ids.size() == 3 * polygons.size() && most_corners(polygons) == 3;
+  return polygons.ids.items.size() == 3 * polygons.size() && most_corners(polygons) == 3;
 }
 
 } // namespace

@@ -124,13 +124,13 @@ void check_bounds(const std::string& variable, bool longitude, const StoredGrid&
   const Polygons& faces = grid.polygons;
   const std::int64_t width = deviations.width(name);
   const auto corner_at = [&](std::int64_t face, std::int64_t k) {
-    return eastern_lonlat_of(column(faces.corners, faces.ids[faces.begin[face] + k]));
+    return eastern_lonlat_of(column(faces.corners, faces.ids[face][static_cast<std::size_t>(k)]));
   };
   deviations.add(name,
                  deviations.visit_rows<double>(
                      name,
                      [&](std::int64_t face, const double* row, Differences& out) {
-                       const std::int64_t count = faces.begin[face + 1] - faces.begin[face];
+                       const std::int64_t count = faces.ids.count(face);
                        for (std::int64_t k = 0; k < width; ++k) {
                          const bool past = k >= count;
                          bool fits = past && (row[k] == fill || std::isnan(row[k]));

@@ -90,8 +90,8 @@ Polygons polygons_of(const Lattice& lattice) {
   out.on_sphere = false;
   out.period = lattice.period();
   out.centres.resize(3, cells);
-  out.begin.resize(cells + 1);
-  out.begin[0] = 0;
+  out.ids.begin.resize(cells + 1);
+  out.ids.begin[0] = 0;
   std::vector<std::int32_t> ids;
   ids.reserve(static_cast<std::size_t>(6 * cells));
   std::vector<bool> used(static_cast<std::size_t>(2 * all));
@@ -102,7 +102,7 @@ Polygons polygons_of(const Lattice& lattice) {
       ids.push_back(static_cast<std::int32_t>(corner));
       used[static_cast<std::size_t>(corner)] = true;
     }
-    out.begin[++next] = std::ssize(ids);
+    out.ids.begin[++next] = std::ssize(ids);
   });
   std::vector<std::int32_t> number(used.size(), -1);
   std::int32_t count = 0;
@@ -117,9 +117,9 @@ Polygons polygons_of(const Lattice& lattice) {
                 number[static_cast<std::size_t>(2 * lattice.id(row, column) + which)];
             to >= 0)
           out.corners.col(to) = within(lattice.corner(row, column, which), out.period);
-  out.ids.resize(std::ssize(ids));
+  out.ids.items.resize(std::ssize(ids));
   for (std::size_t k = 0; k < ids.size(); ++k)
-    out.ids[static_cast<Eigen::Index>(k)] = number[static_cast<std::size_t>(ids[k])];
+    out.ids.items[static_cast<Eigen::Index>(k)] = number[static_cast<std::size_t>(ids[k])];
   return out;
 }
 
@@ -166,11 +166,11 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
     if ((walls.x && centre.x() > extent.x()) || (walls.y && centre.y() > extent.y()))
       continue;
     site.push_back(i);
-    for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k) {
-      std::int32_t& to = number[static_cast<std::size_t>(cells.vertices_on_cell[k])];
+    for (const std::int32_t vertex : cells.vertices_on_cell[i]) {
+      std::int32_t& to = number[static_cast<std::size_t>(vertex)];
       if (to < 0) {
         to = static_cast<std::int32_t>(corners.size());
-        Eigen::Vector3d corner = cells.vertices.col(cells.vertices_on_cell[k]);
+        Eigen::Vector3d corner = cells.vertices.col(vertex);
         for (int axis = 0; axis < 2; ++axis) // across a wall the copy beside the cell
           if (out.period[axis] == 0)
             corner[axis] += period[axis] * std::round((centre[axis] - corner[axis]) / period[axis]);
@@ -188,8 +188,8 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
   out.corners.resize(3, std::ssize(corners));
   for (std::size_t k = 0; k < corners.size(); ++k)
     out.corners.col(static_cast<Eigen::Index>(k)) = corners[k];
-  out.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
-  out.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  out.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
+             Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
   return file;
 }
 

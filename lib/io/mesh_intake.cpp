@@ -77,7 +77,7 @@ void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
   const Points3 old = polygons.corners;
   for (Eigen::Index v = 0; v < old.cols(); ++v)
     polygons.corners.col(places.place[v]) = old.col(v);
-  for (std::int32_t& id : polygons.ids)
+  for (std::int32_t& id : polygons.ids.items)
     id = places.place[id];
 }
 

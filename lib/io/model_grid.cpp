@@ -21,10 +21,6 @@ namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-std::int64_t corners_of(const Voronoi& cells, std::int64_t cell) {
-  return cells.begin[cell + 1] - cells.begin[cell];
-}
-
 /// of(point) for each column.
 template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const Of& of) {
   return table<double>(
@@ -76,7 +72,7 @@ CellGrid cell_grid(const Polygons& polygons) { return {polygons, areas_of(polygo
 std::int64_t most_corners(const Voronoi& cells) {
   std::int64_t most = 0;
   for (Eigen::Index i = 0; i < cells.cells.cols(); ++i)
-    most = std::max(most, corners_of(cells, i));
+    most = std::max(most, cells.edges_on_cell.count(i));
   return most;
 }
 

@@ -47,19 +47,19 @@ struct Lines {
 };
 
 /// A line of numbers for each cell, which is empty for a cell without neighbours.
-Lines neighbour_lines(const Offsets& begins, const Ids& cells_on_cell, std::int64_t begin,
-                      std::int64_t end) {
+Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int64_t end) {
   constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
-  Lines lines{Array<char>(longest * (begins[end] - begins[begin]) + end - begin)};
+  const std::int64_t numbers = cells_on_cell.begin[end] - cells_on_cell.begin[begin];
+  Lines lines{Array<char>(longest * numbers + end - begin)};
   char* out = lines.room.begin();
   for (std::int64_t i = begin; i != end; ++i) {
     const char* const start = out;
-    for (std::int64_t k = begins[i]; k != begins[i + 1]; ++k) {
-      if (cells_on_cell[k] < 0)
+    for (const std::int32_t cell : cells_on_cell[i]) {
+      if (cell < 0)
         continue;
       if (out != start)
         *out++ = ' ';
-      out = std::to_chars(out, out + longest - 1, cells_on_cell[k] + 1).ptr;
+      out = std::to_chars(out, out + longest - 1, cell + 1).ptr;
     }
     *out++ = '\n';
   }
@@ -139,13 +139,11 @@ std::string graph_path(const std::string& path) {
 }
 
 void put_graph(const Sink& sink, const Voronoi& voronoi) {
-  put_graph(sink, voronoi.begin, voronoi.cells_on_cell,
-            (voronoi.cells_on_edge.row(1).array() >= 0).count());
+  put_graph(sink, voronoi.cells_on_cell, (voronoi.cells_on_edge.row(1).array() >= 0).count());
 }
 
-void put_graph(const Sink& sink, const Offsets& begin, const Ids& cells_on_cell,
-               std::int64_t edges) {
-  const std::int64_t cells = begin.size() - 1, blocks = block_count(cells);
+void put_graph(const Sink& sink, const IdLists& cells_on_cell, std::int64_t edges) {
+  const std::int64_t cells = cells_on_cell.size(), blocks = block_count(cells);
   sink(std::to_string(cells) + " " + std::to_string(edges) + "\n");
   constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
   std::vector<Lines> texts(at_once);
@@ -153,8 +151,8 @@ void put_graph(const Sink& sink, const Offsets& begin, const Ids& cells_on_cell,
     const std::int64_t count = std::min(at_once, blocks - first);
     for_each_task(count, [&](std::int64_t k) {
       const std::int64_t block = first + k;
-      texts[static_cast<std::size_t>(k)] = neighbour_lines(
-          begin, cells_on_cell, cells * block / blocks, cells * (block + 1) / blocks);
+      texts[static_cast<std::size_t>(k)] =
+          neighbour_lines(cells_on_cell, cells * block / blocks, cells * (block + 1) / blocks);
     });
     for (std::int64_t k = 0; k < count; ++k)
       sink(texts[static_cast<std::size_t>(k)].text());

@@ -72,7 +72,6 @@ std::string graph_path(const std::string& path);
 /// line of each cell's neighbours, 1-based. It comes in pieces.
 void put_graph(const Sink& sink, const Voronoi& voronoi);
 /// The same. \param cells_on_cell -1 for a missing neighbour.
-void put_graph(const Sink& sink, const Offsets& begin, const Ids& cells_on_cell,
-               std::int64_t edges);
+void put_graph(const Sink& sink, const IdLists& cells_on_cell, std::int64_t edges);
 
 } // namespace calotte::io_detail

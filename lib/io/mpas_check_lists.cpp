@@ -4,6 +4,7 @@
 #include "voronoi/tangential_weights.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 // Lists of ids around cells, edges and vertices. Those of the tessellation are the rule; where a
@@ -24,22 +25,20 @@ std::int32_t stored_id(const Array<std::int32_t>& of_file, std::int32_t id) {
 /// One of the lists around cells, in the numbering of the file.
 struct CellLists {
   std::string variable, rule;
-  const Ids& ids;
+  const IdLists& ids;
   const Array<std::int32_t>* of_file; ///< null for cells, which keep their numbers
 
-  std::int32_t stored(std::int64_t place) const {
-    return of_file ? stored_id(*of_file, ids[place]) : ids[place] + 1;
-  }
+  std::int32_t stored(std::int32_t id) const { return of_file ? stored_id(*of_file, id) : id + 1; }
 };
 
 /// Compares a row from a known place of the tessellation's list on.
-void compare_row(const MpasCheck& check, const CellLists& lists, std::int64_t cell,
-                 std::int64_t start, const std::int32_t* row, std::int64_t width,
-                 Differences& differences) {
-  const std::int64_t first = check.voronoi.begin[cell],
-                     count = check.voronoi.begin[cell + 1] - first;
+void compare_row(const CellLists& lists, std::int64_t cell, std::int64_t start,
+                 const std::int32_t* row, std::int64_t width, Differences& differences) {
+  const std::span<const std::int32_t> ids = lists.ids[cell];
+  const std::int64_t count = std::ssize(ids);
   for (std::int64_t k = 0; k < width; ++k) {
-    const std::int32_t derived = k < count ? lists.stored(first + (start + k) % count) : 0;
+    const std::int32_t derived =
+        k < count ? lists.stored(ids[static_cast<std::size_t>((start + k) % count)]) : 0;
     if (k >= count || derived != 0) // others are reported with cellsOnEdge
       differences.compare(cell * width + k, row[k], derived);
   }
@@ -48,12 +47,10 @@ void compare_row(const MpasCheck& check, const CellLists& lists, std::int64_t ce
 }
 
 /// The place of a row's first id in the tessellation's list, or unknown.
-std::int32_t start_of(const MpasCheck& check, const CellLists& lists, std::int64_t cell,
-                      std::int32_t id) {
-  const std::int64_t first = check.voronoi.begin[cell],
-                     count = check.voronoi.begin[cell + 1] - first;
-  for (std::int64_t k = 0; k < count; ++k)
-    if (lists.stored(first + k) == id)
+std::int32_t start_of(const CellLists& lists, std::int64_t cell, std::int32_t id) {
+  const std::span<const std::int32_t> ids = lists.ids[cell];
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (lists.stored(ids[k]) == id)
       return static_cast<std::int32_t>(k);
   return unknown;
 }
@@ -66,8 +63,8 @@ void check_cell_lists(const MpasCheck& check, const CellLists& lists, Array<std:
   const Differences differences = check.deviations.visit_rows<std::int32_t>(
       lists.variable, [&](std::int64_t cell, const std::int32_t* row, Differences& out) {
         if (starts[cell] == unknown && width > 0)
-          starts[cell] = start_of(check, lists, cell, row[0]);
-        compare_row(check, lists, cell, std::max(starts[cell], 0), row, width, out);
+          starts[cell] = start_of(lists, cell, row[0]);
+        compare_row(lists, cell, std::max(starts[cell], 0), row, width, out);
       });
   check.deviations.add(lists.variable, differences, lists.rule);
 }
@@ -76,15 +73,14 @@ void check_degrees(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
   if (!check.deviations.has("nEdgesOnCell", {voronoi.cells.cols()}))
     return;
-  check.deviations.add(
-      "nEdgesOnCell",
-      check.deviations.visit_rows<std::int32_t>(
-          "nEdgesOnCell",
-          [&](std::int64_t i, const std::int32_t* count, Differences& out) {
-            out.compare(i, *count,
-                        static_cast<std::int32_t>(voronoi.begin[i + 1] - voronoi.begin[i]));
-          }),
-      "the number of neighbours of each cell");
+  check.deviations.add("nEdgesOnCell",
+                       check.deviations.visit_rows<std::int32_t>(
+                           "nEdgesOnCell",
+                           [&](std::int64_t i, const std::int32_t* count, Differences& out) {
+                             out.compare(i, *count,
+                                         static_cast<std::int32_t>(voronoi.edges_on_cell.count(i)));
+                           }),
+                       "the number of neighbours of each cell");
 }
 
 void check_around_cells(const MpasCheck& check) {
@@ -187,7 +183,7 @@ struct Weights {
     voronoi_detail::set_weights(voronoi, e, edges.data(), values.data());
     reversed = check.numbering.reversed[e];
     const std::int32_t first = voronoi.cells_on_edge(0, e);
-    shift = reversed ? voronoi.begin[first + 1] - voronoi.begin[first] - 1 : 0;
+    shift = reversed ? voronoi.edges_on_cell.count(first) - 1 : 0;
   }
   std::size_t place(std::int64_t k) const { return static_cast<std::size_t>((k + shift) % count); }
   std::int32_t edge(std::int64_t k) const { return edges[place(k)]; }

@@ -55,19 +55,23 @@ void set_vertices(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering
   }
 }
 
+/// The rows without their padding.
+IdLists lists_of(const IdTable& table, const Offsets& begin) {
+  IdLists lists{begin, Ids(begin[begin.size() - 1])};
+  for (std::int64_t i = 0; i < lists.size(); ++i)
+    for (std::int64_t k = 0; k < lists.count(i); ++k)
+      lists.items[begin[i] + k] = table.at(i, k);
+  return lists;
+}
+
 void set_cells(const OpenLists& lists, Voronoi& out) {
-  out.begin.resize(lists.cells + 1);
-  out.begin[0] = 0;
+  Offsets begin(lists.cells + 1);
+  begin[0] = 0;
   for (std::int64_t i = 0; i < lists.cells; ++i)
-    out.begin[i + 1] = out.begin[i] + lists.edge_count[static_cast<std::size_t>(i)];
-  for (Ids* ids : {&out.edges_on_cell, &out.vertices_on_cell, &out.cells_on_cell})
-    ids->resize(out.begin[lists.cells]);
-  for (std::int64_t i = 0; i < lists.cells; ++i)
-    for (std::int64_t k = 0; k < out.begin[i + 1] - out.begin[i]; ++k) {
-      out.edges_on_cell[out.begin[i] + k] = lists.edges_on_cell.at(i, k);
-      out.vertices_on_cell[out.begin[i] + k] = lists.vertices_on_cell.at(i, k);
-      out.cells_on_cell[out.begin[i] + k] = lists.cells_on_cell.at(i, k);
-    }
+    begin[i + 1] = begin[i] + lists.edge_count[static_cast<std::size_t>(i)];
+  out.edges_on_cell = lists_of(lists.edges_on_cell, begin);
+  out.vertices_on_cell = lists_of(lists.vertices_on_cell, begin);
+  out.cells_on_cell = lists_of(lists.cells_on_cell, begin);
 }
 
 // ---- Places and measures

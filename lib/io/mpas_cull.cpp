@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <span>
 #include <string>
 
 namespace calotte::io_detail {
@@ -105,11 +106,11 @@ void exchange_pairs(const MpasSource& source, const std::string& variable,
 std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdges& reversed) {
   std::vector<std::uint8_t> near(reversed.size(), 0);
   for (std::int64_t i = 0; i < part.cells.count(); ++i) {
-    bool any = false;
-    for (std::int64_t k = part.begin[i]; k < part.begin[i + 1]; ++k)
-      any = any || reversed[static_cast<std::size_t>(part.edges_on_cell[k])] != 0;
-    for (std::int64_t k = part.begin[i]; any && k < part.begin[i + 1]; ++k)
-      near[static_cast<std::size_t>(part.edges_on_cell[k])] = 1;
+    const std::span<const std::int32_t> edges = part.edges_on_cell[i];
+    if (std::ranges::any_of(
+            edges, [&](std::int32_t e) { return reversed[static_cast<std::size_t>(e)] != 0; }))
+      for (const std::int32_t e : edges)
+        near[static_cast<std::size_t>(e)] = 1;
   }
   for (std::size_t e = 0; e < near.size(); ++e)
     if (part.cells_at_edge[e] < 2) // the other cell is left out, but not all of its edges

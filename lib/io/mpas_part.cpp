@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace calotte::io_detail {
 namespace {
@@ -56,28 +57,28 @@ Points3 read_places(const NetcdfReader& file, const std::string& kind, std::int6
 
 /// Throws unless edge k of each cell lies between vertices k - 1 and k, also for the other cell.
 void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& cells) {
-  if (cells.edges_on_cell.minCoeff() < 0 || cells.vertices_on_cell.minCoeff() < 0)
+  if (cells.edges_on_cell.items.minCoeff() < 0 || cells.vertices_on_cell.items.minCoeff() < 0)
     file.fail("a cell lacks an edge or a vertex; give a global mesh");
   Pairs ends = Pairs::Constant(2, edges, -1);
-  for (std::int64_t i = 0; i + 1 < cells.begin.size(); ++i)
-    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
-      const std::int32_t
-          end = cells.vertices_on_cell[k],
-          start = cells.vertices_on_cell[(k == cells.begin[i] ? cells.begin[i + 1] : k) - 1];
+  for (std::int64_t i = 0; i < cells.vertices_on_cell.size(); ++i) {
+    const std::span<const std::int32_t> vertices = cells.vertices_on_cell[i];
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const std::int32_t end = vertices[k], start = k == 0 ? vertices.back() : vertices[k - 1];
       const Eigen::Vector2i pair(std::min(start, end), std::max(start, end));
-      auto known = ends.col(cells.edges_on_cell[k]);
+      auto known = ends.col(cells.edges_on_cell[i][k]);
       if (known[0] >= 0 && known != pair)
         file.fail("edgesOnCell and verticesOnCell of cell " + std::to_string(i + 1) +
                   " (1-based) do not correspond: edge k lies between vertices k - 1 and k; make "
                   "the file again");
       known = pair;
     }
+  }
 }
 
 template <class T>
 void take_row(const NetcdfSource& file, const std::string& variable, std::int64_t row,
-              const T* stored, std::int64_t count, std::int64_t bound, std::int32_t* out) {
-  for (std::int64_t k = 0; k < count; ++k) {
+              const T* stored, std::int64_t bound, std::span<std::int32_t> out) {
+  for (std::size_t k = 0; k < out.size(); ++k) {
     if (stored[k] < 0 || stored[k] > bound + 1)
       file.reader().fail(variable + " has the id " + std::to_string(stored[k]) + " at cell " +
                          std::to_string(row + 1) + " (both 1-based), but there are " +
@@ -133,31 +134,14 @@ Points3 MpasSource::vertex_places() const {
   return read_places(netcdf_.reader(), "Vertex", vertices_);
 }
 
-Offsets MpasSource::begins() const {
-  Offsets begin(cells_ + 1);
-  begin[0] = 0;
-  for (std::int64_t i = 0; i < cells_; ++i)
-    begin[i + 1] = begin[i] + counts_[static_cast<std::size_t>(i)];
-  return begin;
-}
-
-Offsets MpasSource::begins(const Kept& kept) const {
-  Offsets begin(kept.count() + 1);
-  begin[0] = 0;
-  for (std::int64_t i = 0; i < kept.count(); ++i)
-    begin[i + 1] = begin[i] + counts_[static_cast<std::size_t>(kept.old[i])];
-  return begin;
-}
-
-Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::int64_t bound) const {
+IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
   Kept all{Array<std::int32_t>(cells_), {}};
   for (std::int32_t i = 0; i < cells_; ++i)
     all.old[i] = i;
-  return lists(variable, begin, bound, all);
+  return lists(variable, bound, all);
 }
 
-Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::int64_t bound,
-                      const Kept& kept) const {
+IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const Kept& kept) const {
   const int v = netcdf_.find(variable);
   const NetcdfReader& file = netcdf_.reader();
   const std::int64_t width = netcdf_.product(netcdf_.find("cellsOnCell"), 1, 2);
@@ -166,7 +150,11 @@ Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::in
   const std::optional<NetcdfType> type = netcdf_.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::int32 && type != NetcdfType::int64)
     file.fail(variable + " does not hold integers of 4 or 8 bytes; make the file again");
-  Ids ids(begin[kept.count()]);
+  IdLists lists{Offsets(kept.count() + 1), {}};
+  lists.begin[0] = 0;
+  for (std::int64_t i = 0; i < kept.count(); ++i)
+    lists.begin[i + 1] = lists.begin[i] + counts_[static_cast<std::size_t>(kept.old[i])];
+  lists.items.resize(lists.begin[kept.count()]);
   for_each_block(kept.count(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
     const std::int64_t values = (last - first) * width, size = size_of(*type);
     Array<std::int64_t> room(values); // for ids of either size
@@ -175,16 +163,15 @@ Ids MpasSource::lists(const std::string& variable, const Offsets& begin, std::in
     swap_big_endian(bytes, values, size, bytes);
     for (std::int64_t i = first; i < last; ++i) {
       const char* const row = bytes + (i - first) * width * size;
-      const std::int64_t count = begin[i + 1] - begin[i];
       if (size == 4)
-        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int32_t*>(row), count,
-                 bound, ids.data() + begin[i]);
+        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int32_t*>(row), bound,
+                 lists[i]);
       else
-        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int64_t*>(row), count,
-                 bound, ids.data() + begin[i]);
+        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int64_t*>(row), bound,
+                 lists[i]);
     }
   });
-  return ids;
+  return lists;
 }
 
 Voronoi tessellation_of(const MpasSource& source) {
@@ -194,10 +181,9 @@ Voronoi tessellation_of(const MpasSource& source) {
   for (Points3* places : {&cells.cells, &cells.vertices})
     for (auto place : places->colwise())
       place /= place.norm();
-  cells.begin = source.begins();
-  cells.edges_on_cell = source.lists("edgesOnCell", cells.begin, source.edges());
-  cells.vertices_on_cell = source.lists("verticesOnCell", cells.begin, source.vertices());
-  cells.cells_on_cell = source.lists("cellsOnCell", cells.begin, source.cells());
+  cells.edges_on_cell = source.lists("edgesOnCell", source.edges());
+  cells.vertices_on_cell = source.lists("verticesOnCell", source.vertices());
+  cells.cells_on_cell = source.lists("cellsOnCell", source.cells());
   require_edges(source.netcdf().reader(), source.edges(), cells);
   return cells;
 }
@@ -205,15 +191,14 @@ Voronoi tessellation_of(const MpasSource& source) {
 MpasPart part_of(const MpasSource& source, const Ids& keep) {
   MpasPart part;
   part.cells = kept_of(keep);
-  part.begin = source.begins(part.cells);
-  part.edges_on_cell = source.lists("edgesOnCell", part.begin, source.edges(), part.cells);
-  part.vertices_on_cell = source.lists("verticesOnCell", part.begin, source.vertices(), part.cells);
-  part.cells_on_cell = source.lists("cellsOnCell", part.begin, source.cells(), part.cells);
-  part.edges = named(part.edges_on_cell, source.edges(), part.cells_at_edge);
-  part.vertices = named(part.vertices_on_cell, source.vertices(), part.cells_at_vertex);
-  renumber(part.edges, part.edges_on_cell);
-  renumber(part.vertices, part.vertices_on_cell);
-  renumber(part.cells, part.cells_on_cell);
+  part.edges_on_cell = source.lists("edgesOnCell", source.edges(), part.cells);
+  part.vertices_on_cell = source.lists("verticesOnCell", source.vertices(), part.cells);
+  part.cells_on_cell = source.lists("cellsOnCell", source.cells(), part.cells);
+  part.edges = named(part.edges_on_cell.items, source.edges(), part.cells_at_edge);
+  part.vertices = named(part.vertices_on_cell.items, source.vertices(), part.cells_at_vertex);
+  renumber(part.edges, part.edges_on_cell.items);
+  renumber(part.vertices, part.vertices_on_cell.items);
+  renumber(part.cells, part.cells_on_cell.items);
   return part;
 }
 

@@ -30,14 +30,10 @@ public:
   Points3 places() const; ///< 3 x n, of the generators, as the file has them
   Points3 vertex_places() const;
 
-  /// Offsets of the lists of all cells, or of the given ones.
-  Offsets begins() const;
-  Offsets begins(const Kept& kept) const;
-  /// A variable with a list of ids for each cell: 0-based, -1 for a missing one.
-  /// \param begin offsets of the lists. \param bound number of things that ids stand for.
-  Ids lists(const std::string& variable, const Offsets& begin, std::int64_t bound) const;
-  Ids lists(const std::string& variable, const Offsets& begin, std::int64_t bound,
-            const Kept& kept) const;
+  /// A variable with a list of ids for each cell, or for each of the given ones: 0-based, -1 for a
+  /// missing one. \param bound number of things that ids stand for.
+  IdLists lists(const std::string& variable, std::int64_t bound) const;
+  IdLists lists(const std::string& variable, std::int64_t bound, const Kept& kept) const;
 
 private:
   NetcdfSource netcdf_;
@@ -55,9 +51,8 @@ struct MpasPart {
   Kept cells, edges, vertices;
   /// By kept edge and vertex: the number of kept cells there.
   std::vector<std::uint8_t> cells_at_edge, cells_at_vertex;
-  Offsets begin; ///< of the lists of kept cells, whose ids are the new ones, 0-based
-  Ids edges_on_cell, vertices_on_cell;
-  Ids cells_on_cell; ///< -1 for a cell that is left out
+  /// Of the kept cells; ids are the new ones, 0-based, -1 for a cell that is left out.
+  IdLists edges_on_cell, vertices_on_cell, cells_on_cell;
 };
 
 /// The kept cells with all edges and vertices that touch one.

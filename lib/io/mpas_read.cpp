@@ -89,11 +89,10 @@ Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
   const std::int64_t width = file.shape_of("verticesOnCell").back();
   const std::vector<std::int32_t> rows =
       ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
-  Polygons polygons{std::move(vertices), {}, {}, std::move(sites)};
-  polygons.begin.resize(cells + 1);
+  Polygons polygons{std::move(vertices), {Offsets(cells + 1), {}}, std::move(sites)};
   std::vector<std::int32_t> ids;
   for (std::int64_t i = 0; i < cells; ++i) {
-    polygons.begin[i] = std::ssize(ids);
+    polygons.ids.begin[i] = std::ssize(ids);
     const std::int64_t count = counts[static_cast<std::size_t>(i)];
     if (count < 0 || count > width)
       file.fail("nEdgesOnCell is " + std::to_string(count) + " at cell " + std::to_string(i + 1) +
@@ -103,8 +102,8 @@ Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
     if (std::all_of(first, first + count, [](std::int32_t id) { return id >= 0; }))
       ids.insert(ids.end(), first, first + count);
   }
-  polygons.begin[cells] = std::ssize(ids);
-  polygons.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  polygons.ids.begin[cells] = std::ssize(ids);
+  polygons.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
   return polygons;
 }
 

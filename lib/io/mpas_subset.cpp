@@ -250,9 +250,8 @@ std::vector<std::string> write_part(const MpasSource& source, const MpasPart& pa
                                     const std::function<void()>& commit_others) {
   OutputFile graph(graph_path(path));
   NetcdfWriter file(path, progress);
-  const std::int64_t inner = (part.cells_on_cell.array() >= 0).count() / 2;
-  put_graph([&](std::string_view text) { graph.append(text); }, part.begin, part.cells_on_cell,
-            inner);
+  const std::int64_t inner = (part.cells_on_cell.items.array() >= 0).count() / 2;
+  put_graph([&](std::string_view text) { graph.append(text); }, part.cells_on_cell, inner);
   std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
   file.finish();
   graph.finish();

@@ -41,15 +41,13 @@ Dimensions full_dimensions(NetcdfWriter& file, const MpasMesh& mesh) {
 // ---- Connectivity
 
 /// 1-based, padded with 0.
-NetcdfWriter::Fill<std::int32_t> cell_lists(const Voronoi& voronoi, const Ids& lists,
-                                            std::int64_t width) {
-  return [&voronoi, &lists, width](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+NetcdfWriter::Fill<std::int32_t> cell_lists(const IdLists& lists, std::int64_t width) {
+  return [&lists, width](std::int64_t begin, std::int64_t end, std::int32_t* out) {
     for (std::int64_t i = begin; i < end; ++i) {
-      const std::int64_t first = voronoi.begin[i], count = voronoi.begin[i + 1] - first;
-      for (std::int64_t k = 0; k < count; ++k)
-        out[k] = lists[first + k] + 1;
-      std::fill(out + count, out + width, 0);
-      out += width;
+      std::int32_t* const end_of_row = out + width;
+      for (const std::int32_t id : lists[i])
+        *out++ = id + 1;
+      out = std::fill_n(out, end_of_row - out, 0);
     }
   };
 }
@@ -67,7 +65,7 @@ template <class Matrix> NetcdfWriter::Fill<std::int32_t> id_columns(const Matrix
 void put_begun_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {
   file.ints("nEdgesOnCell", {dimensions.cells}, described("1", "number of edges of each cell"),
             table<std::int32_t>(1, [&voronoi](std::int64_t i, std::int64_t) {
-              return static_cast<std::int32_t>(voronoi.begin[i + 1] - voronoi.begin[i]);
+              return static_cast<std::int32_t>(voronoi.edges_on_cell.count(i));
             }));
   file.ints("cellsOnVertex", {dimensions.vertices, dimensions.vertex_degree},
             described("1", "cells around each vertex, counter-clockwise: cell j lies between edges "
@@ -86,12 +84,12 @@ void put_cell_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& v
   file.ints("edgesOnCell", shape,
             described("1", "edges of each cell, counter-clockwise: edge k lies between vertices "
                            "k - 1 and k of verticesOnCell"),
-            cell_lists(voronoi, voronoi.edges_on_cell, width));
+            cell_lists(voronoi.edges_on_cell, width));
   file.ints("verticesOnCell", shape, described("1", "vertices of each cell, counter-clockwise"),
-            cell_lists(voronoi, voronoi.vertices_on_cell, width));
+            cell_lists(voronoi.vertices_on_cell, width));
   file.ints("cellsOnCell", shape,
             described("1", "neighbours of each cell, across the edges of edgesOnCell"),
-            cell_lists(voronoi, voronoi.cells_on_cell, width));
+            cell_lists(voronoi.cells_on_cell, width));
 }
 
 void put_edge_ids(MpasFile& file, const Dimensions& dimensions, const Voronoi& voronoi) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats.h"
-#include "io/surface.h"
+#include "io/poly_data.h"
 
 #include <calotte/error.h>
 
@@ -83,8 +83,7 @@ void put_off(const Sink& sink, const Polygons& polygons) {
   Writer out(sink);
   put_head(out, polygons.corners, polygons.size());
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    put_face(out, {polygons.ids.data() + polygons.begin[i],
-                   static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i])});
+    put_face(out, polygons.ids[i]);
   out.flush();
 }
 
@@ -111,11 +110,11 @@ RawMesh get_off(std::istream& in, const std::string& name) {
   }
   if (reader.next_content(line))
     reader.fail("more lines than the file's counts announce");
-  Surface surface;
-  surface.points = Eigen::Map<const Points3>(points.data(), 3, std::ssize(points) / 3);
-  surface.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
-  surface.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
-  return raw_mesh_of(name, std::move(surface));
+  PolyData poly_data;
+  poly_data.points = Eigen::Map<const Points3>(points.data(), 3, std::ssize(points) / 3);
+  poly_data.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
+                   Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
+  return raw_mesh_of(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

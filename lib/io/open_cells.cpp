@@ -21,7 +21,7 @@ namespace {
 /// The corners that are on a cell keep their order.
 void set_cells(const Polygons& polygons, Voronoi& out) {
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(polygons.corners.cols()), -1);
-  for (const std::int32_t id : polygons.ids)
+  for (const std::int32_t id : polygons.ids.items)
     vertex[static_cast<std::size_t>(id)] = 0;
   std::int32_t count = 0;
   for (std::int32_t& id : vertex)
@@ -29,14 +29,13 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
   out.on_sphere = polygons.on_sphere;
   out.period = polygons.period;
   out.cells = polygons.centres;
-  out.begin = polygons.begin;
   out.vertices.resize(3, count);
   for (std::size_t k = 0; k < vertex.size(); ++k)
     if (vertex[k] >= 0)
       out.vertices.col(vertex[k]) = polygons.corners.col(static_cast<Eigen::Index>(k));
-  out.vertices_on_cell.resize(polygons.ids.size());
-  std::transform(polygons.ids.begin(), polygons.ids.end(), out.vertices_on_cell.begin(),
-                 [&](std::int32_t id) { return vertex[static_cast<std::size_t>(id)]; });
+  out.vertices_on_cell = polygons.ids;
+  for (std::int32_t& id : out.vertices_on_cell.items)
+    id = vertex[static_cast<std::size_t>(id)];
 }
 
 Vec2 period_of(const Voronoi& cells) { return {cells.period.x(), cells.period.y()}; }

@@ -2,6 +2,8 @@
 #include "io/binary.h"
 #include "io/formats.h"
 
+#include <span>
+
 // The Stanford polygon format (Turk, 1994), written in binary in this machine's order of bytes.
 
 namespace calotte::io_detail {
@@ -32,9 +34,8 @@ void put_ply(const Sink& sink, const Polygons& polygons) {
   out.text(head(polygons.corners.cols(), polygons.size(), "int"));
   out.text(bytes_of(polygons.corners.data(), polygons.corners.size()));
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    const std::int64_t corners = polygons.begin[i + 1] - polygons.begin[i];
-    out.raw(static_cast<std::int32_t>(corners))
-        .text(bytes_of(polygons.ids.data() + polygons.begin[i], corners));
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    out.raw(static_cast<std::int32_t>(ids.size())).text(bytes_of(ids.data(), std::ssize(ids)));
   }
   out.flush();
 }

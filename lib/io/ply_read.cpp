@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/file.h"
 #include "io/formats.h"
+#include "io/poly_data.h"
 #include "io/scalars.h"
-#include "io/surface.h"
 
 #include <calotte/error.h>
 
@@ -231,28 +231,28 @@ void require_properties(const Element& element, const Wanted& wanted, std::ptrdi
     fail(name, "its element " + in_quotes(element.name) + " does not have " + what + again);
 }
 
-void read_points(const Element& element, const std::string& name, Body& body, Surface& surface) {
+void read_points(const Element& element, const std::string& name, Body& body, PolyData& poly_data) {
   require_properties(
       element, [](const Property& p) { return coordinate_of(p) >= 0; }, 3,
       "the properties x, y and z once each", name);
-  surface.points.resize(3, element.count);
+  poly_data.points.resize(3, element.count);
   for (std::int64_t row = 0; row < element.count; ++row)
     for (const Property& property : element.properties)
       if (const int k = coordinate_of(property); k >= 0)
-        surface.points(k, row) = body.take<double>(element, property.type, row);
+        poly_data.points(k, row) = body.take<double>(element, property.type, row);
       else
         body.skip(element, property, row);
   for (const Property& property : element.properties)
     if (coordinate_of(property) < 0)
-      surface.ignored.push_back(property.name);
+      poly_data.ignored.push_back(property.name);
     else
-      surface.single |= property.type == Scalar::float32;
+      poly_data.single |= property.type == Scalar::float32;
 }
 
-void read_faces(const Element& element, const std::string& name, Body& body, Surface& surface) {
+void read_faces(const Element& element, const std::string& name, Body& body, PolyData& poly_data) {
   require_properties(element, lists_corners, 1, "one list vertex_indices or vertex_index", name);
   std::vector<std::int32_t> ids;
-  surface.begin = Offsets::Zero(element.count + 1);
+  poly_data.ids.begin = Offsets::Zero(element.count + 1);
   for (std::int64_t row = 0; row < element.count; ++row) {
     for (const Property& property : element.properties) {
       if (!lists_corners(property)) {
@@ -263,20 +263,20 @@ void read_faces(const Element& element, const std::string& name, Body& body, Sur
       for (std::int64_t k = 0; k < corners; ++k)
         ids.push_back(body.take<std::int32_t>(element, property.type, row));
     }
-    surface.begin[row + 1] = std::ssize(ids);
+    poly_data.ids.begin[row + 1] = std::ssize(ids);
   }
-  surface.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  poly_data.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
   for (const Property& property : element.properties)
     if (!lists_corners(property))
-      surface.ignored.push_back(property.name);
+      poly_data.ignored.push_back(property.name);
 }
 
-void skip_rows(const Element& element, Body& body, Surface& surface) {
+void skip_rows(const Element& element, Body& body, PolyData& poly_data) {
   if (!element.properties.empty())
     for (std::int64_t row = 0; row < element.count; ++row)
       for (const Property& property : element.properties)
         body.skip(element, property, row);
-  surface.ignored.push_back(element.name);
+  poly_data.ignored.push_back(element.name);
 }
 
 } // namespace
@@ -286,21 +286,21 @@ RawMesh get_ply(std::istream& in, const std::string& name) {
   std::string_view rest = content;
   const Head head = take_head(rest, name);
   Body body(rest, head, name);
-  Surface surface;
+  PolyData poly_data;
   for (const Element& element : head.elements) {
     if (element.name == "tristrips")
       fail(name, "it has triangle strips, which are not read; write triangles");
     body.require_rows(element);
     if (element.name == "vertex")
-      read_points(element, name, body, surface);
+      read_points(element, name, body, poly_data);
     else if (element.name == "face")
-      read_faces(element, name, body, surface);
+      read_faces(element, name, body, poly_data);
     else
-      skip_rows(element, body, surface);
+      skip_rows(element, body, poly_data);
   }
   body.finish();
-  require_polygons(name, surface, {"face", "face"});
-  return raw_mesh_of(name, std::move(surface));
+  require_polygons(name, poly_data, {"face", "face"});
+  return raw_mesh_of(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

@@ -11,6 +11,7 @@
 #include <calotte/mesh_file.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace calotte {
@@ -21,14 +22,13 @@ using namespace io_detail;
 /// A polygon's corners in a circle; in a periodic plane copies near the first.
 struct Ring {
   const Polygons& polygons;
-  std::int64_t begin, size;
+  std::span<const std::int32_t> ids;
 
-  Vec3 at(std::int64_t k) const { return copy_near(polygons, begin, begin + k % size); }
+  std::size_t size() const { return ids.size(); }
+  Vec3 at(std::size_t k) const { return copy_near(polygons, ids[0], ids[k % ids.size()]); }
 };
 
-Ring ring_of(const Polygons& polygons, std::int64_t i) {
-  return {polygons, polygons.begin[i], polygons.begin[i + 1] - polygons.begin[i]};
-}
+Ring ring_of(const Polygons& polygons, std::int64_t i) { return {polygons, polygons.ids[i]}; }
 
 /// The sine of the turn to the left at b, on the way from a to c.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
@@ -38,7 +38,7 @@ double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
 
 bool is_convex(const Ring& ring) {
   constexpr double rounding = 1e-9;
-  for (std::int64_t k = 0; k < ring.size; ++k)
+  for (std::size_t k = 0; k < ring.size(); ++k)
     if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.on_sphere) < -rounding)
       return false;
   return true;
@@ -47,7 +47,7 @@ bool is_convex(const Ring& ring) {
 /// The integral of the place over a polygon: half the sum of its sides' normals times their arcs.
 Vec3 first_moment(const Ring& ring) {
   Vec3 sum{0, 0, 0};
-  for (std::int64_t k = 0; k < ring.size; ++k) {
+  for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec3 a = ring.at(k), b = ring.at(k + 1), side = b - a, normal = cross(a, side);
     const double sine = std::sqrt(dot(normal, normal));
     if (sine > 0)
@@ -61,7 +61,7 @@ Vec3 planar_centroid(const Ring& ring) {
   const Vec3 first = ring.at(0);
   Vec3 sum{0, 0, 0};
   double area = 0;
-  for (std::int64_t k = 1; k + 1 < ring.size; ++k) {
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
     const Vec3 a = ring.at(k) - first, b = ring.at(k + 1) - first;
     const double part = cross(a, b).z;
     sum = sum + part / 3 * (a + b);
@@ -94,7 +94,7 @@ PolygonShapes shapes_of(const Polygons& polygons, const DoubleVector& areas, std
   PolygonShapes found;
   for (std::int64_t i = begin; i != end; ++i) {
     const Ring ring = ring_of(polygons, i);
-    if (ring.size == 0)
+    if (ring.size() == 0)
       continue;
     if (!has_area(polygons, i, areas[i])) {
       if (found.without_area++ == 0)
@@ -141,7 +141,7 @@ Range area_range(const Polygons& polygons, const DoubleVector& areas) {
   DoubleVector known(areas.size());
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < areas.size(); ++i)
-    if (polygons.begin[i + 1] > polygons.begin[i])
+    if (polygons.ids.count(i) > 0)
       known[count++] = areas[i];
   return range_of(known.head(count));
 }
@@ -159,9 +159,9 @@ Range spacing_of(const Polygons& polygons) {
     return {};
   const Sides sides(polygons);
   std::vector<double> distances;
-  for (std::int32_t from = 0; from < sides.nodes(); ++from)
-    for (std::int64_t k = sides.begin[from]; k < sides.begin[from + 1]; ++k)
-      if (const auto [to, polygon] = sides.list[k]; from < to)
+  for (std::int32_t from = 0; from < sides.from.size(); ++from)
+    for (const auto& [to, polygon] : sides.from[from])
+      if (from < to)
         if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
           distances.push_back(distance(polygons, column(polygons.centres, polygon),
                                        column(polygons.centres, other)));

@@ -13,30 +13,28 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace calotte::io_detail {
 namespace {
 
-std::int64_t corners_of(const Polygons& polygons, std::int64_t polygon) {
-  return polygons.begin[polygon + 1] - polygons.begin[polygon];
-}
-
-const Vec3& place(const Polygons& polygons, std::int64_t k) {
-  return column(polygons.corners, polygons.ids[k]);
+const Vec3& place(const Polygons& polygons, std::int32_t corner) {
+  return column(polygons.corners, corner);
 }
 
 /// The triangles of the fan from the first corner, one after the other.
 template <class Add>
 void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
-  const std::int64_t first = polygons.begin[polygon], end = polygons.begin[polygon + 1];
+  const std::span<const std::int32_t> ids = polygons.ids[polygon];
   const bool periodic = polygons.period.maxCoeff() > 0;
-  for (std::int64_t k = first + 1; k + 1 < end; ++k)
+  for (std::size_t k = 1; k + 1 < ids.size(); ++k)
     if (periodic)
-      add(place(polygons, first), copy_near(polygons, first, k), copy_near(polygons, first, k + 1));
+      add(place(polygons, ids[0]), copy_near(polygons, ids[0], ids[k]),
+          copy_near(polygons, ids[0], ids[k + 1]));
     else
-      add(place(polygons, first), place(polygons, k), place(polygons, k + 1));
+      add(place(polygons, ids[0]), place(polygons, ids[k]), place(polygons, ids[k + 1]));
 }
 
 /// Multiplied as complex numbers, the fan's half areas sum their angles.
@@ -66,11 +64,10 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
 
 /// The square of the distance from a point to the nearest of some columns.
-double nearest(const Vec3& p, const Points3& points, const Ids& ids, std::int64_t begin,
-               std::int64_t end) {
+double nearest(const Vec3& p, const Points3& points, std::span<const std::int32_t> ids) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::int64_t k = begin; k != end; ++k) {
-    const Vec3 apart = p - column(points, ids[k]);
+  for (const std::int32_t id : ids) {
+    const Vec3 apart = p - column(points, id);
     least = std::min(least, dot(apart, apart));
   }
   return least;
@@ -78,15 +75,13 @@ double nearest(const Vec3& p, const Points3& points, const Ids& ids, std::int64_
 
 /// The largest distance from a corner of either cell to the nearest corner of the other.
 double distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t cell) {
-  const std::int64_t begin = polygons.begin[cell], end = polygons.begin[cell + 1];
-  const std::int64_t own_begin = voronoi.begin[cell], own_end = voronoi.begin[cell + 1];
+  const std::span<const std::int32_t> corners = polygons.ids[cell],
+                                      vertices = voronoi.vertices_on_cell[cell];
   double most = 0;
-  for (std::int64_t k = begin; k != end; ++k)
-    most = std::max(most, nearest(place(polygons, k), voronoi.vertices, voronoi.vertices_on_cell,
-                                  own_begin, own_end));
-  for (std::int64_t k = own_begin; k != own_end; ++k)
-    most = std::max(most, nearest(column(voronoi.vertices, voronoi.vertices_on_cell[k]),
-                                  polygons.corners, polygons.ids, begin, end));
+  for (const std::int32_t id : corners)
+    most = std::max(most, nearest(place(polygons, id), voronoi.vertices, vertices));
+  for (const std::int32_t id : vertices)
+    most = std::max(most, nearest(column(voronoi.vertices, id), polygons.corners, corners));
   return std::sqrt(most);
 }
 
@@ -117,8 +112,8 @@ Array<int> turns_of(const Polygons& polygons) {
 
 } // namespace
 
-Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k) {
-  const Vec3 &from = place(polygons, first), &to = place(polygons, k);
+Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner) {
+  const Vec3 &from = place(polygons, first), &to = place(polygons, corner);
   if (polygons.on_sphere)
     return to;
   const Vec2 way =
@@ -127,29 +122,28 @@ Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k) {
 }
 
 Polygons polygons_of(Voronoi&& voronoi) {
-  return {
-      std::move(voronoi.vertices), std::move(voronoi.begin), std::move(voronoi.vertices_on_cell),
-      std::move(voronoi.cells),    voronoi.on_sphere,        voronoi.period};
+  return {std::move(voronoi.vertices), std::move(voronoi.vertices_on_cell),
+          std::move(voronoi.cells), voronoi.on_sphere, voronoi.period};
 }
 
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
                      Points3 centres) {
   const std::int64_t count = most > 0 ? std::ssize(corners) / most : 0;
-  Polygons polygons{std::move(places), {}, Ids(std::ssize(corners)), std::move(centres)};
-  polygons.begin.resize(count + 1);
-  polygons.begin[0] = 0;
+  Polygons polygons{
+      std::move(places), {Offsets(count + 1), Ids(std::ssize(corners))}, std::move(centres)};
+  auto& [begin, ids] = polygons.ids;
+  begin[0] = 0;
   for (std::int64_t i = 0; i < count; ++i) {
-    std::int32_t *const first = polygons.ids.data() + polygons.begin[i], *end = first;
+    std::int32_t *const first = ids.data() + begin[i], *end = first;
     for (std::int64_t k = i * most; k < (i + 1) * most; ++k)
       if (const std::int32_t id = corners[static_cast<std::size_t>(k)];
           id >= 0 && (end == first || end[-1] != id))
         *end++ = id;
-    polygons.begin[i + 1] = polygons.begin[i] + (end - first);
-    while (polygons.begin[i + 1] > polygons.begin[i] + 1 &&
-           polygons.ids[polygons.begin[i + 1] - 1] == *first)
-      --polygons.begin[i + 1];
+    while (end > first + 1 && end[-1] == *first)
+      --end;
+    begin[i + 1] = begin[i] + (end - first);
   }
-  polygons.ids.conservativeResize(polygons.begin[count]);
+  ids.conservativeResize(begin[count]);
   return polygons;
 }
 
@@ -182,8 +176,7 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
     if (turns[i] < 0 || counter_clockwise == 0)
-      std::reverse(polygons.ids.begin() + polygons.begin[i],
-                   polygons.ids.begin() + polygons.begin[i + 1]);
+      std::ranges::reverse(polygons.ids[i]);
   return clockwise;
 }
 
@@ -195,32 +188,32 @@ bool are_areas_of(const Polygons& polygons, const DoubleVector& values) {
 }
 
 Sides::Sides(const Polygons& polygons, std::int64_t corners)
-    : begin(corners + 1), list(polygons.ids.size()) {
+    : from{Array<std::int64_t>(corners + 1), Array<Side>(polygons.ids.items.size())} {
+  auto& [begin, sides] = from;
   std::fill(begin.begin(), begin.end(), std::int64_t{0});
-  for (const std::int32_t id : polygons.ids)
+  for (const std::int32_t id : polygons.ids.items)
     ++begin[id];
   std::int64_t end = 0;
   for (std::int64_t& count : begin) // the end of each corner's, which filling turns into begins
     count = end += count;
-  for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;)
-    for (std::int64_t k = polygons.begin[i + 1]; k-- > polygons.begin[i];) {
-      const std::int64_t next = k + 1 < polygons.begin[i + 1] ? k + 1 : polygons.begin[i];
-      list[--begin[polygons.ids[k]]] = {polygons.ids[next], i};
-    }
-  for (std::int64_t node = 0; node < nodes(); ++node)
-    std::sort(list.begin() + begin[node], list.begin() + begin[node + 1]);
+  for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;) {
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    for (std::size_t k = ids.size(); k-- > 0;)
+      sides[--begin[ids[k]]] = {k + 1 < ids.size() ? ids[k + 1] : ids[0], i};
+  }
+  for (std::int64_t corner = 0; corner < from.size(); ++corner)
+    std::sort(from[corner].begin(), from[corner].end());
 }
 
-std::int32_t Sides::polygon_of(std::int32_t from, std::int32_t to) const {
-  const Side *const first = list.begin() + begin[from],
-                    *const last = list.begin() + begin[from + 1],
-                    *const found = std::lower_bound(first, last, Side{to, -1});
-  return found != last && found->to == to ? found->polygon : -1;
+std::int32_t Sides::polygon_of(std::int32_t start, std::int32_t to) const {
+  const std::span<const Side> sides = from[start];
+  const auto found = std::lower_bound(sides.begin(), sides.end(), Side{to, -1});
+  return found != sides.end() && found->to == to ? found->polygon : -1;
 }
 
-bool Sides::is_open(std::int32_t from) const {
-  return std::any_of(list.begin() + begin[from], list.begin() + begin[from + 1],
-                     [&](const Side& side) { return polygon_of(side.to, from) < 0; });
+bool Sides::is_open(std::int32_t start) const {
+  return std::ranges::any_of(from[start],
+                             [&](const Side& side) { return polygon_of(side.to, start) < 0; });
 }
 
 Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
@@ -232,16 +225,16 @@ Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
   };
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     const double least = 1e-9 * std::sqrt(std::abs(areas[i]));
-    const std::int64_t begin = polygons.begin[i], end = polygons.begin[i + 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      const std::int64_t next = k + 1 < end ? k + 1 : begin;
-      if (!(norm(place(polygons, next) - place(polygons, k)) < least))
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::int32_t id = ids[k], next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
+      if (!(norm(place(polygons, next) - place(polygons, id)) < least))
         continue;
       if (same.empty()) {
         same.resize(static_cast<std::size_t>(polygons.corners.cols()));
         std::iota(same.begin(), same.end(), 0);
       }
-      const auto [low, high] = std::minmax({lowest(polygons.ids[k]), lowest(polygons.ids[next])});
+      const auto [low, high] = std::minmax({lowest(id), lowest(next)});
       same[static_cast<std::size_t>(high)] = low;
     }
   }
@@ -253,14 +246,14 @@ Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
 
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
   constexpr double rounding = 1e-14; // of a unit vector; of places in a plane, to their size
-  const std::int64_t begin = polygons.begin[polygon], end = polygons.begin[polygon + 1];
-  if (end - begin < 3)
+  const std::span<const std::int32_t> ids = polygons.ids[polygon];
+  if (ids.size() < 3)
     return false;
   double perimeter = 0, size = 0;
-  for (std::int64_t k = begin; k < end; ++k) {
-    size = std::max(size, norm(place(polygons, k)));
-    perimeter += norm(copy_near(polygons, begin, k + 1 < end ? k + 1 : begin) -
-                      copy_near(polygons, begin, k));
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::int32_t next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
+    size = std::max(size, norm(place(polygons, ids[k])));
+    perimeter += norm(copy_near(polygons, ids[0], next) - copy_near(polygons, ids[0], ids[k]));
   }
   return std::abs(area) > rounding * perimeter * size;
 }
@@ -270,10 +263,11 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
   const auto covers = [&](const Side& side) {
     return has_area(polygons, side.polygon, signed_area(polygons, side.polygon));
   };
-  for (std::int64_t corner = 0; corner < all.nodes(); ++corner) {
-    std::int64_t known = all.begin[corner];
-    for (std::int64_t k = known + 1; k < all.begin[corner + 1]; ++k) {
-      const Side &side = all.list[known], &next = all.list[k];
+  for (std::int64_t corner = 0; corner < all.from.size(); ++corner) {
+    const std::span<const Side> sides = all.from[corner];
+    std::size_t known = 0;
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      const Side &side = sides[known], &next = sides[k];
       if (side.to == next.to && !covers(next))
         continue;
       if (side.to == next.to && covers(side))
@@ -327,7 +321,7 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
       std::find_if(first.begin(), first.end(), [](std::int64_t cell) { return cell >= 0; });
   if (found == first.end())
     return {};
-  if (corners_of(polygons, *found) == 0)
+  if (polygons.ids.count(*found) == 0)
     return name_of(*found) + " has no corners";
   return "a corner of " + name_of(*found) + " is " +
          std::to_string(distance(voronoi, polygons, *found) / width) +
@@ -337,16 +331,13 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
 Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons) {
   Ids corners(voronoi.vertices.cols());
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    for (std::int64_t k = voronoi.begin[i]; k < voronoi.begin[i + 1]; ++k) {
-      const std::int32_t vertex = voronoi.vertices_on_cell[k];
+    for (const std::int32_t vertex : voronoi.vertices_on_cell[i]) {
       const Vec3 p = column(voronoi.vertices, vertex);
-      corners[vertex] = *std::min_element(polygons.ids.begin() + polygons.begin[i],
-                                          polygons.ids.begin() + polygons.begin[i + 1],
-                                          [&](std::int32_t a, std::int32_t b) {
-                                            const Vec3 to_a = p - column(polygons.corners, a),
-                                                       to_b = p - column(polygons.corners, b);
-                                            return dot(to_a, to_a) < dot(to_b, to_b);
-                                          });
+      corners[vertex] =
+          *std::ranges::min_element(polygons.ids[i], [&](std::int32_t a, std::int32_t b) {
+            const Vec3 to_a = p - place(polygons, a), to_b = p - place(polygons, b);
+            return dot(to_a, to_a) < dot(to_b, to_b);
+          });
     }
   return corners;
 }
@@ -354,16 +345,17 @@ Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons) {
 std::int64_t most_corners(const Polygons& polygons) {
   std::int64_t most = 0;
   for (std::int64_t i = 0; i < polygons.size(); ++i)
-    most = std::max(most, corners_of(polygons, i));
+    most = std::max(most, polygons.ids.count(i));
   return most;
 }
 
 std::int32_t corner(const Polygons& polygons, std::int64_t polygon, std::int64_t k) {
-  return k < corners_of(polygons, polygon) ? polygons.ids[polygons.begin[polygon] + k] : -1;
+  const std::span<const std::int32_t> ids = polygons.ids[polygon];
+  return k < std::ssize(ids) ? ids[static_cast<std::size_t>(k)] : -1;
 }
 
 std::int32_t corner_or_last(const Polygons& polygons, std::int64_t polygon, std::int64_t k) {
-  return corner(polygons, polygon, std::min(k, corners_of(polygons, polygon) - 1));
+  return corner(polygons, polygon, std::min(k, polygons.ids.count(polygon) - 1));
 }
 
 } // namespace calotte::io_detail

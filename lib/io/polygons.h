@@ -27,17 +27,15 @@ struct Side {
 
 /// The sides of polygons by the corner that they start from, sorted.
 struct Sides {
-  Array<std::int64_t> begin; ///< by corner: its sides are list[begin] to list[begin + 1] - 1
-  Array<Side> list;
+  Lists<Array<Side>, Array<std::int64_t>> from; ///< by corner
 
   explicit Sides(const Polygons& polygons) : Sides(polygons, polygons.corners.cols()) {}
   /// \param corners their number, where their places are not known.
   Sides(const Polygons& polygons, std::int64_t corners);
-  std::int64_t nodes() const { return begin.size() - 1; }
   /// The first polygon with a side; -1 if there is none.
-  std::int32_t polygon_of(std::int32_t from, std::int32_t to) const;
+  std::int32_t polygon_of(std::int32_t start, std::int32_t to) const;
   /// Whether a side from a corner belongs to one polygon only.
-  bool is_open(std::int32_t from) const;
+  bool is_open(std::int32_t start) const;
 };
 
 /// The cells of a tessellation, which is used up.
@@ -49,8 +47,8 @@ Polygons polygons_of(Voronoi&& voronoi);
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
                      Points3 centres);
 
-/// The place of corner `ids[k]`; in a periodic plane of its copy nearest to corner `ids[first]`.
-Vec3 copy_near(const Polygons& polygons, std::int64_t first, std::int64_t k);
+/// The place of a corner; in a periodic plane of its copy nearest to another corner, the first.
+Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner);
 
 /// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
 /// polygons. \pre on the sphere each is smaller than a hemisphere.

@@ -2,6 +2,7 @@
 #include "io/grid_check.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -99,7 +100,7 @@ void check_face_edges(const Connectivity& table, const std::vector<EdgeNodes>& e
       if (table.at(row, k) >= 0)
         ids.push_back(table.at(row, k));
     std::sort(ids.begin(), ids.end());
-    const bool whole = std::ssize(ids) == polygons.begin[row + 1] - polygons.begin[row] &&
+    const bool whole = std::ssize(ids) == polygons.ids.count(row) &&
                        std::adjacent_find(ids.begin(), ids.end()) == ids.end();
     if (!whole || !std::all_of(ids.begin(), ids.end(), [&](std::int32_t e) {
           return is_side_of(sides, edges[static_cast<std::size_t>(e)],
@@ -116,10 +117,10 @@ void check_face_faces(const Connectivity& table, const Polygons& polygons, const
     for (std::int64_t k = 0; k < table.width; ++k)
       if (table.at(row, k) >= 0)
         stored.push_back(table.at(row, k));
-    const std::int64_t begin = polygons.begin[row], end = polygons.begin[row + 1];
-    for (std::int64_t k = begin; k < end; ++k)
+    const std::span<const std::int32_t> ids = polygons.ids[row];
+    for (std::size_t k = 0; k < ids.size(); ++k)
       if (const std::int32_t other =
-              sides.polygon_of(polygons.ids[k + 1 < end ? k + 1 : begin], polygons.ids[k]);
+              sides.polygon_of(k + 1 < ids.size() ? ids[k + 1] : ids[0], ids[k]);
           other >= 0)
         derived.push_back(other);
     std::sort(stored.begin(), stored.end());

@@ -164,15 +164,14 @@ Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& na
 
 /// The faces as polygons.
 Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
-  Polygons polygons{std::move(nodes), {}, {}, std::move(centres), !planar};
-  polygons.begin.resize(faces.cols() + 1);
-  polygons.begin[0] = 0;
+  Polygons polygons{std::move(nodes), {Offsets(faces.cols() + 1), {}}, std::move(centres), !planar};
+  auto& [begin, ids] = polygons.ids;
+  begin[0] = 0;
   for (Eigen::Index face = 0; face < faces.cols(); ++face)
-    polygons.begin[face + 1] = polygons.begin[face] + (faces.col(face).array() >= 0).count();
-  polygons.ids.resize(polygons.begin[faces.cols()]);
+    begin[face + 1] = begin[face] + (faces.col(face).array() >= 0).count();
+  ids.resize(begin[faces.cols()]);
   for (Eigen::Index face = 0; face < faces.cols(); ++face)
-    polygons.ids.segment(polygons.begin[face], polygons.begin[face + 1] - polygons.begin[face]) =
-        faces.col(face).head(polygons.begin[face + 1] - polygons.begin[face]);
+    std::copy_n(faces.col(face).data(), polygons.ids.count(face), ids.data() + begin[face]);
   return polygons;
 }
 

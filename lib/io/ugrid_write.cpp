@@ -6,8 +6,6 @@
 
 #include "base/points.h"
 
-#include <algorithm>
-
 namespace calotte::io_detail {
 namespace {
 
@@ -184,8 +182,7 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
                  [&cells](std::int64_t cell, std::int64_t k) { return corner(cells, cell, k); });
   if (on_sphere && has_centres)
     add_bounds(file, faces, most_corners(cells), [&cells](std::int64_t cell, std::int64_t k) {
-      const std::int64_t last = cells.begin[cell + 1] - 1;
-      return column(cells.corners, cells.ids[std::min(cells.begin[cell] + k, last)]);
+      return column(cells.corners, corner_or_last(cells, cell, k));
     });
   if (has_sites)
     add_places(file, face_name, faces, sites);

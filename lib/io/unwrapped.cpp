@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,12 +61,12 @@ Polygons unwrapped(Polygons polygons) {
   Copies copies(polygons.corners, {polygons.period.x(), polygons.period.y()});
   const bool centred = polygons.centres.cols() == polygons.size();
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    if (polygons.begin[i] == polygons.begin[i + 1])
+    const std::span<std::int32_t> ids = polygons.ids[i];
+    if (ids.empty())
       continue;
-    const Vec3 place = centred ? column(polygons.centres, i)
-                               : column(polygons.corners, polygons.ids[polygons.begin[i]]);
-    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k)
-      polygons.ids[k] = copies.near(polygons.ids[k], place);
+    const Vec3 place = centred ? column(polygons.centres, i) : column(polygons.corners, ids[0]);
+    for (std::int32_t& id : ids)
+      id = copies.near(id, place);
   }
   Points3 corners = copies.all();
   polygons.corners = std::move(corners);

@@ -38,9 +38,9 @@ std::string name_of(std::int32_t type) {
 
 } // namespace
 
-void require_cell_types(const std::string& name, const Surface& surface, const Ids& types,
+void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
                         const std::string& array) {
-  for (std::int64_t i = 0; i < surface.size(); ++i) {
+  for (std::int64_t i = 0; i < poly_data.size(); ++i) {
     const std::int32_t type = types[i];
     const std::string cell = "cell " + std::to_string(i);
     if (type != triangle_type && type != polygon_type && type != quad_type)
@@ -48,7 +48,7 @@ void require_cell_types(const std::string& name, const Surface& surface, const I
                  cell + " has the type " + std::to_string(type) + name_of(type) +
                      "; only 5 (triangle), 7 (polygon) and 9 (quad) are read, remove the others",
                  i);
-    const std::int64_t corners = surface.begin[i + 1] - surface.begin[i];
+    const std::int64_t corners = poly_data.ids.count(i);
     if ((type == triangle_type && corners != 3) || (type == quad_type && corners != 4))
       fail_array(name, array,
                  cell + " has the type " + std::to_string(type) + " but " +

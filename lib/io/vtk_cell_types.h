@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/poly_data.h"
 #include "io/room.h"
-#include "io/surface.h"
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace calotte::io_detail {
 /// \param types one for each polygon.
 /// \throws Error parse, naming the first cell of another type, or one whose corners are not as many
 /// as its type has.
-void require_cell_types(const std::string& name, const Surface& surface, const Ids& types,
+void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
                         const std::string& array = "types");
 
 } // namespace calotte::io_detail

@@ -15,14 +15,14 @@ void add_shapes(const Points3& corners, const Polygons& cells, VtkHead& head,
                 std::vector<VtkContent>& contents) {
   add_points(corners.cols(), head);
   contents.push_back(content_of(corners));
-  add_cells(cells.ids.size(), head);
+  add_cells(cells.ids.items.size(), head);
   contents.emplace_back([&cells](Writer& out) {
-    for (const std::int32_t corner : cells.ids)
+    for (const std::int32_t corner : cells.ids.items)
       out.raw(std::int64_t{corner});
   });
   contents.emplace_back([&cells](Writer& out) {
     for (std::int64_t i = 1; i <= cells.size(); ++i)
-      out.raw(cells.begin[i]);
+      out.raw(cells.ids.begin[i]);
   });
   if (head.flavour.types)
     contents.emplace_back([&cells](Writer& out) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/file.h"
 #include "io/formats.h"
-#include "io/surface.h"
+#include "io/poly_data.h"
 #include "io/vtk_cell_types.h"
 #include "io/vtk_legacy.h"
 
@@ -19,53 +19,45 @@ namespace {
 
 const std::string again = "; the file is damaged or incomplete, make it again";
 
-/// Lists of points, for cells of one kind.
-struct Cells {
-  Offsets begin;
-  Ids ids;
-
-  std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
-};
-
-/// As of version 5.1: offsets from 0 on, and the points.
-Cells read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
-                   std::int64_t points) {
+/// The points of cells of one kind. As of version 5.1: offsets from 0 on, and the points.
+IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
+                     std::int64_t points) {
   const auto type = [&] {
     const LegacyText::Type read = text.type();
     if (!read.scalar)
       fail_array(text.name(), section, "its type is " + read.name + ", not one of numbers" + again);
     return *read.scalar;
   };
-  Cells cells;
+  IdLists cells;
   const Scalar of_offsets = type();
   cells.begin = text.numbers<std::int64_t>(section, of_offsets, offsets);
   if (!text.take("CONNECTIVITY"))
     fail_array(text.name(), section, "no CONNECTIVITY follows its OFFSETS" + again);
   const Scalar of_points = type();
-  cells.ids = text.numbers<std::int32_t>(section, of_points, points);
+  cells.items = text.numbers<std::int32_t>(section, of_points, points);
   if (offsets > 0 && cells.begin[0] != 0)
     fail_array(text.name(), section, "its OFFSETS do not start with 0" + again);
   return cells;
 }
 
 /// Before version 5.1: the number of points before those of each cell.
-Cells read_lists(LegacyText& text, const std::string& section, std::int64_t count,
-                 std::int64_t size) {
+IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t count,
+                   std::int64_t size) {
   const auto list = text.numbers<std::int32_t>(section, Scalar::int32, size);
   if (count > size)
     fail_array(text.name(), section,
                "its " + std::to_string(size) + " numbers cannot hold " + std::to_string(count) +
                    " cells" + again);
-  Cells cells{Offsets::Zero(count + 1), Ids(size - count)};
+  IdLists cells{Offsets::Zero(count + 1), Ids(size - count)};
   std::int64_t place = 0, end = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t corners = place < size ? list[place] : -1;
-    if (corners < 0 || corners > size - place - 1 || end + corners > cells.ids.size())
+    if (corners < 0 || corners > size - place - 1 || end + corners > cells.items.size())
       fail_array(text.name(), section,
                  "cell " + std::to_string(i) + " runs beyond the " + std::to_string(size) +
                      " numbers" + again,
                  i);
-    cells.ids.segment(end, corners) = list.segment(place + 1, corners);
+    cells.items.segment(end, corners) = list.segment(place + 1, corners);
     place += corners + 1;
     end += corners;
     cells.begin[i + 1] = end;
@@ -73,7 +65,7 @@ Cells read_lists(LegacyText& text, const std::string& section, std::int64_t coun
   return cells;
 }
 
-Cells read_cells(LegacyText& text, const std::string& section) {
+IdLists read_cells(LegacyText& text, const std::string& section) {
   const std::int64_t first = text.count("cells"), size = text.count("their numbers");
   return text.take("OFFSETS") ? read_offsets(text, section, first, size)
                               : read_lists(text, section, first, size);
@@ -84,7 +76,7 @@ class Reader {
 public:
   Reader(std::string_view content, const std::string& name) : text_(content, name) {}
 
-  Surface read() {
+  PolyData read() {
     require_data_set();
     for (std::string_view keyword = text_.word(); !keyword.empty(); keyword = text_.word()) {
       std::string lower(keyword);
@@ -112,7 +104,7 @@ private:
     if (keyword == "points")
       read_points();
     else if (keyword == (grid_ ? "cells" : "polygons"))
-      polygons_ = read_cells(text_, grid_ ? "CELLS" : "POLYGONS");
+      poly_data_.ids = read_cells(text_, grid_ ? "CELLS" : "POLYGONS");
     else if (keyword == "cell_types" && grid_)
       read_types();
     else if ((keyword == "vertices" || keyword == "lines") && !grid_)
@@ -131,8 +123,8 @@ private:
       fail_array(text_.name(), "POINTS",
                  "its type is " + type.name + ", not one of numbers" + again);
     const Column<double> numbers = text_.numbers<double>("POINTS", *type.scalar, 3 * count);
-    surface_.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
-    surface_.single = type.scalar == Scalar::float32;
+    poly_data_.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
+    poly_data_.single = type.scalar == Scalar::float32;
   }
 
   void read_types() {
@@ -227,7 +219,7 @@ private:
 
   void ignore(const std::string& name, const LegacyText::Type& type, std::int64_t count) {
     text_.skip(name, type, count);
-    surface_.ignored.push_back(name);
+    poly_data_.ignored.push_back(name);
   }
 
   void read_array(const std::string& name, const LegacyText::Type& type, std::int64_t components,
@@ -243,33 +235,31 @@ private:
                  "it has " + std::to_string(components) + " components" + again);
     if (!type.scalar || !is_read(name, *of_cells_, components))
       return ignore(name, type, components * tuples);
-    surface_.arrays.push_back({name, *of_cells_, static_cast<int>(components),
-                               text_.numbers<double>(name, *type.scalar, components * tuples)});
+    poly_data_.arrays.push_back({name, *of_cells_, static_cast<int>(components),
+                                 text_.numbers<double>(name, *type.scalar, components * tuples)});
   }
 
   // ---- The whole
 
-  Surface finish() {
-    surface_.begin = std::move(polygons_.begin);
-    surface_.ids = std::move(polygons_.ids);
+  PolyData finish() {
     if (grid_) {
-      if (types_.size() != surface_.size())
+      if (types_.size() != poly_data_.size())
         fail_array(text_.name(), "CELL_TYPES",
                    "it has " + std::to_string(types_.size()) + " types for " +
-                       std::to_string(surface_.size()) + " cells" + again);
-      require_cell_types(text_.name(), surface_, types_, "CELL_TYPES");
+                       std::to_string(poly_data_.size()) + " cells" + again);
+      require_cell_types(text_.name(), poly_data_, types_, "CELL_TYPES");
     }
     const std::string section = grid_ ? "CELLS" : "POLYGONS";
-    require_polygons(text_.name(), surface_, {section, section});
-    for (SurfaceArray& array : surface_.arrays)
-      settle(array);
-    return std::move(surface_);
+    require_polygons(text_.name(), poly_data_, {section, section});
+    for (DataArray& array : poly_data_.arrays)
+      keep_values_of_faces(array);
+    return std::move(poly_data_);
   }
 
   /// Drops the values of vertices and lines, which come first.
-  void settle(SurfaceArray& array) const {
+  void keep_values_of_faces(DataArray& array) const {
     const std::int64_t skipped = array.of_polygons ? before_ : 0,
-                       used = array.of_polygons ? surface_.size() : surface_.points.cols();
+                       used = array.of_polygons ? poly_data_.size() : poly_data_.points.cols();
     if (array.values.size() != array.components * (skipped + used))
       fail_array(text_.name(), array.name,
                  "it has " + std::to_string(array.values.size() / array.components) +
@@ -283,8 +273,7 @@ private:
 
   LegacyText text_;
   bool grid_ = false;
-  Surface surface_;
-  Cells polygons_;
+  PolyData poly_data_;
   Ids types_;
   std::int64_t before_ = 0;      ///< vertices and lines
   std::optional<bool> of_cells_; ///< whose data come; none before the first

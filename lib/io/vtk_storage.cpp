@@ -2,7 +2,7 @@
 #include "io/vtk_storage.h"
 
 #include "io/base64.h"
-#include "io/surface.h"
+#include "io/poly_data.h"
 #include "io/text.h"
 
 #define ZLIB_CONST

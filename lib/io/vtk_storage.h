@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/poly_data.h"
 #include "io/room.h"
 #include "io/scalars.h"
-#include "io/surface.h"
 #include "io/xml.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/file.h"
 #include "io/formats.h"
+#include "io/poly_data.h"
 #include "io/scalars.h"
-#include "io/surface.h"
 #include "io/vtk_cell_types.h"
 #include "io/vtk_storage.h"
 #include "io/xml.h"
@@ -182,7 +182,7 @@ const XmlElement& array_of(const VtkFile& file, const XmlElement& piece, const s
 }
 
 void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t count,
-                 Surface& surface) {
+                 PolyData& poly_data) {
   if (count == 0 && find_array(file, piece, "Points", "") == nullptr)
     return;
   const XmlElement& array = array_of(file, piece, "Points", "");
@@ -190,36 +190,36 @@ void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t coun
     fail_array(file.storage.name, array.attribute("Name", "Points"),
                "its NumberOfComponents is " + in_quotes(components) + ", not 3" + again);
   read_vtk_numbers<double>(file.storage, array, 3 * count, [&](std::int64_t size) {
-    surface.points.resize(3, size / 3);
-    return surface.points.data();
+    poly_data.points.resize(3, size / 3);
+    return poly_data.points.data();
   });
-  surface.single = array.attribute("type") == "Float32";
+  poly_data.single = array.attribute("type") == "Float32";
 }
 
 void read_polygons(const VtkFile& file, const XmlElement& piece, std::int64_t count,
-                   Surface& surface) {
+                   PolyData& poly_data) {
   const std::string section = file.type == "PolyData" ? "Polys" : "Cells";
   if (count == 0 && find_array(file, piece, section, "connectivity") == nullptr)
     return;
   const VtkStorage& storage = file.storage;
   read_vtk_numbers<std::int64_t>(storage, array_of(file, piece, section, "offsets"), count,
                                  [&](std::int64_t size) {
-                                   surface.begin.resize(size + 1);
-                                   surface.begin[0] = 0;
-                                   return surface.begin.data() + 1;
+                                   poly_data.ids.begin.resize(size + 1);
+                                   poly_data.ids.begin[0] = 0;
+                                   return poly_data.ids.begin.data() + 1;
                                  });
-  surface.ids =
+  poly_data.ids.items =
       vtk_numbers<std::int32_t>(storage, array_of(file, piece, section, "connectivity"), -1);
   if (file.type == "UnstructuredGrid")
     require_cell_types(
-        storage.name, surface,
+        storage.name, poly_data,
         vtk_numbers<std::int32_t>(storage, array_of(file, piece, section, "types"), count));
 }
 
 // ---- Data
 
 void read_array(const VtkFile& file, const XmlElement& element, const Counts& counts,
-                bool of_polygons, Surface& surface) {
+                bool of_polygons, PolyData& poly_data) {
   const std::string name = element.attribute("Name");
   const std::string text = element.attribute("NumberOfComponents", "1");
   std::int32_t components = 0;
@@ -227,7 +227,7 @@ void read_array(const VtkFile& file, const XmlElement& element, const Counts& co
     fail_array(file.storage.name, name, "its NumberOfComponents is " + in_quotes(text) + again);
   const bool numbers = element.name == "DataArray" && vtk_type(element.attribute("type"));
   if (name.empty() || !numbers || !is_read(name, of_polygons, components)) {
-    surface.ignored.push_back(name);
+    poly_data.ignored.push_back(name);
     return;
   }
   const std::int64_t skipped = of_polygons ? components * counts.before : 0,
@@ -235,23 +235,23 @@ void read_array(const VtkFile& file, const XmlElement& element, const Counts& co
   Column<double> values = vtk_numbers<double>(file.storage, element, skipped + used);
   if (skipped > 0)
     values = Column<double>(values.tail(used));
-  surface.arrays.push_back({name, of_polygons, components, std::move(values)});
+  poly_data.arrays.push_back({name, of_polygons, components, std::move(values)});
 }
 
 void read_data(const VtkFile& file, const XmlElement& piece, const Counts& counts,
-               Surface& surface) {
+               PolyData& poly_data) {
   for (const bool of_polygons : {false, true})
     if (const XmlElement* const data = file.child(piece, of_polygons ? "CellData" : "PointData"))
       for (const XmlElement* const element : children(file.document, *data))
-        read_array(file, *element, counts, of_polygons, surface);
+        read_array(file, *element, counts, of_polygons, poly_data);
 }
 
 /// Names of data of the whole file.
-void ignore_field_data(const VtkFile& file, Surface& surface) {
+void ignore_field_data(const VtkFile& file, PolyData& poly_data) {
   const XmlElement* const data = file.child(file.document.front(), file.type);
   if (const XmlElement* const fields = file.child(*data, "FieldData"))
     for (const XmlElement* const element : children(file.document, *fields))
-      surface.ignored.push_back(element->attribute("Name"));
+      poly_data.ignored.push_back(element->attribute("Name"));
 }
 
 } // namespace
@@ -264,13 +264,13 @@ RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
   if (counts.strips > 0)
     fail(name, "it has " + std::to_string(counts.strips) +
                    " triangle strips, which are not read; write triangles (vtkTriangleFilter)");
-  Surface surface;
-  read_points(file, piece, counts.points, surface);
-  read_polygons(file, piece, counts.polygons, surface);
-  require_polygons(name, surface);
-  ignore_field_data(file, surface);
-  read_data(file, piece, counts, surface);
-  return raw_mesh_of(name, std::move(surface));
+  PolyData poly_data;
+  read_points(file, piece, counts.points, poly_data);
+  read_polygons(file, piece, counts.polygons, poly_data);
+  require_polygons(name, poly_data);
+  ignore_field_data(file, poly_data);
+  read_data(file, piece, counts, poly_data);
+  return raw_mesh_of(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

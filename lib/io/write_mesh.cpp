@@ -134,7 +134,7 @@ void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& o
   require_mesh(path, mesh, resolved.format);
   require_values(path, sizes_of(mesh), resolved);
   if (is_netcdf(resolved.format))
-    settle_names(resolved.fields);
+    replace_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
   const Numbering numbering = numbering_of(resolved);
@@ -183,7 +183,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   require_ids(path, mesh);
   require_values(path, sizes_of(mesh), resolved);
   if (is_netcdf(resolved.format))
-    settle_names(resolved.fields);
+    replace_names(resolved.fields);
   resolved.progress = rest_of(options.progress, 0);
   if (surface.is_bounded() && holds_cells(resolved.format)) {
     std::erase_if(resolved.fields,

@@ -35,9 +35,8 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   if (!polygon_format(format))
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
-  const auto& begin = file.polygons->begin;
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
-    if (begin[i] == begin[i + 1])
+    if (file.polygons->ids.count(i) == 0)
       refuse_to_write(
           path, "cell " + std::to_string(i) +
                     " has an incomplete boundary, which no format of cells can hold; write the "
@@ -85,7 +84,7 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
     if (has_density)
       options.fields.push_back({.name = "density", .values = file.density});
     if (is_netcdf(options.format))
-      settle_names(options.fields);
+      replace_names(options.fields);
     Polygons polygons = unwrapped(*file.polygons);
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
       polygons.centres = centroids_of(polygons);
@@ -159,7 +158,7 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
   resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
   WrittenFields written;
   if (is_netcdf(resolved.format))
-    written.renamed = settle_names(resolved.fields);
+    written.renamed = replace_names(resolved.fields);
   const std::optional<Mesh> triangles = triangles_of(file, resolved.format);
   const bool polygons = writes_polygons(file, triangles, resolved.format);
   if (!polygons && options.density.uniform() && options.site_density.size() == 0)

@@ -155,7 +155,7 @@ void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& 
   }
 }
 
-std::vector<std::array<std::string, 2>> settle_names(std::vector<MeshField>& fields) {
+std::vector<std::array<std::string, 2>> replace_names(std::vector<MeshField>& fields) {
   std::vector<std::array<std::string, 2>> renamed;
   std::set<std::string> used;
   for (MeshField& field : fields) {

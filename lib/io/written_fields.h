@@ -37,6 +37,6 @@ void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& 
 
 /// Gives all fields names that NetCDF takes and that differ.
 /// \returns the old and the new name of those that changed.
-std::vector<std::array<std::string, 2>> settle_names(std::vector<MeshField>& fields);
+std::vector<std::array<std::string, 2>> replace_names(std::vector<MeshField>& fields);
 
 } // namespace calotte::io_detail

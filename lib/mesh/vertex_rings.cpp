@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <span>
 
 namespace calotte::mesh_detail {
 namespace {
@@ -66,12 +67,11 @@ VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neigh
   const Array<Corner> first = ring_starts(mesh, &rings.begin);
   rings.begin[n] = 0;
   exclusive_scan(std::span(rings.begin.begin(), rings.begin.end()));
-  rings.corners = Array<Corner>(rings.begin[n]);
+  rings.items = Array<Corner>(rings.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int64_t place = rings.begin[i];
-      for_each_corner_around(mesh, first[i],
-                             [&](Corner corner) { rings.corners[place++] = corner; });
+      for_each_corner_around(mesh, first[i], [&](Corner corner) { rings.items[place++] = corner; });
     }
   });
   return rings;

@@ -14,10 +14,7 @@ namespace calotte::mesh_detail {
 
 /// The corners at each site of a closed mesh, counter-clockwise, starting with the corner whose
 /// next vertex is the lowest neighbour: an order that the triangulation alone determines.
-struct VertexRings {
-  Array<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
-  Array<Corner> corners;
-};
+using VertexRings = Lists<Array<Corner>, Array<std::int64_t>>;
 
 /// Where the ring of each site starts, for a caller that needs each ring once.
 /// \param degrees receives, if given, the numbers of corners.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -113,11 +114,10 @@ double primal_eigenvalue(const Voronoi& of) {
   const Values roots = inverse_roots(n, [&](std::int64_t i) { return of.cell_area[i]; });
   return largest_eigenvalue(n, [&](const Values& x, std::int64_t i) {
     double sum = 0;
-    for (std::int64_t k = of.begin[i]; k != of.begin[i + 1]; ++k) {
-      const std::int32_t edge = of.edges_on_cell[k], other = of.cells_on_cell[k];
-      if (other >= 0)
+    const std::span<const std::int32_t> edges = of.edges_on_cell[i], others = of.cells_on_cell[i];
+    for (std::size_t k = 0; k != edges.size(); ++k)
+      if (const std::int32_t edge = edges[k], other = others[k]; other >= 0)
         sum += of.dv[edge] / of.dc[edge] * (roots[i] * x[i] - roots[other] * x[other]);
-    }
     return roots[i] * sum;
   });
 }

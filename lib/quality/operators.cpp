@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +30,7 @@ namespace {
 
 void set_place(const Points3& cells, ErrorNorms& norms) {
   if (norms.cell >= 0)
-    norms.place = cells.col(norms.cell);
+    norms.position = cells.col(norms.cell);
 }
 
 /// All but off_centroid.
@@ -86,11 +87,13 @@ OperatorErrors of_closed(const Mesh& mesh, const Density& density) {
 /// unit chord from each. Zero at the boundary.
 Vec3 first_moment(const Voronoi& cells, std::int64_t i) {
   Vec3 sum{0, 0, 0};
-  for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k) {
-    if (cells.cells_on_cell[k] < 0)
+  const std::span<const std::int32_t> edges = cells.edges_on_cell[i],
+                                      others = cells.cells_on_cell[i];
+  for (std::size_t k = 0; k != edges.size(); ++k) {
+    if (others[k] < 0)
       return {0, 0, 0};
-    const Vec3 chord = column(cells.cells, i) - column(cells.cells, cells.cells_on_cell[k]);
-    sum = sum + (0.5 * cells.dv[cells.edges_on_cell[k]] / norm(chord)) * chord;
+    const Vec3 chord = column(cells.cells, i) - column(cells.cells, others[k]);
+    sum = sum + (0.5 * cells.dv[edges[k]] / norm(chord)) * chord;
   }
   return sum;
 }

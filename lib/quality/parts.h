@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -171,18 +172,18 @@ inline Percentiles percentiles(std::vector<double>& values) {
     const double count = std::ceil(percent / 100 * static_cast<double>(values.size()));
     return values.begin() + static_cast<std::ptrdiff_t>(count) - 1;
   };
-  const auto settle = [&](double after, double percent, double before) {
+  const auto select = [&](double after, double percent, double before) {
     const auto first = after > 0 ? rank(after) : values.begin(),
                end = before < 100 ? rank(before) + 1 : values.end();
     std::nth_element(first, rank(percent), end);
     return *rank(percent);
   };
   Percentiles result;
-  result.p50 = settle(0, 50, 100);
-  result.p5 = settle(0, 5, 50);
-  result.p1 = settle(0, 1, 5);
-  result.p95 = settle(50, 95, 100);
-  result.p99 = settle(95, 99, 100);
+  result.p50 = select(0, 50, 100);
+  result.p5 = select(0, 5, 50);
+  result.p1 = select(0, 1, 5);
+  result.p95 = select(50, 95, 100);
+  result.p99 = select(95, 99, 100);
   result.min = *std::min_element(values.begin(), rank(1) + 1);
   result.max = *std::max_element(rank(99), values.end());
   return result;
@@ -232,13 +233,11 @@ struct CellPart {
 };
 
 inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) {
-  const VertexRings& rings = subject.rings;
-  const std::int64_t begin = rings.begin[site], end = rings.begin[site + 1];
+  const std::span<const Corner> ring = subject.rings[site];
   Tally arcs, voronoi;
   bool bad = false;
-  Corner before = rings.corners[end - 1];
-  for (std::int64_t s = begin; s != end; ++s) {
-    const Corner corner = rings.corners[s];
+  Corner before = ring.back();
+  for (const Corner corner : ring) {
     const int across = previous_vertex(corner.vertex);
     const Edge edge = edge_of(subject.shapes, corner.triangle, across, before.triangle,
                               next_vertex(before.vertex));
@@ -252,7 +251,7 @@ inline void add_cell(CellPart& part, const Subject& subject, std::int64_t site) 
   part.quality.add(voronoi.min / voronoi.max);
   if (bad)
     part.bad_spacing.add(arcs.sum / static_cast<double>(arcs.count));
-  part.count(static_cast<std::size_t>(end - begin), 1);
+  part.count(ring.size(), 1);
 }
 
 /// Sets all measures except residual, energy, its limit and areas.

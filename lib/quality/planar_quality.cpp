@@ -61,11 +61,9 @@ public:
   bool whole(const Triangles& triangles, const VertexRings& rings, std::int64_t site) const {
     const Vec2 here = at(static_cast<std::int32_t>(site));
     std::vector<CellCorner> cell;
-    for (std::int64_t s = rings.begin[site]; s != rings.begin[site + 1]; ++s) {
-      const Corner corner = rings.corners[s];
+    for (const Corner corner : rings[site])
       cell.push_back({centre_of(triangles, corner.triangle, corner.vertex),
                       at(triangles(previous_vertex(corner.vertex), corner.triangle)) - here});
-    }
     if (outline_.side(here) == Side::outside)
       return false;
     if (!near_boundary(outline_, here, cell))
@@ -187,9 +185,8 @@ void set_sides(const Voronoi& cells, CellMeasures& out) {
   for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
     Tally arcs, voronoi;
     bool whole = true;
-    for (std::int64_t k = cells.begin[i]; k != cells.begin[i + 1]; ++k) {
-      const std::int32_t edge = cells.edges_on_cell[k];
-      if (cells.cells_on_cell[k] < 0) {
+    for (const std::int32_t edge : cells.edges_on_cell[i]) {
+      if (cells.cells_on_edge(1, edge) < 0) {
         whole = false;
         continue;
       }

@@ -58,9 +58,9 @@ private:
     whole_ = Array<std::uint8_t>(of_.cells.cols());
     for_each_block(whole_.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i != end; ++i) {
-        bool whole = of_.cell_area[i] > 0 && of_.begin[i] != of_.begin[i + 1];
-        for (std::int64_t k = of_.begin[i]; k != of_.begin[i + 1]; ++k)
-          whole = whole && of_.cells_on_cell[k] >= 0;
+        bool whole = of_.cell_area[i] > 0 && of_.cells_on_cell.count(i) > 0;
+        for (const std::int32_t other : of_.cells_on_cell[i])
+          whole = whole && other >= 0;
         whole_[i] = whole ? 1 : 0;
       }
     });
@@ -97,10 +97,8 @@ private:
 
   /// Calls add(edge, sign) for the edges of a cell; sign is 1 if the normal leaves it.
   template <class Add> void around_cell(std::int64_t i, const Add& add) const {
-    for (std::int64_t k = of_.begin[i]; k != of_.begin[i + 1]; ++k) {
-      const std::int32_t edge = of_.edges_on_cell[k];
+    for (const std::int32_t edge : of_.edges_on_cell[i])
       add(edge, of_.cells_on_edge(0, edge) == i ? 1.0 : -1.0);
-    }
   }
 
   Squares divergence(std::int64_t i) const {
@@ -123,9 +121,10 @@ private:
   Squares laplacian(std::int64_t i) const {
     Values flux{};
     const Values here = fields_.values(cell(i));
-    for (std::int64_t k = of_.begin[i]; k != of_.begin[i + 1]; ++k) {
-      const std::int32_t edge = of_.edges_on_cell[k];
-      const Values there = fields_.values(cell(of_.cells_on_cell[k]));
+    const std::span<const std::int32_t> edges = of_.edges_on_cell[i], others = of_.cells_on_cell[i];
+    for (std::size_t k = 0; k != edges.size(); ++k) {
+      const std::int32_t edge = edges[k];
+      const Values there = fields_.values(cell(others[k]));
       for (std::size_t m = 0; m < count; ++m)
         flux[m] += of_.dv[edge] / of_.dc[edge] * (there[m] - here[m]);
     }
@@ -210,7 +209,7 @@ private:
   template <class CellAt>
   static ErrorNorms placed(ErrorNorms norms, const Points3& places, const CellAt& cell_at) {
     if (norms.cell >= 0) {
-      norms.place = places.col(norms.cell);
+      norms.position = places.col(norms.cell);
       norms.cell = cell_at(norms.cell);
     }
     return norms;
@@ -246,13 +245,13 @@ private:
     return Eigen::Map<const DoubleVector>(errors.begin(), errors.size());
   }
   /// The greatest error at the places of each cell.
-  DoubleVector by_cell(const Errors& errors, const Ids& places) const {
+  DoubleVector by_cell(const Errors& errors, const IdLists& places) const {
     DoubleVector out(of_.cells.cols());
     for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i != end; ++i) {
         out[i] = no_value;
-        for (std::int64_t k = of_.begin[i]; k != of_.begin[i + 1]; ++k)
-          out[i] = std::fmax(out[i], errors[places[k]]);
+        for (const std::int32_t place : places[i])
+          out[i] = std::fmax(out[i], errors[place]);
       }
     });
     return out;

@@ -74,11 +74,10 @@ WholeCells whole_cells(const Mesh& mesh) {
   cells.cells.resize(3, std::ssize(out.site));
   for (std::size_t i = 0; i < out.site.size(); ++i)
     cells.cells.col(static_cast<Eigen::Index>(i)) = mesh.points.col(out.site[i]);
-  cells.begin = Eigen::Map<const decltype(cells.begin)>(begin.data(), std::ssize(begin));
-  cells.vertices_on_cell.resize(std::ssize(used));
-  for (std::size_t k = 0; k < used.size(); ++k)
-    cells.vertices_on_cell[static_cast<Eigen::Index>(k)] =
-        vertex[static_cast<std::size_t>(used[k])];
+  cells.vertices_on_cell.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
+  cells.vertices_on_cell.items.resize(std::ssize(used));
+  std::transform(used.begin(), used.end(), cells.vertices_on_cell.items.begin(),
+                 [&](std::int32_t t) { return vertex[static_cast<std::size_t>(t)]; });
   cells.vertices.resize(3, vertices);
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     if (const std::int32_t id = vertex[static_cast<std::size_t>(t)]; id >= 0)

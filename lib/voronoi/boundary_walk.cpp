@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace calotte::voronoi_detail {
@@ -83,7 +82,7 @@ private:
     const double all = turn(place, cell, last);
     std::int32_t farthest = -1;
     double most = 0;
-    for (const std::int32_t other : of(cell)) {
+    for (const std::int32_t other : neighbours_[cell]) {
       if (other == last)
         return last;
       const double part = turn(place, cell, other);
@@ -93,13 +92,6 @@ private:
       }
     }
     return farthest;
-  }
-
-  std::span<const std::int32_t> of(std::int32_t cell) const {
-    const auto at = static_cast<std::size_t>(cell);
-    return std::span(neighbours_.ids)
-        .subspan(static_cast<std::size_t>(neighbours_.begin[at]),
-                 static_cast<std::size_t>(neighbours_.begin[at + 1] - neighbours_.begin[at]));
   }
 
   /// Half the difference of squared distances, positive if a is nearer; 0 if rounding could decide.
@@ -114,7 +106,7 @@ private:
   Step step_from(std::int32_t cell, const Vec2& from, const Vec2& to) const {
     const Vec2 along = to - from, left{-along.y, along.x};
     Step first;
-    for (const std::int32_t other : of(cell)) {
+    for (const std::int32_t other : neighbours_[cell]) {
       const Vec2 way = site(other) - site(cell);
       const double start = over(cell, other, from), end = over(cell, other, to);
       const bool tie = start == 0 && end == 0;

@@ -13,10 +13,7 @@
 namespace calotte::voronoi_detail {
 
 /// The neighbours of each site in a Delaunay triangulation.
-struct Neighbours {
-  std::vector<std::int64_t> begin; ///< those of site i are at begin[i] to begin[i + 1]
-  std::vector<std::int32_t> ids;
-};
+using Neighbours = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
 /// A place on the boundary where sides of cells along it meet: a corner of the boundary, or the end
 /// of a Voronoi edge.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/voronoi.h>
 
+#include "base/lists.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/clipped_cell.h"
@@ -84,28 +85,18 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_
 }
 
 Neighbours neighbours_of(const std::vector<DelaunayEdge>& edges, std::int64_t sites) {
-  Neighbours out{std::vector<std::int64_t>(static_cast<std::size_t>(sites) + 1), {}};
-  for (const DelaunayEdge& edge : edges)
-    for (const std::int32_t site : {edge.low, edge.high})
-      ++out.begin[static_cast<std::size_t>(site) + 1];
-  for (std::size_t i = 1; i < out.begin.size(); ++i) {
-    if (out.begin[i] == 0)
+  Neighbours out = base_detail::lists_by_key<std::int32_t>(sites, [&](const auto& put) {
+    for (const DelaunayEdge& edge : edges) {
+      put(edge.low, edge.high);
+      put(edge.high, edge.low);
+    }
+  });
+  for (std::int64_t i = 0; i < sites; ++i)
+    if (out.count(i) == 0)
       throw Error(ErrorCode::invalid_argument,
-                  "site " + std::to_string(i - 1) +
+                  "site " + std::to_string(i) +
                       " is not a vertex of any triangle: triangulate the points anew",
-                  static_cast<std::int64_t>(i) - 1);
-    out.begin[i] += out.begin[i - 1];
-  }
-  out.ids.resize(2 * edges.size());
-  std::vector<std::int64_t> next = out.begin;
-  const auto put = [&](std::int32_t site, std::int32_t neighbour) {
-    const auto place = next[static_cast<std::size_t>(site)]++;
-    out.ids[static_cast<std::size_t>(place)] = neighbour;
-  };
-  for (const DelaunayEdge& edge : edges) {
-    put(edge.low, edge.high);
-    put(edge.high, edge.low);
-  }
+                  i);
   return out;
 }
 
@@ -291,11 +282,11 @@ void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
       [](const Side& a, const Side& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); },
       sides);
   std::vector<std::int32_t> vertices;
-  out.begin.resize(cells + 1);
+  out.vertices_on_cell.begin.resize(cells + 1);
   const Side* side = sides.data();
   const Side* const end = side + sides.size();
   for (std::int32_t i = 0; i < cells; ++i) {
-    out.begin[i] = std::ssize(vertices);
+    out.vertices_on_cell.begin[i] = std::ssize(vertices);
     const Side* const first = side;
     while (side != end && side->cell == i)
       ++side;
@@ -303,8 +294,8 @@ void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
       refuse_cell(i);
     append_cell(first, side, vertices);
   }
-  out.begin[cells] = std::ssize(vertices);
-  out.vertices_on_cell = Eigen::Map<const Ids>(vertices.data(), std::ssize(vertices));
+  out.vertices_on_cell.begin[cells] = std::ssize(vertices);
+  out.vertices_on_cell.items = Eigen::Map<const Ids>(vertices.data(), std::ssize(vertices));
 }
 
 void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& vertex_of_triangle,

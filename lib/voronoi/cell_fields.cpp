@@ -26,17 +26,16 @@ DoubleVector relative_density(const Voronoi& voronoi, const Density& density) {
 }
 
 double spacing_at(const Voronoi& voronoi, std::int64_t cell) {
-  const std::int64_t begin = voronoi.begin[cell], end = voronoi.begin[cell + 1];
   double sum = 0;
-  for (std::int64_t place = begin; place != end; ++place)
-    sum += voronoi.dc[voronoi.edges_on_cell[place]];
-  return sum / static_cast<double>(end - begin);
+  for (const std::int32_t edge : voronoi.edges_on_cell[cell])
+    sum += voronoi.dc[edge];
+  return sum / static_cast<double>(voronoi.edges_on_cell.count(cell));
 }
 
 double quality_at(const Voronoi& voronoi, std::int64_t cell) {
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  for (std::int64_t place = voronoi.begin[cell]; place != voronoi.begin[cell + 1]; ++place) {
-    const double length = voronoi.dv[voronoi.edges_on_cell[place]];
+  for (const std::int32_t edge : voronoi.edges_on_cell[cell]) {
+    const double length = voronoi.dv[edge];
     shortest = std::min(shortest, length);
     longest = std::max(longest, length);
   }
@@ -67,8 +66,8 @@ CellFields cell_fields(const Voronoi& voronoi, const Density& density) {
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int32_t degree = 0;
-      for (std::int64_t place = voronoi.begin[i]; place != voronoi.begin[i + 1]; ++place)
-        degree += voronoi.cells_on_cell[place] >= 0;
+      for (const std::int32_t other : voronoi.cells_on_cell[i])
+        degree += other >= 0;
       if (uniform)
         out.density[i] = 1;
       out.area[i] = voronoi.cell_area[i];

@@ -2,32 +2,35 @@
 #include "voronoi/cell_walk.h"
 
 #include "base/points.h"
+#include "voronoi/connectivity.h"
 
 #include <calotte/error.h>
+
+#include <span>
 
 namespace calotte::voronoi_detail {
 
 /// On the cell's side of an edge. The great circle runs from the lower vertex to the higher one; it
 /// belongs to its left side.
-bool CellWalk::is_inside(std::int32_t cell, std::int64_t place, const Vec3& x) const {
-  const std::int32_t a = start(cell, place), b = end(place);
+bool CellWalk::is_inside(std::int32_t cell, std::size_t place, const Vec3& x) const {
+  const std::int32_t a = start_of(cells_, cell, place), b = cells_.vertices_on_cell[cell][place];
   const Vec3 &from = column(cells_.vertices, a), &to = column(cells_.vertices, b);
   return a < b ? turn(from, to, x) >= 0 : turn(to, from, x) < 0;
 }
 
 /// The great circle of the arc leaves a cell through the edge, counter-clockwise, that passes to
 /// its left; the arc ends before it or beyond.
-std::int64_t CellWalk::exit_of(std::int32_t cell, const Arc& arc) const {
-  const std::int64_t first = cells_.begin[cell], last = cells_.begin[cell + 1];
+std::optional<std::size_t> CellWalk::exit_of(std::int32_t cell, const Arc& arc) const {
+  const std::span<const std::int32_t> vertices = cells_.vertices_on_cell[cell];
   const auto is_left = [&](std::int32_t vertex) {
     return turn(arc.from, arc.to, column(cells_.vertices, vertex)) >= 0;
   };
-  bool left = is_left(end(last - 1));
-  for (std::int64_t k = first; k < last; ++k) {
+  bool left = is_left(vertices.back());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
     const bool was_left = left;
-    left = is_left(end(k));
+    left = is_left(vertices[k]);
     if (!was_left && left)
-      return is_inside(cell, k, arc.to) ? -1 : k;
+      return is_inside(cell, k, arc.to) ? std::nullopt : std::optional(k);
   }
   lose();
 }
@@ -38,8 +41,7 @@ std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
   for (bool moved = true; moved;) {
     moved = false;
     const std::int32_t here = cell;
-    for (std::int64_t k = cells_.begin[here]; k < cells_.begin[here + 1]; ++k) {
-      const std::int32_t other = cells_.cells_on_cell[k];
+    for (const std::int32_t other : cells_.cells_on_cell[here]) {
       const double cosine = other < 0 ? -2 : dot(column(cells_.cells, other), place);
       if (cosine > nearest) {
         nearest = cosine;
@@ -51,7 +53,7 @@ std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
   const Vec3& generator = column(cells_.cells, cell);
   if (generator.x == place.x && generator.y == place.y && generator.z == place.z)
     return cell;
-  return walk(cell, {generator, place}, [](std::int32_t, std::int64_t) {});
+  return walk(cell, {generator, place}, [](std::int32_t, std::size_t) {});
 }
 
 void CellWalk::lose() {

@@ -6,7 +6,9 @@
 
 #include <calotte/voronoi.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace calotte::voronoi_detail {
 
@@ -35,28 +37,22 @@ public:
   template <class Cross>
   std::int32_t walk(std::int32_t cell, const Arc& arc, const Cross& cross) const {
     for (std::int64_t steps = 0; steps <= cells_.cells.cols(); ++steps) {
-      const std::int64_t exit = exit_of(cell, arc);
-      if (exit < 0)
+      const std::optional<std::size_t> exit = exit_of(cell, arc);
+      if (!exit)
         return cell;
-      cross(cell, exit);
-      cell = cells_.cells_on_cell[exit];
+      cross(cell, *exit);
+      cell = cells_.cells_on_cell[cell][*exit];
       if (cell < 0)
         break;
     }
     lose();
   }
 
-  /// The vertices of the edge at a place of a cell's lists, counter-clockwise.
-  std::int32_t start(std::int32_t cell, std::int64_t place) const {
-    const std::int64_t before = place == cells_.begin[cell] ? cells_.begin[cell + 1] : place;
-    return cells_.vertices_on_cell[before - 1];
-  }
-  std::int32_t end(std::int64_t place) const { return cells_.vertices_on_cell[place]; }
-
 private:
-  /// The place of the edge through which the arc leaves a cell; -1 if it ends there.
-  std::int64_t exit_of(std::int32_t cell, const Arc& arc) const;
-  bool is_inside(std::int32_t cell, std::int64_t place, const Vec3& x) const;
+  /// The place in the cell's lists of the edge through which the arc leaves it; none if it ends
+  /// there.
+  std::optional<std::size_t> exit_of(std::int32_t cell, const Arc& arc) const;
+  bool is_inside(std::int32_t cell, std::size_t place, const Vec3& x) const;
   [[noreturn]] static void lose();
 
   const Voronoi& cells_;

@@ -73,10 +73,11 @@ Array<std::int32_t> some_triangles(const Faces& surface) {
   return some;
 }
 
-/// Sets the lengths of the lists instead of their starts: begin, and in the rings first_edge.
+/// Sets the lengths of the lists instead of their starts: of edges_on_cell, and in the rings
+/// first_edge.
 Rings count_rings(const Faces& surface, Voronoi& out) {
   Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites())};
-  make_room(out.begin, surface.sites() + 1, 1);
+  make_room(out.edges_on_cell.begin, surface.sites() + 1, 1);
   FirstFault lonely, unfit;
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
@@ -97,7 +98,7 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
       });
       if (exists(fault))
         unfit.at(fault.triangle);
-      out.begin[i] = degree;
+      out.edges_on_cell.begin[i] = degree;
       rings.first_edge[i] = higher;
     }
   });
@@ -113,7 +114,7 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
     ++corners[static_cast<std::size_t>(site)];
   FirstFault fault;
   for (std::int64_t i = 0; i != surface.sites(); ++i)
-    if (corners[static_cast<std::size_t>(i)] != out.begin[i + 1] - out.begin[i])
+    if (corners[static_cast<std::size_t>(i)] != out.edges_on_cell.count(i))
       fault.at(i);
   fault.refuse("site", "has triangles that do not form one ring around it: triangulate the points "
                        "anew");
@@ -125,18 +126,16 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
 /// A neighbour of a cell, and the place of its edge in the cell's list.
 struct Neighbour {
   std::int32_t cell;
-  std::int64_t place;
+  std::size_t place;
 };
 
 /// Sets all data of edge e, the `place`-th of the lower cell's list.
-void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::int64_t place,
+void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::size_t place,
               Voronoi& out) {
-  const std::int64_t begin = out.begin[lower], end = out.begin[lower + 1];
-  const std::int32_t left = out.vertices_on_cell[place],
-                     right = out.vertices_on_cell[(place == begin ? end : place) - 1];
-  out.cells_on_edge.col(e) << lower, out.cells_on_cell[place];
+  const std::int32_t left = out.vertices_on_cell[lower][place], right = start_of(out, lower, place);
+  out.cells_on_edge.col(e) << lower, out.cells_on_cell[lower][place];
   out.vertices_on_edge.col(e) << right, left;
-  out.edges_on_cell[place] = e;
+  out.edges_on_cell[lower][place] = e;
   // Edge j of a vertex joins its cells j - 1 and j.
   out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, left, lower)), left) = e;
   out.edges_on_vertex(vertex_at(surface.triangle_ids, right, lower), right) = e;
@@ -144,12 +143,13 @@ void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::int
 
 void set_cell(const Faces& surface, const Rings& rings, std::int32_t i,
               std::vector<Neighbour>& higher, Voronoi& out, FirstFault& twice) {
-  std::int64_t place = out.begin[i];
+  const std::span<std::int32_t> vertices = out.vertices_on_cell[i], cells = out.cells_on_cell[i];
+  std::size_t place = 0;
   higher.clear();
   walk_ring(surface, rings.first[i], i, [&](Corner corner) {
     const std::int32_t j = following_site(surface, corner);
-    out.vertices_on_cell[place] = corner.triangle;
-    out.cells_on_cell[place] = j;
+    vertices[place] = corner.triangle;
+    cells[place] = j;
     if (j > i)
       higher.push_back({j, place});
     ++place;
@@ -179,13 +179,15 @@ void set_cells_and_edges(const Faces& surface, const Rings& rings, Voronoi& out)
 /// Sets the entries of edges that the lower cells have numbered.
 void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::int32_t>(begin); i != end; ++i)
-      for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place)
-        if (out.cells_on_cell[place] < i) {
-          const std::int32_t t = out.vertices_on_cell[place];
-          out.edges_on_cell[place] =
+    for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
+      const std::span<const std::int32_t> cells = out.cells_on_cell[i];
+      for (std::size_t place = 0; place != cells.size(); ++place)
+        if (cells[place] < i) {
+          const std::int32_t t = out.vertices_on_cell[i][place];
+          out.edges_on_cell[i][place] =
               out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, t, i)), t);
         }
+    }
   });
 }
 
@@ -193,9 +195,10 @@ void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
 
 Rings find_rings(const Faces& surface, Voronoi& out) {
   Rings rings = count_rings(surface, out);
-  out.begin[surface.sites()] = 0;
+  Offsets& begin = out.edges_on_cell.begin;
+  begin[surface.sites()] = 0;
   const std::int64_t found =
-      exclusive_scan(std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
+      exclusive_scan(std::span(begin.data(), static_cast<std::size_t>(begin.size())));
   if (found != surface.triangle_ids.size())
     refuse_second_ring(surface, out);
   exclusive_scan(std::span(rings.first_edge.begin(), rings.first_edge.end()));
@@ -204,9 +207,9 @@ Rings find_rings(const Faces& surface, Voronoi& out) {
 
 void connect(const Faces& surface, const Rings& rings, Voronoi& out) {
   const std::int64_t corners = surface.triangle_ids.size(), edges = corners / 2;
-  make_room(out.edges_on_cell, corners, 1);
-  make_room(out.vertices_on_cell, corners, 1);
-  make_room(out.cells_on_cell, corners, 1);
+  out.vertices_on_cell.begin = out.cells_on_cell.begin = out.edges_on_cell.begin;
+  for (IdLists* const lists : {&out.edges_on_cell, &out.vertices_on_cell, &out.cells_on_cell})
+    make_room(lists->items, corners, 1);
   make_room(out.edges_on_vertex, 3, surface.triangles());
   make_room(out.cells_on_edge, 2, edges);
   make_room(out.vertices_on_edge, 2, edges);

@@ -7,7 +7,9 @@
 
 #include <calotte/voronoi.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace calotte::voronoi_detail {
 
@@ -17,7 +19,15 @@ struct Rings {
   Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
 };
 
-/// The first of two stages that set the ids of the tessellation dual to a closed surface: begin.
+/// The vertex that edge `place` of a cell comes from, counter-clockwise; it leads to the vertex of
+/// the same place.
+inline std::int32_t start_of(const Voronoi& of, std::int64_t cell, std::size_t place) {
+  const std::span<const std::int32_t> vertices = of.vertices_on_cell[cell];
+  return place == 0 ? vertices.back() : vertices[place - 1];
+}
+
+/// The first of two stages that set the ids of the tessellation dual to a closed surface: where
+/// edges_on_cell begin.
 /// \pre as many neighbours as triangles; at most 2^29 sites.
 /// \throws Error invalid_argument if ids are out of range, the neighbours do not match the
 ///         triangles, or the triangles at a site do not form one ring.

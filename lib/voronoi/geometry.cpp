@@ -165,10 +165,11 @@ void measure_edges(const Plane& space, EdgeBatch& batch) {
 
 /// The vertex to the left of an edge's normal.
 std::int32_t left_vertex(const Voronoi& of, std::int64_t edge) {
-  std::int64_t place = of.begin[of.cells_on_edge(0, edge)];
-  while (of.edges_on_cell[place] != edge)
+  const std::int32_t cell = of.cells_on_edge(0, edge);
+  std::size_t place = 0;
+  while (of.edges_on_cell[cell][place] != edge)
     ++place;
-  return of.vertices_on_cell[place];
+  return of.vertices_on_cell[cell][place];
 }
 
 template <class Space>
@@ -227,10 +228,8 @@ void measure_areas(Voronoi& out) {
   for_each_block(out.cells.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       double area = 0;
-      for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place) {
-        const std::int32_t t = out.vertices_on_cell[place];
+      for (const std::int32_t t : out.vertices_on_cell[i])
         area += out.kites(vertex_at(out.cells_on_vertex, t, i), t);
-      }
       out.cell_area[i] = area;
     }
   });

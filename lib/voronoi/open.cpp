@@ -8,6 +8,7 @@
 #include "base/spherical_triangle.h"
 #include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
 
 #include <calotte/error.h>
@@ -16,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -35,20 +37,16 @@ constexpr std::int32_t none = -1;
 struct Side {
   std::int32_t low, high; ///< the vertices by number
   std::int32_t cell;
-  std::int64_t place;
+  std::size_t place;
 };
-
-std::int32_t start_of(const Voronoi& of, std::int32_t cell, std::int64_t place) {
-  return of.vertices_on_cell[(place == of.begin[cell] ? of.begin[cell + 1] : place) - 1];
-}
 
 /// Sorted by their vertices, then by cell.
 std::vector<Side> sides_of(const Voronoi& of) {
   std::vector<Side> sides;
-  sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.size()));
+  sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.items.size()));
   for (std::int32_t i = 0; i < of.cells.cols(); ++i)
-    for (std::int64_t place = of.begin[i]; place != of.begin[i + 1]; ++place) {
-      const auto [low, high] = std::minmax({start_of(of, i, place), of.vertices_on_cell[place]});
+    for (std::size_t place = 0; place != of.vertices_on_cell[i].size(); ++place) {
+      const auto [low, high] = std::minmax({start_of(of, i, place), of.vertices_on_cell[i][place]});
       sides.push_back({low, high, i, place});
     }
   sort_in_groups(
@@ -63,14 +61,14 @@ std::vector<Side> sides_of(const Voronoi& of) {
 /// An edge, with its place in the lists of its cells.
 struct Edge {
   std::array<std::int32_t, 2> cell{none, none};
-  std::array<std::int64_t, 2> place{-1, -1};
+  std::array<std::size_t, 2> place{};
 
   bool inner() const { return cell[1] >= 0; }
 };
 
 /// Two sides of one edge run in opposite directions.
 bool fit(const Voronoi& of, const Side& a, const Side& b) {
-  return a.cell != b.cell && start_of(of, a.cell, a.place) == of.vertices_on_cell[b.place];
+  return a.cell != b.cell && start_of(of, a.cell, a.place) == of.vertices_on_cell[b.cell][b.place];
 }
 
 std::vector<Edge> edges_of(const Voronoi& of) {
@@ -82,7 +80,7 @@ std::vector<Edge> edges_of(const Voronoi& of) {
   std::vector<Edge> edges;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Side& side = sides[k];
-    Edge edge{{side.cell, none}, {side.place, -1}};
+    Edge edge{{side.cell, none}, {side.place, 0}};
     if (same(k)) {
       const Side& other = sides[++k];
       if (same(k) || !fit(of, side, other))
@@ -108,17 +106,18 @@ void set_edges(const std::vector<Edge>& edges, Voronoi& out) {
   const auto count = std::ssize(edges);
   make_room(out.cells_on_edge, 2, count);
   make_room(out.vertices_on_edge, 2, count);
-  make_room(out.edges_on_cell, out.vertices_on_cell.size(), 1);
-  make_room(out.cells_on_cell, out.vertices_on_cell.size(), 1);
+  out.edges_on_cell.begin = out.cells_on_cell.begin = out.vertices_on_cell.begin;
+  make_room(out.edges_on_cell.items, out.vertices_on_cell.items.size(), 1);
+  make_room(out.cells_on_cell.items, out.vertices_on_cell.items.size(), 1);
   for (std::int32_t e = 0; e < count; ++e) {
     const Edge& edge = edges[static_cast<std::size_t>(e)];
     out.cells_on_edge.col(e) << edge.cell[0], edge.cell[1];
     out.vertices_on_edge.col(e) << start_of(out, edge.cell[0], edge.place[0]),
-        out.vertices_on_cell[edge.place[0]];
+        out.vertices_on_cell[edge.cell[0]][edge.place[0]];
     for (std::size_t k = 0; k < 2; ++k)
       if (edge.cell[k] >= 0) {
-        out.edges_on_cell[edge.place[k]] = e;
-        out.cells_on_cell[edge.place[k]] = edge.cell[1 - k];
+        out.edges_on_cell[edge.cell[k]][edge.place[k]] = e;
+        out.cells_on_cell[edge.cell[k]][edge.place[k]] = edge.cell[1 - k];
       }
   }
 }
@@ -138,16 +137,18 @@ struct Fan {
 
 std::vector<Fan> fans_of(const Voronoi& of) {
   std::vector<Fan> fans(static_cast<std::size_t>(of.vertices.cols()));
-  for (std::int32_t i = 0; i < of.cells.cols(); ++i)
-    for (std::int64_t place = of.begin[i]; place != of.begin[i + 1]; ++place) {
-      const std::int32_t v = of.vertices_on_cell[place];
+  for (std::int32_t i = 0; i < of.cells.cols(); ++i) {
+    const std::span<const std::int32_t> vertices = of.vertices_on_cell[i],
+                                        edges = of.edges_on_cell[i];
+    for (std::size_t place = 0; place != vertices.size(); ++place) {
+      const std::int32_t v = vertices[place];
       Fan& fan = fans[static_cast<std::size_t>(v)];
       if (fan.count == 3)
         refuse("vertex " + std::to_string(v) + " is on more than three cells", v);
-      const std::int64_t next = place + 1 == of.begin[i + 1] ? of.begin[i] : place + 1;
-      fan.sectors[static_cast<std::size_t>(fan.count++)] = {i, of.edges_on_cell[next],
-                                                            of.edges_on_cell[place]};
+      fan.sectors[static_cast<std::size_t>(fan.count++)] = {
+          i, edges[place + 1 == edges.size() ? 0 : place + 1], edges[place]};
     }
+  }
   return fans;
 }
 
@@ -284,9 +285,10 @@ template <class Space> void measure_kites(const Space& space, std::int64_t v, Vo
 /// The fan of triangles from the site.
 template <class Space> void measure_cell(const Space& space, std::int32_t i, Voronoi& out) {
   double sum = 0;
-  for (std::int64_t place = out.begin[i]; place != out.begin[i + 1]; ++place)
+  const std::span<const std::int32_t> vertices = out.vertices_on_cell[i];
+  for (std::size_t place = 0; place != vertices.size(); ++place)
     sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, place)),
-                      column(out.vertices, out.vertices_on_cell[place]));
+                      column(out.vertices, vertices[place]));
   out.cell_area[i] = sum;
 }
 

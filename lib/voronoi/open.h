@@ -8,12 +8,13 @@
 /// Tessellations with a boundary, given as polygons.
 namespace calotte::voronoi_detail {
 
-/// Sets the other lists, pairs and triples of ids from `begin` and `vertices_on_cell`. Edges
-/// between two cells come first, sorted by these; those of one cell follow, in the order of cells.
-/// Around a vertex without missing cells the list starts with the lowest. \pre begin and
-/// vertices_on_cell are in range; each vertex is on a cell. \throws Error invalid_argument, naming
-/// the cell or vertex, for cells that overlap, for a vertex with
-///         more than three edges, and for one between two cells only that is not on the boundary.
+/// Sets the other lists, pairs and triples of ids from vertices_on_cell. Edges between two cells
+/// come first, sorted by these; those of one cell follow, in the order of cells. Around a vertex
+/// without missing cells the list starts with the lowest.
+/// \pre vertices_on_cell is in range; each vertex is on a cell.
+/// \throws Error invalid_argument, naming the cell or vertex, for cells that overlap, for a vertex
+///         with more than three edges, and for one between two cells only that is not on the
+///         boundary.
 void connect_open(Voronoi& out);
 
 /// Sets edges, lengths, angles and areas from the cells, the vertices and all ids, of which any may

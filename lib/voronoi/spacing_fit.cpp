@@ -18,10 +18,8 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 bool has_all_neighbours(const Voronoi& voronoi, std::int64_t cell) {
-  for (std::int64_t place = voronoi.begin[cell]; place != voronoi.begin[cell + 1]; ++place)
-    if (voronoi.cells_on_cell[place] < 0)
-      return false;
-  return true;
+  const auto neighbours = voronoi.cells_on_cell[cell];
+  return std::none_of(neighbours.begin(), neighbours.end(), [](std::int32_t id) { return id < 0; });
 }
 
 /// Whether a cell's area tells of its spacing.
@@ -41,8 +39,7 @@ void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
           for (std::int64_t i = begin; i != end; ++i) {
             double sum = 0;
             int count = 0;
-            for (std::int64_t place = voronoi.begin[i]; place != voronoi.begin[i + 1]; ++place) {
-              const std::int32_t j = voronoi.cells_on_cell[place];
+            for (const std::int32_t j : voronoi.cells_on_cell[i]) {
               if (j < 0 || std::isnan(logarithms[j]))
                 continue;
               sum += logarithms[j];
@@ -96,11 +93,12 @@ void extend(const Voronoi& voronoi, DoubleVector& logarithms) {
     grew = false;
     const DoubleVector before = logarithms;
     for (Eigen::Index i = 0; i < logarithms.size(); ++i) {
+      if (!std::isnan(before[i]))
+        continue;
       double sum = 0;
       int count = 0;
-      for (std::int64_t place = voronoi.begin[i];
-           std::isnan(before[i]) && place != voronoi.begin[i + 1]; ++place)
-        if (const std::int32_t j = voronoi.cells_on_cell[place]; j >= 0 && !std::isnan(before[j]))
+      for (const std::int32_t j : voronoi.cells_on_cell[i])
+        if (j >= 0 && !std::isnan(before[j]))
           sum += before[j], ++count;
       if (count > 0)
         logarithms[i] = sum / count, grew = true;

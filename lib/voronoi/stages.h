@@ -13,7 +13,7 @@
 namespace calotte::voronoi_detail {
 
 struct BegunVoronoi {
-  Voronoi voronoi; ///< cells, begin and cells_on_vertex
+  Voronoi voronoi; ///< cells, cells_on_vertex, and where edges_on_cell begin
   Rings rings;
   Triangles neighbours; ///< of the triangles, as in Mesh
 };

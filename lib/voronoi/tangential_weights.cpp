@@ -17,24 +17,23 @@ namespace {
 /// \returns the number of weights.
 std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int32_t cell,
                                  double sign, std::int32_t* edges, double* weights) {
-  const std::int64_t begin = of.begin[cell], end = of.begin[cell + 1];
-  std::int64_t place = begin;
-  while (of.edges_on_cell[place] != edge)
+  const std::span<const std::int32_t> on_cell = of.edges_on_cell[cell];
+  std::size_t place = 0;
+  while (on_cell[place] != edge)
     ++place;
   const double divisor = of.cell_area[cell] * of.dc[edge], half = 0.5 * of.cell_area[cell];
   const double scale = std::abs(divisor) > 1e-200 ? 1 / divisor : 0; // no cell is that small
   double passed = 0;
-  for (std::int64_t k = 0; k + 1 < end - begin; ++k) {
-    const std::int32_t vertex = of.vertices_on_cell[place];
+  for (std::size_t k = 0; k + 1 < on_cell.size(); ++k) {
+    const std::int32_t vertex = of.vertices_on_cell[cell][place];
     passed += of.kites(vertex_at(of.cells_on_vertex, vertex, cell), vertex);
-    place = place + 1 == end ? begin : place + 1;
-    const std::int32_t other = of.edges_on_cell[place];
-    const std::int32_t beyond = of.cells_on_cell[place];
+    place = place + 1 == on_cell.size() ? 0 : place + 1;
+    const std::int32_t other = on_cell[place], beyond = of.cells_on_cell[cell][place];
     const double side = beyond < 0 || cell < beyond ? sign : -sign; // out of the lower cell
     edges[k] = other;
     weights[k] = side * (half - passed) * scale * of.dv[other];
   }
-  return end - begin - 1;
+  return std::ssize(on_cell) - 1;
 }
 
 } // namespace
@@ -51,23 +50,23 @@ void set_weights(const Voronoi& of, std::int32_t edge, std::int32_t* edges, doub
 TangentialWeights tangential_weights(const Voronoi& voronoi, std::int64_t first,
                                      std::int64_t last) {
   TangentialWeights out;
-  base_detail::make_room(out.begin, last - first + 1, 1);
+  Offsets& begins = out.edges.begin;
+  base_detail::make_room(begins, last - first + 1, 1);
   base_detail::for_each_block(last - first,
                               [&](std::int64_t, std::int64_t begin, std::int64_t end) {
                                 for (std::int64_t k = begin; k != end; ++k)
-                                  out.begin[k] = voronoi_detail::weight_count(voronoi, first + k);
+                                  begins[k] = voronoi_detail::weight_count(voronoi, first + k);
                               });
-  out.begin[last - first] = 0;
+  begins[last - first] = 0;
   const std::int64_t total = base_detail::exclusive_scan(
-      std::span(out.begin.data(), static_cast<std::size_t>(out.begin.size())));
-  base_detail::make_room(out.edges, total, 1);
+      std::span(begins.data(), static_cast<std::size_t>(begins.size())));
+  base_detail::make_room(out.edges.items, total, 1);
   base_detail::make_room(out.weights, total, 1);
   base_detail::for_each_block(
       last - first, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k != end; ++k)
           voronoi_detail::set_weights(voronoi, static_cast<std::int32_t>(first + k),
-                                      out.edges.data() + out.begin[k],
-                                      out.weights.data() + out.begin[k]);
+                                      out.edges[k].data(), out.weights.data() + begins[k]);
       });
   return out;
 }

@@ -13,7 +13,7 @@ namespace calotte::voronoi_detail {
 inline std::int64_t weight_count(const Voronoi& of, std::int64_t edge) {
   std::int64_t count = 0;
   for (const std::int32_t cell : of.cells_on_edge.col(edge))
-    count += cell < 0 ? 0 : of.begin[cell + 1] - of.begin[cell] - 1;
+    count += cell < 0 ? 0 : of.edges_on_cell.count(cell) - 1;
   return count;
 }
 

@@ -79,7 +79,7 @@ void set_space(const Mesh& mesh, Voronoi& out) {
   out.period = period;
 }
 
-/// Sets cells, begin and the kind of the space.
+/// Sets cells, where their edges begin, and the kind of the space.
 Rings begin(const Mesh& mesh, Voronoi& out) {
   set_space(mesh, out);
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;

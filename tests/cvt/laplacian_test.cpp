@@ -53,9 +53,8 @@ SparseMatrix eigen_matrix(const Laplacian& laplacian) {
   for (std::int32_t i = 0; i != rows.size(); ++i) {
     const double root = 1 / laplacian.scale[i];
     elements.emplace_back(i, i, root * root);
-    for (std::int32_t k = rows.begin[i]; k != rows.begin[i + 1]; ++k)
-      elements.emplace_back(i, rows.column[k],
-                            -rows.value[k] * root / laplacian.scale[rows.column[k]]);
+    for (const auto& [j, value] : rows[i])
+      elements.emplace_back(i, j, -value * root / laplacian.scale[j]);
   }
   SparseMatrix matrix(rows.size(), rows.size());
   matrix.setFromTriplets(elements.begin(), elements.end());

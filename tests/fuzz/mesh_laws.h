@@ -14,9 +14,9 @@ inline void require_sound(const MeshFile& file) {
     require(file.mesh->triangles.size() == 0 ||
             (file.mesh->triangles.minCoeff() >= 0 &&
              file.mesh->triangles.maxCoeff() < file.mesh->points.cols()));
-  if (file.polygons && file.polygons->ids.size() > 0)
-    require(file.polygons->ids.minCoeff() >= 0 &&
-            file.polygons->ids.maxCoeff() < file.polygons->corners.cols());
+  if (file.polygons && file.polygons->ids.items.size() > 0)
+    require(file.polygons->ids.items.minCoeff() >= 0 &&
+            file.polygons->ids.items.maxCoeff() < file.polygons->corners.cols());
   if (file.mesh)
     check_surface(*file.mesh);
 }

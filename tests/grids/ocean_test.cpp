@@ -75,7 +75,7 @@ struct Earth {
     SeaOptions options;
     options.opened = cells_on_lines(cells, passages);
     options.closed = cells_on_lines(cells, barriers);
-    return sea_cells(cells.begin, cells.cells_on_cell, land, options);
+    return sea_cells(cells.cells_on_cell, land, options);
   }
   Ids sea(const std::vector<Points3>& passages, const std::vector<Points3>& barriers = {}) const {
     return decided(passages, barriers).mask;
@@ -95,9 +95,8 @@ std::int64_t reached(const Voronoi& cells, const Ids& sea) {
     const std::int32_t cell = stack.back();
     stack.pop_back();
     ++count;
-    for (std::int64_t k = cells.begin[cell]; k < cells.begin[cell + 1]; ++k)
-      if (const std::int32_t other = cells.cells_on_cell[k];
-          sea[other] >= 0 && !seen[static_cast<std::size_t>(other)]) {
+    for (const std::int32_t other : cells.cells_on_cell[cell])
+      if (sea[other] >= 0 && !seen[static_cast<std::size_t>(other)]) {
         seen[static_cast<std::size_t>(other)] = true;
         stack.push_back(other);
       }
@@ -110,8 +109,8 @@ void check_sea(const Earth& earth, const Ids& sea) {
   std::int64_t dead_ends = 0;
   for (std::int64_t i = 0; i < sea.size(); ++i) {
     int neighbours = 0;
-    for (std::int64_t k = earth.cells.begin[i]; k < earth.cells.begin[i + 1]; ++k)
-      neighbours += sea[earth.cells.cells_on_cell[k]] >= 0;
+    for (const std::int32_t other : earth.cells.cells_on_cell[i])
+      neighbours += sea[other] >= 0;
     dead_ends += sea[i] >= 0 && neighbours < 2;
   }
   CHECK(dead_ends == 0);

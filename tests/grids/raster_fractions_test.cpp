@@ -115,8 +115,8 @@ TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
     for (Eigen::Index i = 0; i < fractions.size(); ++i) {
       const auto own = index_of(cells.cells.col(i));
       bool inside = std::abs(cells.cells(2, i)) < 0.9;
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        inside = inside && index_of(cells.vertices.col(cells.vertices_on_cell[k])) == own;
+      for (const std::int32_t vertex : cells.vertices_on_cell[i])
+        inside = inside && index_of(cells.vertices.col(vertex)) == own;
       if (!inside)
         continue;
       ++within;

@@ -60,8 +60,8 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
     double whole = 0;
     for (Eigen::Index i = 0; i < cells.size(); ++i) {
       std::vector<Vec3> corners;
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        corners.push_back(base_detail::column(cells.corners, cells.ids[k]));
+      for (const std::int32_t corner : cells.ids[i])
+        corners.push_back(base_detail::column(cells.corners, corner));
       for (const std::vector<LonLat>& ring : io_detail::outline_of(corners)) {
         whole += twice_area(ring) / 2;
         std::set<std::pair<std::uint64_t, std::uint64_t>> places;

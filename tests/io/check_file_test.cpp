@@ -286,19 +286,19 @@ MeshFile file_of_cells(const Mesh& mesh, int every) {
     if (every > 0 && i % every == 0)
       continue;
     Eigen::Vector3d sum(0, 0, 0);
-    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
-      ids.push_back(cells.vertices_on_cell[k]);
-      sum += cells.vertices.col(ids.back());
+    for (const std::int32_t vertex : cells.vertices_on_cell[i]) {
+      ids.push_back(vertex);
+      sum += cells.vertices.col(vertex);
     }
     begin.push_back(std::ssize(ids));
     centres.push_back(sum.normalized());
   }
   MeshFile file;
   file.not_voronoi = "they have other centres";
-  file.polygons = Polygons{cells.vertices, {}, {}, Points3(3, std::ssize(centres))};
-  file.polygons->begin = Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>>(
-      begin.data(), std::ssize(begin));
-  file.polygons->ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  file.polygons = Polygons{cells.vertices,
+                           {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
+                            Eigen::Map<const Ids>(ids.data(), std::ssize(ids))},
+                           Points3(3, std::ssize(centres))};
   for (std::size_t i = 0; i < centres.size(); ++i)
     file.polygons->centres.col(static_cast<Eigen::Index>(i)) = centres[i];
   return file;
@@ -373,16 +373,14 @@ TEST_CASE("optional lists of a UGRID file are checked") {
                     std::vector<double>(pairs.data(), pairs.data() + pairs.size())};
   };
   const std::size_t width = Patch(path).get("mesh_face_nodes").width();
-  const auto of_faces = [&](const char* name, const Ids& ids) {
+  const auto of_faces = [&](const char* name, const IdLists& lists) {
     Variable table{name,
                    {40, width},
                    {"mesh_face", "mesh_max_face_nodes"},
                    true,
                    std::vector<double>(40 * width, -1)};
-    for (Eigen::Index i = 0; i < 40; ++i)
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        table.values[static_cast<std::size_t>(i) * width +
-                     static_cast<std::size_t>(k - cells.begin[i])] = ids[k];
+    for (std::size_t i = 0; i < 40; ++i)
+      std::ranges::copy(lists[std::int64_t(i)], table.values.data() + i * width);
     return table;
   };
   const std::vector<std::pair<std::string, Variable>> tables{

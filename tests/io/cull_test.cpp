@@ -68,11 +68,10 @@ double sampled(const Voronoi& cells, Eigen::Index i, const Region& region) {
   const auto inside = containing(region);
   double all = 0, land = 0;
   const Eigen::Vector3d c = cells.cells.col(i);
-  const std::int64_t first = cells.begin[i], last = cells.begin[i + 1];
-  for (std::int64_t k = first; k < last; ++k) {
-    const Eigen::Vector3d a = cells.vertices.col(cells.vertices_on_cell[k]),
-                          b = cells.vertices.col(
-                              cells.vertices_on_cell[k + 1 < last ? k + 1 : first]);
+  const auto corners = cells.vertices_on_cell[i];
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d a = cells.vertices.col(corners[k]),
+                          b = cells.vertices.col(corners[(k + 1) % corners.size()]);
     constexpr int n = 40;
     for (int s = 0; s < n; ++s)
       for (int t = 0; s + t < n; ++t) {
@@ -155,7 +154,7 @@ TEST_CASE("lines cross cells that share edges, from one end to the other") {
     land[static_cast<std::size_t>(cell)] = 0;
   SeaOptions options;
   options.fill = false;
-  CHECK(sea_cells(cells.begin, cells.cells_on_cell, land, options).report.parts == 1);
+  CHECK(sea_cells(cells.cells_on_cell, land, options).report.parts == 1);
   for (const Eigen::Index end : {0, 2}) {
     Eigen::Index nearest = 0;
     (cells.cells.colwise() - line.col(end)).colwise().norm().minCoeff(&nearest);
@@ -177,7 +176,7 @@ struct Divided {
     line << 0.6, 0.6, 0, 0, 0.8, -0.8;
   }
   SeaReport report(const SeaOptions& options, Ids& sea) const {
-    SeaCells decided = sea_cells(cells.begin, cells.cells_on_cell, land, options);
+    SeaCells decided = sea_cells(cells.cells_on_cell, land, options);
     sea = std::move(decided.mask);
     return decided.report;
   }
@@ -185,8 +184,8 @@ struct Divided {
 
 std::int64_t neighbours_in(const Voronoi& cells, const Ids& sea, std::int64_t i) {
   std::int64_t count = 0;
-  for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-    count += sea[cells.cells_on_cell[k]] >= 0;
+  for (const std::int32_t other : cells.cells_on_cell[i])
+    count += sea[other] >= 0;
   return count;
 }
 
@@ -224,7 +223,7 @@ TEST_CASE("cells with a single neighbour are filled until none is left; a barrie
   Divided divided;
   SeaOptions options;
   const Voronoi& cells = divided.cells;
-  const std::int32_t lone = 1000, other = cells.cells_on_cell[cells.begin[lone]];
+  const std::int32_t lone = 1000, other = cells.cells_on_cell[lone].front();
   options.opened = {lone, other}; // a lake of two cells
   Ids sea;
   options.fill = false;

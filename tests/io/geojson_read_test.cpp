@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/command.h"
 #include "support/files.h"
 #include "support/meshes.h"
 
@@ -77,15 +78,12 @@ Polygons regular(const Eigen::Vector3d& around, int corners, double radius) {
                         u = p.cross(Eigen::Vector3d(0.3, 0.4, 0.5)).normalized(), v = p.cross(u);
   Polygons polygon;
   polygon.corners.resize(3, corners);
-  polygon.ids.resize(corners);
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * pi * k / corners;
     polygon.corners.col(k) =
         std::cos(radius) * p + std::sin(radius) * (std::cos(angle) * u + std::sin(angle) * v);
-    polygon.ids[k] = k;
   }
-  polygon.begin.resize(2);
-  polygon.begin << 0, corners;
+  polygon.ids = {calotte::Offsets{{0, corners}}, calotte::Ids::LinSpaced(corners, 0, corners - 1)};
   polygon.centres = p;
   return polygon;
 }
@@ -146,7 +144,7 @@ TEST_CASE("GeoJSON: a ring around a pole, from any of its places on") {
     write_text(scratch / "cap.geojson", collection({cell(ring + "]]")}));
     const MeshFile file = calotte::read_mesh_file(scratch / "cap.geojson");
     REQUIRE(file.polygons);
-    CHECK(file.polygons->ids.size() == 3);
+    CHECK(file.polygons->ids.items.size() == 3);
     CHECK(file.polygons->corners.row(2).minCoeff() == doctest::Approx(std::sin(80 * pi / 180)));
     CHECK(calotte::areas(*file.polygons)[0] > 0);
   }
@@ -243,11 +241,11 @@ TEST_CASE("shapes: convex cells, and how far centres are from centroids") {
   Polygons triangle = regular({0, 1, 1}, 3, 0.5);
   triangle.corners.col(0) = Eigen::Vector3d(0.5, 0.1, 0.9).normalized();
   if (calotte::areas(triangle)[0] < 0)
-    std::swap(triangle.ids[1], triangle.ids[2]);
-  triangle.centres =
-      moment(triangle.corners.col(triangle.ids[0]), triangle.corners.col(triangle.ids[1]),
-             triangle.corners.col(triangle.ids[2]), 7)
-          .normalized();
+    std::swap(triangle.ids[0][1], triangle.ids[0][2]);
+  const auto ids = triangle.ids[0];
+  triangle.centres = moment(triangle.corners.col(ids[0]), triangle.corners.col(ids[1]),
+                            triangle.corners.col(ids[2]), 7)
+                         .normalized();
   CHECK(calotte::shapes(triangle).off_centring < 1e-5);
   triangle.centres.resize(3, 0);
   CHECK(calotte::shapes(triangle).worst_centred == -1);
@@ -259,9 +257,7 @@ TEST_CASE("shapes in a plane: the corners of an L, its notch and its centroid") 
   cell.on_sphere = false;
   cell.corners.resize(3, 6);
   cell.corners << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0;
-  cell.ids = calotte::Ids::LinSpaced(6, 0, 5);
-  cell.begin.resize(2);
-  cell.begin << 0, 6;
+  cell.ids = {calotte::Offsets{{0, 6}}, calotte::Ids::LinSpaced(6, 0, 5)};
   cell.centres = Eigen::Vector3d(5. / 6, 5. / 6, 0); // of three unit squares
   CHECK(calotte::shapes(cell).not_convex == 1);
   CHECK(calotte::shapes(cell).off_centring < 1e-15);

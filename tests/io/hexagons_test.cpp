@@ -41,9 +41,8 @@ double apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
 std::map<int, int> cells_at_corners(const Polygons& polygons, double spacing) {
   std::vector<int> count(static_cast<std::size_t>(polygons.corners.cols()));
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    CHECK(polygons.begin[i + 1] - polygons.begin[i] == 6);
-    for (std::int64_t k = polygons.begin[i]; k != polygons.begin[i + 1]; ++k) {
-      const std::int32_t corner = polygons.ids[k];
+    CHECK(polygons.ids.count(i) == 6);
+    for (const std::int32_t corner : polygons.ids[i]) {
       ++count[static_cast<std::size_t>(corner)];
       CHECK(apart(polygons.corners.col(corner), polygons.centres.col(i), polygons.period) ==
             doctest::Approx(spacing / root3));
@@ -119,9 +118,8 @@ TEST_CASE("at walls cells are whole hexagons, as planar_hex has them after its c
   CHECK(all.polygons->period == Eigen::Vector2d(0, 0));
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
   for (std::int64_t i = 0; i < 24; ++i)
-    for (int k = 0; k < 6; ++k) {
-      const std::int32_t a = all.polygons->ids[6 * i + k],
-                         b = all.polygons->ids[6 * i + (k + 1) % 6];
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::int32_t a = all.polygons->ids[i][k], b = all.polygons->ids[i][(k + 1) % 6];
       edges.insert({std::min(a, b), std::max(a, b)});
     }
   CHECK(all.polygons->corners.cols() - std::ssize(edges) + 24 == 1);

@@ -113,10 +113,8 @@ Polygons cube_of_quads(int n) {
   const auto count = static_cast<Eigen::Index>(centres.size() / 3);
   quads.corners = Eigen::Map<const Points3>(corners.data(), 3, Eigen::Index(corners.size() / 3));
   quads.centres = Eigen::Map<const Points3>(centres.data(), 3, count);
-  quads.begin.resize(count + 1);
-  for (Eigen::Index i = 0; i <= count; ++i)
-    quads.begin[i] = 4 * i;
-  quads.ids = Eigen::Map<const calotte::Ids>(ids.data(), Eigen::Index(ids.size()));
+  quads.ids.begin = calotte::Offsets::LinSpaced(count + 1, 0, 4 * count);
+  quads.ids.items = Eigen::Map<const calotte::Ids>(ids.data(), Eigen::Index(ids.size()));
   return quads;
 }
 
@@ -260,7 +258,8 @@ TEST_CASE("values at the corners of cells that are no Voronoi cells go along") {
 TEST_CASE("polygons: all clockwise are turned, both orientations and overlaps are refused") {
   const Scratch scratch;
   const auto turn = [](Polygons& quads, Eigen::Index cell) {
-    quads.ids.segment(quads.begin[cell], 4).reverseInPlace();
+    const auto ids = quads.ids[cell];
+    std::reverse(ids.begin(), ids.end());
   };
   for (const PolygonFormat& format : polygon_formats) {
     CAPTURE(int(format.format));
@@ -282,7 +281,7 @@ TEST_CASE("polygons: all clockwise are turned, both orientations and overlaps ar
     CHECK(std::string(error.what()).find("cell 20 runs clockwise") != std::string::npos);
 
     Polygons doubled = cube_of_quads(3);
-    doubled.ids.segment(doubled.begin[7], 4) = Eigen::Vector4i(doubled.ids.segment(0, 4));
+    std::copy_n(doubled.ids[0].begin(), 4, doubled.ids[7].begin());
     calotte::write(path, file_of(doubled), {.format = format.format});
     CHECK(std::string(error_of([&] { calotte::read_mesh_file(path); }).what())
               .find("cell 0 and cell 7 overlap") != std::string::npos);
@@ -455,7 +454,7 @@ TEST_CASE("Exodus holds cells of any shape, and FESOM the triangles of open and 
   REQUIRE(read.polygons);
   CHECK(read.not_voronoi == "the cells have no centres");
   CHECK(equal_bits(read.polygons->corners, quads.corners));
-  CHECK(equal_bits(read.polygons->ids, quads.ids));
+  CHECK(equal_bits(read.polygons->ids.items, quads.ids.items));
   for (const auto& [name, mesh] : all_meshes()) {
     CAPTURE(name);
     if (mesh.closed()) {

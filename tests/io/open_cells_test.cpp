@@ -73,19 +73,19 @@ std::vector<Plane> planes() {
 
 /// Whether polygons have the same corners in the same order, from any on. \param rounding of units.
 bool same_cells(const Polygons& a, const Polygons& b, double rounding = 0) {
-  if (a.size() != b.size() || (a.begin.array() != b.begin.array()).any())
+  if (a.size() != b.size() || (a.ids.begin.array() != b.ids.begin.array()).any())
     return false;
   for (std::int64_t i = 0; i < a.size(); ++i) {
-    const std::int64_t first = a.begin[i], count = a.begin[i + 1] - first;
-    const auto fits = [&](std::int64_t turn) {
-      for (std::int64_t k = 0; k < count; ++k)
-        if (!((a.corners.col(a.ids[first + k]) - b.corners.col(b.ids[first + (k + turn) % count]))
-                  .norm() <= rounding))
+    const auto of_a = a.ids[i], of_b = b.ids[i];
+    const auto fits = [&](std::size_t turn) {
+      for (std::size_t k = 0; k < of_a.size(); ++k)
+        if (!((a.corners.col(of_a[k]) - b.corners.col(of_b[(k + turn) % of_b.size()])).norm() <=
+              rounding))
           return false;
       return true;
     };
     bool any = false;
-    for (std::int64_t turn = 0; turn < count && !any; ++turn)
+    for (std::size_t turn = 0; turn < of_a.size() && !any; ++turn)
       any = fits(turn);
     if (!any)
       return false;
@@ -94,7 +94,7 @@ bool same_cells(const Polygons& a, const Polygons& b, double rounding = 0) {
 }
 
 Polygons polygons_of(const Voronoi& v) {
-  return {v.vertices, v.begin, v.vertices_on_cell, v.cells, v.on_sphere};
+  return {v.vertices, v.vertices_on_cell, v.cells, v.on_sphere};
 }
 
 double edge_length(Mpas& file, std::size_t e, const std::string& kind, const std::string& ends) {
@@ -197,9 +197,9 @@ TEST_CASE("graph.info lists the neighbours that are there") {
     std::multiset<std::int32_t> found, expected;
     for (std::int32_t id = 0; words >> id; ++listed)
       found.insert(id - 1);
-    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-      if (cells.cells_on_cell[k] >= 0)
-        expected.insert(cells.cells_on_cell[k]);
+    for (const std::int32_t other : cells.cells_on_cell[i])
+      if (other >= 0)
+        expected.insert(other);
     CHECK(found == expected);
   }
   CHECK(listed == 2 * edges);

@@ -89,9 +89,8 @@ Polygons patch(int rows, int columns, double west, double south, double step, bo
   };
   out.corners = places(lon, lat);
   out.centres = places(centre_lon, centre_lat);
-  out.begin = Eigen::Map<const Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>>(begin.data(),
-                                                                               std::ssize(begin));
-  out.ids = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  out.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
+             Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
   return out;
 }
 
@@ -196,12 +195,12 @@ TEST_CASE("cells of a region that make no triangles stay cells: measured and wri
     CHECK(measured.spacing.max < 0.3 * pi / 180);
     CHECK(measured.without_area == 0);
     if (four)
-      for (std::int64_t i = 0; i < cells.size(); ++i)
-        CHECK(areas(cells)[i] ==
-              doctest::Approx(area_of_quadrilateral(cells.corners,
-                                                    {cells.ids[4 * i], cells.ids[4 * i + 1],
-                                                     cells.ids[4 * i + 2], cells.ids[4 * i + 3]}))
-                  .epsilon(1e-6));
+      for (std::int64_t i = 0; i < cells.size(); ++i) {
+        const auto ids = cells.ids[i];
+        const double expected =
+            area_of_quadrilateral(cells.corners, {ids[0], ids[1], ids[2], ids[3]});
+        CHECK(areas(cells)[i] == doctest::Approx(expected).epsilon(1e-6));
+      }
     for (const Target& target : targets) {
       CAPTURE(target.name);
       write(scratch / target.name, file_of(cells), {.format = target.format});
@@ -258,7 +257,7 @@ TEST_CASE("cells without area are counted, and no neighbour overlaps them") {
   const Scratch scratch;
   for (const std::int64_t cell : {0, 9, 13}) {
     Polygons cells = patch(5, 4, 0, 10, 1, true);
-    auto ids = cells.ids.segment(4 * cell, 4);
+    const auto ids = cells.ids[cell];
     ids[2] = ids[1];
     ids[3] = ids[0]; // both long sides are the southern one
     CHECK(shapes(cells).without_area == 1);
@@ -267,8 +266,8 @@ TEST_CASE("cells without area are counted, and no neighbour overlaps them") {
     moved.corners.conservativeResize(3, moved.corners.cols() + 2);
     for (const int k : {0, 1}) {
       const auto corner = static_cast<std::int32_t>(moved.corners.cols()) - 2 + k;
-      moved.corners.col(corner) = moved.corners.col(moved.ids[4 * cell + 1 - k]);
-      moved.ids[4 * cell + 2 + k] = corner;
+      moved.corners.col(corner) = moved.corners.col(moved.ids.items[4 * cell + 1 - k]);
+      moved.ids.items[4 * cell + 2 + k] = corner;
     }
     CHECK(shapes(moved).without_area == 1);
     for (const Target& target : {targets[0], targets[1], targets[2]}) {
@@ -292,7 +291,7 @@ TEST_CASE("clipped cells of a plane are written as their own triangles, not as t
   const MeshFile file = read_mesh_file(scratch / "plane.nc");
   REQUIRE(file.polygons);
   std::vector<int> cells_at(static_cast<std::size_t>(file.polygons->corners.cols()));
-  for (const std::int32_t id : file.polygons->ids)
+  for (const std::int32_t id : file.polygons->ids.items)
     ++cells_at[static_cast<std::size_t>(id)];
   const auto inner = std::count(cells_at.begin(), cells_at.end(), 3);
   CHECK(inner < mesh.triangles.cols()); // some circumcentres are outside

@@ -154,7 +154,7 @@ TEST_CASE("PLY: polygons are cells with unit corners") {
     REQUIRE(file.polygons);
     CHECK(!file.mesh);
     CHECK(file.polygons->size() == 7);
-    CHECK(values_of(file.polygons->ids) == faces.ids);
+    CHECK(values_of(file.polygons->ids.items) == faces.ids);
     CHECK((file.polygons->corners - faces.points.colwise().normalized()).norm() < 1e-15);
   }
 }

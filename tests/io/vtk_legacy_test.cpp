@@ -141,7 +141,7 @@ TEST_CASE("legacy VTK: polygons are cells; single precision; points alone") {
   for (Style style : styles()) {
     const MeshFile file = read_text(scratch / "mesh.vtk", vtk_text(prism(), style));
     REQUIRE(file.polygons);
-    CHECK(values_of(file.polygons->ids) == prism().ids);
+    CHECK(values_of(file.polygons->ids.items) == prism().ids);
     style.points = "float";
     Faces faces = faces_of(mesh);
     faces.points = faces.points.cast<float>().cast<double>();

@@ -98,7 +98,7 @@ TEST_CASE("VTK: polygons are cells, with unit corners, and centres if there are 
         REQUIRE(file.polygons);
         CHECK(file.polygons->size() == 7);
         CHECK((file.polygons->corners - faces.points.colwise().normalized()).norm() < 1e-15);
-        CHECK(values_of(file.polygons->ids) == faces.ids);
+        CHECK(values_of(file.polygons->ids.items) == faces.ids);
         CHECK(file.polygons->centres.cols() == (name.empty() ? 0 : 7));
         if (!name.empty())
           CHECK((file.polygons->centres - centres.colwise().normalized()).norm() < 1e-15);
@@ -191,8 +191,8 @@ TEST_CASE(
   Faces faces{cells.vertices.rowwise().reverse(), {}, {}}; // the corners in another order
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
     Values corners;
-    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-      corners.push_back(double(cells.vertices.cols() - 1 - cells.vertices_on_cell[k]));
+    for (const std::int32_t vertex : cells.vertices_on_cell[i])
+      corners.push_back(double(cells.vertices.cols() - 1 - vertex));
     faces.add(corners);
   }
   const Eigen::VectorXd z = faces.points.row(2);

@@ -179,8 +179,8 @@ TEST_CASE("VTK: cells are counter-clockwise polygons with their fields and sites
       CHECK(holds(block_of(text, "Points"), calotte::Points3(radius * cells.vertices)));
       std::vector<std::int64_t> corners, offsets;
       for (std::int64_t i = 0; i < mesh.points.cols(); ++i) {
-        for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-          corners.push_back(cells.vertices_on_cell[k]);
+        for (const std::int32_t vertex : cells.vertices_on_cell[i])
+          corners.push_back(vertex);
         offsets.push_back(std::int64_t(corners.size()));
       }
       CHECK(holds(block_of(text, "connectivity"), corners));

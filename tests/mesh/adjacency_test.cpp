@@ -79,19 +79,21 @@ TEST_CASE("a walk visits each corner at a site once, or those from a boundary on
   const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(500, 3));
   const mesh_detail::Faces faces = mesh_detail::faces_of(mesh);
   const mesh_detail::VertexRings rings = mesh_detail::make_vertex_rings(mesh);
-  CHECK(rings.corners.size() == mesh.triangles.size());
+  CHECK(rings.items.size() == mesh.triangles.size());
   for (std::int64_t i = 0; i < mesh.points.cols(); ++i) {
-    const mesh_detail::Corner first = rings.corners[rings.begin[i]];
-    std::int64_t place = rings.begin[i];
+    const auto ring = rings[i];
+    const mesh_detail::Corner first = ring.front();
+    std::size_t place = 0;
     const auto next = [&](mesh_detail::Corner corner) { return next_around(faces, corner); };
     const mesh_detail::Corner last = walk_around(first, next, [&](mesh_detail::Corner corner) {
       REQUIRE(site_at(faces, corner) == i);
       REQUIRE(following_site(faces, corner) >= following_site(faces, first));
-      REQUIRE(rings.corners[place].triangle == corner.triangle);
+      REQUIRE(place < ring.size());
+      REQUIRE(ring[place].triangle == corner.triangle);
       ++place;
     });
     CHECK(!exists(last));
-    CHECK(place == rings.begin[i + 1]);
+    CHECK(place == ring.size());
   }
 
   const Mesh open = calotte::spherical_delaunay(upper_half(300, 4));

@@ -112,7 +112,7 @@ def test_errors_of_operators():
     by_cell = errors.tangential_by_cell
     assert by_cell[errors.tangential.cell] == by_cell.max() == errors.tangential.max
     assert errors.dual_eigenvalue > 3 * errors.primal_eigenvalue
-    assert np.linalg.norm(errors.curl.place) == pytest.approx(1)
+    assert np.linalg.norm(errors.curl.position) == pytest.approx(1)
     box = calotte.delaunay(calotte.random_places(200, calotte.periodic_box(2, 1)), period=(2, 1))
     assert np.isfinite(calotte.operator_errors(box).divergence_by_cell).all()
 

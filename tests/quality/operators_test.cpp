@@ -131,8 +131,8 @@ struct Matrices {
         gradient(k, cell) = -sign / of.dc[k];
         curl(vertex, k) = -sign * of.dc[k] / of.vertex_area[vertex];
       }
-      for (std::int64_t j = weights.begin[k]; j != weights.begin[k + 1]; ++j)
-        tangential(k, weights.edges[j]) += weights.weights[j];
+      for (std::int64_t j = weights.edges.begin[k]; j != weights.edges.begin[k + 1]; ++j)
+        tangential(k, weights.edges.items[j]) += weights.weights[j];
     }
   }
 };
@@ -238,7 +238,7 @@ TEST_CASE("a rotation of the mesh leaves the errors") {
       continue;
     check_close(after[k].second->l2, before[k].second->l2, 1e-9);
     check_close(after[k].second->max, before[k].second->max, 1e-9);
-    CHECK((after[k].second->place - turn * before[k].second->place).norm() < 1e-9);
+    CHECK((after[k].second->position - turn * before[k].second->position).norm() < 1e-9);
   }
   check_close(turned.off_centroid.max, errors.off_centroid.max, 1e-9);
   check_close(turned.off_midpoint.l2, errors.off_midpoint.l2, 1e-9);
@@ -385,7 +385,7 @@ TEST_CASE("an open mesh: whole cells have the errors that they have in a closed 
     }
     const ErrorNorms& norms = *norms_of(of_part)[k].second;
     CHECK((*part[k])[norms.cell] == norms.max);
-    CHECK((open.points.col(norms.cell).normalized() - norms.place).norm() < 0.1);
+    CHECK((open.points.col(norms.cell).normalized() - norms.position).norm() < 0.1);
   }
   CHECK(of_part.off_midpoint.max <= of_all.off_midpoint.max * (1 + 1e-6));
   CHECK(of_part.off_centroid.max <= of_all.off_centroid.max * (1 + 1e-6));

@@ -141,16 +141,21 @@ void check_areas(const Voronoi& v, const Points2& sites, const PlanarDomain& dom
 
 /// The lists name each other, as those of a closed mesh do.
 void check_lists(const Voronoi& v) {
+  for (const IdLists* lists : {&v.edges_on_cell, &v.vertices_on_cell, &v.cells_on_cell}) {
+    REQUIRE(lists->size() == v.cells.cols());
+    CHECK(lists->items.size() == lists->begin[v.cells.cols()]);
+    CHECK(lists->begin == v.edges_on_cell.begin);
+  }
   for (Eigen::Index i = 0; i < v.cells.cols(); ++i) {
-    const std::int64_t begin = v.begin[i], end = v.begin[i + 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      const std::int32_t e = v.edges_on_cell[k], other = v.cells_on_cell[k];
-      const std::int32_t before = v.vertices_on_cell[(k == begin ? end : k) - 1];
+    const auto edges = v.edges_on_cell[i], vertices = v.vertices_on_cell[i],
+               others = v.cells_on_cell[i];
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const std::int32_t e = edges[k];
       const bool first = v.cells_on_edge(0, e) == i;
       REQUIRE(v.cells_on_edge(first ? 0 : 1, e) == i);
-      CHECK(v.cells_on_edge(first ? 1 : 0, e) == other);
-      CHECK(v.vertices_on_edge(first ? 0 : 1, e) == before);
-      CHECK(v.vertices_on_edge(first ? 1 : 0, e) == v.vertices_on_cell[k]);
+      CHECK(v.cells_on_edge(first ? 1 : 0, e) == others[k]);
+      CHECK(v.vertices_on_edge(first ? 0 : 1, e) == vertices[(k > 0 ? k : vertices.size()) - 1]);
+      CHECK(v.vertices_on_edge(first ? 1 : 0, e) == vertices[k]);
     }
   }
   for (Eigen::Index vertex = 0; vertex < v.vertices.cols(); ++vertex)
@@ -204,8 +209,8 @@ void check_weights(const Voronoi& v) {
   const TangentialWeights weights = tangential_weights(v, 0, v.dc.size());
   for (Eigen::Index e = 0; e < v.dc.size(); ++e) {
     std::set<std::int32_t> others;
-    for (std::int64_t k = weights.begin[e]; k < weights.begin[e + 1]; ++k) {
-      const std::int32_t other = weights.edges[k];
+    for (std::int64_t k = weights.edges.begin[e]; k < weights.edges.begin[e + 1]; ++k) {
+      const std::int32_t other = weights.edges.items[k];
       REQUIRE(other >= 0);
       others.insert(other);
       CHECK(std::isfinite(weights.weights[k]));

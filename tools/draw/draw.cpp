@@ -236,7 +236,7 @@ std::vector<double> values_of(const Polygons& polygons, const DrawOptions& optio
   case Colouring::none: {
     std::vector<double> sides;
     for (std::int64_t i = 0; i < polygons.size(); ++i) {
-      sides.push_back(static_cast<double>(polygons.begin[i + 1] - polygons.begin[i]));
+      sides.push_back(static_cast<double>(polygons.ids.count(i)));
     }
     return sides;
   }

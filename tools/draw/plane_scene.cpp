@@ -167,9 +167,9 @@ Vector2d way_between(const Polygons& cells, std::int32_t from, std::int32_t to) 
 OpenSides open_sides(const Polygons& cells) {
   std::set<std::array<std::int32_t, 2>> sides;
   for (std::int64_t i = 0; i < cells.size(); ++i) {
-    for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k) {
-      const std::int32_t from = cells.ids[k];
-      const std::int32_t to = cells.ids[k + 1 < cells.begin[i + 1] ? k + 1 : cells.begin[i]];
+    const auto ids = cells.ids[i];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::int32_t from = ids[k], to = ids[(k + 1) % ids.size()];
       if (sides.erase({to, from}) == 0) {
         sides.insert({from, to});
       }

@@ -163,8 +163,8 @@ Scene make_scene(const Polygons& polygons, const LonLat& view) {
   scene.sites.resize(3, polygons.size()); // the cells' middles
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     Vector3d sum = Vector3d::Zero();
-    for (std::int64_t k = polygons.begin[i]; k < polygons.begin[i + 1]; ++k) {
-      sum += scene.circumcentres.col(polygons.ids[k]);
+    for (const std::int32_t corner : polygons.ids[i]) {
+      sum += scene.circumcentres.col(corner);
     }
     scene.sites.col(i) = direction_of(sum);
   }
@@ -205,8 +205,8 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
     return;
   }
   if (const Polygons* polygons = scene.polygons) {
-    for (std::int64_t k = polygons->begin[shape]; k < polygons->begin[shape + 1]; ++k) {
-      corners.emplace_back(scene.circumcentres.col(polygons->ids[k]));
+    for (const std::int32_t corner : polygons->ids[shape]) {
+      corners.emplace_back(scene.circumcentres.col(corner));
     }
     return;
   }

@@ -115,10 +115,10 @@ DoubleVector side_ratios(const Polygons& cells) {
   DoubleVector ratios = DoubleVector::Constant(cells.size(), nothing);
   for (std::int64_t i = 0; i < cells.size(); ++i) {
     double shortest = HUGE_VAL, longest = 0;
-    const std::int64_t begin = cells.begin[i], end = cells.begin[i + 1];
-    for (std::int64_t k = begin; k < end; ++k) {
-      const auto next = cells.ids[k + 1 < end ? k + 1 : begin];
-      const double side = (cells.corners.col(cells.ids[k]) - cells.corners.col(next)).norm();
+    const auto ids = cells.ids[i];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::int32_t next = ids[(k + 1) % ids.size()];
+      const double side = (cells.corners.col(ids[k]) - cells.corners.col(next)).norm();
       shortest = std::min(shortest, side);
       longest = std::max(longest, side);
     }
@@ -157,8 +157,7 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
   }
   if (const Polygons* polygons = scene.polygons) {
     for (std::size_t i = 0; i < count.size(); ++i) {
-      const auto site = static_cast<Eigen::Index>(i);
-      count[i] = static_cast<double>(polygons->begin[site + 1] - polygons->begin[site]);
+      count[i] = static_cast<double>(polygons->ids.count(static_cast<std::int64_t>(i)));
     }
     return count;
   }

@@ -279,7 +279,7 @@ std::string table(const Measured& measured) {
 std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, const Unit& unit) {
   std::vector<std::int64_t> sides;
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
-    const auto count = static_cast<std::size_t>(polygons.begin[i + 1] - polygons.begin[i]);
+    const auto count = static_cast<std::size_t>(polygons.ids.count(i));
     sides.resize(std::max(sides.size(), count + 1));
     ++sides[count];
   }

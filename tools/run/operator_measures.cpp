@@ -27,7 +27,7 @@ constexpr std::array<DistanceName, 2> distance_names = {{
 
 /// Longitude and latitude in degrees, or x and y.
 Eigen::Vector2d location(const ErrorNorms& norms, bool on_sphere) {
-  return on_sphere ? Eigen::Vector2d(to_lonlat(norms.place).col(0)) : norms.place.head<2>();
+  return on_sphere ? Eigen::Vector2d(to_lonlat(norms.position).col(0)) : norms.position.head<2>();
 }
 
 class Lines {

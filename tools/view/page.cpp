@@ -56,11 +56,11 @@ Json add_points(const Points3& points, const Grid& grid, Blocks& blocks) {
 void add_shapes(const Polygons& shapes, const Grid& grid, Blocks& blocks, Json& json) {
   std::vector<std::int32_t> sides;
   for (std::int64_t i = 0; i < shapes.size(); ++i)
-    sides.push_back(static_cast<std::int32_t>(shapes.begin[i + 1] - shapes.begin[i]));
+    sides.push_back(static_cast<std::int32_t>(shapes.ids.count(i)));
   json["corners"] = add_points(shapes.corners, grid, blocks);
   json["cornerCount"] = shapes.corners.cols();
   json["sides"] = blocks.add(sides, 0);
-  json["ring"] = blocks.add({shapes.ids.begin(), shapes.ids.end()}, 1);
+  json["ring"] = blocks.add({shapes.ids.items.begin(), shapes.ids.items.end()}, 1);
 }
 
 /// The different finite values, in rising order.

@@ -82,9 +82,8 @@ void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells) {
 void set_plane(ViewMesh& mesh, const Mesh& planar) {
   Voronoi cells = voronoi(planar);
   set_plane(mesh, planar,
-            Polygons{std::move(cells.vertices), std::move(cells.begin),
-                     std::move(cells.vertices_on_cell), std::move(cells.cells), false,
-                     cells.period});
+            Polygons{std::move(cells.vertices), std::move(cells.vertices_on_cell),
+                     std::move(cells.cells), false, cells.period});
 }
 
 } // namespace calotte::tools

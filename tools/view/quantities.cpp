@@ -173,7 +173,7 @@ std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit) {
   std::vector<Quantity> list;
   DoubleVector sides(cells.size());
   for (std::int64_t i = 0; i < cells.size(); ++i)
-    sides[i] = static_cast<double>(cells.begin[i + 1] - cells.begin[i]);
+    sides[i] = static_cast<double>(cells.ids.count(i));
   add(list, {.name = "area",
              .label = "area",
              .unit = unit.area,

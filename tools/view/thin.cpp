@@ -151,9 +151,9 @@ DoubleVector reaches_of(const ViewMesh& mesh) {
   if (mesh.shapes) {
     const Polygons& cells = *mesh.shapes;
     for (std::int64_t i = 0; i < mesh.cells; ++i)
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        reach[i] = std::max(
-            reach[i], (cells.corners.col(cells.ids[k]).normalized() - mesh.points.col(i)).norm());
+      for (const std::int32_t corner : cells.ids[i])
+        reach[i] = std::max(reach[i],
+                            (cells.corners.col(corner).normalized() - mesh.points.col(i)).norm());
     return reach;
   }
   for (const auto& triangle : mesh.triangles.colwise())

@@ -128,8 +128,8 @@ Points3 centres_of(const Polygons& cells) {
   if (centres.cols() == 0) {
     centres.setZero(3, cells.size());
     for (std::int64_t i = 0; i < cells.size(); ++i)
-      for (std::int64_t k = cells.begin[i]; k < cells.begin[i + 1]; ++k)
-        centres.col(i) += cells.corners.col(cells.ids[k]);
+      for (const std::int32_t corner : cells.ids[i])
+        centres.col(i) += cells.corners.col(corner);
   }
   return centres;
 }

@@ -67,10 +67,10 @@ def _contains(surface, points):
 # ---- What the command prints of operators
 
 def _at(norms):
-    """Longitude and latitude of the greatest value on the sphere, degrees; see place in a plane."""
-    if not norms.place.any():
+    """Longitude and latitude of the greatest value on the sphere, degrees; see position in a plane."""
+    if not norms.position.any():
         return math.nan, math.nan
-    return tuple(_calotte.to_lonlat(norms.place[np.newaxis])[0].tolist())
+    return tuple(_calotte.to_lonlat(norms.position[np.newaxis])[0].tolist())
 
 
 def _wave_step(errors, speed, radius=1.0):

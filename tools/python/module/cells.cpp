@@ -86,6 +86,9 @@ void add_quality(py::module_& module) {
 }
 
 void add_voronoi(py::module_& module) {
+  py::class_<IdLists> lists(module, "_IdLists", "Lists of a pickled Voronoi.");
+  add_members(lists, Member{"begin", &IdLists::begin, "Where each begins."},
+              Member{"items", &IdLists::items, "One list after another."});
   py::class_<Voronoi, std::shared_ptr<Voronoi>> cells(
       module, "Voronoi",
       "The Voronoi tessellation of a mesh, as a C-grid model staggers it, of voronoi().\n\n"
@@ -99,10 +102,9 @@ void add_voronoi(py::module_& module) {
       Member{"cells", &Voronoi::cells, "(n, 3) sites; unit vectors on the sphere."},
       Member{"edges", &Voronoi::edges, "(e, 3) midpoints between neighbours."},
       Member{"vertices", &Voronoi::vertices, "(m, 3) corners of the cells."},
-      Member{"begin", &Voronoi::begin,
+      Member{"edges_on_cell", &Voronoi::edges_on_cell, "Ids of edges, by cell; see begin.",
              "(n + 1,) cell i has the entries begin[i] to begin[i + 1] - 1 of edges_on_cell, "
              "vertices_on_cell and cells_on_cell."},
-      Member{"edges_on_cell", &Voronoi::edges_on_cell, "Ids of edges, by cell; see begin."},
       Member{"vertices_on_cell", &Voronoi::vertices_on_cell,
              "Ids of vertices, by cell; see begin. Edge k lies between vertices k - 1 and k."},
       Member{"cells_on_cell", &Voronoi::cells_on_cell,

@@ -22,8 +22,7 @@ namespace {
 /// The corners of Voronoi cells and nothing else, for callers that need no edges and areas.
 struct Corners {
   Points3 points;  ///< by triangle its circumcentre on the unit sphere
-  Offsets begin;   ///< n + 1, as Voronoi's
-  Ids ids;         ///< counter-clockwise around each site
+  IdLists ids;     ///< of each cell, counter-clockwise
   double shortest; ///< least length of a Delaunay edge, a chord of the unit sphere
   bool coincide;   ///< corners of cocircular sites: centres within 1e-14
 };
@@ -31,20 +30,20 @@ struct Corners {
 /// Triangle by triangle around each site, in the order of the triangles' neighbours.
 void walk_rings(const Mesh& mesh, Corners& corners) {
   const std::int64_t n = mesh.points.cols(), m = mesh.triangles.cols();
-  corners.begin = Offsets::Zero(n + 1);
+  corners.ids.begin = Offsets::Zero(n + 1);
   std::vector<std::int32_t> first(static_cast<std::size_t>(n));
   for (std::int64_t t = m; t-- > 0;)
     for (int v = 0; v < 3; ++v) {
-      ++corners.begin[mesh.triangles(v, t) + 1];
+      ++corners.ids.begin[mesh.triangles(v, t) + 1];
       first[static_cast<std::size_t>(mesh.triangles(v, t))] = static_cast<std::int32_t>(t);
     }
   for (std::int64_t i = 0; i < n; ++i)
-    corners.begin[i + 1] += corners.begin[i];
-  corners.ids.resize(3 * m);
+    corners.ids.begin[i + 1] += corners.ids.begin[i];
+  corners.ids.items.resize(3 * m);
   for (std::int64_t i = 0; i < n; ++i) {
     std::int32_t t = first[static_cast<std::size_t>(i)];
-    for (std::int64_t k = corners.begin[i]; k < corners.begin[i + 1]; ++k) {
-      corners.ids[k] = t;
+    for (std::int32_t& id : corners.ids[i]) {
+      id = t;
       const auto v = mesh.triangles(0, t) == i ? 0 : mesh.triangles(1, t) == i ? 1 : 2;
       t = mesh.neighbours((v + 1) % 3, t);
     }
@@ -80,8 +79,8 @@ std::tuple<py::array, py::array, py::array, double, bool> corners_of(const Mesh&
     tbb::parallel_invoke([&] { walk_rings(mesh, made); }, [&] { set_centres(mesh, made); });
     return made;
   });
-  return {handed_over(std::move(corners.points)), handed_over(std::move(corners.begin)),
-          handed_over(std::move(corners.ids)), corners.shortest, corners.coincide};
+  return {handed_over(std::move(corners.points)), handed_over(std::move(corners.ids.begin)),
+          handed_over(std::move(corners.ids.items)), corners.shortest, corners.coincide};
 }
 
 /// A list of lists: one for each cell. An id that several cells share is one object.

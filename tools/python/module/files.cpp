@@ -123,21 +123,22 @@ Content of_state(const py::tuple& state) {
   return content;
 }
 
-using Offsets = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using Begin = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 using CornerIds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
 
 /// Cells on the sphere. \throws Error invalid_argument for ids out of range.
-std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Offsets& begin,
+std::shared_ptr<Polygons> polygons_from(const Doubles& corners, const Begin& begin,
                                         const CornerIds& ids) {
   auto cells = std::make_shared<Polygons>();
   cells->corners = columns(corners);
-  cells->begin = Eigen::Map<const decltype(cells->begin)>(begin.data(), begin.size());
-  cells->ids = Eigen::Map<const Ids>(ids.data(), ids.size());
-  const bool ascending = begin.size() > 0 && cells->begin[0] == 0 &&
-                         cells->begin[cells->size()] == ids.size() &&
-                         std::is_sorted(cells->begin.begin(), cells->begin.end());
+  cells->ids = {Eigen::Map<const Offsets>(begin.data(), begin.size()),
+                Eigen::Map<const Ids>(ids.data(), ids.size())};
+  const auto& [starts, items] = cells->ids;
+  const bool ascending = starts.size() > 0 && starts[0] == 0 &&
+                         starts[cells->size()] == items.size() &&
+                         std::is_sorted(starts.begin(), starts.end());
   if (corners.ndim() != 2 || corners.shape(1) != 3 || !ascending ||
-      (ids.size() > 0 && (cells->ids.minCoeff() < 0 || cells->ids.maxCoeff() >= corners.shape(0))))
+      (items.size() > 0 && (items.minCoeff() < 0 || items.maxCoeff() >= corners.shape(0))))
     throw Error(ErrorCode::invalid_argument,
                 "corners, begin and ids do not fit; give m x 3 corners, and ids below m of which "
                 "begin[i] to begin[i + 1] - 1 are those of polygon i");
@@ -175,10 +176,9 @@ void add_content(py::module_& module) {
   polygons.def(py::init(&polygons_from), py::arg("corners"), py::arg("begin"), py::arg("ids"));
   add_member(polygons, Member{"corners", &Polygons::corners,
                               "(m, 3) unit vectors; in a plane in its unit, z = 0."});
-  add_member(polygons, Member{"begin", &Polygons::begin,
+  add_member(polygons, Member{"ids", &Polygons::ids, "Ids of corners; see begin.",
                               "(n + 1,) polygon i has the corners ids[begin[i]] to "
                               "ids[begin[i + 1] - 1], counter-clockwise."});
-  add_member(polygons, Member{"ids", &Polygons::ids, "Ids of corners; see begin."});
   add_member(polygons, Member{"centres", &Polygons::centres,
                               "(n, 3) as the corners; (0, 3) if the file gives none."});
   add_member(polygons, Member{"on_sphere", &Polygons::on_sphere, "False in a plane."});
@@ -195,14 +195,13 @@ void add_content(py::module_& module) {
       .def(py::pickle(
           [](const py::object& self) {
             const auto& cells = self.cast<const Polygons&>();
-            return py::make_tuple(cells.corners, cells.begin, cells.ids, cells.centres,
+            return py::make_tuple(cells.corners, cells.ids.begin, cells.ids.items, cells.centres,
                                   cells.on_sphere, cells.period, self.attr("__dict__"));
           },
           [](const py::tuple& state) {
             auto cells = std::make_shared<Polygons>();
             cells->corners = state[0].cast<Points3>();
-            cells->begin = state[1].cast<decltype(cells->begin)>();
-            cells->ids = state[2].cast<Ids>();
+            cells->ids = {state[1].cast<Offsets>(), state[2].cast<Ids>()};
             cells->centres = state[3].cast<Points3>();
             cells->on_sphere = state[4].cast<bool>();
             cells->period = state[5].cast<Eigen::Vector2d>();

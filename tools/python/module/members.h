@@ -15,7 +15,8 @@ namespace calotte::python {
 template <class Struct, class Value> struct Member {
   const char* name;
   Value Struct::*pointer;
-  const char* doc; ///< what it is, with shape and unit
+  const char* doc;             ///< what it is, with shape and unit
+  const char* begin = nullptr; ///< of lists: what the attribute `begin` is, if they give it
 };
 
 template <class Value> struct IsArray : std::is_base_of<Eigen::MatrixBase<Value>, Value> {};
@@ -33,6 +34,22 @@ void add_member(Class& type, const Member<Struct, Value>& member) {
         member.doc);
   else
     type.def_readonly(member.name, member.pointer, member.doc);
+}
+
+/// The items of lists, and where these begin.
+template <class Class, class Struct>
+void add_member(Class& type, const Member<Struct, IdLists>& member) {
+  const auto add = [&](const char* name, auto part, const char* doc) {
+    type.def_property_readonly(
+        name,
+        [pointer = member.pointer, part](py::object self) {
+          return view(self.cast<const Struct&>().*pointer.*part, self);
+        },
+        doc);
+  };
+  if (member.begin != nullptr)
+    add("begin", &IdLists::begin, member.begin);
+  add(member.name, &IdLists::items, member.doc);
 }
 
 /// Attributes for all members, and with them the pickled form.

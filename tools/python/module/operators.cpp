@@ -18,11 +18,11 @@ void add_norms(py::module_& module) {
   py::class_<ErrorNorms> norms(module, "ErrorNorms",
                                "Norms of an operator's error over the root mean square of the "
                                "exact values.");
-  add_members(
-      norms, Member{"l2", &ErrorNorms::l2, "Root mean square."},
-      Member{"max", &ErrorNorms::max, "The greatest value."},
-      Member{"cell", &ErrorNorms::cell, "A cell at the place of the greatest value."},
-      Member{"place", &ErrorNorms::place, "(3,) that place, a unit vector; in the plane z is 0."});
+  add_members(norms, Member{"l2", &ErrorNorms::l2, "Root mean square."},
+              Member{"max", &ErrorNorms::max, "The greatest value."},
+              Member{"cell", &ErrorNorms::cell, "A cell at the greatest value."},
+              Member{"position", &ErrorNorms::position,
+                     "(3,) of the greatest value, a unit vector; in the plane z is 0."});
 }
 
 /// The norms of an operator, and its errors by cell.

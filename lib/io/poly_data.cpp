@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/surface.h"
+#include "io/poly_data.h"
 
 #include "io/mesh_intake.h"
 #include "io/model_grid.h"
@@ -31,28 +31,28 @@ bool is_derived(const std::string& name) {
 
 bool holds_centres(const std::string& name) { return name == site_name || name == "Center"; }
 
-const SurfaceArray* find(const Surface& surface, const std::string& name, bool of_polygons) {
+const DataArray* find(const PolyData& poly_data, const std::string& name, bool of_polygons) {
   const auto found =
-      std::find_if(surface.arrays.begin(), surface.arrays.end(), [&](const SurfaceArray& array) {
+      std::find_if(poly_data.arrays.begin(), poly_data.arrays.end(), [&](const DataArray& array) {
         return array.name == name && array.of_polygons == of_polygons && array.components == 3;
       });
-  return found == surface.arrays.end() ? nullptr : &*found;
+  return found == poly_data.arrays.end() ? nullptr : &*found;
 }
 
-Points3 points_of(const SurfaceArray& array) {
+Points3 points_of(const DataArray& array) {
   return Eigen::Map<const Points3>(array.values.data(), 3, array.values.size() / 3);
 }
 
-bool all_triangles(const Surface& surface) {
-  for (std::int64_t i = 0; i <= surface.size(); ++i)
-    if (surface.begin[i] != 3 * i)
+bool all_triangles(const PolyData& poly_data) {
+  for (std::int64_t i = 0; i <= poly_data.size(); ++i)
+    if (poly_data.ids.begin[i] != 3 * i)
       return false;
   return true;
 }
 
 // ---- Voronoi cells as calotte writes them
 
-Triangles triangles_of(const std::string& name, const SurfaceArray& array, std::int64_t sites) {
+Triangles triangles_of(const std::string& name, const DataArray& array, std::int64_t sites) {
   Triangles triangles(3, array.values.size() / 3);
   for (Eigen::Index k = 0; k < array.values.size(); ++k) {
     const auto id = number_as<std::int32_t>(array.values[k]);
@@ -69,14 +69,13 @@ Triangles triangles_of(const std::string& name, const SurfaceArray& array, std::
 
 /// Each corner of a cell belongs to a triangle of the cell's site. Another program may have removed
 /// or renumbered cells.
-void require_triangles_of_cells(const std::string& name, const Surface& surface,
+void require_triangles_of_cells(const std::string& name, const PolyData& poly_data,
                                 const Triangles& triangles) {
-  for (std::int64_t i = 0; i < surface.size(); ++i)
-    for (std::int64_t k = surface.begin[i]; k < surface.begin[i + 1]; ++k)
-      if (!(triangles.col(surface.ids[k]).array() == i).any())
+  for (std::int64_t i = 0; i < poly_data.size(); ++i)
+    for (const std::int32_t corner : poly_data.ids[i])
+      if (!(triangles.col(corner).array() == i).any())
         fail_array(name, triangle_name,
-                   "cell " + std::to_string(i) + " has the corner " +
-                       std::to_string(surface.ids[k]) +
+                   "cell " + std::to_string(i) + " has the corner " + std::to_string(corner) +
                        ", whose triangle is not one of the cell; the cells were changed, so remove "
                        "the array to read them alone",
                    i);
@@ -84,7 +83,7 @@ void require_triangles_of_cells(const std::string& name, const Surface& surface,
 
 // ---- Fields
 
-void add_field(SurfaceArray& array, Location location, std::set<std::string>& names, RawMesh& raw) {
+void add_field(DataArray& array, Location location, std::set<std::string>& names, RawMesh& raw) {
   if (location == Location::cells && is_derived(array.name))
     return;
   const bool first = names.insert(array.name).second;
@@ -98,10 +97,10 @@ void add_field(SurfaceArray& array, Location location, std::set<std::string>& na
 }
 
 /// Adds the arrays of one component.
-void add_fields(Surface& surface, bool polygons_are_cells, RawMesh& raw) {
+void add_fields(PolyData& poly_data, bool polygons_are_cells, RawMesh& raw) {
   std::set<std::string> names;
-  raw.ignored = std::move(surface.ignored);
-  for (SurfaceArray& array : surface.arrays)
+  raw.ignored = std::move(poly_data.ignored);
+  for (DataArray& array : poly_data.arrays)
     if (array.components == 1 && array.values.size() > 0)
       add_field(array,
                 array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
@@ -117,26 +116,24 @@ Points3 directions(const std::string& name, const Points3& points) {
   return on_sphere(points, 1);
 }
 
-RawMesh cells_of(const std::string& name, Surface& surface, const SurfaceArray* centres) {
+RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* centres) {
   RawMesh raw;
-  if (lies_in_plane(surface.points)) {
+  if (lies_in_plane(poly_data.points)) {
     if (centres == nullptr)
       throw Error(ErrorCode::invalid_argument,
                   name +
                       ": z is 0 at all points; of a plane only triangles, and cells with an array "
                       "site, are read");
     raw.points = points_of(*centres);
-    raw.polygons = {std::move(surface.points), std::move(surface.begin), std::move(surface.ids),
-                    raw.points, false};
+    raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points, false};
     return raw;
   }
-  raw.polygons = {directions(name, surface.points), std::move(surface.begin),
-                  std::move(surface.ids), Points3(3, 0)};
+  raw.polygons = {directions(name, poly_data.points), std::move(poly_data.ids), Points3(3, 0)};
   if (centres != nullptr) {
     raw.points = points_of(*centres);
     raw.polygons.centres = directions(name + ": array " + in_quotes(centres->name), raw.points);
   }
-  raw.corner_rounding = surface.single ? single_rounding : 0;
+  raw.corner_rounding = poly_data.single ? single_rounding : 0;
   return raw;
 }
 
@@ -152,15 +149,17 @@ bool is_read(const std::string& name, bool of_polygons, std::int64_t components)
          (components == 3 && (of_polygons ? holds_centres(name) : name == triangle_name));
 }
 
-void require_polygons(const std::string& name, const Surface& surface, const SurfaceNames& names) {
-  const std::int64_t count = surface.size();
+void require_polygons(const std::string& name, const PolyData& poly_data,
+                      const PolyDataNames& names) {
+  const std::int64_t count = poly_data.size();
+  const auto& [begins, ids] = poly_data.ids;
   const std::string again = "; make the file again";
   for (std::int64_t i = 0; i < count; ++i) {
-    const std::int64_t begin = surface.begin[i], end = surface.begin[i + 1];
-    if (end > surface.ids.size())
+    const std::int64_t begin = begins[i], end = begins[i + 1];
+    if (end > ids.size())
       fail_array(name, names.offsets,
                  "polygon " + std::to_string(i) + " ends at " + std::to_string(end) +
-                     ", but there are " + std::to_string(surface.ids.size()) + " corners" + again,
+                     ", but there are " + std::to_string(ids.size()) + " corners" + again,
                  i);
     if (end < begin || end - begin < 3)
       fail_array(name, names.offsets,
@@ -168,34 +167,34 @@ void require_polygons(const std::string& name, const Surface& surface, const Sur
                      std::to_string(end) + ", so it has fewer than 3 corners" + again,
                  i);
     for (std::int64_t k = begin; k < end; ++k)
-      if (surface.ids[k] < 0 || surface.ids[k] >= surface.points.cols())
+      if (ids[k] < 0 || ids[k] >= poly_data.points.cols())
         fail_array(name, names.ids,
                    "polygon " + std::to_string(i) + " has a corner that is not one of the " +
-                       std::to_string(surface.points.cols()) + " points" + again,
+                       std::to_string(poly_data.points.cols()) + " points" + again,
                    i);
   }
-  if (const std::int64_t used = count > 0 ? surface.begin[count] : 0; used != surface.ids.size())
+  if (const std::int64_t used = count > 0 ? begins[count] : 0; used != ids.size())
     fail_array(name, names.ids,
-               "it has " + std::to_string(surface.ids.size()) + " corners, but the " +
+               "it has " + std::to_string(ids.size()) + " corners, but the " +
                    std::to_string(count) + " polygons have " + std::to_string(used) + again);
 }
 
-RawMesh raw_mesh_of(const std::string& name, Surface&& surface) {
-  const SurfaceArray* const site = find(surface, site_name, true);
-  const SurfaceArray* const triangle = find(surface, triangle_name, false);
-  const bool cells = surface.size() > 0 && (site != nullptr || !all_triangles(surface));
+RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data) {
+  const DataArray* const site = find(poly_data, site_name, true);
+  const DataArray* const triangle = find(poly_data, triangle_name, false);
+  const bool cells = poly_data.size() > 0 && (site != nullptr || !all_triangles(poly_data));
   RawMesh raw;
   if (cells && site != nullptr && triangle != nullptr) {
     raw.points = points_of(*site);
-    raw.triangles = triangles_of(name, *triangle, surface.size());
-    require_triangles_of_cells(name, surface, raw.triangles);
+    raw.triangles = triangles_of(name, *triangle, poly_data.size());
+    require_triangles_of_cells(name, poly_data, raw.triangles);
   } else if (cells) {
-    raw = cells_of(name, surface, site != nullptr ? site : find(surface, "Center", true));
+    raw = cells_of(name, poly_data, site != nullptr ? site : find(poly_data, "Center", true));
   } else {
-    raw.points = std::move(surface.points);
-    raw.triangles = Eigen::Map<const Triangles>(surface.ids.data(), 3, surface.size());
+    raw.points = std::move(poly_data.points);
+    raw.triangles = Eigen::Map<const Triangles>(poly_data.ids.items.data(), 3, poly_data.size());
   }
-  add_fields(surface, cells, raw);
+  add_fields(poly_data, cells, raw);
   return raw;
 }
 

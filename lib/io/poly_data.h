@@ -16,7 +16,7 @@ namespace calotte::io_detail {
 template <class T> using Column = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
 /// Data of the points or of the polygons.
-struct SurfaceArray {
+struct DataArray {
   std::string name;
   bool of_polygons = false;
   int components = 1;
@@ -24,31 +24,30 @@ struct SurfaceArray {
 };
 
 /// A file's contents, before it is known whether its points are sites or corners of cells.
-struct Surface {
+struct PolyData {
   Points3 points;                   ///< as in the file
   bool single = false;              ///< the file holds the points in single precision
-  Offsets begin;                    ///< n + 1: polygon i has the corners ids[begin[i]] and so on
-  Ids ids;                          ///< 0-based points, in order around the polygon
-  std::vector<SurfaceArray> arrays; ///< those that is_read() selects, others are left out
+  IdLists ids;                      ///< of each polygon: 0-based points, in order around it
+  std::vector<DataArray> arrays;    ///< those that is_read() selects, others are left out
   std::vector<std::string> ignored; ///< names of other arrays
 
-  std::int64_t size() const { return begin.size() > 0 ? begin.size() - 1 : 0; }
+  std::int64_t size() const { return ids.size(); } ///< number of polygons
 };
 
 /// Whether raw_mesh_of() uses an array of that name.
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components);
 
-/// What a file calls the parts of a surface, for messages.
-struct SurfaceNames {
+/// What a file calls the parts of poly data, for messages.
+struct PolyDataNames {
   std::string offsets = "offsets", ids = "connectivity";
 };
 
 /// \throws Error parse, naming the first polygon whose corners are fewer than three, out of range,
 /// or not among the ids.
-void require_polygons(const std::string& name, const Surface& surface,
-                      const SurfaceNames& names = {});
+void require_polygons(const std::string& name, const PolyData& poly_data,
+                      const PolyDataNames& names = {});
 
-/// The mesh of a surface whose polygons are valid.
+/// The mesh of poly data whose polygons are valid.
 ///
 /// - Polygons with the array `site`, and the array `triangle` of the points: Voronoi cells as
 ///   calotte writes them. The result has the sites and their triangles.
@@ -58,7 +57,7 @@ void require_polygons(const std::string& name, const Surface& surface,
 /// Arrays of one component become fields, `density` of the cells the density. Those that calotte
 /// derives from a mesh are left out.
 /// \throws Error parse; invalid_argument for polygons in a plane without centres.
-RawMesh raw_mesh_of(const std::string& name, Surface&& surface);
+RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data);
 
 /// \throws Error parse: what is wrong with an array.
 [[noreturn]] void fail_array(const std::string& name, const std::string& array,

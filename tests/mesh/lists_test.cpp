@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/lists.h>
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+using namespace calotte;
+
+namespace {
+
+using Values = std::vector<std::int32_t>;
+using VectorLists = Lists<Values, std::vector<std::int64_t>>;
+
+/// Lists of which the first and the last but one are empty.
+const std::vector<Values> expected{{}, {7, 8, 9}, {}, {5}};
+
+template <class AnyLists> void check_lists(AnyLists lists) {
+  const AnyLists& fixed = lists;
+  REQUIRE(lists.size() == std::int64_t(expected.size()));
+  for (std::int64_t i = 0; i < lists.size(); ++i) {
+    const Values& list = expected[static_cast<std::size_t>(i)];
+    CHECK(lists.count(i) == std::int64_t(list.size()));
+    const auto items = fixed[i];
+    CHECK(Values(items.begin(), items.end()) == list);
+  }
+  for (std::int32_t& item : lists[1])
+    item *= 2;
+  lists[3].front() = 4;
+  CHECK(Values(lists.items.begin(), lists.items.end()) == Values{14, 16, 18, 4});
+  CHECK(fixed[1].data() == lists.items.data());
+  CHECK(fixed[3].back() == 4);
+}
+
+} // namespace
+
+TEST_CASE("lists: none, empty ones, their items to be read and to be set") {
+  CHECK(IdLists().size() == 0);
+  CHECK(VectorLists().size() == 0);
+  CHECK(IdLists{Offsets::Zero(1), {}}.size() == 0);
+  CHECK(VectorLists{{0, 0}, {}}.size() == 1);
+  CHECK(VectorLists{{0, 0}, {}}[0].empty());
+  check_lists(IdLists{Offsets{{0, 0, 3, 3, 4}}, Ids{{7, 8, 9, 5}}});
+  check_lists(VectorLists{{0, 0, 3, 3, 4}, {7, 8, 9, 5}});
+}
