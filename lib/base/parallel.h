@@ -7,7 +7,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "base/clock.h"
 #include "base/happens_before.h"
 
 #include <algorithm>
@@ -23,46 +22,14 @@ namespace calotte::base_detail {
 
 inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
 
-/// The processors that the threads of one parallel loop run on. A thread on the processor of
-/// another thread of the loop moves to one that none of them has claimed, within its affinity mask,
-/// which it then sets again. A thread that waits for the caller's processor cannot move: the caller
-/// yields once if no other thread has come.
-///
-/// Linux leaves two threads on one processor for tens of milliseconds, with another one idle, where
-/// a virtual machine's idle processors count as preempted: a thread that wakes does not look for
-/// those.
-class Placement {
-public:
-  /// The caller's, before the loop.
-  /// \param threads that may take part; one of them alone needs no place.
-  explicit Placement(int threads);
-  /// Each thread calls it before each of its tasks; some nanoseconds unless it moves or yields.
-  void keep_apart() {
-    if (shared_)
-      place();
-  }
-
-private:
-  void place();
-
-  bool shared_;
-  // Not used on systems other than Linux.
-  [[maybe_unused]] std::uint64_t loop_ = 0, caller_ = 0; ///< numbers in this process
-  [[maybe_unused]] Clock::time_point start_;
-  [[maybe_unused]] std::atomic<bool> joined_{false}; ///< another thread than the caller has come
-  [[maybe_unused]] bool yielded_ = false;            ///< the caller's
-};
-
 /// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
-  Placement placement(n > 1 ? thread_count() : 1);
   HappensBefore order;
   order.fork();
   tbb::parallel_for(
       tbb::blocked_range<std::int64_t>(0, n, 1),
       [&](const tbb::blocked_range<std::int64_t>& range) CALOTTE_UNSEEN {
         order.enter();
-        placement.keep_apart();
         for (std::int64_t i = range.begin(); i != range.end(); ++i)
           body(i);
         order.leave();
@@ -139,11 +106,6 @@ template <class T> T exclusive_scan(std::span<T> values) {
   });
   return total;
 }
-
-/// Starts oneTBB's threads, if the process has not yet, and waits for them, for 2 ms at most,
-/// before work on many items. A system may put a new thread on the processor of the thread that
-/// creates it; as long as that one computes, the new one gets no turn for milliseconds.
-void start_workers(std::int64_t items);
 
 /// Does work during which this thread takes no other task, so that it may be done under a lock or
 /// once for all threads.

@@ -306,7 +306,6 @@ Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& 
                Monitor& monitor) {
   monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
-  start_workers(points.cols());
   Sites sites = make_sites_of<Space>(std::forward<Points>(points), options.duplicates,
                                      options.merge_within, &monitor);
   report = {};

@@ -2,86 +2,53 @@
 #include "base/parallel.h"
 
 #include <doctest/doctest.h>
-#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
-#include <atomic>
+#include <cstdint>
 #include <numeric>
-#include <thread>
+#include <span>
 #include <vector>
-
-#ifdef __linux__
-#include <sched.h>
-#endif
 
 using namespace calotte::base_detail;
 
-TEST_CASE("the wait for threads ends while others hold them") {
-  std::atomic<bool> done = false;
-  std::atomic<int> held = 0;
-  std::thread holder([&] {
-    tbb::parallel_for(0, thread_count(), [&](int) {
-      ++held;
-      while (!done)
-        std::this_thread::yield();
-    });
-  });
-  while (held == 0)
-    std::this_thread::yield();
-  start_workers(1 << 20);
-  done = true;
-  holder.join();
-  start_workers(1 << 20);
-  std::vector<int> squares(1000);
-  for_each_task(std::ssize(squares), [&](std::int64_t i) {
-    squares[static_cast<std::size_t>(i)] = static_cast<int>(i * i);
-  });
-  CHECK(std::accumulate(squares.begin(), squares.end(), 0) == 332833500);
-}
-
-#ifdef __linux__
-namespace {
-
-cpu_set_t only(int processor) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(processor, &set);
-  return set;
-}
-
-} // namespace
-
-TEST_CASE("a thread leaves the processor of another thread of its loop, and keeps its affinity") {
-  cpu_set_t allowed;
-  REQUIRE(sched_getaffinity(0, sizeof allowed, &allowed) == 0);
-  const int processor = sched_getcpu();
-  const cpu_set_t here = only(processor);
-  REQUIRE(sched_setaffinity(0, sizeof here, &here) == 0);
-  bool moved = CPU_COUNT(&allowed) == 1, kept = true;
-  for (int attempt = 0; attempt < 100 && !moved; ++attempt) { // the system may move it back
-    Placement placement(2);
-    std::thread([&] { // inherits the affinity, so that it starts on the same processor
-      sched_setaffinity(0, sizeof allowed, &allowed);
-      placement.keep_apart();
-      moved = sched_getcpu() != processor;
-      cpu_set_t after;
-      sched_getaffinity(0, sizeof after, &after);
-      kept &= CPU_EQUAL(&after, &allowed) != 0;
-    })
-        .join();
+TEST_CASE("blocks cover all items once, by any number of threads, and add in one order") {
+  for (const std::int64_t n : {0, 1, 2047, 2048, 2049, 100'000}) {
+    CAPTURE(n);
+    std::vector<std::vector<double>> sums;
+    for (const int threads : {1, 3}) {
+      std::vector<int> calls(static_cast<std::size_t>(n), 0);
+      tbb::task_arena(threads).execute([&] {
+        for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+          CHECK(block < block_count(n));
+          for (std::int64_t i = begin; i != end; ++i)
+            ++calls[static_cast<std::size_t>(i)];
+        });
+        sums.push_back(sums_over_blocks(n, 2, [](Part part, std::span<double> out) {
+          for (std::int64_t i = part.begin; i != part.end; ++i) {
+            out[0] += 1.0 / static_cast<double>(i + 1);
+            out[1] += 1;
+          }
+        }));
+      });
+      CHECK(calls == std::vector<int>(static_cast<std::size_t>(n), 1));
+    }
+    CHECK(sums[0] == sums[1]);
+    CHECK(sums[0][1] == static_cast<double>(n));
   }
-  CHECK(moved);
-  CHECK(kept);
-
-  Placement placement(2);
-  bool stayed = false;
-  std::thread([&] { // no other processor is allowed
-    placement.keep_apart();
-    cpu_set_t after;
-    sched_getaffinity(0, sizeof after, &after);
-    stayed = CPU_EQUAL(&after, &here) != 0 && sched_getcpu() == processor;
-  })
-      .join();
-  CHECK(stayed);
-  sched_setaffinity(0, sizeof allowed, &allowed);
 }
-#endif
+
+TEST_CASE("a scan replaces values by the sums of those before") {
+  std::vector<std::int64_t> values(10'000);
+  std::iota(values.begin(), values.end(), 1);
+  CHECK(exclusive_scan(std::span(values)) == 50'005'000);
+  for (std::int64_t i = 0; i < std::ssize(values); ++i)
+    REQUIRE(values[static_cast<std::size_t>(i)] == i * (i + 1) / 2);
+}
+
+TEST_CASE("what holds for blocks holds for all of them") {
+  const auto all_below = [](std::int64_t bound) {
+    return holds_for_blocks(10'000, [=](std::int64_t, std::int64_t end) { return end <= bound; });
+  };
+  CHECK(all_below(10'000));
+  CHECK_FALSE(all_below(9'999));
+}
