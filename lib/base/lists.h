@@ -26,11 +26,12 @@ std::int32_t next_in_list(const Lists<Items, Begin>& lists, std::int32_t item) {
 }
 
 /// Lists of items by a key from 0 to keys - 1, in the order in which they come.
+/// \tparam Items a std::vector.
 /// \param for_each(put) calls put(key, item) for each item; it is called twice.
-template <class Item, class ForEach>
-Lists<std::vector<Item>, std::vector<std::int64_t>> lists_by_key(std::int64_t keys,
-                                                                 const ForEach& for_each) {
-  Lists<std::vector<Item>, std::vector<std::int64_t>> out;
+template <class Items, class ForEach>
+Lists<Items, std::vector<std::int64_t>> lists_by_key(std::int64_t keys, const ForEach& for_each) {
+  using Item = typename Items::value_type;
+  Lists<Items, std::vector<std::int64_t>> out;
   out.begin.resize(static_cast<std::size_t>(keys) + 1);
   for_each([&](std::int64_t key, const Item&) { ++out.begin[static_cast<std::size_t>(key) + 1]; });
   for (std::size_t k = 1; k < out.begin.size(); ++k)

@@ -21,13 +21,6 @@ template <class Matrix> void make_room(Matrix& matrix, std::int64_t rows, std::i
   prefer_huge_pages(matrix);
 }
 
-/// Resizes an Eigen matrix of memory that other arrays have used; its values are undefined. A
-/// smaller one stays where it is.
-template <class Matrix> void reuse_room(Matrix& matrix, std::int64_t rows, std::int64_t columns) {
-  matrix.conservativeResize(rows, columns);
-  prefer_huge_pages(matrix);
-}
-
 /// Empties an Eigen matrix and frees its memory.
 template <class Matrix> void release(Matrix& matrix) { matrix = Matrix(); }
 

@@ -83,13 +83,6 @@ public:
   Array() = default;
   explicit Array(std::int64_t n)
       : size_(n), data_(allocate(static_cast<std::size_t>(n) * sizeof(T) + 8)) {}
-  /// In memory of another owner, who keeps it for longer, with the eight bytes behind the values.
-  static Array in(void* memory, std::int64_t n) {
-    Array array;
-    array.size_ = n;
-    array.data_ = Data(static_cast<T*>(memory), Free{Owner::other});
-    return array;
-  }
   Array(Array&& other) noexcept
       : size_(std::exchange(other.size_, 0)), data_(std::move(other.data_)) {}
   Array& operator=(Array&& other) noexcept {
@@ -108,13 +101,12 @@ public:
   const T* end() const { return data_.get() + size_; }
 
 private:
-  enum class Owner : std::uint8_t { pool, system, other };
   struct Free {
-    Owner owner = Owner::pool;
+    bool pooled = true;
     void operator()(T* data) const {
-      if (owner == Owner::pool)
+      if (pooled)
         pool_free(data);
-      else if (owner == Owner::system)
+      else
         std::free(data);
     }
   };
@@ -128,7 +120,7 @@ private:
     if (data == nullptr && bytes > 0)
       throw std::bad_alloc();
     prefer_huge_pages(data, bytes);
-    return Data(static_cast<T*>(data), Free{pooled ? Owner::pool : Owner::system});
+    return Data(static_cast<T*>(data), Free{pooled});
   }
 
   std::int64_t size_ = 0;

@@ -30,8 +30,7 @@ constexpr double sites_made = 0.25, divided = 0.35, triangulated = 0.8, united =
 
 /// The results of the triangulation of regions, for the union.
 struct Reports {
-  explicit Reports(std::int64_t sites) : memory(sites), triangles_of(sites) {}
-  ReportMemory memory;
+  explicit Reports(std::int64_t sites) : triangles_of(sites) {}
   std::vector<RegionTriangles> regions;
   Array<std::int32_t> triangles_of; ///< by site, see report_triangles
 };
@@ -60,8 +59,8 @@ template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayRep
     refuse_degenerate(sites);
   certify_all(triangulation);
   Reports reports(sites.size());
-  reports.regions.push_back(report_triangles(triangulation, sites, Array<std::int32_t>(),
-                                             reports.triangles_of, reports.memory));
+  reports.regions.push_back(
+      report_triangles(triangulation, sites, Array<std::int32_t>(), reports.triangles_of));
   add(report, triangulation.space().counts());
   report.serial = true;
   report.regions = 1;
@@ -106,11 +105,10 @@ bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
     triangulation = build_with_sample<Space>(space, sites.size(), members);
   if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
     return false;
-  result.triangles =
-      report_triangles(triangulation, sites, regions.owner, reports.triangles_of, reports.memory);
+  result.triangles = report_triangles(triangulation, sites, regions.owner, reports.triangles_of);
   result.predicates = triangulation.space().counts();
   result.members = std::ssize(triangulation.members());
-  result.seams = seams_at(k, result.triangles.seams);
+  result.seams = result.triangles.own_seams();
   result.seconds = lap(start);
   return true;
 }
@@ -185,8 +183,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
 }
 
 Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
-  Mesh mesh{std::move(sites.points), std::move(sites.memory), std::move(reports.memory).take(),
-            std::move(sites.site_of_input)};
+  Mesh mesh{std::move(sites.points), {}, {}, std::move(sites.site_of_input)};
   sites = {}; // frees what is left of the sites
   unite(std::move(reports.regions), std::move(reports.triangles_of), mesh, monitor);
   return mesh;

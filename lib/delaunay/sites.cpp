@@ -114,9 +114,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
                     Monitor* monitor, const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
   Sites sites;
-  make_room(sites.memory, 3, 2 * input.points.cols() + 1);
-  Array<std::uint64_t> keys =
-      Array<std::uint64_t>::in(sites.memory.data(), input.points.cols()); // dead before units are
+  Array<std::uint64_t> keys(input.points.cols());
   set_keys(input, keys);
   step(monitor);
   Order order = order_by_key(std::move(keys));
@@ -136,7 +134,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   const std::int64_t n = order.size();
   require_count<Input>(n, Input::distinct);
   sites.id = std::move(order.items);
-  sites.unit = Array<Vec3>::in(sites.memory.data(), n);
+  sites.unit = Array<Vec3>(n);
   constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {

@@ -35,8 +35,7 @@ struct Frame {
 /// the order of the input, and by *rank*, along the space-filling curve. Stages work by rank, in
 /// which sites near in memory are near in space; the mesh uses ids.
 struct Sites {
-  Triangles memory; ///< of `unit`; later that of the mesh's triangles, which need no more
-  Points3 points;   ///< by id: as given, of any norm; in a plane with z = 0
+  Points3 points;                          ///< by id: as given, of any norm; in a plane with z = 0
   std::vector<std::int32_t> site_of_input; ///< id for each input column
   Array<std::int32_t> id;                  ///< by rank
   Array<Vec3> unit;           ///< by rank: normalised to 5 roundoffs; in a plane the frame's, to 3

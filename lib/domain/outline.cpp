@@ -97,7 +97,7 @@ void Outline::make_strips() {
     if (strips_ == 1 || total <= listings * edges)
       break;
   }
-  edges_in_ = lists_by_key<std::int32_t>(strips_, [&](const auto& put) {
+  edges_in_ = lists_by_key<std::vector<std::int32_t>>(strips_, [&](const auto& put) {
     for (std::int32_t e = 0; e < edges; ++e) {
       const Box2 own = box_of(edge(e));
       for (std::int64_t s = strip(own.low.y); s <= strip(own.high.y); ++s)

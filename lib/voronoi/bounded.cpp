@@ -85,7 +85,7 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_
 }
 
 Neighbours neighbours_of(const std::vector<DelaunayEdge>& edges, std::int64_t sites) {
-  Neighbours out = base_detail::lists_by_key<std::int32_t>(sites, [&](const auto& put) {
+  Neighbours out = base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
     for (const DelaunayEdge& edge : edges) {
       put(edge.low, edge.high);
       put(edge.high, edge.low);

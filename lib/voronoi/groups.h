@@ -18,7 +18,7 @@ namespace calotte::voronoi_detail {
 template <class Item, class Key, class Less>
 std::vector<std::int64_t> sort_in_groups(std::int64_t keys, const Key& key, const Less& less,
                                          std::vector<Item>& items) {
-  auto lists = lists_by_key<Item>(keys, [&](const auto& put) {
+  auto lists = lists_by_key<std::vector<Item>>(keys, [&](const auto& put) {
     for (const Item& item : items)
       put(key(item), item);
   });

@@ -48,21 +48,6 @@ bool holds(const Block& block, unsigned char value) {
 
 } // namespace
 
-TEST_CASE("an array in memory of another owner leaves it to that") {
-  Array<std::int32_t> owner = filled(100, 5);
-  {
-    Array<std::int32_t> middle = Array<std::int32_t>::in(&owner[40], 20);
-    CHECK(middle.size() == 20);
-    CHECK(holds(middle, 5));
-    std::fill(middle.begin(), middle.end(), 6);
-    const Array<std::int32_t> moved = std::move(middle);
-    CHECK(middle.size() == 0);
-    CHECK(moved.begin() == &owner[40]);
-  }
-  for (std::int64_t i = 0; i < owner.size(); ++i)
-    CHECK(owner[i] == (i >= 40 && i < 60 ? 6 : 5));
-}
-
 #ifdef __linux__
 TEST_CASE("advise() reaches the whole pages of a block, and no byte beside them") {
   const std::int64_t page = sysconf(_SC_PAGESIZE);

@@ -26,30 +26,30 @@ std::int32_t owner_of(std::int32_t site) { return site % 2; }
 /// The first faces of a tetrahedron in the report of one of two regions. All are seam triangles of
 /// both regions; three have their lowest site in the first region, one in the second.
 RegionTriangles report_of(std::int32_t region, std::int32_t count = 4) {
-  ReportMemory own;
-  RegionTriangles out{LocalTriples(count, 4, own),
-                      LocalTriples(count, count, own),
-                      Array<std::int32_t>(4),
-                      Array<std::int32_t>(count),
-                      {}};
-  std::iota(out.site.begin(), out.site.end(), 0);
+  // Those whose lowest site the region owns first, by second site.
+  std::vector<std::int32_t> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  const auto home = [](std::int32_t face) {
+    return owner_of(faces[static_cast<std::size_t>(face)][0]);
+  };
+  const auto others = std::stable_partition(
+      order.begin(), order.end(), [&](std::int32_t face) { return home(face) == region; });
+  std::vector<std::int32_t> number(4, -1);
+  for (std::int32_t t = 0; t < count; ++t)
+    number[static_cast<std::size_t>(order[static_cast<std::size_t>(t)])] = t;
+  RegionTriangles out{Array<Triple>(count), Array<Triple>(count), others - order.begin(), {}};
   const std::array<Triple, 4> neighbours{{{3, 1, 2}, {3, 2, 0}, {3, 0, 1}, {1, 0, 2}}};
   for (std::int32_t t = 0; t < count; ++t) {
-    const auto face = static_cast<std::size_t>(t);
-    out.vertices.set(t, faces[face]);
-    Triple here = neighbours[face];
-    for (std::int32_t& across : here)
-      across = across < count ? across : -1;
-    out.neighbours.set(t, here);
-    const std::int32_t home = owner_of(faces[face][0]);
-    // By second site: 0 1 2, 0 2 3, 0 3 1, and 1 3 2 alone.
-    out.rank[t] = home != region ? -1 : t == 3 ? 0 : t;
+    const auto face = static_cast<std::size_t>(order[static_cast<std::size_t>(t)]);
+    out.sites[t] = faces[face];
     int bits = 0;
     for (std::size_t i = 0; i < 3; ++i) {
+      out.neighbours[t][i] = number[static_cast<std::size_t>(neighbours[face][i])];
       const std::int32_t lower = std::min(faces[face][(i + 1) % 3], faces[face][(i + 2) % 3]);
       bits |= static_cast<int>(owner_of(lower) == region) << i;
     }
-    out.seams.push_back({faces[face], t, home, 2, static_cast<std::int8_t>(bits)});
+    out.seams.push_back(
+        {faces[face], t, home(static_cast<std::int32_t>(face)), 2, static_cast<std::int8_t>(bits)});
   }
   return out;
 }
@@ -78,43 +78,6 @@ bool is_internal_error(RegionTriangles first, RegionTriangles second) {
 }
 
 } // namespace
-
-TEST_CASE("arrays of the reports' memory do not overlap; those that do not fit have their own") {
-  ReportMemory memory(1000); // 24 000 bytes
-  std::vector<Array<std::int32_t>> arrays;
-  for (std::int32_t k = 0; k < 12; ++k) {
-    arrays.push_back(memory.array<std::int32_t>(700 - k));
-    std::fill(arrays.back().begin(), arrays.back().end(), k);
-  }
-  for (std::int32_t k = 0; k < 12; ++k) {
-    const Array<std::int32_t>& array = arrays[static_cast<std::size_t>(k)];
-    CHECK(array.size() == 700 - k);
-    CHECK(std::count(array.begin(), array.end(), k) == array.size());
-  }
-  const Triangles taken = std::move(memory).take();
-  const auto inside = [&](const Array<std::int32_t>& array) {
-    return array.begin() >= taken.data() && array.end() <= taken.data() + taken.size();
-  };
-  CHECK(std::count_if(arrays.begin(), arrays.end(), inside) == 8);
-}
-
-TEST_CASE("triples of local numbers come back, in 16 bits and in 32") {
-  for (const std::int64_t numbers : {4, 65535, 65536, 1 << 30}) {
-    CAPTURE(numbers);
-    const auto most = static_cast<std::int32_t>(numbers - 1);
-    ReportMemory own;
-    LocalTriples triples(2, numbers, own);
-    triples.set(0, {0, most, -1});
-    triples.set(1, {-1, 1, most});
-    CHECK(triples.size() == 2);
-    CHECK(triples(0, 0) == 0);
-    CHECK(triples(0, 1) == most);
-    CHECK(triples(0, 2) == -1);
-    CHECK(triples(1, 0) == -1);
-    CHECK(triples(1, 1) == 1);
-    CHECK(triples(1, 2) == most);
-  }
-}
 
 TEST_CASE("two regions' reports of one tetrahedron unite to its mesh") {
   for (const std::int64_t points :
