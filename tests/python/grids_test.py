@@ -140,21 +140,21 @@ def test_cells_of_any_shape(tmp_path):
     assert len(polygons_of(calotte.read(tmp_path / "again.nc")).areas) == 72
 
 
-def test_the_cells_of_a_plane_need_its_domain():
-    mesh = calotte.delaunay([(0, 0), (1, 0), (0, 1), (1, 1), (0.5, 0.4)], plane=True)
-    with pytest.raises(calotte.Error, match="give domain="):
+def test_the_cells_of_a_plane_need_a_surface_with_an_end():
+    mesh = calotte.delaunay([(0, 0), (1, 0), (0, 1), (1, 1), (0.5, 0.4)])
+    with pytest.raises(calotte.Error, match="give surface="):
         calotte.voronoi(mesh)
     cells = calotte.voronoi(mesh, calotte.rectangle((-1, -1), (2, 2)))
     assert cells.cell_area.sum() == pytest.approx(9)
 
 
 def test_the_cells_of_sites_in_a_hemisphere():
-    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)])
+    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)], calotte.Surface())
     cells = calotte.voronoi(mesh)
     assert cells.cell_area.sum() == pytest.approx(4 * math.pi) and len(cells.vertices) == 6
-    three = calotte.voronoi(calotte.delaunay(calotte.random_sphere(3)))
+    three = calotte.voronoi(calotte.delaunay(calotte.random_points(3)))
     assert three.cell_area.sum() == pytest.approx(4 * math.pi) and len(three.vertices) == 2
-    ends = calotte.cvt(300, region=calotte.polygon(
+    ends = calotte.cvt(300, surface=calotte.polygon(
         [(0, 0), (60, 0), (60, 10), (30, 12), (60, 14), (60, 40), (0, 40)])).mesh
     with pytest.raises(calotte.Error, match="not the hull of its sites"):
         calotte.voronoi(ends)
@@ -187,7 +187,7 @@ def same(a, b):
 def results(files):
     grid = calotte.cvt(200, density="x4")
     domain = calotte.planar_polygon([(0, 0), (2, 0), (2, 1)])
-    box = calotte.cvt(100, domain=calotte.periodic_box(2, 1))
+    box = calotte.cvt(100, surface=calotte.periodic_box(2, 1))
     return [grid, grid.mesh, calotte.voronoi(grid.mesh), calotte.quality(grid.mesh),
             calotte.quality(grid.mesh).spacing, calotte.check(grid.mesh),
             calotte.operator_errors(grid.mesh), box, calotte.quality(box.mesh), domain,
@@ -253,9 +253,9 @@ def test_pictures(files, tmp_path):
             (lambda: calotte.read(files / "ocean.nc").plot("latitude"), 1800),
             (lambda: calotte.read(files / "area.nc").plot(), 100),
             (lambda: calotte.read(files / "area.nc").cells.plot(), 100),
-            (lambda: calotte.cvt(100, domain=calotte.rectangle((0, 0), (2, 1))).plot(), 100),
-            (lambda: calotte.cvt(100, domain=calotte.periodic_box(2, 1)).plot(), 100),
-            (lambda: calotte.cvt(100, region=calotte.circle((0, 0), 20)).plot(), 50)):
+            (lambda: calotte.cvt(100, surface=calotte.rectangle((0, 0), (2, 1))).plot(), 100),
+            (lambda: calotte.cvt(100, surface=calotte.periodic_box(2, 1)).plot(), 100),
+            (lambda: calotte.cvt(100, surface=calotte.circle((0, 0), 20)).plot(), 50)):
         axes = draw()
         shapes = axes.collections[0]
         assert len(shapes.get_paths()) > 0.8 * cells

@@ -21,11 +21,12 @@ def test_shapes_and_types():
     refuses("shape (4, 4)", calotte.delaunay, np.zeros((4, 4)))
     refuses("must be numbers", calotte.delaunay, [["a", "b", "c"]] * 4)
     refuses("must be numbers", calotte.delaunay, np.ones((4, 3), dtype=complex))
-    refuses("n x 2 in the plane", calotte.delaunay, np.ones((4, 3)), plane=True)
+    refuses("n x 2 for a surface in the plane", calotte.delaunay, np.ones((4, 3)),
+            calotte.periodic_box(2, 1))
 
 
 def test_points():
-    points = calotte.random_sphere(10)
+    points = calotte.random_points(10)
     points[7, 1] = math.nan
     error = refuses("point 7", calotte.delaunay, points)
     assert (error.code, error.index) == ("not_finite", 7)
@@ -44,12 +45,16 @@ def test_points():
 def test_longitudes_and_latitudes():
     places = np.stack([np.linspace(-180, 180, 200), np.linspace(-90, 90, 200)], axis=1)
     places[5, 1] = 91
-    error = refuses("point 5", calotte.delaunay, places)
+    error = refuses("point 5", calotte.delaunay, places, calotte.Surface())
     assert error.index == 5
+    places[5, 1] = 80
+    mesh, same = calotte.delaunay(places, "circle=0,0,90deg"), calotte.from_lonlat(*places.T)
+    assert (mesh.points == same).all() and mesh.surface.is_bounded
+    assert not calotte.delaunay(places).surface.is_sphere
     rng = np.random.default_rng(1)
     radians = np.stack([rng.uniform(-np.pi, np.pi, 300), rng.uniform(-1.5, 1.5, 300)], axis=1)
     with pytest.warns(UserWarning, match="not radians"):
-        calotte.delaunay(radians)
+        calotte.delaunay(radians, calotte.Surface())
 
 
 def test_functions_of_the_user():
@@ -93,11 +98,8 @@ def test_options():
     refuses("", calotte.cvt, 100, tolerance=-1.0)
     refuses("", calotte.cvt, 100, tolerance=0.0)
     refuses("there is no number of cells; give one", calotte.cvt)
-    refuses("needs a domain", calotte.quality,
-            calotte.delaunay(np.eye(3)[:, :2], plane=True))
+    refuses("give surface=", calotte.quality, calotte.delaunay(np.eye(3)[:, :2]))
     refuses("1 or more", calotte.threads(0).__enter__)
-    refuses("circle(), ellipse()", calotte.cvt, 100, region=7)
-    refuses("rectangle()", calotte.cvt, 100, domain=7)
     refuses("", calotte.polygon, [(0, 0), (10, 0), (0, 10), (10, 10)])
-    refuses("no format", calotte.write, "x.nc", calotte.delaunay(calotte.random_sphere(9)),
+    refuses("no format", calotte.write, "x.nc", calotte.delaunay(calotte.random_points(9)),
             format="shp")

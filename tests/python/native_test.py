@@ -31,7 +31,7 @@ def resident():
 
 
 def test_a_triangulation_is_that_of_the_command(tmp_path):
-    points = calotte.random_sphere(2000, seed=3)
+    points = calotte.random_points(2000, seed=3)
     np.savetxt(tmp_path / "points.txt", points, fmt="%.17g")
     run("delaunay", tmp_path / "points.txt", "-o", tmp_path / "mesh.txt")
     mesh = calotte.delaunay(points)
@@ -44,7 +44,7 @@ def test_a_triangulation_is_that_of_the_command(tmp_path):
     (["--cells", "1000", "--density", "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"],
      {"start": 1000, "density": "x8"}),
     (["--cells", "300", "--region", "circle=-105,40,1000km"],
-     {"start": 300, "region": calotte.circle((-105, 40), math.degrees(1000 / 6371))}),
+     {"start": 300, "surface": calotte.circle((-105, 40), math.degrees(1000 / 6371))}),
 ])
 def test_a_grid_has_the_bits_of_the_command(tmp_path, words, arguments):
     run("cvt", *words, "-o", tmp_path / "grid.vtp")
@@ -95,13 +95,14 @@ def test_a_density_function_is_a_density():
 
 
 def test_cells_of_the_sphere_and_the_plane():
-    cells = calotte.voronoi(calotte.delaunay(calotte.random_sphere(300)))
+    cells = calotte.voronoi(calotte.delaunay(calotte.random_points(300)))
     assert cells.cell_area.sum() == pytest.approx(4 * math.pi, abs=1e-12)
     assert cells.begin[-1] == 2 * len(cells.edges) == 6 * (300 - 2)
-    grid = calotte.cvt(200, domain=calotte.rectangle((0, 0), (2, 1)))
+    grid = calotte.cvt(200, surface=calotte.rectangle((0, 0), (2, 1)))
     plane = calotte.voronoi(grid.mesh)
     assert plane.cell_area.sum() == pytest.approx(2, abs=1e-12)
-    box = calotte.delaunay(calotte.random_places(200, calotte.periodic_box(2, 1)), period=(2, 1))
+    surface = calotte.periodic_box(2, 1)
+    box = calotte.delaunay(calotte.random_points(200, surface), surface)
     assert len(box.triangles) == 400 and calotte.check(box)
     assert calotte.quality(box).cells == 200
 
@@ -113,7 +114,8 @@ def test_errors_of_operators():
     assert by_cell[errors.tangential.cell] == by_cell.max() == errors.tangential.max
     assert errors.dual_eigenvalue > 3 * errors.primal_eigenvalue
     assert np.linalg.norm(errors.curl.position) == pytest.approx(1)
-    box = calotte.delaunay(calotte.random_places(200, calotte.periodic_box(2, 1)), period=(2, 1))
+    surface = calotte.periodic_box(2, 1)
+    box = calotte.delaunay(calotte.random_points(200, surface), surface)
     assert np.isfinite(calotte.operator_errors(box).divergence_by_cell).all()
 
 
@@ -130,9 +132,9 @@ def test_regions():
     assert calotte.polygon(cut).contains(calotte.from_lonlat([180, 0], [75, 0])).tolist() == [True, False]
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     assert calotte.planar_polygon(square + square[:1]).area == calotte.planar_polygon(square).area
-    inside = calotte.random_sphere(100, region=region)
+    inside = calotte.random_points(100, surface=region)
     assert region.contains(inside).all() and not region.contains(-inside).any()
-    grid = calotte.cvt(200, region=region)
+    grid = calotte.cvt(200, surface=region)
     assert region.contains(grid.mesh.points).all() and not grid.mesh.closed
     assert calotte.quality(grid.mesh).triangles == len(grid.mesh.triangles)
 
@@ -184,21 +186,21 @@ def test_topology_is_what_uxarray_takes():
 
 
 def test_a_mesh_shows_itself():
-    for mesh in (calotte.delaunay(calotte.random_sphere(100)),
-                 calotte.delaunay(calotte.random_sphere(20000)),
-                 calotte.delaunay(calotte.random_sphere(100)[:, :2], plane=True)):
+    for mesh in (calotte.delaunay(calotte.random_points(100)),
+                 calotte.delaunay(calotte.random_points(20000)),
+                 calotte.delaunay(calotte.random_points(100)[:, :2])):
         html = mesh._repr_html_()
         assert html.count("M") > 50 and len(html) < 150_000 and "nan" not in html
         assert f"{len(mesh)} sites" in repr(mesh)
 
 
 def test_arrays_outlive_their_mesh_and_cannot_be_written():
-    mesh = calotte.delaunay(calotte.random_sphere(5000))
+    mesh = calotte.delaunay(calotte.random_points(5000))
     points, triangles = mesh.points, mesh.triangles
     sums = points.sum(), triangles.sum()
     del mesh
     gc.collect()
-    calotte.delaunay(calotte.random_sphere(5000, seed=2))
+    calotte.delaunay(calotte.random_points(5000, seed=2))
     assert (points.sum(), triangles.sum()) == sums
     with pytest.raises(ValueError):
         points[0] = 0
@@ -206,7 +208,7 @@ def test_arrays_outlive_their_mesh_and_cannot_be_written():
 
 def test_memory_does_not_grow():
     def make():
-        mesh = calotte.delaunay(calotte.random_sphere(20000))
+        mesh = calotte.delaunay(calotte.random_points(20000))
         calotte.voronoi(mesh)
         calotte.cvt(200)
 
@@ -219,7 +221,7 @@ def test_memory_does_not_grow():
 
 
 def test_no_copy_of_input_in_place():
-    points = calotte.random_sphere(1000)
+    points = calotte.random_points(1000)
     points.flags.writeable = False  # accepted as it is
     assert (calotte.delaunay(points).points == points).all()
     assert (calotte.delaunay(np.asfortranarray(points)).points == points).all()

@@ -7,7 +7,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from calotte import random_sphere
+from calotte import random_points
 from calotte.mpas_tools import build_planar_mesh, build_spherical_mesh
 from calotte.scipy import SphericalVoronoi
 from calotte.stripy import sTriangulation
@@ -32,7 +32,7 @@ def test_attributes():
 @pytest.mark.parametrize("radius", [1, 2.5, 1e-3])
 @pytest.mark.parametrize("center", [(0, 0, 0), (1, 2, 3)])
 def test_radius_and_centre_move_vertices(radius, center):
-    points = random_sphere(40)
+    points = random_points(40)
     unit = SphericalVoronoi(points)
     cells = SphericalVoronoi(radius * points + center, radius, center)
     assert np.allclose(cells.vertices, radius * unit.vertices + center, atol=1e-12)
@@ -53,7 +53,7 @@ def test_vertices_of_a_cube_are_an_octahedron():
     assert np.allclose(np.sort(np.abs(cells.vertices), axis=1), [[0, 0, 1]] * 6)
 
 
-@pytest.mark.parametrize("points", [OCTAHEDRON, CUBE, random_sphere(20), random_sphere(500)])
+@pytest.mark.parametrize("points", [OCTAHEDRON, CUBE, random_points(20), random_points(500)])
 def test_corners_are_equally_far_from_their_sites_and_in_order(points):
     cells = SphericalVoronoi(points)
     for site, region in enumerate(cells.regions):
@@ -77,7 +77,7 @@ def test_equal_areas(points):
 @pytest.mark.parametrize("n", [10, 100, 200_000])
 def test_areas_sum_to_the_sphere(n):
     for radius in (1, 6371.0):
-        cells = SphericalVoronoi(radius * random_sphere(n, seed=5), radius, threshold=1e-9)
+        cells = SphericalVoronoi(radius * random_points(n, seed=5), radius, threshold=1e-9)
         total = cells.calculate_areas().sum()
         assert total == pytest.approx(4 * math.pi * radius**2, rel=1e-12)
 
@@ -98,12 +98,12 @@ def test_errors():
     with pytest.raises(ValueError, match="Rank"):
         SphericalVoronoi([(1, 0), (0, 1)])
     with pytest.raises(ValueError):
-        SphericalVoronoi(random_sphere(3))
+        SphericalVoronoi(random_points(3))
 
 
 def test_the_same_cells_as_scipy():
     spatial = pytest.importorskip("scipy.spatial")
-    points = random_sphere(1000)
+    points = random_points(1000)
     theirs, ours = spatial.SphericalVoronoi(points), SphericalVoronoi(points)
     theirs.sort_vertices_of_regions()
     assert np.allclose(ours.calculate_areas(), theirs.calculate_areas(), atol=1e-10)
@@ -122,8 +122,8 @@ HEMISPHERES = [from_degrees((0, 50), (90, 50), (180, 50), (270, 50), (30, 70)),
                from_degrees((10, 10), (12, 10), (11, 12), (11, 11)),  # a small triangle and one in it
                from_degrees((0, 50), (90, 50), (180, 50), (270, 50)),  # on one circle
                from_degrees((0, 0), (90, 0), (180, 0), (270, 0), (45, 30), (200, 60)),  # equator
-               np.array([[x, y, z] for x, y, z in random_sphere(400, seed=9) if z > 0]),
-               np.array([[x, y, z] for x, y, z in random_sphere(4000, seed=3) if z > 0.9])]
+               np.array([[x, y, z] for x, y, z in random_points(400, seed=9) if z > 0]),
+               np.array([[x, y, z] for x, y, z in random_points(4000, seed=3) if z > 0.9])]
 
 
 @pytest.mark.parametrize("points", HEMISPHERES)
@@ -167,7 +167,7 @@ def test_points_on_a_circle(angles):
 
 def test_random_sets_of_six():
     for seed in range(60):
-        areas = SphericalVoronoi(random_sphere(6, seed=seed)).calculate_areas()
+        areas = SphericalVoronoi(random_points(6, seed=seed)).calculate_areas()
         assert areas.sum() == pytest.approx(4 * math.pi, rel=1e-9)
 
 

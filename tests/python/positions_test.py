@@ -13,8 +13,8 @@ def nearest(points, positions):
 
 
 def test_on_the_sphere():
-    mesh = calotte.delaunay(calotte.random_sphere(500))
-    positions = calotte.random_sphere(2000, seed=2)
+    mesh = calotte.delaunay(calotte.random_points(500))
+    positions = calotte.random_points(2000, seed=2)
     found = calotte.locate(mesh, 3 * positions)
     assert len(found) == 2000 and found.triangle.dtype == found.nearest.dtype == np.int32
     assert found.weights.shape == (2000, 3) and (found.weights >= 0).all()
@@ -35,7 +35,7 @@ def test_on_the_sphere():
 
 
 def test_outside_of_an_open_mesh():
-    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)])
+    mesh = calotte.delaunay([(0, 50), (90, 50), (180, 50), (270, 50), (30, 70)], calotte.Surface())
     found = calotte.locate(mesh, [(0, -90), (10, 80)])
     assert found.triangle[0] == -1 and found.triangle[1] >= 0
     assert np.isnan(found.weights[0]).all() and np.isfinite(found.weights[1]).all()
@@ -46,7 +46,7 @@ def test_outside_of_an_open_mesh():
 
 
 def test_in_the_plane():
-    mesh = calotte.delaunay(RNG.random((300, 2)), plane=True)
+    mesh = calotte.delaunay(RNG.random((300, 2)))
     positions = 0.2 + 0.6 * RNG.random((1000, 2))
     found = calotte.locate(mesh, positions)
     corners = mesh.points[mesh.triangles[found.triangle]]
@@ -61,7 +61,7 @@ def test_in_the_plane():
 
 
 def test_in_a_periodic_box():
-    mesh = calotte.cvt(100, domain=calotte.periodic_box(2, 1)).mesh
+    mesh = calotte.cvt(100, surface=calotte.periodic_box(2, 1)).mesh
     positions = RNG.random((500, 2)) * [2, 1]
     found = calotte.locate(mesh, positions)
     shifted = calotte.locate(mesh, positions + [4, -3])
@@ -70,9 +70,9 @@ def test_in_a_periodic_box():
 
 
 def test_errors():
-    mesh = calotte.delaunay(calotte.random_sphere(50))
-    plane = calotte.delaunay(RNG.random((50, 2)), plane=True)
-    positions = calotte.random_sphere(10)
+    mesh = calotte.delaunay(calotte.random_points(50))
+    plane = calotte.delaunay(RNG.random((50, 2)))
+    positions = calotte.random_points(10)
     positions[4, 0] = np.nan
     for call in (lambda p: calotte.locate(mesh, p),
                  lambda p: calotte.interpolate(mesh, np.ones(50), p)):
@@ -87,7 +87,7 @@ def test_errors():
         assert caught.value.index == 1
         with pytest.raises(calotte.Error, match=r"positions have the shape \(4, 4\)"):
             call(np.eye(4))
-    with pytest.raises(calotte.Error, match="n x 2 in the plane"):
+    with pytest.raises(calotte.Error, match="n x 2 for a surface in the plane"):
         calotte.locate(plane, np.eye(3))
     with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for "
                                             "each of the 50 sites"):

@@ -45,7 +45,7 @@ def refuses(text, call, *arguments, **words):
      {"start": 300, "density": "x4", "insertion_rounds": 2}),
     (["--cells", 300, "--stop", "well-centred"], {"start": 300, "well_centred": True}),
     (["--cells", 200, "--region", "circle=-105,40,1000km", "--boundary", "generators"],
-     {"start": 200, "region": "circle=-105,40,1000km", "boundary": "generators"}),
+     {"start": 200, "surface": "circle=-105,40,1000km", "boundary": "generators"}),
 ])
 def test_on_the_sphere(tmp_path, words, arguments):
     run("cvt", *words, "-o", tmp_path / "a.vtp")
@@ -71,9 +71,9 @@ def test_widths_of_a_plane(tmp_path):
         tmp_path / "a.vtp")
     expected = calotte.read(tmp_path / "a.vtp").points
     for given in (tmp_path / "widths.nc", str(tmp_path / "widths.nc"), raster):
-        grid = calotte.cvt(cell_width=given, domain=RECTANGLE)
+        grid = calotte.cvt(cell_width=given, surface=RECTANGLE)
         assert (grid.mesh.points == expected).all() and grid.well_centred
-    plan = calotte.plan(raster, domain=RECTANGLE)
+    plan = calotte.plan(raster, surface=RECTANGLE)
     assert plan.cells == len(expected) and plan.kind == "multilevel" and plan.gradient is None
     assert plan.widths == (raster[0].min(), raster[0].max())
     quality = calotte.quality(grid.mesh, cell_width=raster)
@@ -85,7 +85,7 @@ def test_a_width_of_a_plane(tmp_path):
     netcdf = pytest.importorskip("netCDF4")
     run("cvt", "--periodic", "2,1", "--cell-width", "0.1", "-o", tmp_path / "command.nc")
     for width in (0.1, "0.1"):
-        grid = calotte.cvt(cell_width=width, domain=BOX)
+        grid = calotte.cvt(cell_width=width, surface=BOX)
         grid.mesh.to_mpas(tmp_path / "python.nc")
         with netcdf.Dataset(tmp_path / "command.nc") as a, \
                 netcdf.Dataset(tmp_path / "python.nc") as b:
@@ -94,7 +94,7 @@ def test_a_width_of_a_plane(tmp_path):
 
 
 def test_a_hexagonal_lattice():
-    grid = calotte.cvt(200, domain=RECTANGLE, kind="hexagonal", max_iterations=0)
+    grid = calotte.cvt(200, surface=RECTANGLE, kind="hexagonal", max_iterations=0)
     assert len(grid.mesh) == len(calotte.hexagonal_lattice(200, RECTANGLE))
 
 
@@ -105,7 +105,7 @@ def test_a_channel(tmp_path, walls, density):
     words = [] if density is None else ["--density", density]
     run("cvt", "--cells", 300, "--periodic", "2,1", "--walls", walls, *words, "-o",
         tmp_path / "command.nc")
-    grid = calotte.cvt(300, domain=BOX, walls=walls, density=density)
+    grid = calotte.cvt(300, surface=BOX, walls=walls, density=density)
     grid.cells.to_mpas(tmp_path / "python.nc")
     with netcdf.Dataset(tmp_path / "command.nc") as a, netcdf.Dataset(tmp_path / "python.nc") as b:
         for name in ("xCell", "yCell", "cellsOnCell", "meshDensity", "areaCell"):
@@ -134,16 +134,16 @@ def test_a_limited_area_with_fixed_points(tmp_path):
 
 def test_a_plan_is_what_runs():
     for words in ({"start": 642}, {"start": 2562, "density": "x8"},
-                  {"start": 400, "domain": BOX}, {"start": 300, "kind": "random"},
-                  {"start": 200, "region": "circle=0,0,20deg"},
+                  {"start": 400, "surface": BOX}, {"start": 300, "kind": "random"},
+                  {"start": 200, "surface": "circle=0,0,20deg"},
                   {"start": 642, "kind": "icosahedron", "bisections": 2, "iterations": 3}):
         plan, grid = calotte.plan(**words), calotte.cvt(**words)
         assert plan.levels == grid.levels and plan.cells == len(grid.mesh)
         assert plan.levels[-1].cells == plan.cells
         assert plan.widths is None and np.isnan(plan.least_km)
-    assert calotte.plan(start=calotte.random_sphere(50)).kind == "points"
-    plan = calotte.plan(200.0, region="circle=0,0,20deg", limited_area=True)
-    assert plan.cells > calotte.plan(200.0, region="circle=0,0,20deg").cells
+    assert calotte.plan(start=calotte.random_points(50)).kind == "points"
+    plan = calotte.plan(200.0, surface="circle=0,0,20deg", limited_area=True)
+    assert plan.cells > calotte.plan(200.0, surface="circle=0,0,20deg").cells
     assert (plan.least_km, plan.greatest_km, plan.widths) == (200, 200, (200, 200))
 
 
@@ -154,15 +154,18 @@ def test_words():
     refuses("no method newton; give one of: auto, lloyd", calotte.cvt, 100, method="newton")
     refuses("no boundary open; give one of: clip, generators", calotte.cvt, 100, boundary="open")
     refuses("no rule for duplicates keep", calotte.cvt, 100, duplicates="keep")
-    refuses("no walls z", calotte.cvt, 100, domain=BOX, walls="z")
-    with pytest.raises(TypeError, match="start_kind"):
-        calotte.plan(start=100, start_kind="random")
+    refuses("no walls z", calotte.cvt, 100, surface=BOX, walls="z")
+    for words in ({"start_kind": "random"}, {"region": "circle=0,0,20deg"}, {"domain": BOX}):
+        with pytest.raises(TypeError, match="unexpected keyword argument"):
+            calotte.plan(start=100, **words)
+        with pytest.raises(TypeError, match="unexpected keyword argument"):
+            calotte.cvt(100, **words)
 
 
 def test_what_does_not_fit():
-    points = calotte.random_sphere(50)
+    points = calotte.random_points(50)
     refuses("norm none", calotte.cvt, 100, norm="none")
-    refuses("sphere only", calotte.cvt, 100, domain=BOX, kind="geodesic")
+    refuses("sphere only", calotte.cvt, 100, surface=BOX, kind="geodesic")
     refuses("plane only", calotte.cvt, 100, kind="hexagonal")
     refuses("the start has points", calotte.cvt, points, kind="random")
     refuses("the start has no points", calotte.cvt, np.empty((0, 3)))
@@ -172,22 +175,21 @@ def test_what_does_not_fit():
     refuses("1 or more", calotte.cvt, 642, iterations=0)
     refuses("limited area", calotte.cvt, cell_width=200.0, limited_area=True)
     refuses("part of the sphere only", calotte.cvt, 100, boundary="generators")
-    refuses("periodic box", calotte.cvt, 100, domain=RECTANGLE, walls="y")
-    refuses("no period", calotte.cvt, 100, domain=BOX, walls="xy")
-    refuses("give one of them", calotte.cvt, 100, domain=BOX, region="circle=0,0,20deg")
+    refuses("periodic box", calotte.cvt, 100, surface=RECTANGLE, walls="y")
+    refuses("no period", calotte.cvt, 100, surface=BOX, walls="xy")
     refuses("rule", calotte.cvt, 100, density="x4", rule=2)
     assert refuses("", calotte.cvt, points[[0, *range(50)]], duplicates="refuse").index == 1
-    assert refuses("fixed point 99", calotte.cvt, 100, fixed=calotte.random_sphere(100)).index == 99
+    assert refuses("fixed point 99", calotte.cvt, 100, fixed=calotte.random_points(100)).index == 99
 
 
 def test_widths_of_a_plane_that_are_none():
-    refuses("unit of its coordinates", calotte.cvt, cell_width="1km", domain=BOX)
-    refuses("y x x", calotte.cvt, cell_width=(np.ones((2, 3)), [0, 1], [0, 1, 2]), domain=BOX)
-    refuses("(values, x, y)", calotte.cvt, cell_width=lambda x, y: x, domain=BOX)
-    refuses("(values, x, y)", calotte.cvt, cell_width=(1, 2), domain=BOX)
-    refuses("", calotte.cvt, cell_width=(0.1 * np.ones((2, 2)), [0, 1], [0, 1]), domain=BOX)
-    refuses("not both", calotte.cvt, cell_width=0.1, density="uniform", domain=BOX)
-    refuses("no-such.nc", calotte.cvt, cell_width="no-such.nc", domain=BOX)
+    refuses("unit of its coordinates", calotte.cvt, cell_width="1km", surface=BOX)
+    refuses("y x x", calotte.cvt, cell_width=(np.ones((2, 3)), [0, 1], [0, 1, 2]), surface=BOX)
+    refuses("(values, x, y)", calotte.cvt, cell_width=lambda x, y: x, surface=BOX)
+    refuses("(values, x, y)", calotte.cvt, cell_width=(1, 2), surface=BOX)
+    refuses("", calotte.cvt, cell_width=(0.1 * np.ones((2, 2)), [0, 1], [0, 1]), surface=BOX)
+    refuses("not both", calotte.cvt, cell_width=0.1, density="uniform", surface=BOX)
+    refuses("no-such.nc", calotte.cvt, cell_width="no-such.nc", surface=BOX)
 
 
 # ---- The program that compares callers

@@ -20,7 +20,7 @@ total: float = float(cells.cell_area.sum())
 mesh = calotte.delaunay([(0.0, 0.0, 1.0)] * 4, regions=2)
 area: float = mesh.surface.widened(0.1).area
 passed: bool = calotte.check(mesh).passed
-channel = calotte.cvt(cell_width=0.1, domain=calotte.periodic_box(2, 1), walls="y", kind="random")
+channel = calotte.cvt(cell_width=0.1, surface=calotte.periodic_box(2, 1), walls="y", kind="random")
 levels: int = len(calotte.plan(start=162, iterations=3).levels)
 nearest: int = int(calotte.locate(mesh, [(0.0, 90.0)]).nearest[0])
 mean: float = float(calotte.interpolate(mesh, [1.0] * 4, [(0.0, 90.0)], method="natural").mean())

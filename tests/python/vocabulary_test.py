@@ -30,7 +30,7 @@ REGIONS = ["circle=-105,40,1000km", "circle=-105,40,1000 km", "circle=-105,40,10
 def test_regions(tmp_path, word):
     made("cvt", "--cells", 60, "--region", word, "--max-iterations", 2, "-o", tmp_path / "a.vtp")
     file = calotte.read(tmp_path / "a.vtp")
-    grid = calotte.cvt(60, region=word, max_iterations=2)
+    grid = calotte.cvt(60, surface=word, max_iterations=2)
     assert (file.points == grid.mesh.points).all()
 
 
@@ -42,7 +42,7 @@ def test_words_that_are_no_region(word):
     result = run("cvt", "--cells", 60, "--region", word, "-o", "never.vtp")
     assert result.returncode != 0, "the command takes it"
     with pytest.raises(calotte.Error):
-        calotte.cvt(60, region=word)
+        calotte.cvt(60, surface=word)
 
 
 def test_a_radius_has_the_units_of_the_command():
@@ -81,7 +81,7 @@ def test_densities_of_the_plane(tmp_path):
     word = "tanh:x=1.5,y=0.5,beta=0.3,alpha=0.2,gamma=x3,stretch=2,angle=30"
     made("cvt", "--cells", 200, "--rectangle", "0,0,2,1", "--density", word, "--max-iterations", 3,
          "-o", tmp_path / "a.vtp")
-    grid = calotte.cvt(200, domain=calotte.rectangle((0, 0), (2, 1)), density=word,
+    grid = calotte.cvt(200, surface=calotte.rectangle((0, 0), (2, 1)), density=word,
                        max_iterations=3)
     file = np.array(subprocess.run(
         [COMMAND, "convert", "--plane", tmp_path / "a.vtp", tmp_path / "a.off"],
@@ -162,10 +162,10 @@ def test_widths_must_cover_what_is_asked(tmp_path):
     file = tmp_path / "widths.nc"
     inside, outside = "circle=30,30,20deg", "circle=80,30,20deg"
     for widths in (array, (array.values, array.lon.values, array.lat.values), file):
-        assert calotte.plan(widths, region=inside).cells >= 12
+        assert calotte.plan(widths, surface=inside).cells >= 12
         for region in (None, outside):
             with pytest.raises(calotte.Error):
-                calotte.plan(widths, region=region)
+                calotte.plan(widths, surface=region)
     made("cvt", "--cell-width", file, "--region", inside, "-o", tmp_path / "a.vtp")
     assert run("plan", "--cell-width", file).returncode == 2
     assert run("cvt", "--cell-width", file, "--region", outside, "-o", "never.vtp").returncode == 2
@@ -180,7 +180,7 @@ def test_fixed_generators(tmp_path):
     assert (calotte.read(tmp_path / "a.vtp").points == grid.mesh.points).all()
     assert (grid.mesh.points[:20] == stay).all()
     places = np.array([(0.5, 0.5), (1.5, 0.5)])
-    plane = calotte.cvt(100, domain=calotte.rectangle((0, 0), (2, 1)), fixed=places)
+    plane = calotte.cvt(100, surface=calotte.rectangle((0, 0), (2, 1)), fixed=places)
     assert (plane.mesh.points[:2] == places).all() and len(plane.mesh) == 100
 
 

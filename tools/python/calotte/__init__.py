@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Delaunay triangulations and centroidal Voronoi tessellations of the sphere and the plane.
 
-Points are n x 3 directions, or n x 2 longitudes and latitudes in degrees. Lengths on the sphere are
-radians and areas steradians, of the unit sphere; cell widths are km. Results have the same bits for
-any number of threads. Functions raise calotte.Error, a ValueError.
+Points are n x 3 directions, or n x 2 longitudes and latitudes in degrees; in a plane n x 2, in any
+unit. A Surface tells where points live; without one, delaunay() takes n x 2 for points of a plane.
+Lengths on the sphere are radians and areas steradians, of the unit sphere; cell widths are km.
+Results have the same bits for any number of threads. Functions raise calotte.Error, a ValueError.
 
 >>> import calotte
 >>> grid = calotte.cvt(2562)
@@ -21,9 +22,8 @@ from ._functions import (Cvt, Level, Plan, bisect, bisected_icosahedron, channel
                          cubed_sphere, cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
                          lat_lon_sphere, limited_area, locate, operator_errors, periodic_box,
-                         planar_polygon, plan, polygon, quality, random_places, random_sphere, read,
-                         read_fields, read_points, rectangle, spiral_sphere, threads, to_lonlat,
-                         voronoi, write)
+                         planar_polygon, plan, polygon, quality, random_points, read, read_fields,
+                         read_points, rectangle, spiral_sphere, threads, to_lonlat, voronoi, write)
 
 __all__ = [
     "CellWidth", "Check", "Cvt", "Density", "Error", "Level", "Locations", "Mesh", "OperatorErrors",
@@ -32,8 +32,8 @@ __all__ = [
     "delaunay", "density", "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere",
     "hexagonal_lattice", "interpolate", "lat_lon_sphere", "limited_area", "locate",
     "operator_errors", "periodic_box", "planar_polygon", "plan", "polygon", "quality",
-    "random_places", "random_sphere", "read", "read_fields", "read_points", "rectangle",
-    "spiral_sphere", "threads", "to_lonlat", "voronoi", "write",
+    "random_points", "read", "read_fields", "read_points", "rectangle", "spiral_sphere", "threads",
+    "to_lonlat", "voronoi", "write",
 ]
 
 _SUBMODULES = ("mpas_tools", "scipy", "stripy")

@@ -36,15 +36,15 @@ def sphere_points(points, what="points"):
 
 
 def plane_points(points, what="points"):
-    """n x 2 places."""
+    """n x 2 points."""
     array = numbers(points, what)
     if array.ndim != 2 or array.shape[1] != 2:
-        raise Error(f"{what} have the shape {array.shape}; give n x 2 in the plane")
+        raise Error(f"{what} have the shape {array.shape}; give n x 2 for a surface in the plane")
     return array
 
 
 def points_of(surface, points, what="points"):
-    """Directions, or places of a plane."""
+    """Directions, or points of a plane."""
     return (sphere_points if surface.is_sphere else plane_points)(points, what)
 
 
@@ -53,9 +53,9 @@ def on_sphere(grid):
     return grid.on_sphere if isinstance(grid, _calotte.Polygons) else grid.surface.is_sphere
 
 
-def direction(place, what):
+def direction(point, what):
     """A longitude and latitude in degrees, or a vector."""
-    return sphere_points(np.asarray(place)[np.newaxis], what)[0]
+    return sphere_points(np.asarray(point)[np.newaxis], what)[0]
 
 
 # ---- Numbers with units
@@ -117,25 +117,25 @@ def _sampled(function, step=0.25):
     lat = np.linspace(-90, 90, round(180 / step) + 1)
     values = numbers(function(*np.meshgrid(lon, lat)), "cell widths")
     if values.shape != (lat.size, lon.size):
-        raise Error("the width function must return one number for each of its places; it returned "
+        raise Error("the width function must return one number for each of its points; it returned "
                     f"the shape {values.shape} for {(lat.size, lon.size)}")
     return _raster(values, lon, lat)
 
 
-def cell_width(widths, earth_radius=EARTH_RADIUS_KM, region=None):
+def cell_width(widths, earth_radius=EARTH_RADIUS_KM, surface=None):
     """Widths in km of a number, a raster, a file or a function, as CellWidth.
 
-    region: which a raster must cover; None for any raster.
+    surface: which a raster must cover; None for any raster.
     """
-    made = _widths(widths, earth_radius, _calotte.Surface() if region is None else region)
-    if region is not None:
-        _calotte.require_covering(made, region)
+    made = _widths(widths, earth_radius, _calotte.Surface() if surface is None else surface)
+    if surface is not None:
+        _calotte.require_covering(made, surface)
     return made
 
 
-def widths(given, plane, earth_radius=EARTH_RADIUS_KM, part=None):
+def widths(given, plane, earth_radius=EARTH_RADIUS_KM, surface=None):
     """Widths of the sphere in km, or those of a plane in its unit."""
-    return planar_cell_width(given) if plane else cell_width(given, earth_radius, part)
+    return planar_cell_width(given) if plane else cell_width(given, earth_radius, surface)
 
 
 def planar_cell_width(widths):
@@ -156,7 +156,7 @@ def planar_cell_width(widths):
     value = np.asarray(widths)
     if value.ndim != 0 or value.dtype.kind not in "fiu":
         raise Error("give cell widths of a plane as a number in its unit, (values, x, y) or a file")
-    far = np.array([-1e30, 1e30])  # the largest coordinates of a domain
+    far = np.array([-1e30, 1e30])  # the largest coordinates of a plane
     return _calotte.PlanarCellWidth(np.full((2, 2), float(value)), far, far)
 
 
@@ -168,13 +168,13 @@ def _planar_raster(values, x, y):
     return _calotte.PlanarCellWidth(array, x, y)
 
 
-def _widths(widths, earth_radius, region):
+def _widths(widths, earth_radius, surface):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, str) and (parts := measure(widths)):
-        return _widths(kilometres(*parts, "the cell width"), earth_radius, region)
+        return _widths(kilometres(*parts, "the cell width"), earth_radius, surface)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius, region)
+        return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius, surface)
     if callable(widths):
         return _sampled(widths)
     if hasattr(widths, "dims") and hasattr(widths, "coords"):
@@ -258,7 +258,7 @@ def _contrast(text, gamma):
 
 
 def _heading(longitude, latitude, azimuth):
-    """The unit tangent at a place, in the direction so many degrees clockwise from north."""
+    """The unit tangent at a point, in the direction so many degrees clockwise from north."""
     north = ([longitude + 180, 90 - latitude] if latitude > 0 else [longitude, 90 + latitude])
     east, north, turn = _calotte.from_lonlat(np.array([[longitude + 90, 0], north, [azimuth, 0]],
                                                       dtype=float))
@@ -275,9 +275,9 @@ def _bump(text, plane=False):
             centre = [float(words["x"]), float(words["y"]), 0.0]
             major = _calotte.from_lonlat(np.array([[float(words.get("angle", 0)), 0.0]]))[0]
         else:
-            place = float(words["lon"]), float(words["lat"])
-            centre = _calotte.from_lonlat(np.array([place]))[0]
-            major = (_heading(*place, float(words["azimuth"])) if "azimuth" in words
+            point = float(words["lon"]), float(words["lat"])
+            centre = _calotte.from_lonlat(np.array([point]))[0]
+            major = (_heading(*point, float(words["azimuth"])) if "azimuth" in words
                      else np.array([1.0, 0.0, 0.0]))
     except ValueError as error:
         if isinstance(error, Error):
@@ -322,7 +322,7 @@ def density(value, widths=None, plane=False):
     raise Error("give a density as a name such as x8, or as a function of n x 3 points")
 
 
-# ---- Parts of the sphere and of the plane
+# ---- Surfaces
 
 _SHAPES = {"circle": ("LON,LAT,RADIUS", "-105,40,1000km"),
            "ellipse": ("LON,LAT,MAJOR,MINOR,BEARING", "138,38,1580km,1000km,45"),
@@ -338,7 +338,7 @@ def _degrees(text):
 
 
 def _shape(text, earth_radius):
-    """A region of a word such as circle=-105,40,1000km, as the command has it; None for others."""
+    """A surface of a word such as circle=-105,40,1000km, as the command has it; None for others."""
     shape, equals, rest = text.partition("=")
     if not equals or shape not in _SHAPES:
         return None
@@ -352,15 +352,15 @@ def _shape(text, earth_radius):
         if shape == "channel":
             return _calotte.channel(*(math.radians(_degrees(part)) for part in parts), 360)
         if shape == "land":
-            place = direction([_degrees(part) for part in parts[1:]], "the place")
-            return _calotte.land_around(parts[0], place)
+            point = direction([_degrees(part) for part in parts[1:]], "the point")
+            return _calotte.land_around(parts[0], point)
         centre = direction([_degrees(part) for part in parts[:2]], "the centre")
         if shape == "circle":
             return _calotte.circle(centre, _length(parts[2], earth_radius), 360)
         return _calotte.ellipse(centre, *(_length(part, earth_radius) for part in parts[2:4]),
                                 math.radians(_degrees(parts[4])), 360)
     except Error as error:
-        raise Error(f"region {text}: {error}; give {shape}={form}, as in {shape}={example}") from None
+        raise Error(f"surface {text}: {error}; give {shape}={form}, as in {shape}={example}") from None
 
 
 def _length(text, earth_radius):
@@ -369,24 +369,27 @@ def _length(text, earth_radius):
     return angle(text, "a length", earth_radius)
 
 
-def region(value, earth_radius=EARTH_RADIUS_KM):
-    """A region of the sphere; None is all of it."""
+_SURFACES = {False: "of the sphere: Surface(), circle(), ellipse(), channel(), polygon(), text such as "
+                    "'circle=-105,40,1000km' or a file",
+             True: "of a plane: rectangle(), periodic_box() or planar_polygon()"}
+
+
+def surface(value, plane=None, earth_radius=EARTH_RADIUS_KM) -> _calotte.Surface:
+    """Where points live; None is the sphere. plane: whether it must be, and a file has, a plane."""
     if value is None:
-        return _calotte.Surface()
-    if isinstance(value, _calotte.Surface) and value.is_sphere:
+        value = _calotte.Surface()
+    elif isinstance(value, str) or hasattr(value, "__fspath__"):
+        value = _shape(str(value), earth_radius) or _file(str(value), plane)
+    if isinstance(value, _calotte.Surface) and plane in (None, not value.is_sphere):
         return value
-    if isinstance(value, str) and (made := _shape(value, earth_radius)) is not None:
-        return made
-    if isinstance(value, str) or hasattr(value, "__fspath__"):
-        return _calotte.read_region(str(value))
-    raise Error("give a region as circle(), ellipse(), channel(), polygon(), as text such as "
-                "'circle=-105,40,1000km', or as a file")
+    kinds = [text for kind, text in _SURFACES.items() if plane in (None, kind)]
+    raise Error(f"surface is {value!r}; give one {', or '.join(kinds)}")
 
 
-def domain(value):
-    """A domain of the plane."""
-    if isinstance(value, _calotte.Surface) and not value.is_sphere:
-        return value
-    if isinstance(value, str) or hasattr(value, "__fspath__"):
-        return _calotte.read_domain(str(value))
-    raise Error("give a domain as rectangle(), periodic_box(), planar_polygon() or a file")
+def _file(path, plane):
+    try:
+        return _calotte.read_domain(path) if plane else _calotte.read_region(path)
+    except Error as error:
+        if plane is None and error.code != "file":
+            error.args = (f"{error}; or give a file of a plane as planar_polygon({path!r})",)
+        raise

@@ -23,8 +23,7 @@ Path = str | os.PathLike[str]
 Grid = Mesh | Polygons
 DensityLike = str | Density | Callable[[Array], ArrayLike]
 WidthLike = Any  #: a number, a file, (values, lon, lat or x, y), a DataArray or a function
-RegionLike = Path | Surface
-DomainLike = Path | Surface
+SurfaceLike = Path | Surface
 Progress = Callable[[dict[str, Any]], "bool | None"]
 
 _USUAL = _calotte.Recipe()  #: the library's defaults
@@ -41,7 +40,7 @@ def threads(count: int) -> Iterator[None]:
     """The number of threads of calls in a `with` block, in this Python thread.
 
     >>> with threads(2):
-    ...     mesh = delaunay(random_sphere(1000))
+    ...     mesh = delaunay(random_points(1000))
     """
     if _count(count, "the number of threads") < 1:
         raise Error(f"the number of threads is {count}; give 1 or more")
@@ -54,30 +53,30 @@ def threads(count: int) -> Iterator[None]:
 
 # ---- Triangulations
 
-def delaunay(points: ArrayLike, *, plane: bool = False, period: ArrayLike | None = None,
-             merge_within: float = 0.0, duplicates: str = "merge",
-             regions: int | None = None) -> Mesh:
+def delaunay(points: ArrayLike, surface: SurfaceLike | None = None, *, merge_within: float = 0.0,
+             duplicates: str = "merge", regions: int | None = None) -> Mesh:
     """The Delaunay triangulation of points on the sphere, or in the plane.
 
-    points: n x 3 directions of any length, or n x 2 longitudes and latitudes in degrees; with
-        plane or period, n x 2 places in any unit.
-    plane: triangulate the convex hull of places in the plane.
-    period: the side lengths (x, y) of a doubly periodic box.
+    points: n x 3 directions of any length; or n x 2 in a plane, in any unit. With a surface of the
+        sphere, such as Surface(), n x 2 are longitudes and latitudes in degrees.
+    surface: where the points live, as for cvt(). Default: the sphere for n x 3, the whole plane for
+        n x 2. Its rings clip the Voronoi cells, and have no effect on the triangles.
     merge_within: points nearer than this become one; radians, in the plane the unit of the points.
     duplicates: "merge" makes one site of equal points; "refuse" raises an error for them.
     regions: the number of parts that are triangulated in parallel; no effect on the result.
     Returns a Mesh. Raises Error.
 
-    >>> mesh = delaunay(random_sphere(1000))
+    >>> mesh = delaunay(random_points(1000))
     >>> mesh.triangles.shape
     (1996, 3)
     """
     if duplicates not in ("merge", "refuse"):
         raise Error(f"duplicates is {duplicates!r}; give merge or refuse")
-    surface = (periodic_box(*period) if period is not None else
-               _calotte.plane() if plane else Surface())
-    sites = _arguments.points_of(surface, points)
-    return _calotte.delaunay(sites, surface, merge_within, duplicates == "merge", regions)
+    sites = _arguments.numbers(points, "points")
+    plane = surface is None and sites.shape[1:] == (2,)
+    surface = _calotte.plane() if plane else _arguments.surface(surface)
+    return _calotte.delaunay(_arguments.points_of(surface, sites), surface, merge_within,
+                             duplicates == "merge", regions)
 
 
 def content_of(grid):
@@ -85,11 +84,13 @@ def content_of(grid):
     return vars(grid).get("_content")
 
 
-def in_domain(mesh, domain):
-    """The mesh; where a domain is given, in a plane, with its boundary."""
-    if domain is None or isinstance(mesh, Polygons):
+def within(mesh, surface):
+    """The mesh; where a surface is given, in a plane, with its boundary."""
+    if surface is None or isinstance(mesh, Polygons):
         return mesh
-    return _calotte.within(mesh, _arguments.domain(domain))
+    if mesh.surface.is_sphere:
+        raise Error("the mesh is on the sphere, and surface clips the cells of a plane; leave it out")
+    return _calotte.within(mesh, _arguments.surface(surface, plane=True))
 
 
 def _require_end(mesh):
@@ -98,12 +99,12 @@ def _require_end(mesh):
         raise Error("a mesh with one period has no Voronoi cells at its walls; give one of a "
                     "periodic box")
     if math.isinf(mesh.surface.area):
-        raise Error("a mesh in a plane without an end needs a domain, which clips its cells; give "
-                    "domain=")
+        raise Error("a mesh in a plane without an end needs a surface that clips its cells; give "
+                    "surface=")
 
 
-def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
-    """The Voronoi cells of a mesh, on its surface: the sphere, a periodic box, a domain of a plane.
+def voronoi(mesh: Grid, surface: SurfaceLike | None = None) -> Voronoi:
+    """The Voronoi cells of a mesh, on its surface: the sphere, a periodic box, a part of a plane.
 
     Cell i has the entries begin[i] to begin[i + 1] of edges_on_cell, vertices_on_cell and
     cells_on_cell, counter-clockwise. Areas are steradians and lengths radians, in the plane those of
@@ -112,7 +113,7 @@ def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
     mesh: what read() returns of a part of the sphere, such as an ocean or a limited area, has the
         cells of its file. The cells of other sites in a hemisphere reach round the far side of the
         sphere. Polygons that are no Voronoi cells raise Error; they have areas and corners.
-    domain: clips the cells of a mesh in a plane; those of cvt() have theirs.
+    surface: a part of the plane, which clips the cells of a mesh there; meshes of cvt() have theirs.
 
     >>> cells = voronoi(delaunay(fibonacci_sphere(500)))
     >>> bool(abs(cells.cell_area.sum() - 4 * math.pi) < 1e-12)
@@ -121,7 +122,7 @@ def voronoi(mesh: Grid, domain: DomainLike | None = None) -> Voronoi:
     content = content_of(mesh)
     if isinstance(mesh, Polygons) and content is None:
         raise Error("polygons without the file that they are of have no Voronoi cells; use areas")
-    mesh = in_domain(mesh, domain)
+    mesh = within(mesh, surface)
     if content is not None and content.polygons is not None:
         return _calotte.cells_of_file(content, mesh)
     _require_end(mesh)
@@ -147,50 +148,50 @@ def check(mesh: Grid) -> Check:
 
     Returns a Check, which is true if all laws hold; its failure names the first that does not.
 
-    >>> bool(check(delaunay(random_sphere(100))))
+    >>> bool(check(delaunay(random_points(100))))
     True
     """
     _require_mesh(mesh)
     return _calotte.check(mesh)
 
 
-def quality(mesh: Grid, *, domain: DomainLike | None = None,
-            density: DensityLike | None = None, cell_width: WidthLike = None) -> Quality:
+def quality(mesh: Grid, *, surface: SurfaceLike | None = None, density: DensityLike | None = None,
+            cell_width: WidthLike = None) -> Quality:
     """Measures a mesh and its Voronoi cells; see the attributes of Quality.
 
-    density, cell_width: as for cvt(); they set what dc_over_h and excess compare with.
+    surface: as for voronoi(). density, cell_width: as for cvt(); dc_over_h and excess use them.
 
     A plane that ends at walls in one direction and is periodic in the other, such as a channel of a
-    file, needs no domain: its whole cells are measured.
+    file, needs no surface: its whole cells are measured.
 
     >>> quality(delaunay(bisected_icosahedron(3))).obtuse
     0
     """
     _require_mesh(mesh)
-    mesh = in_domain(mesh, domain)
+    mesh = within(mesh, surface)
     if not mesh.surface.period.any():
         _require_end(mesh)
     return _calotte.quality(mesh, _density_for(mesh, density, cell_width))
 
 
-def operator_errors(mesh: Grid, *, domain: DomainLike | None = None,
+def operator_errors(mesh: Grid, *, surface: SurfaceLike | None = None,
                     density: DensityLike | None = None,
                     cell_width: WidthLike = None) -> OperatorErrors:
     """Measures the errors of the operators of a C-grid model (TRiSK) for smooth fields.
 
     divergence, gradient, laplacian, curl, tangential and kinetic_energy have l2, max, and the cell
-    and the place of the greatest error, over the root mean square of the exact values; an attribute
+    and the position of the greatest error, over the root mean square of the exact values; an attribute
     such as divergence_by_cell has the errors of all cells, NaN at a boundary. The largest
     eigenvalues of the Laplacians at cells and at vertices, over the square of the unit of length
     (on the sphere radians), bound time steps: wave_step() and diffusion_step().
 
-    density, cell_width: as for cvt(); they weight the centroids of off_centroid.
+    surface: as for voronoi(). density, cell_width: as for cvt(); off_centroid uses them.
 
     >>> operator_errors(delaunay(bisected_icosahedron(3))).gradient.l2 < 0.01
     True
     """
     _require_mesh(mesh)
-    mesh = in_domain(mesh, domain)
+    mesh = within(mesh, surface)
     _require_end(mesh)
     return _calotte.operator_errors(mesh, _density_for(mesh, density, cell_width))
 
@@ -202,7 +203,8 @@ def _positions(mesh, positions):
 
 
 def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
-    """Where positions lie in a mesh: the triangle and its weights, and the nearest site. Exact.
+    """Where positions lie in a mesh: the triangle and its weights, and the nearest site. Exact in
+    a Delaunay triangulation and in a part of one.
 
     positions: k x 3 directions of any length, or k x 2 longitudes and latitudes in degrees; k x 2 in
         the plane, in a periodic box inside or outside of it.
@@ -213,8 +215,8 @@ def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
     >>> found = locate(mesh, [(-105.0, 40.0), (0.0, 90.0)])
     >>> found.triangle.shape, found.weights.shape, int(found.nearest[1])
     ((2,), (2, 3), 0)
-    >>> place = found.weights[0] @ mesh.points[mesh.triangles[found.triangle[0]]]
-    >>> bool(np.allclose(to_lonlat(place[np.newaxis]), (-105, 40)))
+    >>> position = found.weights[0] @ mesh.points[mesh.triangles[found.triangle[0]]]
+    >>> bool(np.allclose(to_lonlat(position[np.newaxis]), (-105, 40)))
     True
     """
     return _calotte.locate(mesh, _positions(mesh, positions))
@@ -231,7 +233,7 @@ def interpolate(mesh: Mesh, values: ArrayLike, positions: ArrayLike, *,
     Returns k numbers, or k x fields; NaN outside of an open mesh. Raises Error, with the index of the
     position.
 
-    >>> mesh = delaunay(random_places(200, rectangle((0, 0), (1, 1))), plane=True)
+    >>> mesh = delaunay(random_points(200, rectangle((0, 0), (1, 1))))
     >>> values = mesh.points @ [1.0, 2.0]
     >>> inside, outside = interpolate(mesh, values, [(0.5, 0.25), (7.0, 7.0)], method="natural")
     >>> round(float(inside), 12), float(outside)
@@ -239,13 +241,13 @@ def interpolate(mesh: Mesh, values: ArrayLike, positions: ArrayLike, *,
     """
     if method not in ("linear", "natural"):
         raise Error(f"no method {method}; give one of: linear, natural")
-    places = _positions(mesh, positions)
+    positions = _positions(mesh, positions)
     fields = _arguments.numbers(values, "values")
     if fields.ndim not in (1, 2) or len(fields) != len(mesh):
         raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
                     f"each of the {_display.counted(len(mesh), 'site')}")
     by_site = fields[:, np.newaxis] if fields.ndim == 1 else fields
-    found = _calotte.interpolate(mesh, by_site, places, method == "natural")
+    found = _calotte.interpolate(mesh, by_site, positions, method == "natural")
     return found[:, 0] if fields.ndim == 1 else found
 
 
@@ -367,18 +369,18 @@ class Plan:
         return math.nan if self.widths is None else self.widths[k]
 
 
-def plan(cell_width: WidthLike = None, *, region: RegionLike | None = None,
+def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
          earth_radius: float = EARTH_RADIUS_KM, **options: Any) -> Plan:
     """What cvt() would do with the same arguments: cells, levels, and what the widths demand.
 
-    options: other arguments of cvt(), such as start, density or domain.
+    options: other arguments of cvt(), such as start and density.
 
     >>> plan(120.0).cells
     40962
     >>> [level.cells for level in plan(start=2562, density="x8").levels]
     [642, 2562]
     """
-    recipe, widths = _recipe(cell_width=cell_width, region=region, earth_radius=earth_radius,
+    recipe, widths = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
                              **options)
     made = _calotte.plan(recipe)
     made["levels"] = _levels(made["levels"])
@@ -409,21 +411,19 @@ def _take_start(recipe, start):
         raise Error("the number of cells is 0; give a larger one, or None where widths give it")
 
 
-def _recipe(start=None, density=None, cell_width=None, region=None, domain=None, fixed=None,
+def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None,
             earth_radius=EARTH_RADIUS_KM, **fields):
     """The recipe of the arguments of cvt(), and the widths, or None."""
-    recipe, plane = _calotte.Recipe(), domain is not None
-    if plane and region is not None:
-        raise Error("a domain is a part of the plane and a region one of the sphere; give one of "
-                    "them")
+    recipe = _calotte.Recipe()
     for name, value in fields.items():
         if not hasattr(type(recipe), name):
             raise TypeError(f"unexpected keyword argument {name!r}")
         setattr(recipe, name, value)
-    part = _arguments.domain(domain) if plane else _arguments.region(region, earth_radius)
-    recipe.surface, recipe.radius_km = part, earth_radius
+    surface = _arguments.surface(surface, earth_radius=earth_radius)
+    plane = not surface.is_sphere
+    recipe.surface, recipe.radius_km = surface, earth_radius
     widths = (None if cell_width is None else
-              _arguments.widths(cell_width, plane, earth_radius, part))
+              _arguments.widths(cell_width, plane, earth_radius, surface))
     _arguments.require_one(density, widths)
     recipe.density = _arguments.density(density, plane=plane)
     if plane:
@@ -431,7 +431,7 @@ def _recipe(start=None, density=None, cell_width=None, region=None, domain=None,
     else:
         recipe.widths = widths
     if fixed is not None:
-        recipe.fixed = _arguments.points_of(part, fixed, "fixed points")
+        recipe.fixed = _arguments.points_of(surface, fixed, "fixed points")
     _take_start(recipe, start)
     return recipe, widths
 
@@ -454,8 +454,8 @@ def _reporting(progress):
 
 
 def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
-        cell_width: WidthLike = None, region: RegionLike | None = None,
-        domain: DomainLike | None = None, fixed: ArrayLike | None = None, seed: int = _USUAL.seed,
+        cell_width: WidthLike = None, surface: SurfaceLike | None = None,
+        fixed: ArrayLike | None = None, seed: int = _USUAL.seed,
         method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
         max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
         least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
@@ -466,23 +466,23 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         triangle_divisions: int = _USUAL.triangle_divisions, duplicates: str = _USUAL.duplicates,
         merge_within: float = _USUAL.merge_within, regions: int | None = None,
         progress: Progress | bool | None = None, earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
-    """A centroidal Voronoi tessellation of the sphere, of a region, or of a planar domain.
+    """A centroidal Voronoi tessellation of the sphere, of a plane, or of a part of them.
 
-    start: the number of cells; or the generators at the start, as points of delaunay(); or None,
-        where cell_width gives the number.
+    start: the number of cells; or the generators at the start, n x 3 directions, or n x 2 longitudes
+        and latitudes in degrees, in a plane n x 2; or None, where cell_width gives the number.
     density: "uniform"; "x8", the paper's bump with an eightfold contrast of widths;
         "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8"; several such names, of which the
-        maximum counts; the result of density(); or a function of k x 3 unit vectors (in a domain
+        maximum counts; the result of density(); or a function of k x 3 unit vectors (in a plane
         k x 3 with z = 0) that returns k densities.
     cell_width: in km, in place of a density: a number; text with a unit, "60km" or "60000m";
         (values, longitudes, latitudes) in degrees; an xarray.DataArray over lat and lon, in km or
         in the length of its attribute units; a file as `calotte cvt --cell-width` reads it; or a
         function of arrays of longitudes and latitudes, which is sampled every quarter of a degree.
-        With a domain, in the unit of its coordinates: a number; (values, x, y); or a file.
-    region: a part of the sphere, of circle(), ellipse(), channel() or polygon(); text as of
-        `calotte cvt --region`, such as "circle=-105,40,1000km"; or a file.
-    domain: a part of the plane, of rectangle(), periodic_box(), planar_polygon() or a file.
-    fixed: generators that stay, as points of delaunay(); the first cells of the result. A number of
+        In a plane, in the unit of its coordinates: a number; (values, x, y); or a file.
+    surface: where the cells are. Default: the sphere. A part of it is one of circle(), ellipse(),
+        channel() or polygon(); text as of `calotte cvt --region`, such as "circle=-105,40,1000km";
+        or a file of a region. A plane is one of rectangle(), periodic_box() or planar_polygon().
+    fixed: generators that stay, as those of the start; the first cells of the result. A number of
         cells includes them, points of the start do not; without a number, free ones are added where
         the fixed ones leave the widths unmet.
     seed: of random points. method: auto, lloyd, nesterov, lbfgs or lbfgs-laplacian.
@@ -518,12 +518,12 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     >>> grid = cvt(642)
     >>> grid.converged, len(grid.mesh)
     (True, 642)
-    >>> channel = cvt(200, domain=periodic_box(2, 1), walls="y")
+    >>> channel = cvt(200, surface=periodic_box(2, 1), walls="y")
     >>> 190 < len(channel.cells) < 210
     True
     """
     recipe, _ = _recipe(
-        start, density, cell_width, region, domain, fixed, earth_radius, seed=seed, method=method,
+        start, density, cell_width, surface, fixed, earth_radius, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
@@ -539,15 +539,18 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
 
 # ---- Points
 
-def random_sphere(n: int, *, density: DensityLike | None = None, region: RegionLike | None = None,
-                  seed: int = 1) -> Array:
-    """Independent random points, n x 3 unit vectors, that follow a density, inside a region.
+def random_points(n: int, surface: SurfaceLike | None = None, *,
+                  density: DensityLike | None = None, seed: int = 1) -> Array:
+    """Independent random points that follow a density: n x 3 unit vectors, in a plane n x 2.
 
-    >>> random_sphere(3).shape
-    (3, 3)
+    surface, density: as for cvt().
+
+    >>> random_points(3).shape, random_points(3, rectangle((0, 0), (2, 1))).shape
+    ((3, 3), (3, 2))
     """
-    return _calotte.random_points(_count(n, "the number of points"), _arguments.region(region),
-                                  _arguments.density(density), seed)
+    surface = _arguments.surface(surface)
+    return _calotte.random_points(_count(n, "the number of points"), surface,
+                                  _arguments.density(density, plane=not surface.is_sphere), seed)
 
 
 def fibonacci_sphere(n: int) -> Array:
@@ -586,17 +589,10 @@ def cubed_sphere(m: int) -> Array:
     return _calotte.cubed_sphere(m)
 
 
-def random_places(n: int, domain: DomainLike, *, density: DensityLike | None = None,
-                  seed: int = 1) -> Array:
-    """Independent random places in a domain of the plane, n x 2."""
-    return _calotte.random_points(_count(n, "the number of places"), _arguments.domain(domain),
-                                  _arguments.density(density, plane=True), seed)
-
-
-def hexagonal_lattice(n: int, domain: DomainLike) -> Array:
-    """A hexagonal lattice of about n places in a domain of the plane."""
-    return _calotte.hexagonal_lattice(_count(n, "the number of places"),
-                                      _arguments.domain(domain))
+def hexagonal_lattice(n: int, surface: SurfaceLike) -> Array:
+    """A hexagonal lattice of about n points in a part of the plane or a periodic box, n x 2."""
+    return _calotte.hexagonal_lattice(_count(n, "the number of points"),
+                                      _arguments.surface(surface, plane=True))
 
 
 def bisect(mesh: Mesh) -> Array:
@@ -613,7 +609,7 @@ def bisect(mesh: Mesh) -> Array:
 def from_lonlat(longitudes: ArrayLike, latitudes: ArrayLike) -> Array:
     """Unit vectors, n x 3, at longitudes and latitudes in degrees."""
     pairs = np.stack(np.broadcast_arrays(longitudes, latitudes), axis=-1)
-    return _calotte.from_lonlat(_arguments.numbers(np.atleast_2d(pairs), "places"))
+    return _calotte.from_lonlat(_arguments.numbers(np.atleast_2d(pairs), "points"))
 
 
 def to_lonlat(points: ArrayLike) -> Array:
@@ -621,7 +617,7 @@ def to_lonlat(points: ArrayLike) -> Array:
     return _calotte.to_lonlat(_arguments.sphere_points(points))
 
 
-# ---- Regions and domains
+# ---- Surfaces
 
 def circle(centre: ArrayLike, radius: float | str, corners: int = 360, *,
            earth_radius: float = EARTH_RADIUS_KM) -> Surface:
@@ -661,14 +657,14 @@ def polygon(*rings: ArrayLike, inside: ArrayLike | None = None) -> Surface:
     Rings may run either way, be closed, and reach a pole along a meridian. They enclose the side
     without poles; if both sides have one, the smaller side.
 
-    inside: a place (longitude and latitude, or a vector) of the region, which decides instead.
+    inside: a point (longitude and latitude, or a vector) of the region, which decides instead.
 
     >>> round(polygon([(0, 0), (90, 0), (0, 90)]).area / (4 * math.pi), 12)
     0.125
     """
     return _calotte.polygon([_arguments.sphere_points(ring, "corners") for ring in rings],
                             None if inside is None
-                            else _arguments.direction(inside, "the place inside"))
+                            else _arguments.direction(inside, "the point inside"))
 
 
 def rectangle(lower: ArrayLike, upper: ArrayLike) -> Surface:
@@ -683,24 +679,29 @@ def periodic_box(x: float, y: float) -> Surface:
     return _calotte.periodic_box([x, y])
 
 
-def planar_polygon(*rings: ArrayLike) -> Surface:
-    """The domain inside rings of k x 2 corners: what an odd number of them contains."""
+def planar_polygon(*rings: ArrayLike | Path) -> Surface:
+    """The domain inside rings of k x 2 corners: what an odd number of them contains.
+
+    A single file in place of rings is read as by `calotte cvt --domain`.
+    """
+    if len(rings) == 1 and isinstance(rings[0], (str, os.PathLike)):
+        return _arguments.surface(rings[0], plane=True)
     return _calotte.planar_polygon([_arguments.plane_points(ring, "corners") for ring in rings])
 
 
-def density(*names: str, join: str = "maximum", plane: bool = False) -> Density:
+def density(*names: str, join: str = "maximum", surface: SurfaceLike | None = None) -> Density:
     """A density of bumps by their names, as `calotte cvt --density` has them.
 
     names: "x8", or "tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x8", with stretch and azimuth for
-        an ellipse. With plane: "tanh:x=3,y=4,beta=1.5,alpha=0.5,gamma=x8", with stretch and angle.
-    join: the "maximum" of several, or their "sum".
+        an ellipse. In a plane "tanh:x=3,y=4,beta=1.5,alpha=0.5,gamma=x8", with stretch and angle.
+    join: the "maximum" of several, or their "sum". surface: as for cvt().
 
     >>> density("x8").uniform
     False
     """
     if not names:
         raise Error("give the name of a bump, such as x8")
-    return _arguments.bumps(names, join, plane)
+    return _arguments.bumps(names, join, plane=not _arguments.surface(surface).is_sphere)
 
 
 # ---- Files
@@ -737,7 +738,7 @@ def read_points(path: Path) -> Array:
 
 def write(path: Path, mesh: Grid, *, format: str = "by-name",
           sphere_radius: float | None = None, density: DensityLike | None = None,
-          cell_width: WidthLike = None, domain: DomainLike | None = None,
+          cell_width: WidthLike = None, surface: SurfaceLike | None = None,
           fields: Mapping[str, ArrayLike] | None = None, history: str = "") -> None:
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
@@ -746,7 +747,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
         that of a file that was read, else 1.
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
-    domain: as for voronoi().
+    surface: as for voronoi().
     fields: a dict of n numbers at the cells, beside those that were read.
     """
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
@@ -754,7 +755,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history)
     content = content_of(mesh)
-    mesh = in_domain(mesh, domain)
+    mesh = within(mesh, surface)
     if content is not None:
         names = _calotte.write_content(content, mesh, output)
         dropped = [name for name in names if name in content.fields or name in values]
@@ -767,31 +768,32 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
         _calotte.write(mesh, output)
 
 
-def cut(source: Path, target: Path, region: RegionLike, *, rings: int = 7,
+def cut(source: Path, target: Path, surface: SurfaceLike, *, rings: int = 7,
         sphere_radius: float | None = 1.0) -> dict[str, Any]:
     """Cuts a limited-area grid out of an MPAS file; all fields go along. Returns a dict of counts.
 
-    sphere_radius: of the new file; None keeps that of the source.
+    surface: as for cvt(). sphere_radius: of the new file; None keeps that of the source.
     """
-    return _calotte.cut(str(source), str(target), _arguments.region(region), rings, sphere_radius)
+    return _calotte.cut(str(source), str(target), _arguments.surface(surface, plane=False), rings,
+                        sphere_radius)
 
 
-def limited_area(path: Path, region: RegionLike, cell_width: WidthLike, *,
+def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
                  sphere_radius: float = 1.0, earth_radius: float = EARTH_RADIUS_KM,
                  **options: Any) -> dict[str, Any]:
     """Makes a limited-area grid: the cells of a region with seven rings of boundary cells around it.
 
-    cell_width: as for cvt(). sphere_radius: of the MPAS file; the model expects 1.
+    surface, cell_width: as for cvt(). sphere_radius: of the MPAS file; the model expects 1.
     options: other arguments of cvt(), such as fixed, seed and progress.
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
-    part = _arguments.region(region, earth_radius)
-    widths = _arguments.cell_width(cell_width, earth_radius, part)
-    grid = cvt(cell_width=widths, region=part, limited_area=True, earth_radius=earth_radius,
+    surface = _arguments.surface(surface, plane=False, earth_radius=earth_radius)
+    widths = _arguments.cell_width(cell_width, earth_radius, surface)
+    grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
                              True, {}, "")
-    return _calotte.write_limited_area(output, grid.mesh, part)
+    return _calotte.write_limited_area(output, grid.mesh, surface)
 
 
 def _files(value):
@@ -821,7 +823,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
         below 0). field_file: its NetCDF file; default the source.
     passages, barriers: GeoJSON of lines whose cells are sea or land; one file or several.
     fill: cells with a single neighbour in the sea become land.
-    seeds: places in the sea, longitude and latitude in degrees; default its largest part.
+    seeds: points in the sea, longitude and latitude in degrees; default its largest part.
     mask: NetCDF file for masks by cell of the source. cell_map: folder for maps of cell numbers.
     sphere_radius: of the new file, metres; default that of the source.
     """
@@ -830,13 +832,13 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     if raster_values not in ("height", "sea-fraction", "land-fraction"):
         raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
                     "land-fraction")
-    places = np.asarray(seeds, dtype=float).reshape(-1, 2 if np.size(seeds) % 2 == 0 else 3)
+    points = np.asarray(seeds, dtype=float).reshape(-1, 2 if np.size(seeds) % 2 == 0 else 3)
     words = {"land": _files(land) + _files(coast), "passages": _files(passages),
              "barriers": _files(barriers), "raster": "" if raster is None else str(raster),
              "raster_variable": raster_variable, "raster_values": raster_values, "field": field,
              "field_file": "" if field_file is None else str(field_file), "sea_from": sea_from,
              "sea_below": sea_below, "land_fraction": land_fraction}
     return _calotte.cull(str(source), str(target), words, fill,
-                         _arguments.sphere_points(places, "seeds"),
+                         _arguments.sphere_points(points, "seeds"),
                          "" if mask is None else str(mask),
                          "" if cell_map is None else str(cell_map), sphere_radius)

@@ -60,7 +60,7 @@ def _topology(mesh):
 
 
 def _contains(surface, points):
-    """(n,) whether each point, as those of delaunay(), lies inside or on the boundary."""
+    """(n,) whether each point, as those of locate(), lies inside or on the boundary."""
     return _calotte.contains(surface, _arguments.points_of(surface, points))
 
 

@@ -56,7 +56,7 @@ def _whole_cells(mesh):
 
 
 def _whole_planar_cells(mesh):
-    """Of a mesh of the plane without its domain."""
+    """Of a mesh of the plane without an end."""
     a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
     period = mesh.surface.period
     b, c = (_display.nearest(end - a, period) for end in (b, c))
@@ -83,12 +83,12 @@ def _unrolled(begin, ids, corners, period):
     return begin, np.arange(len(places)), places
 
 
-def rings(grid, domain=None):
+def rings(grid, surface=None):
     """begin, ids and corners of the cells of a mesh or of polygons; some may have no corners."""
     polygons = grid if isinstance(grid, _calotte.Polygons) else grid.cells
-    if polygons is not None and (domain is None or polygons is grid):
+    if polygons is not None and (surface is None or polygons is grid):
         return _unrolled(polygons.begin, polygons.ids, polygons.corners, polygons.period)
-    mesh = _functions.in_domain(grid, domain)
+    mesh = _functions.within(grid, surface)
     surface = mesh.surface
     if surface.is_sphere and not mesh.closed:
         return _whole_cells(mesh)
@@ -297,7 +297,7 @@ def _new_axes(projection):
     return plt.figure(figsize=(9, 5), layout="constrained").add_subplot(projection=projection)
 
 
-def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, domain=None,
+def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, surface=None,
          cmap=None, vmin=None, vmax=None, edgecolor=None, linewidth=0.2, colorbar=True, label=None,
          earth_radius=EARTH_RADIUS_KM):
     """Draws the cells, coloured by a field. Returns the axes of matplotlib, which it needs.
@@ -309,7 +309,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, d
     view: longitude and latitude in degrees of the middle of a globe, in place of a map.
     coast: True draws coastlines (Natural Earth, 1:110 million), False none; or a file of land as
         `calotte cull --land` reads it. In a plane there are none.
-    domain: as for voronoi().
+    surface: as for voronoi().
     cmap, vmin, vmax: as in matplotlib. edgecolor, linewidth: of the cells' sides.
     colorbar: whether there is one. label: its name; default that of the field.
     earth_radius: km, for widths and areas on the sphere.
@@ -321,7 +321,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, d
     from matplotlib.collections import PolyCollection
     spherical = _arguments.on_sphere(self)
     _require_projection(spherical, ax, projection, view)
-    begin, ids, corners = rings(self, domain)
+    begin, ids, corners = rings(self, surface)
     if not len(ids):
         raise Error("the mesh has no whole cell to draw")
     areas = _areas(begin, ids, corners, spherical)

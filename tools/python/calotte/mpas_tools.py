@@ -36,10 +36,10 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     order and direction. Returns the number of cells.
     """
     widths = _arguments.planar_cell_width((1000 * _arguments.numbers(cellWidth, "cell widths"), x, y))
-    domain = _calotte.planar_polygon(_rings(geom_points, geom_edges))
+    surface = _calotte.planar_polygon(_rings(geom_points, geom_edges))
     rho = widths.density()
-    cells = _functions.plan(widths, domain=domain).cells
-    grid = _functions.cvt(cells, domain=domain, density=rho)
+    cells = _functions.plan(widths, surface=surface).cells
+    grid = _functions.cvt(cells, surface=surface, density=rho)
     if logger is not None:
         logger.info(f"{out_filename}: {len(grid.mesh)} cells, {grid.iterations} iterations")
     grid.mesh.to_mpas(out_filename, density=rho)

@@ -52,18 +52,14 @@ std::shared_ptr<Mesh> delaunay(const Doubles& points, const Surface& surface, do
   return call([&] { return std::make_shared<Mesh>(calotte::delaunay(sites, surface, options)); });
 }
 
-/// The mesh with the boundary of a domain.
-/// \throws Error invalid_argument for a mesh of the sphere, and for a domain of another period.
-std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& domain) {
-  if (mesh.surface.is_sphere())
+/// The mesh of a plane with the boundary of a surface.
+/// \throws Error invalid_argument for a surface of another period.
+std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& surface) {
+  if (surface.period() != mesh.surface.period())
     throw Error(ErrorCode::invalid_argument,
-                "the mesh is on the sphere, and a domain is a part of the "
-                "plane; leave it out");
-  if (domain.period() != mesh.surface.period())
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh and the domain have different periods; give the domain of the mesh");
+                "the mesh and the surface have different periods; give the surface of the mesh");
   auto bounded = std::make_shared<Mesh>(mesh);
-  bounded->surface = domain;
+  bounded->surface = surface;
   return bounded;
 }
 
