@@ -12,7 +12,7 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Where lists begin in an array that holds one after another.
+/// Offsets of lists that are stored one after another.
 using Offsets = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1, Eigen::DontAlign>;
 
 /// n lists in one array, such as the edges of each cell: list i is items[begin[i]] to

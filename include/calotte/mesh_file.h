@@ -24,7 +24,7 @@ namespace calotte {
 /// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
 struct Polygons {
   Points3 corners;       ///< 3 x m unit columns; in a plane in any unit of length
-  IdLists ids;           ///< the corners of each polygon, counter-clockwise seen from outside
+  IdLists ids;           ///< 0-based corners of each polygon, counter-clockwise seen from outside
   Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
   bool on_sphere = true; ///< false in a plane
   Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it

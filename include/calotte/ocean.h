@@ -96,8 +96,9 @@ struct SeaCells {
 /// without a seed, are decided. A cell that is filled lies on no way between two others, so that an
 /// opened passage stays open.
 /// \param cells_on_cell the n cells' 0-based neighbours; -1 for a missing one, which counts as
-/// land. \param land n flags: 1 for land. \throws Error invalid_argument, if no cell is sea, and
-/// naming the first seed that is on land.
+///        land.
+/// \param land n flags: 1 for land.
+/// \throws Error invalid_argument, if no cell is sea, and naming the first seed that is on land.
 SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& land,
                    const SeaOptions& options = {});
 

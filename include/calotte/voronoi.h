@@ -35,11 +35,11 @@ struct Voronoi {
                  ///< edge on the boundary its own
   Points3 vertices; ///< 3 x m: circumcentres
 
-  /// n lists, which begin alike in all three: edge k of a cell lies between its vertices k - 1 and
+  /// n lists; all three have the same `begin`. Edge k of a cell lies between its vertices k - 1 and
   /// k. The first edge is the one towards the lowest neighbour.
   IdLists edges_on_cell;
-  IdLists vertices_on_cell;
-  IdLists cells_on_cell; ///< neighbour k is across edge k, -1 on the boundary
+  IdLists vertices_on_cell; ///< counter-clockwise
+  IdLists cells_on_cell;    ///< neighbour k is across edge k, -1 on the boundary
 
   /// 3 x m: the mesh's triangles; on the boundary one or two cells, then -1.
   Triangles cells_on_vertex;
@@ -98,7 +98,7 @@ Voronoi voronoi(const Mesh& mesh);
 /// its one cell.
 struct TangentialWeights {
   IdLists edges;        ///< of the k-th edge: the other edges e'
-  DoubleVector weights; ///< of each of their items, without unit
+  DoubleVector weights; ///< one for each item of `edges`, without unit
 };
 
 /// The weights of edges first to last - 1. A caller may process a large mesh in parts.

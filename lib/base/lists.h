@@ -12,13 +12,13 @@
 
 namespace calotte::base_detail {
 
-/// The list that holds an item. \param item its place among all items.
+/// The list that holds an item. \param item its index among all items.
 template <class Items, class Begin>
 std::int64_t list_of(const Lists<Items, Begin>& lists, std::int64_t item) {
   return std::upper_bound(lists.begin.begin(), lists.begin.end(), item) - lists.begin.begin() - 1;
 }
 
-/// The place of the item that follows one in its list; the first one follows the last.
+/// The index of the item that follows one in its list; the first one follows the last.
 template <class Items, class Begin>
 std::int32_t next_in_list(const Lists<Items, Begin>& lists, std::int32_t item) {
   const auto list = static_cast<std::size_t>(list_of(lists, item));

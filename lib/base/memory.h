@@ -131,6 +131,10 @@ private:
 /// larger triangulation, whose reports alone take half a gigabyte, returns its memory to the
 /// system.
 inline constexpr std::int64_t most_sites_kept = 1 << 23;
+inline void empty_pools_of_many(std::int64_t sites) {
+  if (sites > most_sites_kept)
+    empty_pools();
+}
 
 /// Memory for n values; that of a large array prefers huge pages.
 template <class T> void reserve_huge(std::vector<T>& values, std::int64_t n) {

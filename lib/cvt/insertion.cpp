@@ -3,6 +3,7 @@
 
 #include <calotte/cvt.h>
 
+#include "base/lists.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "density/planar_density.h"
@@ -19,7 +20,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -54,37 +54,22 @@ DoubleVector fineness(const Density& density, const Points3& points) {
 }
 
 /// The neighbours of each site.
-class Neighbours {
-public:
-  Neighbours(std::int64_t sites, const std::vector<Edge>& edges)
-      : begin_(static_cast<std::size_t>(sites) + 1), ids_(2 * edges.size()) {
-    for (const Edge& edge : edges)
-      for (const std::int32_t end : {edge.a, edge.b})
-        ++begin_[static_cast<std::size_t>(end)];
-    std::int64_t sum = 0;
-    for (std::int64_t& begin : begin_)
-      begin = sum += begin;
-    for (const Edge& edge : edges) {
-      ids_[static_cast<std::size_t>(--begin_[static_cast<std::size_t>(edge.a)])] = edge.b;
-      ids_[static_cast<std::size_t>(--begin_[static_cast<std::size_t>(edge.b)])] = edge.a;
-    }
-  }
-  std::span<const std::int32_t> of(std::int32_t site) const {
-    const auto i = static_cast<std::size_t>(site);
-    return std::span(ids_).subspan(static_cast<std::size_t>(begin_[i]),
-                                   static_cast<std::size_t>(begin_[i + 1] - begin_[i]));
-  }
+using Neighbours = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
-private:
-  std::vector<std::int64_t> begin_;
-  std::vector<std::int32_t> ids_;
-};
+Neighbours neighbours_of(std::int64_t sites, const std::vector<Edge>& edges) {
+  return base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
+    for (const Edge& edge : edges) {
+      put(edge.a, edge.b);
+      put(edge.b, edge.a);
+    }
+  });
+}
 
 /// Edges that are far from each other: no end of one is an end of another or next to it.
 class Choice {
 public:
   Choice(std::int64_t sites, const std::vector<Edge>& edges)
-      : neighbours_(sites, edges), blocked_(static_cast<std::size_t>(sites), 0) {}
+      : neighbours_(neighbours_of(sites, edges)), blocked_(static_cast<std::size_t>(sites), 0) {}
 
   /// Up to `count` of the edges that are allowed, the first ones in an order. Reorders the edges.
   template <class Before, class Allowed>
@@ -113,7 +98,7 @@ private:
     if (a != 0 || b != 0)
       return false;
     for (const std::int32_t end : {edge.a, edge.b})
-      for (const std::int32_t site : neighbours_.of(end))
+      for (const std::int32_t site : neighbours_[end])
         blocked_[static_cast<std::size_t>(site)] = 1;
     a = b = 1;
     return true;

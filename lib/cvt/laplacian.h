@@ -8,6 +8,7 @@
 #include "mesh/connectivity.h"
 
 #include <calotte/density.h>
+#include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>

@@ -258,11 +258,6 @@ Regions divide(const Sites& sites, const Partition& partition) {
 
 namespace {
 
-void empty_pools_of_many(std::int64_t sites) {
-  if (sites > most_sites_kept)
-    empty_pools();
-}
-
 /// Computes the mesh from sites and regions; in a plane its points have z = 0. Each array is freed
 /// after its last use, because the largest sets take all of the memory.
 template <class Space>

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -37,29 +38,18 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
   return static_cast<std::int8_t>(bits);
 }
 
-} // namespace
+/// A face that a region reports.
+template <class Space> struct Found {
+  typename Triangulation<Space>::Store::Face* face;
+  std::int32_t lowest; ///< the corner with its lowest site
+  std::int32_t member; ///< that site's, if the region owns it; else the number of members
+};
+template <class Space> using AllFound = std::vector<Found<Space>, PoolAllocator<Found<Space>>>;
 
-std::int64_t RegionTriangles::own_seams() const {
-  return std::count_if(seams.begin(), seams.end(),
-                       [&](const Seam& seam) { return seam.triangle < own; });
-}
-
-template <class Space>
-RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& all_sites,
-                                 const Array<std::int32_t>& owner,
-                                 Array<std::int32_t>& triangles_of) {
-  using Face = typename Triangulation<Space>::Store::Face;
-  struct Found {
-    Face* face;
-    std::int32_t lowest; ///< the corner with its lowest site
-    std::int32_t member; ///< that site's, if the region owns it; else the number of members
-  };
-  struct Listed {
-    std::int32_t second; ///< site of the face
-    std::int32_t found;  ///< its index
-  };
+/// The certified finite faces, in the order of memory.
+template <class Space> AllFound<Space> find_faces(Triangulation<Space>& triangulation) {
   const auto members = static_cast<std::int32_t>(triangulation.members().size());
-  std::vector<Found, PoolAllocator<Found>> found;
+  AllFound<Space> found;
   found.reserve(2 * triangulation.members().size());
   triangulation.for_each_face([&](typename Triangulation<Space>::Face face) {
     if (!face->certified || triangulation.is_infinite(face))
@@ -68,50 +58,74 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
     const auto vertex = face->vertex(lowest);
     found.push_back({&*face, lowest, vertex->owned() ? vertex->local : members});
   });
-  const auto count = static_cast<std::int32_t>(found.size());
-  auto of_member =
+  return found;
+}
+
+/// Numbers faces member by member, those of one by their second site.
+/// \returns the numbers with which the members begin; behind them are the faces whose lowest site
+///          the region does not own.
+template <class Space>
+std::vector<std::int64_t> number_faces(const AllFound<Space>& found, std::int64_t members) {
+  struct Listed {
+    std::int32_t second; ///< site of the face
+    std::int32_t found;  ///< its index
+  };
+  auto lists =
       lists_by_key<std::vector<Listed, PoolAllocator<Listed>>>(members + 1, [&](const auto& put) {
-        for (std::int32_t f = 0; f < count; ++f) {
+        for (std::int32_t f = 0; f < std::ssize(found); ++f) {
           const auto& [face, lowest, member] = found[static_cast<std::size_t>(f)];
           put(member, {face->vertex(next_vertex(lowest))->place.site, f});
         }
       });
-  for (std::int64_t m = 0; m < members; ++m) {
-    const auto list = of_member[m];
-    std::sort(list.begin(), list.end(),
+  for (std::int64_t m = 0; m < members; ++m)
+    std::sort(lists[m].begin(), lists[m].end(),
               [](const Listed& a, const Listed& b) { return a.second < b.second; });
-  }
-  for (std::int32_t t = 0; t < count; ++t)
-    found[static_cast<std::size_t>(of_member.items[static_cast<std::size_t>(t)].found)]
-        .face->number = t;
+  std::int32_t number = 0;
+  for (const Listed& listed : lists.items)
+    found[static_cast<std::size_t>(listed.found)].face->number = number++;
+  return std::move(lists.begin);
+}
 
-  RegionTriangles out{Array<Triple>(count),
-                      Array<Triple>(count),
-                      of_member.begin[static_cast<std::size_t>(members)],
+} // namespace
+
+std::int64_t RegionTriangles::own_seams() const {
+  return std::count_if(seams.begin(), seams.end(),
+                       [&](const Seam& seam) { return seam.triangle < own; });
+}
+
+template <class Space>
+RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
+                                 const Array<std::int32_t>& owner,
+                                 Array<std::int32_t>& triangles_of) {
+  const std::span<const Member> members = triangulation.members();
+  const AllFound<Space> found = find_faces(triangulation);
+  const std::vector<std::int64_t> begin = number_faces<Space>(found, std::ssize(members));
+  RegionTriangles out{Array<Triple>(std::ssize(found)),
+                      Array<Triple>(std::ssize(found)),
+                      begin[members.size()],
                       {}};
   const auto owner_of = [&](auto vertex) {
-    return owner[triangulation.members()[static_cast<std::size_t>(vertex->local)].rank];
+    return owner[members[static_cast<std::size_t>(vertex->local)].rank];
   };
-  for (const Found& one : found) { // in the order of memory
-    const Face& face = *one.face;
-    const int i = one.lowest, j = next_vertex(i), k = previous_vertex(i);
-    const std::array v{face.vertex(i), face.vertex(j), face.vertex(k)};
-    const Triple sites{v[0]->place.site, v[1]->place.site, v[2]->place.site};
-    out.sites[face.number] = sites;
-    out.neighbours[face.number] = {face.neighbor(i)->number, face.neighbor(j)->number,
-                                   face.neighbor(k)->number};
+  for (const auto& [face, i, member] : found) {
+    const int j = next_vertex(i), k = previous_vertex(i);
+    const std::array v{face->vertex(i), face->vertex(j), face->vertex(k)};
+    const Triple triangle{v[0]->place.site, v[1]->place.site, v[2]->place.site};
+    out.sites[face->number] = triangle;
+    out.neighbours[face->number] = {face->neighbor(i)->number, face->neighbor(j)->number,
+                                    face->neighbor(k)->number};
     if (v[0]->owned() && v[1]->owned() && v[2]->owned())
       continue;
     const std::int32_t a = owner_of(v[0]), b = owner_of(v[1]), c = owner_of(v[2]);
-    out.seams.push_back({sites, face.number, a,
+    out.seams.push_back({triangle, face->number, a,
                          static_cast<std::int8_t>(1 + (b != a) + (c != a && c != b)),
                          own_edges(v)});
   }
   std::sort(out.seams.begin(), out.seams.end(),
             [](const Seam& a, const Seam& b) { return a.triangle < b.triangle; });
-  for (std::int64_t m = 0; m < members; ++m)
-    if (const Member& member = triangulation.members()[static_cast<std::size_t>(m)]; member.owned())
-      triangles_of[all_sites.id[member.rank]] = static_cast<std::int32_t>(of_member.count(m));
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (members[m].owned())
+      triangles_of[sites.id[members[m].rank]] = static_cast<std::int32_t>(begin[m + 1] - begin[m]);
   return out;
 }
 
@@ -158,7 +172,7 @@ public:
     return slot.place;
   }
 
-  /// True if each triangle was reported by all of its owners.
+  /// Throws unless each triangle was reported by all of its owners.
   void require_agreement() const {
     for (const Slot& slot : slots_)
       if (slot.reports.load(std::memory_order_relaxed) != slot.reporters)
@@ -244,8 +258,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
         place[static_cast<std::size_t>(k)][seam.triangle] =
             tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
-  if (triangles_of.size() > most_sites_kept) // the reports' sites are needed no more
-    empty_pools();
+  empty_pools_of_many(triangles_of.size()); // the reports' sites are needed no more
   make_room(mesh.neighbours, 3, count);
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];

@@ -107,10 +107,11 @@ void Outline::make_strips() {
 }
 
 void Outline::require_simple() const {
-  for (std::int32_t e = 0; e < std::ssize(edges_.items); ++e)
+  for (std::int32_t e = 0; e < std::ssize(edges_.items); ++e) {
+    const std::int32_t following = next_in_list(edges_, e);
     for_each_listed_near(box_of(edge(e)), [&](std::int32_t f) {
       const bool bad = f == e                         ? false
-                       : f == next_in_list(edges_, e) ? fold(edge(e), edge(f))
+                       : f == following               ? fold(edge(e), edge(f))
                        : next_in_list(edges_, f) == e ? fold(edge(f), edge(e))
                                                       : meet(edge(e), edge(f));
       if (bad)
@@ -118,6 +119,7 @@ void Outline::require_simple() const {
                    " meet; rings may neither cross nor touch themselves or each other",
                list_of(edges_, e));
     });
+  }
 }
 
 std::string Outline::name_of(std::int32_t edge) const {

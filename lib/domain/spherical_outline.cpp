@@ -15,7 +15,7 @@ SphericalOutline::SphericalOutline(const Region& region)
 SphericalOutline::SphericalOutline(const Rings& rings)
     : tree_(rings.arcs.items), cells_(simple(rings, tree_).arcs.items, rings.corner_of(0)),
       area_(area_inside(cells_)) {
-  for (std::size_t r = 1; r + 1 < rings.arcs.begin.size(); ++r)
+  for (std::size_t r = 1; r < static_cast<std::size_t>(rings.arcs.size()); ++r)
     if (!cells_.inside_is_left(rings.corner_of(r)))
       refuse_region("it is to the left of ring 0 and to the right of ring " + std::to_string(r) +
                         "; give rings that all have it to their left: an outer boundary "

@@ -46,8 +46,8 @@ void compare_row(const CellLists& lists, std::int64_t cell, std::int64_t start,
     differences.note(cell * width, static_cast<double>(width), static_cast<double>(count), 1);
 }
 
-/// The place of a row's first id in the tessellation's list, or unknown.
-std::int32_t start_of(const CellLists& lists, std::int64_t cell, std::int32_t id) {
+/// The index of a row's first id in the tessellation's list, or unknown.
+std::int32_t index_of(const CellLists& lists, std::int64_t cell, std::int32_t id) {
   const std::span<const std::int32_t> ids = lists.ids[cell];
   for (std::size_t k = 0; k < ids.size(); ++k)
     if (lists.stored(ids[k]) == id)
@@ -63,7 +63,7 @@ void check_cell_lists(const MpasCheck& check, const CellLists& lists, Array<std:
   const Differences differences = check.deviations.visit_rows<std::int32_t>(
       lists.variable, [&](std::int64_t cell, const std::int32_t* row, Differences& out) {
         if (starts[cell] == unknown && width > 0)
-          starts[cell] = start_of(lists, cell, row[0]);
+          starts[cell] = index_of(lists, cell, row[0]);
         compare_row(lists, cell, std::max(starts[cell], 0), row, width, out);
       });
   check.deviations.add(lists.variable, differences, lists.rule);

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "io/big_endian.h"
 #include "io/formats.h"
+#include "voronoi/connectivity.h"
 
 #include <calotte/error.h>
 
@@ -62,8 +63,12 @@ void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& 
   Pairs ends = Pairs::Constant(2, edges, -1);
   for (std::int64_t i = 0; i < cells.vertices_on_cell.size(); ++i) {
     const std::span<const std::int32_t> vertices = cells.vertices_on_cell[i];
+    if (vertices.size() < 3)
+      file.fail("cell " + std::to_string(i + 1) + " (1-based) has " +
+                std::to_string(vertices.size()) +
+                " edges in nEdgesOnCell, fewer than three; make the file again");
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-      const std::int32_t end = vertices[k], start = k == 0 ? vertices.back() : vertices[k - 1];
+      const std::int32_t end = vertices[k], start = voronoi_detail::start_of(cells, i, k);
       const Eigen::Vector2i pair(std::min(start, end), std::max(start, end));
       auto known = ends.col(cells.edges_on_cell[i][k]);
       if (known[0] >= 0 && known != pair)

@@ -5,6 +5,7 @@
 #include "io/room.h"
 
 #include <calotte/limited_area.h>
+#include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>

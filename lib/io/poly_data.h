@@ -4,6 +4,7 @@
 #include "io/formats.h"
 #include "io/room.h"
 
+#include <calotte/lists.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

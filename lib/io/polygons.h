@@ -5,6 +5,7 @@
 #include "base/vec3.h"
 #include "io/room.h"
 
+#include <calotte/lists.h>
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 

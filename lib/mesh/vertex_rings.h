@@ -5,6 +5,7 @@
 #include "mesh/faces.h"
 #include "mesh/room.h"
 
+#include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>

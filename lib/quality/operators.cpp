@@ -28,7 +28,7 @@ namespace calotte {
 namespace quality_detail {
 namespace {
 
-void set_place(const Points3& cells, ErrorNorms& norms) {
+void set_position(const Points3& cells, ErrorNorms& norms) {
   if (norms.cell >= 0)
     norms.position = cells.col(norms.cell);
 }
@@ -48,7 +48,7 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
     const Vec3 moment = first(i);
     return norm((1 / norm(moment)) * moment - column(cells.cells, i)) / spacing_at(cells, i);
   });
-  set_place(cells.cells, norms);
+  set_position(cells.cells, norms);
   return norms;
 }
 
@@ -129,7 +129,7 @@ OperatorErrors in_plane(const Mesh& mesh, const Density& density) {
   const Voronoi cells = voronoi(mesh);
   OperatorErrors out = errors_of(cells);
   out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });
-  set_place(cells.cells, out.off_centroid);
+  set_position(cells.cells, out.off_centroid);
   return out;
 }
 

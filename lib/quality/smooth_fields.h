@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "domain/periodic_box.h"
 #include "quality/room.h"
 
 #include <array>
@@ -81,15 +82,11 @@ struct Waves {
   }
 
   Vec3 offset(const Vec3& a, const Vec3& b) const {
-    return {nearest(b.x - a.x, period.x), nearest(b.y - a.y, period.y), 0};
+    const Vec2 offset = domain_detail::nearest_offset(a, b, {period.x, period.y});
+    return {offset.x, offset.y, 0};
   }
   static Vec3 up(const Vec3&) { return {0, 0, 1}; }
   Vec3 middle(const Vec3& a, const Vec3& b) const { return a + 0.5 * offset(a, b); }
-
-private:
-  static double nearest(double way, double period) {
-    return period > 0 ? way - period * std::round(way / period) : way;
-  }
 };
 
 } // namespace calotte::quality_detail

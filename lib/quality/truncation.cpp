@@ -205,29 +205,29 @@ private:
 
   // ---- Norms
 
-  /// Sets the location and the cell of the worst place, of which `cell` is the index.
+  /// Sets the position and the cell of the greatest error, of which `cell` is the index.
   template <class CellAt>
-  static ErrorNorms placed(ErrorNorms norms, const Points3& places, const CellAt& cell_at) {
+  static ErrorNorms located(ErrorNorms norms, const Points3& points, const CellAt& cell_at) {
     if (norms.cell >= 0) {
-      norms.position = places.col(norms.cell);
+      norms.position = points.col(norms.cell);
       norms.cell = cell_at(norms.cell);
     }
     return norms;
   }
   template <class Measure> ErrorNorms cells(Errors& errors, const Measure& measure) const {
     const auto area = [&](std::int64_t i) { return whole_[i] != 0 ? of_.cell_area[i] : 0.0; };
-    return placed(error_norms(of_.cells.cols(), area, measure, errors), of_.cells,
-                  [](std::int64_t i) { return i; });
+    return located(error_norms(of_.cells.cols(), area, measure, errors), of_.cells,
+                   [](std::int64_t i) { return i; });
   }
   template <class Measure> ErrorNorms edges(Errors& errors, const Measure& measure) const {
     const auto area = [&](std::int64_t e) { return whole_edge(e) ? of_.dc[e] * of_.dv[e] : 0.0; };
-    return placed(error_norms(of_.edges.cols(), area, measure, errors), of_.edges,
-                  [&](std::int64_t e) { return of_.cells_on_edge(0, e); });
+    return located(error_norms(of_.edges.cols(), area, measure, errors), of_.edges,
+                   [&](std::int64_t e) { return of_.cells_on_edge(0, e); });
   }
   template <class Measure> ErrorNorms vertices(Errors& errors, const Measure& measure) const {
     const auto area = [&](std::int64_t t) { return whole_vertex(t) ? of_.vertex_area[t] : 0.0; };
-    return placed(error_norms(of_.vertices.cols(), area, measure, errors), of_.vertices,
-                  [&](std::int64_t t) { return of_.cells_on_vertex(0, t); });
+    return located(error_norms(of_.vertices.cols(), area, measure, errors), of_.vertices,
+                   [&](std::int64_t t) { return of_.cells_on_vertex(0, t); });
   }
 
   ErrorNorms off_midpoint() const {
@@ -238,20 +238,20 @@ private:
                                          column(of_.vertices, of_.vertices_on_edge(1, e)));
       return norm(fields_.offset(column(of_.edges, e), middle)) / of_.dc[e];
     });
-    return placed(norms, of_.edges, [&](std::int64_t e) { return of_.cells_on_edge(0, e); });
+    return located(norms, of_.edges, [&](std::int64_t e) { return of_.cells_on_edge(0, e); });
   }
 
   static DoubleVector as_vector(const Errors& errors) {
     return Eigen::Map<const DoubleVector>(errors.begin(), errors.size());
   }
-  /// The greatest error at the places of each cell.
-  DoubleVector by_cell(const Errors& errors, const IdLists& places) const {
+  /// The greatest error of each cell's edges or vertices.
+  DoubleVector by_cell(const Errors& errors, const IdLists& on_cell) const {
     DoubleVector out(of_.cells.cols());
     for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i != end; ++i) {
         out[i] = no_value;
-        for (const std::int32_t place : places[i])
-          out[i] = std::fmax(out[i], errors[place]);
+        for (const std::int32_t id : on_cell[i])
+          out[i] = std::fmax(out[i], errors[id]);
       }
     });
     return out;

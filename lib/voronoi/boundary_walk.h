@@ -4,6 +4,7 @@
 #include "domain/outline.h"
 #include "voronoi/room.h"
 
+#include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>

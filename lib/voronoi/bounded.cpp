@@ -85,12 +85,13 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_
 }
 
 Neighbours neighbours_of(const std::vector<DelaunayEdge>& edges, std::int64_t sites) {
-  Neighbours out = base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
-    for (const DelaunayEdge& edge : edges) {
-      put(edge.low, edge.high);
-      put(edge.high, edge.low);
-    }
-  });
+  Neighbours out =
+      base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
+        for (const DelaunayEdge& edge : edges) {
+          put(edge.low, edge.high);
+          put(edge.high, edge.low);
+        }
+      });
   for (std::int64_t i = 0; i < sites; ++i)
     if (out.count(i) == 0)
       throw Error(ErrorCode::invalid_argument,

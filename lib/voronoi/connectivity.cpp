@@ -207,9 +207,15 @@ Rings find_rings(const Faces& surface, Voronoi& out) {
 
 void connect(const Faces& surface, const Rings& rings, Voronoi& out) {
   const std::int64_t corners = surface.triangle_ids.size(), edges = corners / 2;
-  out.vertices_on_cell.begin = out.cells_on_cell.begin = out.edges_on_cell.begin;
-  for (IdLists* const lists : {&out.edges_on_cell, &out.vertices_on_cell, &out.cells_on_cell})
+  const Offsets& begins = out.edges_on_cell.begin;
+  make_room(out.edges_on_cell.items, corners, 1);
+  for (IdLists* const lists : {&out.vertices_on_cell, &out.cells_on_cell}) {
+    make_room(lists->begin, begins.size(), 1);
     make_room(lists->items, corners, 1);
+    for_each_block(begins.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      std::copy(begins.data() + begin, begins.data() + end, lists->begin.data() + begin);
+    });
+  }
   make_room(out.edges_on_vertex, 3, surface.triangles());
   make_room(out.cells_on_edge, 2, edges);
   make_room(out.vertices_on_edge, 2, edges);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 using namespace calotte::base_detail;
@@ -35,6 +36,17 @@ TEST_CASE("blocks cover all items once, by any number of threads, and add in one
     CHECK(sums[0] == sums[1]);
     CHECK(sums[0][1] == static_cast<double>(n));
   }
+}
+
+TEST_CASE("each task runs once, and an exception of one reaches the caller") {
+  std::vector<int> calls(1000, 0);
+  for_each_task(std::ssize(calls), [&](std::int64_t i) { ++calls[static_cast<std::size_t>(i)]; });
+  CHECK(calls == std::vector<int>(1000, 1));
+  const auto throws_once = [](std::int64_t i) {
+    if (i == 500)
+      throw std::runtime_error("of task 500");
+  };
+  CHECK_THROWS_WITH(for_each_task(1000, throws_once), "of task 500");
 }
 
 TEST_CASE("a scan replaces values by the sums of those before") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/lists.h>
+#include "base/lists.h"
 
 #include <doctest/doctest.h>
 
@@ -44,4 +44,25 @@ TEST_CASE("lists: none, empty ones, their items to be read and to be set") {
   CHECK(VectorLists{{0, 0}, {}}[0].empty());
   check_lists(IdLists{Offsets{{0, 0, 3, 3, 4}}, Ids{{7, 8, 9, 5}}});
   check_lists(VectorLists{{0, 0, 3, 3, 4}, {7, 8, 9, 5}});
+}
+
+TEST_CASE("the list of an item, and the item that follows it in its list") {
+  using namespace base_detail;
+  const Lists<Values, Values> lists{{0, 0, 3, 3, 4}, {7, 8, 9, 5}};
+  const std::vector<std::int64_t> list{1, 1, 1, 3};
+  const Values next{1, 2, 0, 3};
+  for (std::int32_t item = 0; item < 4; ++item) {
+    CHECK(list_of(lists, item) == list[static_cast<std::size_t>(item)]);
+    CHECK(next_in_list(lists, item) == next[static_cast<std::size_t>(item)]);
+  }
+}
+
+TEST_CASE("lists by key keep the order in which items come") {
+  const auto lists = base_detail::lists_by_key<Values>(4, [](const auto& put) {
+    for (const std::int32_t item : {7, 5, 8, 9})
+      put(item == 5 ? 3 : 1, item);
+  });
+  CHECK(lists.begin == std::vector<std::int64_t>{0, 0, 3, 3, 4});
+  CHECK(lists.items == Values{7, 8, 9, 5});
+  CHECK(base_detail::lists_by_key<Values>(0, [](const auto&) {}).size() == 0);
 }
