@@ -164,14 +164,14 @@ Points3 special(const Mesh& mesh) {
 
 TEST_CASE("positions are where an exhaustive search finds them: closed meshes of the sphere") {
   for (const Points3& points :
-       {random_sphere(300), fibonacci_sphere(200), lat_lon_sphere(9, 16, true), cubed_sphere(5),
+       {random_sphere(150), fibonacci_sphere(100), lat_lon_sphere(7, 10, true), cubed_sphere(4),
         bisected_icosahedron(2), Points3(test::with_antipodes(random_sphere(40))),
         Points3(Points3::Identity(3, 3) * 2)}) {
     if (points.cols() < 4)
       continue;
     const Mesh mesh = spherical_delaunay(points);
     CAPTURE(points.cols());
-    check_located(mesh, random_sphere(500, 3));
+    check_located(mesh, random_sphere(200, 3));
     check_located(mesh, special(mesh));
   }
 }
@@ -195,14 +195,14 @@ TEST_CASE("the octahedron: ties go to the lowest triangle and the lowest site") 
 }
 
 TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
-  const Points3 all = random_sphere(400, 5);
+  const Points3 all = random_sphere(250, 5);
   std::vector<Eigen::Index> north;
   for (Eigen::Index i = 0; i < all.cols(); ++i)
     if (all(2, i) > 0.1)
       north.push_back(i);
   Mesh mesh = spherical_delaunay(Points3(all(Eigen::all, north)));
   CHECK(!mesh.closed());
-  check_located(mesh, random_sphere(600, 6));
+  check_located(mesh, random_sphere(300, 6));
 
   // Without the triangles of a hole and of a bay, so that a walk leaves the mesh on its way.
   const Mesh whole = spherical_delaunay(all);
@@ -212,19 +212,19 @@ TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
                               whole.points.col(whole.triangles(2, t));
     return x.normalized().z() < 0.7 && !(x.normalized().x() > 0.3 && std::abs(x.y()) < 0.4);
   });
-  check_located(cut, random_sphere(800, 7));
+  check_located(cut, random_sphere(400, 7));
   check_located(cut, special(cut));
 }
 
 TEST_CASE("the plane and periodic boxes") {
   const PlanarDomain domain = rectangle({0, 0}, {4, 3}), box = periodic_box({4, 3});
-  const Points2 inside = random_places(400, rectangle({-2, -1}, {8, 5}), 3);
+  const Points2 inside = random_places(150, rectangle({-2, -1}, {8, 5}), 3);
   for (const Points2& points : {random_places(200, domain), lattice_places(150, domain)}) {
     const PlanarMesh mesh = planar_delaunay(points);
     check_located(mesh, inside);
     check_located(mesh, points);
   }
-  for (const Points2& points : {random_places(200, box), lattice_places(150, box)}) {
+  for (const Points2& points : {random_places(90, box), lattice_places(80, box)}) {
     const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
     check_located(mesh, inside);
     check_located(mesh, Points2(points.colwise() + Eigen::Vector2d(8, -3)));
@@ -242,11 +242,11 @@ TEST_CASE("the plane and periodic boxes") {
 }
 
 TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
-  const Points2 positions = random_places(600, rectangle({-2, -1}, {8, 5}), 3);
+  const Points2 positions = random_places(250, rectangle({-2, -1}, {8, 5}), 3);
   Points2 grid(2, 7 * 5);
   for (Eigen::Index i = 0; i < grid.cols(); ++i)
     grid.col(i) << static_cast<double>(i % 7), static_cast<double>(i / 7) / 2;
-  for (const Points2& points : {random_places(300, rectangle({0, 0}, {6, 2})), grid}) {
+  for (const Points2& points : {random_places(150, rectangle({0, 0}, {6, 2})), grid}) {
     const PlanarMesh whole = planar_delaunay(points);
     const auto centre = [&](Eigen::Index t) {
       return Eigen::Vector2d((points.col(whole.triangles(0, t)) +
@@ -273,7 +273,7 @@ TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
 }
 
 TEST_CASE("a channel, and a periodic box with land") {
-  const Points2 points = random_places(200, periodic_box({4, 3}));
+  const Points2 points = random_places(120, periodic_box({4, 3}));
   for (const bool channel : {true, false}) {
     const PlanarMesh whole = periodic_delaunay(points, {4, 3});
     CHECK(whole.closed());
@@ -292,7 +292,7 @@ TEST_CASE("a channel, and a periodic box with land") {
     if (channel)
       mesh.period.y() = 0;
     CHECK_FALSE(mesh.closed());
-    check_located(mesh, random_places(400, rectangle({-3, -1}, {9, 4}), 3));
+    check_located(mesh, random_places(150, rectangle({-3, -1}, {9, 4}), 3));
     check_located(mesh, points);
   }
 }
