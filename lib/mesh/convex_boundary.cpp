@@ -1,54 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/convex_boundary.h"
 
-#include "base/triangle.h"
 #include "exact/plane_predicates.h"
+#include "mesh/edge_counts.h"
+#include "mesh/faces.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace calotte::mesh_detail {
-namespace {
-
-/// From one site on the boundary to the next, with the mesh to the left.
-using Edge = std::pair<std::int32_t, std::int32_t>;
-
-/// Sorted by their first sites.
-std::vector<Edge> boundary_edges(const PlanarMesh& mesh) {
-  std::vector<Edge> edges;
-  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v)
-      if (mesh.neighbours(v, t) < 0)
-        edges.emplace_back(mesh.triangles(next_vertex(v), t),
-                           mesh.triangles(previous_vertex(v), t));
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-} // namespace
 
 bool is_convex(const PlanarMesh& mesh) {
-  const std::vector<Edge> edges = boundary_edges(mesh);
-  if (edges.empty())
-    return false;
+  const std::vector<std::int32_t> next = boundary_successors(faces_of(mesh));
+  const auto successor = [&](std::int32_t site) { return next[static_cast<std::size_t>(site)]; };
   const auto point = [&](std::int32_t site) {
     return Vec2{mesh.points(0, site), mesh.points(1, site)};
   };
-  Edge edge = edges.front();
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const auto [next, end] =
-        std::equal_range(edges.begin(), edges.end(), Edge(edge.second, 0),
-                         [](const Edge& a, const Edge& b) { return a.first < b.first; });
-    if (end - next != 1 ||
-        orientation(point(edge.first), point(edge.second), point(next->second)) < 0)
+  const auto first = std::find_if(next.begin(), next.end(), [](std::int32_t s) { return s >= 0; });
+  if (first == next.end())
+    return false;
+  const auto start = static_cast<std::int32_t>(first - next.begin());
+  const auto count = std::count_if(next.begin(), next.end(), [](std::int32_t s) { return s >= 0; });
+  std::int32_t site = start;
+  for (std::int64_t k = 1; k <= count; ++k) {
+    const std::int32_t middle = successor(site), end = successor(middle);
+    if (end < 0 || orientation(point(site), point(middle), point(end)) < 0)
       return false;
-    edge = *next;
-    if (edge == edges.front())
-      return k + 1 == edges.size();
+    site = middle;
+    if (site == start)
+      return k == count; // else there are other rings
   }
-  return false;
+  return false; // a ring that is left at a site where two pass
 }
 
 } // namespace calotte::mesh_detail

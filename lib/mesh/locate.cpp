@@ -128,8 +128,12 @@ private:
     for (int v = 0; v < 3; ++v) {
       if (count == 1 && on[static_cast<std::size_t>(v)] && mesh_.neighbours(v, t) >= 0)
         lowest = std::min(lowest, mesh_.neighbours(v, t));
-      if (count > 1 && !on[static_cast<std::size_t>(v)]) // p is that vertex
-        for_each_around({t, v}, [&](Corner corner) { lowest = std::min(lowest, corner.triangle); });
+      if (count > 1 && !on[static_cast<std::size_t>(v)]) { // p is that vertex
+        const Corner last = for_each_around(
+            {t, v}, [&](Corner corner) { lowest = std::min(lowest, corner.triangle); });
+        if (exists(last) && !convex()) // where parts of a mesh touch, there are further triangles
+          return search(p);
+      }
     }
     return lowest;
   }

@@ -269,6 +269,9 @@ TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
              !(x.x() > 4 && std::abs(x.y() - 1) < 0.5);
     });
     check_part(false, [&](Eigen::Index t) { return std::abs(centre(t).x() - 3) > 1; });
+    check_part(false, [&](Eigen::Index t) { // in the grid two rectangles that share a corner
+      return (centre(t).x() > 3) == (centre(t).y() > 1);
+    });
   }
 }
 
