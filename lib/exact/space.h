@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "exact/plane_predicates.h"
+#include "exact/predicates.h"
+#include "exact/room.h"
+
+#include <calotte/surface.h>
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+
+/// Where points live, for code that is written once: the sphere, or a plane that may be periodic.
+/// A function of a Surface calls in_space_of() once, and what is below it takes a Space.
+///
+///     in_space_of(mesh.surface, [&](const Space auto& space) { ... });
+namespace calotte::exact_detail {
+
+/// The unit sphere. Signs take directions of any norm, measures take unit vectors.
+class Sphere {
+public:
+  using Position = Vec3;
+  static constexpr bool on_sphere = true;
+  static constexpr int copies = 1;
+
+  // ---- Positions
+
+  static Position position(const Vec3& x) { return x; }
+  static Position copy(const Position& p, int) { return p; }
+  static Position near(const Vec3& x, const Position&) { return x; }
+  static Vec3 coordinates(const Position& p) { return normalised(p); }
+  static Vec3 seen(const Position& p, const Position&) { return normalised(p); }
+
+  // ---- Exact signs
+
+  static int orientation(const Position& a, const Position& b, const Position& c) {
+    return exact_detail::orientation(a, b, c);
+  }
+  static int in_circle(const Position& a, const Position& b, const Position& c, const Position& d) {
+    return exact_detail::in_circle(a, b, c, d);
+  }
+  static int in_circle_resolved(const Position& a, const Position& b, const Position& c,
+                                const Position& d) {
+    return exact_detail::in_circle_resolved(View{}, a, b, c, d);
+  }
+  static int compare_distances(const Position& p, const Position& a, const Position& b) {
+    return exact_detail::compare_distances(p, a, b);
+  }
+  /// Rounding is below 1e-14 for unit vectors.
+  static bool is_clearly_acute(const Position& a, const Position& b, const Position& c) {
+    return dot(b - a, c - a) > 1e-14;
+  }
+  static bool is_short(const Position&, const Position&) { return true; }
+
+  // ---- Measures
+
+  static Vec3 wrapped(const Vec3& x) { return x; }
+  static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
+  /// Of the shorter arc; a unit vector.
+  static Vec3 midpoint(const Vec3& a, const Vec3& b);
+  static double area_term(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return dot(a, cross(b - a, c - a));
+  }
+};
+
+/// The plane, or a plane that is periodic in one direction or in both. Points have z = 0.
+class Plane {
+public:
+  using Position = Image;
+  static constexpr bool on_sphere = false;
+  static constexpr int copies = 9;
+
+  Plane() = default; ///< without a period
+  /// \param period 0 in a direction without one.
+  explicit Plane(const Vec2& period) : period_(period) {}
+  explicit Plane(const Eigen::Vector2d& period) : period_{period.x(), period.y()} {}
+
+  const Vec2& period() const { return period_; }
+
+  // ---- Positions: copies of points
+
+  Position position(const Vec3& x) const {
+    return {{x.x, x.y}, boxes(x.x, period_.x), boxes(x.y, period_.y)};
+  }
+  Position copy(const Position& p, int k) const {
+    const int i = k % 3 - 1, j = k / 3 - 1;
+    return {p.site, p.i + (period_.x > 0 ? i : 0), p.j + (period_.y > 0 ? j : 0)};
+  }
+  Position near(const Vec3& x, const Position& p) const {
+    return {{x.x, x.y},
+            p.i + static_cast<int>(periods_between(p.site.x, x.x, period_.x)),
+            p.j + static_cast<int>(periods_between(p.site.y, x.y, period_.y))};
+  }
+  Vec3 coordinates(const Position& p) const {
+    return {p.site.x + p.i * period_.x, p.site.y + p.j * period_.y, 0};
+  }
+  Vec3 seen(const Position& x, const Position& p) const { return coordinates(x) - coordinates(p); }
+
+  // ---- Exact signs
+
+  int orientation(const Position& a, const Position& b, const Position& c) const;
+  int in_circle(const Position& a, const Position& b, const Position& c, const Position& d) const;
+  int in_circle_resolved(const Position& a, const Position& b, const Position& c,
+                         const Position& d) const {
+    const int sign = in_circle(a, b, c, d);
+    return sign != 0 ? sign : in_circle_tie(period_, a, b, c, d);
+  }
+  int compare_distances(const Position& p, const Position& a, const Position& b) const {
+    return exact_detail::compare_distances(period_, p, a, b);
+  }
+  bool is_clearly_acute(const Position& a, const Position& b, const Position& c) const;
+  bool is_short(const Position& a, const Position& b) const;
+
+  // ---- Measures
+
+  /// The copy whose coordinates are in [0, period); bits that are there stay.
+  Vec3 wrapped(const Vec3& x) const {
+    return {wrapped(x.x, period_.x), wrapped(x.y, period_.y), x.z};
+  }
+  /// To the copy of b nearest to a.
+  Vec3 offset(const Vec3& a, const Vec3& b) const {
+    return {b.x - a.x + periods_between(a.x, b.x, period_.x) * period_.x,
+            b.y - a.y + periods_between(a.y, b.y, period_.y) * period_.y, 0};
+  }
+  /// Of the shorter way between points in the box; in the box.
+  Vec3 midpoint(const Vec3& a, const Vec3& b) const {
+    return {middle(a.x, b.x, period_.x), middle(a.y, b.y, period_.y), 0};
+  }
+  static double area_term(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return cross(b - a, c - a).z;
+  }
+
+private:
+  /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period.
+  static double periods_between(double a, double b, double period) {
+    return period > 0 ? -std::round((b - a) / period) : 0;
+  }
+  static double wrapped(double x, double period) {
+    if (!(period > 0))
+      return x;
+    const double inside = x - std::floor(x / period) * period;
+    return inside >= 0 && inside < period ? inside : 0;
+  }
+  static double middle(double a, double b, double period);
+  static int boxes(double x, double period) {
+    return period > 0 ? -static_cast<int>(std::floor(x / period)) : 0;
+  }
+  bool is_box() const { return period_.x > 0 && period_.y > 0; } ///< both ways
+  Vec2 way(const Position& from, const Position& to) const;
+
+  Vec2 period_{0, 0};
+};
+
+/// What Sphere and Plane have in common. An exact sign takes positions, which are points on the
+/// sphere and copies of points in a plane; a measure takes points.
+template <class S>
+concept Space = requires(const S space, const Vec3& x, const typename S::Position& p, int k) {
+  { S::on_sphere } -> std::convertible_to<bool>;
+  { S::copies } -> std::convertible_to<int>; ///< of a point within one period around it
+  /// A point, or its copy in the half-open period.
+  { space.position(x) } -> std::same_as<typename S::Position>;
+  /// The k-th of the copies around a position; all are the same without periods.
+  { space.copy(p, k) } -> std::same_as<typename S::Position>;
+  /// The copy of a point that is nearest to a position.
+  { space.near(x, p) } -> std::same_as<typename S::Position>;
+  { space.coordinates(p) } -> std::same_as<Vec3>; ///< rounded; on the sphere a unit vector
+  /// A position in a frame of another one: from the sphere's centre, or from that position.
+  { space.seen(p, p) } -> std::same_as<Vec3>;
+  /// 1 when three positions run counter-clockwise, seen from outside; 0 on one line.
+  { space.orientation(p, p, p) } -> std::same_as<int>;
+  /// 1 when the last is inside the circle of the first three, counter-clockwise; 0 on it.
+  { space.in_circle(p, p, p, p) } -> std::same_as<int>;
+  { space.in_circle_resolved(p, p, p, p) } -> std::same_as<int>; ///< ties by the library's rule
+  { space.compare_distances(p, p, p) } -> std::same_as<int>;     ///< -1: the second is nearer to p
+  /// Whether the angle at the first is acute beyond rounding.
+  { space.is_clearly_acute(p, p, p) } -> std::same_as<bool>;
+  /// Whether a side is clearly shorter than half of each period: no other copy is as near.
+  { space.is_short(p, p) } -> std::same_as<bool>;
+  { space.wrapped(x) } -> std::same_as<Vec3>;           ///< the copy in the half-open period
+  { space.offset(x, x) } -> std::same_as<Vec3>;         ///< the chord to the nearest copy
+  { space.midpoint(x, x) } -> std::same_as<Vec3>;       ///< the same bits in either order
+  { space.area_term(x, x, x) } -> std::same_as<double>; ///< twice the area, or nearly; signed
+};
+
+static_assert(Space<Sphere> && Space<Plane>);
+
+/// Calls body(space) for the space in which a surface lies.
+template <class Body> decltype(auto) in_space_of(const Surface& surface, const Body& body) {
+  if (surface.is_sphere())
+    return body(Sphere());
+  return body(Plane(surface.period()));
+}
+
+/// The unit vector of a direction of any norm; the same bits for any order of its coordinates.
+Vec3 unit_of_any_norm(const Vec3& a);
+
+} // namespace calotte::exact_detail
