@@ -118,9 +118,6 @@ struct Recipe {
   Stop stop = {};                    ///< the end of the run
   std::uint64_t seed = 1;            ///< of random points
   Method method = Method::automatic; ///< see Method
-  /// Factor of the steps of Method::lloyd towards the centroid; 1 <= relaxation < 2. A step that
-  /// would raise the energy is repeated with factor 1. Other methods ignore it.
-  double relaxation = 1;
   /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
   int rule = 3;
   /// Rule near the end of a descent; same values. A run converges with this rule only, but for runs

@@ -138,8 +138,6 @@ Stop stop_of(const calotte_recipe& given) {
 /// The members of method and quadrature, and what becomes of equal points.
 void take_method(const calotte_recipe& given, Recipe& recipe) {
   recipe.method = value_of(given.method, method_words(), recipe.method, "method");
-  if (given.relaxation != 0)
-    recipe.relaxation = given.relaxation;
   if (given.rule != 0)
     recipe.rule = integer_of(given.rule, "the quadrature rule");
   if (given.final_rule != 0)

@@ -36,9 +36,6 @@ void require_options(const CvtOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
     refuse("the tolerance is " + std::to_string(options.tolerance) +
            "; give a positive number such as 1e-6");
-  if (!(options.relaxation >= 1 && options.relaxation < 2))
-    refuse("the relaxation is " + std::to_string(options.relaxation) +
-           "; give a number from 1 to below 2");
   if (options.max_iterations < 0)
     refuse("the number of iterations is " + std::to_string(options.max_iterations) +
            "; give 0 or more");

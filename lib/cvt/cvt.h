@@ -25,11 +25,8 @@ using CvtCallback = std::function<bool(const CvtProgress&)>;
 struct CvtOptions {
   Density density = {};              ///< rho of the energy; default uniform
   Method method = Method::automatic; ///< see Method
-  /// Factor of the steps of Method::lloyd towards the centroid; 1 <= relaxation < 2. A step that
-  /// would raise the energy is repeated with factor 1. Other methods ignore it.
-  double relaxation = 1;
-  Norm norm = Norm::l2_scaled; ///< compared with the tolerance
-  double tolerance = 1e-6;     ///< stop when the norm is at most this; > 0 and finite
+  Norm norm = Norm::l2_scaled;       ///< compared with the tolerance
+  double tolerance = 1e-6;           ///< stop when the norm is at most this; > 0 and finite
   /// Maximum number of evaluations per level; >= 0. The last line search may exceed it.
   int max_iterations = 1000;
   /// Number of bisections after the first level; >= 0, and at most 2^30 generators in the last

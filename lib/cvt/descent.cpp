@@ -86,12 +86,10 @@ void Descent::begin() {
 void Descent::step() {
   const bool other_rule = !options_.density.uniform() && state_.final_rule &&
                           rule_of(here_.iteration) != options_.final_rule;
-  if (options_.method == Method::lloyd && options_.relaxation == 1)
+  if (options_.method == Method::lloyd)
     lloyd_step();
   else if (other_rule) // another functional, whose energies do not compare
     evaluate(state_.points, here_);
-  else if (options_.method == Method::lloyd)
-    relaxed_step();
   else if (options_.method == Method::nesterov)
     nesterov_step();
   else
@@ -125,12 +123,6 @@ void Descent::accept() {
 void Descent::lloyd_step() {
   std::swap(state_.points, here_.centroids);
   evaluate(state_.points, here_);
-}
-
-void Descent::relaxed_step() {
-  const Points3 move = difference(here_.centroids, state_.points);
-  functional_.retract(state_.points, options_.relaxation, move, trial_);
-  step_or_lloyd();
 }
 
 /// Moves to the trial unless its energy is higher; otherwise takes Lloyd's step and returns false.

@@ -320,7 +320,6 @@ CvtOptions options_of(const Schedule& schedule) {
   CvtOptions options;
   options.density = recipe.density;
   options.method = recipe.method;
-  options.relaxation = recipe.relaxation;
   options.norm = recipe.stop.iterations ? Norm::none : recipe.stop.norm;
   options.tolerance = *recipe.stop.tolerance;
   options.max_iterations = recipe.stop.iterations.value_or(recipe.stop.max_iterations);

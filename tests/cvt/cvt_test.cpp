@@ -117,25 +117,6 @@ TEST_CASE("random starts: the energy falls, and threads, regions and sorts have 
   }
 }
 
-TEST_CASE("over-relaxed Lloyd's steps descend, and need fewer evaluations") {
-  for (const Density& density : {Density{}, x8()}) {
-    CvtOptions options;
-    options.density = density;
-    options.method = Method::lloyd;
-    options.tolerance = 1e-4;
-    options.max_iterations = 5000;
-    const Points3 start = random_sphere(700, 3);
-    const CvtReport plain = spherical_cvt(start, options).report;
-    options.relaxation = 1.7;
-    const CvtReport relaxed = spherical_cvt(start, options).report;
-    check_descent(relaxed);
-    CHECK(plain.converged);
-    CHECK(relaxed.converged);
-    if (density.uniform()) // otherwise defects take other paths
-      CHECK(relaxed.iterations.size() < plain.iterations.size());
-  }
-}
-
 TEST_CASE("a run continues from any of its states to the same bits") {
   for (const Method method : methods) {
     CAPTURE(static_cast<int>(method));
@@ -425,11 +406,6 @@ TEST_CASE("bad input is refused in one line") {
   CHECK(code(half, options) == ErrorCode::too_few_sites);
   options.tolerance = 0;
   CHECK(code(start, options) == ErrorCode::invalid_argument);
-  for (const double relaxation : {0.9, 2.0, std::nan("")}) {
-    options = {};
-    options.relaxation = relaxation;
-    CHECK(code(start, options) == ErrorCode::invalid_argument);
-  }
   for (const int divisions : {0, 101}) {
     options = {};
     options.triangle_divisions = divisions;

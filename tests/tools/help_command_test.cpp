@@ -67,7 +67,7 @@ TEST_CASE("--help shows common options, --help-all the others and the exit codes
     CHECK(has(some, option));
     CHECK(has(all, option));
   }
-  for (const char* option : {"  --triangle-divisions ", "  --merge-within ", "  --relaxation "}) {
+  for (const char* option : {"  --triangle-divisions ", "  --merge-within "}) {
     CHECK(!has(some, option));
     CHECK(has(all, option));
   }

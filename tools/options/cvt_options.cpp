@@ -98,10 +98,6 @@ void add_method(CLI::App& command, CvtRequest& request) {
                   "preconditioned with the graph Laplacian of the mesh)")
       ->check(CLI::IsMember(words_of(method_words())))
       ->capture_default_str();
-  command
-      .add_option("--relaxation", request.relaxation,
-                  "Factor of Lloyd's steps towards the centroid; >= 1 and < 2")
-      ->capture_default_str();
 }
 
 void add_end(CLI::App& command, CvtRequest& request) {

@@ -32,7 +32,6 @@ struct CvtRequest {
 
   std::shared_ptr<DensityWords> density;
   std::string method = "auto";
-  double relaxation = 1;
   std::string norm = "l2-scaled";
   std::optional<std::string> stop;     ///< default: see Stop
   std::optional<double> least_spacing; ///< of a run that ends well-centred

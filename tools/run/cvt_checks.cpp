@@ -99,9 +99,6 @@ void require_hexagons(const CvtRequest& request) {
 void require_request(const CvtRequest& request) {
   require_positive("--tolerance", request.given_tolerance.value_or(1), "one such as 1e-6");
   require_positive("--checkpoint-minutes", request.checkpoint_minutes, "one such as 10");
-  if (request.relaxation != 1 && request.method != "lloyd")
-    throw Error(ErrorCode::invalid_argument,
-                "--relaxation applies to --method lloyd only; leave it out");
   require_start(request);
   const WriteOptions options = write_options(request); // throws for a file that cannot be written
   if (planar(request))

@@ -52,8 +52,6 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
   };
   text += density_configuration(*request.density);
   add("method", request.method);
-  if (schedule.recipe.method == Method::lloyd)
-    add("relaxation", shortest(request.relaxation));
   if (!schedule.recipe.density.uniform()) {
     add("rule", std::to_string(request.rule));
     add("final-rule", std::to_string(request.final_rule));

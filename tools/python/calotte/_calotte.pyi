@@ -337,7 +337,6 @@ class Recipe:
     radius_km: float
     limited_area: bool
     seed: int
-    relaxation: float
     rule: int
     final_rule: int
     triangle_divisions: int
