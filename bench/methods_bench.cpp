@@ -24,7 +24,6 @@ namespace calotte::bench {
 namespace {
 
 const std::map<std::string, Method> methods = {{"lloyd", Method::lloyd},
-                                               {"nesterov", Method::nesterov},
                                                {"lbfgs", Method::lbfgs},
                                                {"lbfgs-laplacian", Method::lbfgs_laplacian}};
 
@@ -37,7 +36,7 @@ constexpr std::array<Goal, 3> goals{{{"1e-6", 1e-6}, {"1e-8", 1e-8}, {"1e-10", 1
 struct Options {
   std::vector<std::int64_t> sizes = {2562, 10242};
   std::vector<std::string> sets = {"uniform", "x8"};
-  std::vector<std::string> methods = {"lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"};
+  std::vector<std::string> methods = {"lloyd", "lbfgs", "lbfgs-laplacian"};
   int limit = 3000;
 };
 
@@ -107,7 +106,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--sets", options.sets, "uniform, x8")
       ->delimiter(',')
       ->check(CLI::IsMember({"uniform", "x8"}));
-  app.add_option("--methods", options.methods, "lloyd, nesterov, lbfgs, lbfgs-laplacian")
+  app.add_option("--methods", options.methods, "lloyd, lbfgs, lbfgs-laplacian")
       ->delimiter(',')
       ->check(CLI::IsMember(methods));
   app.add_option("--limit", options.limit, "most evaluations")->check(CLI::PositiveNumber);

@@ -33,7 +33,6 @@ enum class Norm {
 enum class Method {
   automatic, ///< lbfgs far from the minimum, lbfgs_laplacian near it
   lloyd,     ///< each generator moves to its centroid
-  nesterov,  ///< accelerated Lloyd; restarts if the energy would rise
   /// L-BFGS, preconditioned with Lloyd's map (Yang, Gunzburger and Ju, J. Comput. Phys. 2018).
   lbfgs,
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian

@@ -188,8 +188,4 @@ void retract(const Points3& x, double step, const Points3& d, Points3& to) {
   });
 }
 
-Points3 difference(const Points3& a, const Points3& b) {
-  return make_columns(a.cols(), [&](std::int64_t i) { return column(a, i) - column(b, i); });
-}
-
 } // namespace calotte::base_detail

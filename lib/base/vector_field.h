@@ -63,7 +63,4 @@ void make_tangential(Points3& vectors, const Points3& x, Part part);
 Points3 retract(const Points3& x, double step, const Points3& d);
 void retract(const Points3& x, double step, const Points3& d, Points3& to); ///< sets `to`
 
-/// a - b.
-Points3 difference(const Points3& a, const Points3& b);
-
 } // namespace calotte::base_detail

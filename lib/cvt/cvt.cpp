@@ -77,8 +77,8 @@ void require_state(const State& state) {
       good = good && field.values.cols() == state.points.cols() && std::isfinite(field.scale);
   good = good && memory.steps.size() == memory.changes.size() &&
          memory.steps.size() == memory.curvatures.size();
-  for (const Points3* points : {&memory.laplacian_at, &memory.before})
-    good = good && (points->cols() == 0 || points->cols() == state.points.cols());
+  const Eigen::Index rows = memory.laplacian_at.cols();
+  good = good && (rows == 0 || rows == state.points.cols());
   good = good && memory.stride > 0 && memory.stride <= 1;
   for (const std::int32_t site : state.site_of_input)
     good = good && site >= 0 && static_cast<std::size_t>(site) < n;

@@ -53,10 +53,8 @@ Method Descent::method() const {
              : Method::lbfgs_laplacian;
 }
 
-/// Lloyd's and Nesterov's methods need no gradient, the others no centroids.
-bool Descent::uses_gradients() const {
-  return options_.method != Method::lloyd && options_.method != Method::nesterov;
-}
+/// Lloyd's method needs no gradient, the others no centroids.
+bool Descent::uses_gradients() const { return options_.method != Method::lloyd; }
 
 void Descent::evaluate(const Points3& points, Evaluation& out) {
   functional_.evaluate(points, state_.final_rule, uses_gradients(), out);
@@ -90,8 +88,6 @@ void Descent::step() {
     lloyd_step();
   else if (other_rule) // another functional, whose energies do not compare
     evaluate(state_.points, here_);
-  else if (options_.method == Method::nesterov)
-    nesterov_step();
   else
     quasi_newton_step();
 }
@@ -101,8 +97,6 @@ bool Descent::glide(const ShapeLimits& limits) {
     return false;
   forget();
   state_.memory.flipped = true;
-  state_.memory.before = {};
-  state_.memory.momentum = 1;
   evaluate(state_.points, here_);
   return true;
 }
@@ -123,40 +117,6 @@ void Descent::accept() {
 void Descent::lloyd_step() {
   std::swap(state_.points, here_.centroids);
   evaluate(state_.points, here_);
-}
-
-/// Moves to the trial unless its energy is higher; otherwise takes Lloyd's step and returns false.
-bool Descent::step_or_lloyd() {
-  evaluate(trial_, there_);
-  const bool lower = there_.iteration.energy <= here_.iteration.energy * (1 + rounding);
-  if (!lower) {
-    state_.report.iterations.back().accepted = false;
-    trial_ = here_.centroids;
-    evaluate(trial_, there_);
-  }
-  accept();
-  return lower;
-}
-
-/// Nesterov's sequence (1983) over Lloyd's map. It restarts when the step reverses its direction
-/// (O'Donoghue and Candes, 2015) or raises the energy.
-void Descent::nesterov_step() {
-  Memory& memory = state_.memory;
-  double share = 0;
-  if (const Points3& next = here_.centroids; memory.before.cols() == next.cols()) {
-    const double momentum = (1 + std::sqrt(1 + 4 * memory.momentum * memory.momentum)) / 2;
-    const Points3 move = difference(next, memory.before);
-    const bool onward = inner(difference(next, state_.points), move) >= 0;
-    share = onward ? (memory.momentum - 1) / momentum : 0;
-    memory.momentum = onward ? momentum : 1;
-    if (share > 0)
-      functional_.retract(next, share, move, trial_);
-  }
-  memory.before = here_.centroids;
-  if (share == 0)
-    lloyd_step();
-  else if (!step_or_lloyd())
-    memory.momentum = 1;
 }
 
 // ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989); on the sphere of ambient vectors, projected

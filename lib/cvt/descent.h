@@ -52,8 +52,6 @@ private:
   void evaluate(const Points3& points, Evaluation& out);
   void accept();
   void lloyd_step();
-  bool step_or_lloyd();
-  void nesterov_step();
   void quasi_newton_step();
   Line set_direction();
   void precondition(Points3& vectors);

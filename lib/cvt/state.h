@@ -20,8 +20,6 @@ struct Memory {
   Points3 laplacian_at;    ///< generators that the graph Laplacian was made for
   int since_laplacian = 0; ///< evaluations
   bool flipped = false;    ///< edges, since then
-  Points3 before;          ///< Nesterov's: the centroids before
-  double momentum = 1;
 };
 
 /// What a CvtState holds.

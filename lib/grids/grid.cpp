@@ -39,9 +39,8 @@ constexpr std::array<Word<Norm>, 6> norms{{{"l2", Norm::l2},
                                            {"gradient", Norm::gradient},
                                            {"none", Norm::none}}};
 
-constexpr std::array<Word<Method>, 5> methods{{{"auto", Method::automatic},
+constexpr std::array<Word<Method>, 4> methods{{{"auto", Method::automatic},
                                                {"lloyd", Method::lloyd},
-                                               {"nesterov", Method::nesterov},
                                                {"lbfgs", Method::lbfgs},
                                                {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
 

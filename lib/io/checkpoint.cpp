@@ -27,7 +27,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "11, ";
+  line += "12, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -56,15 +56,14 @@ template <class State, class Visit> void visit_scalars(State& s, const Visit& vi
   visit(s.final_rule), visit(s.stuck), visit(s.glides), visit(s.raised), visit(s.penalty),
       visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
-  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.momentum),
-      visit(s.memory.stride);
+  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.stride);
 }
 
 /// What follows an array's length: points, ids, or a list of points.
 template <class State, class Visit> void visit_arrays(State& s, const Visit& visit) {
   visit(s.points), visit(s.id), visit(s.site_of_input);
   visit(s.memory.steps), visit(s.memory.changes), visit(s.memory.curvatures);
-  visit(s.memory.laplacian_at), visit(s.memory.before);
+  visit(s.memory.laplacian_at);
 }
 
 // ---- Writing

@@ -46,8 +46,8 @@ void check_descent(const CvtReport& report) {
   }
 }
 
-constexpr std::array<Method, 5> methods{Method::lloyd, Method::nesterov, Method::lbfgs,
-                                        Method::lbfgs_laplacian, Method::automatic};
+constexpr std::array<Method, 4> methods{Method::lloyd, Method::lbfgs, Method::lbfgs_laplacian,
+                                        Method::automatic};
 
 /// Runs one method from a random start.
 void check_random_start(const Density& density, Method method) {

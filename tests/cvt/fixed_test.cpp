@@ -113,7 +113,7 @@ TEST_CASE("fixed generators keep their bits, and all others are centroids") {
   const Points3 fixed = stations(400);
   for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
     const Points3 start = joined(fixed, random_points(388, region));
-    for (const Method method : {Method::automatic, Method::lloyd, Method::nesterov}) {
+    for (const Method method : {Method::automatic, Method::lloyd}) {
       CvtOptions options = fixing(12);
       options.method = method;
       options.tolerance = 1e-4;

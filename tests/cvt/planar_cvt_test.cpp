@@ -162,8 +162,8 @@ CvtOptions with_method(Method method, int regions = 4) {
   return options;
 }
 
-constexpr std::array all_methods{Method::lloyd, Method::nesterov, Method::lbfgs,
-                                 Method::lbfgs_laplacian, Method::automatic};
+constexpr std::array all_methods{Method::lloyd, Method::lbfgs, Method::lbfgs_laplacian,
+                                 Method::automatic};
 
 } // namespace
 

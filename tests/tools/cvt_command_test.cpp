@@ -81,7 +81,7 @@ void wait_for_handler(pid_t process, int signal) {
 /// every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
 const std::string long_levels =
-    "cvt --cells 162 --start icosahedron --bisections 2 --method nesterov --iterations 1500";
+    "cvt --cells 162 --start icosahedron --bisections 2 --method lbfgs --iterations 1500";
 const std::string long_bump =
     "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
@@ -192,9 +192,9 @@ TEST_CASE("every method converges in its own way, and the report names it") {
   };
   CHECK((converged("") == converged("auto")));
   std::set<std::string> meshes;
-  for (const std::string method : {"lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"})
+  for (const std::string method : {"lloyd", "lbfgs", "lbfgs-laplacian"})
     meshes.insert(converged(method));
-  CHECK(meshes.size() == 4);
+  CHECK(meshes.size() == 3);
 }
 
 TEST_CASE("seeds are whole numbers below 2^64, in decimal") {
@@ -288,7 +288,7 @@ TEST_CASE("bad usage is refused before any work") {
     check_usage("never --iterations 9 " + other + out,
                 other.substr(0, other.find(' ')) + " excludes --iterations" + see);
   check_usage("never --method newton" + out,
-              "--method: newton not in {auto,lloyd,nesterov,lbfgs,lbfgs-laplacian}" + see);
+              "--method: newton not in {auto,lloyd,lbfgs,lbfgs-laplacian}" + see);
   check_usage("never --rule 5" + out, "--rule: 5 not in {1,3,6,7,13,19}" + see);
   check_usage("never --triangle-divisions 0" + out,
               "--triangle-divisions: \"0\" is not an integer from 1 to 100" + see);

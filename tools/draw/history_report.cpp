@@ -109,12 +109,12 @@ std::string method_of(const Part& report) {
     return "";
   }
   const Part method = report.at("method");
-  for (const char* word : {"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}) {
+  for (const char* word : {"auto", "lloyd", "lbfgs", "lbfgs-laplacian"}) {
     if (method.value == word) {
       return word;
     }
   }
-  method.fail("is not one of auto, lloyd, nesterov, lbfgs and lbfgs-laplacian");
+  method.fail("is not one of auto, lloyd, lbfgs and lbfgs-laplacian");
 }
 
 CvtIteration iteration_of(const Part& part) {

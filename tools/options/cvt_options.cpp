@@ -94,7 +94,7 @@ void add_method(CLI::App& command, CvtRequest& request) {
       .add_option("--method", request.method,
                   "Method that minimises the energy: auto (lbfgs far from the minimum, "
                   "lbfgs-laplacian near it), lloyd (moves each generator to its centroid), "
-                  "nesterov (accelerated Lloyd), lbfgs (quasi-Newton) or lbfgs-laplacian (L-BFGS "
+                  "lbfgs (quasi-Newton) or lbfgs-laplacian (L-BFGS "
                   "preconditioned with the graph Laplacian of the mesh)")
       ->check(CLI::IsMember(words_of(method_words())))
       ->capture_default_str();

@@ -152,7 +152,7 @@ TEST_CASE(
   CHECK(old.iterations[3].accepted);
   CHECK(old.iterations[3].seconds_solver == 0);
   json& iteration = report["iterations"][3];
-  for (const char* method : {"auto", "lloyd", "nesterov", "lbfgs", "lbfgs-laplacian"}) {
+  for (const char* method : {"auto", "lloyd", "lbfgs", "lbfgs-laplacian"}) {
     report["method"] = method;
     CHECK(history_of(folder, report).method == method);
   }

@@ -484,7 +484,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     fixed: generators that stay, as those of the start; the first cells of the result. A number of
         cells includes them, points of the start do not; without a number, free ones are added where
         the fixed ones leave the widths unmet.
-    seed: of random points. method: auto, lloyd, nesterov, lbfgs or lbfgs-laplacian.
+    seed: of random points. method: auto, lloyd, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
     tolerance: default 1e-6, and 1e-4 with well_centred.
     max_iterations: on each level.
