@@ -24,7 +24,6 @@ enum class Norm {
   linf,        ///< max |x - x'|
   l2_scaled,   ///< l2 / h, h = sqrt(4 pi / n), in the plane sqrt(area / n)
   linf_scaled, ///< linf / h
-  gradient,    ///< sqrt( sum |g|^2 ), g = dE/dx of the energy, before the move
   none,        ///< no test; stop after max_iterations and report convergence
 };
 
@@ -58,7 +57,7 @@ struct CvtIteration {
   bool linear_density = false;
   double l2 = 0;       ///< Norm::l2, not scaled
   double linf = 0;     ///< Norm::linf, not scaled
-  double gradient = 0; ///< Norm::gradient
+  double gradient = 0; ///< sqrt( sum |g|^2 ), g = dE/dx of the energy, before the move
   double energy = 0;   ///< sum over cells of the integral of rho |x - x_i|^2
   /// At a well-centred end, see Stop::well_centred: the largest excess of a shape over its limit;
   /// otherwise 0.

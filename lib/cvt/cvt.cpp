@@ -298,8 +298,6 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
     return iteration.l2 / iteration.spacing;
   case Norm::linf_scaled:
     return iteration.linf / iteration.spacing;
-  case Norm::gradient:
-    return iteration.gradient;
   default:
     return 0;
   }

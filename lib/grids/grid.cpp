@@ -32,11 +32,10 @@ constexpr std::array<Word<Start::Kind>, 11> starts{{{"automatic", Start::Kind::a
                                                     {"geodesic", Start::Kind::geodesic},
                                                     {"hexagonal", Start::Kind::hexagonal}}};
 
-constexpr std::array<Word<Norm>, 6> norms{{{"l2", Norm::l2},
+constexpr std::array<Word<Norm>, 5> norms{{{"l2", Norm::l2},
                                            {"linf", Norm::linf},
                                            {"l2-scaled", Norm::l2_scaled},
                                            {"linf-scaled", Norm::linf_scaled},
-                                           {"gradient", Norm::gradient},
                                            {"none", Norm::none}}};
 
 constexpr std::array<Word<Method>, 4> methods{{{"auto", Method::automatic},

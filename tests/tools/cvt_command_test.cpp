@@ -280,8 +280,7 @@ TEST_CASE("bad usage is refused before any work") {
   for (const std::string tolerance : {"0", "-1e-06", "nan", "inf"})
     check_usage("never --tolerance=" + tolerance + out,
                 "--tolerance " + tolerance + " is not a positive number; give one such as 1e-6");
-  check_usage("never --norm l3" + out,
-              "--norm: l3 not in {l2,linf,l2-scaled,linf-scaled,gradient}" + see);
+  check_usage("never --norm l3" + out, "--norm: l3 not in {l2,linf,l2-scaled,linf-scaled}" + see);
   for (const std::string limit : {"--max-iterations", "--iterations", "--checkpoint-every"})
     check_usage("never " + limit + " 0" + out, limit + ": \"0\" is not an integer >= 1" + see);
   for (const std::string other : {"--norm l2", "--tolerance 1", "--max-iterations 9"})
@@ -505,9 +504,9 @@ TEST_CASE("the selected norm ends the run") {
     return made.out.substr(0, made.out.find(" iterations"));
   };
   std::set<std::string> counts;
-  for (const std::string norm : {"l2", "linf", "l2-scaled", "linf-scaled", "gradient"})
+  for (const std::string norm : {"l2", "linf", "l2-scaled", "linf-scaled"})
     counts.insert(iterations("--tolerance 2e-3 --norm " + norm));
-  CHECK(counts.size() == 5);
+  CHECK(counts.size() == 4);
   CHECK(iterations("--tolerance 2e-3") == iterations("--tolerance 2e-3 --norm l2-scaled"));
 }
 

@@ -54,7 +54,7 @@ const std::vector<CvtLevel> rounds_of_insertion{
 TEST_CASE("the end of an exponential decay is predicted to the iteration") {
   DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
   end_of_descent.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
-  for (const Norm norm : {Norm::l2, Norm::linf, Norm::gradient})
+  for (const Norm norm : {Norm::l2, Norm::linf})
     for (const int iterations : {10, 11, 100, 290}) {
       end_of_descent.norm = norm;
       const auto end = forecast(decaying(iterations, 0.9), end_of_descent);
@@ -126,11 +126,10 @@ TEST_CASE("the norms are those of the report") {
   CvtIteration iteration;
   iteration.cells = 400;
   iteration.spacing = std::sqrt(4 * std::numbers::pi / 400);
-  iteration.l2 = 1, iteration.linf = 2, iteration.gradient = 3;
+  iteration.l2 = 1, iteration.linf = 2;
   const double h = iteration.spacing;
   CHECK(norm_of(iteration, Norm::l2) == 1);
   CHECK(norm_of(iteration, Norm::linf) == 2);
-  CHECK(norm_of(iteration, Norm::gradient) == 3);
   CHECK(norm_of(iteration, Norm::none) == 0);
   CHECK(norm_of(iteration, Norm::l2_scaled) == doctest::Approx(1 / h));
   CHECK(norm_of(iteration, Norm::linf_scaled) == doctest::Approx(2 / h));

@@ -85,14 +85,13 @@ Norm norm_of(const Part& part) {
       {"linf", Norm::linf},
       {"l2-scaled", Norm::l2_scaled},
       {"linf-scaled", Norm::linf_scaled},
-      {"gradient", Norm::gradient},
       {"none", Norm::none}};
   for (const auto& [word, norm] : words) {
     if (part.value == word) {
       return norm;
     }
   }
-  part.fail("is not one of l2, linf, l2-scaled, linf-scaled, gradient and none");
+  part.fail("is not one of l2, linf, l2-scaled, linf-scaled and none");
 }
 
 std::vector<std::string> density_of(const Part& part) {

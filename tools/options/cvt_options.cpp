@@ -125,9 +125,9 @@ void add_end(CLI::App& command, CvtRequest& request) {
       command
           .add_option("--norm", request.norm,
                       "Norm that is compared with the tolerance: l2 (root mean square distance "
-                      "that the generators move), linf (largest distance), l2-scaled and "
+                      "that the generators move), linf (largest distance), l2-scaled or "
                       "linf-scaled (the same divided by the spacing, the square root of the mean "
-                      "cell area), or gradient (of the energy)")
+                      "cell area)")
           ->check(CLI::IsMember(words_of(norm_words(), {"none"})))
           ->capture_default_str();
   CLI::Option* tolerance = command.add_option("--tolerance", request.given_tolerance,

@@ -260,16 +260,17 @@ TEST_CASE("a file that is no JSON, or is cut short, is refused with its line") {
   CHECK(code_of([&] { read_history(folder.path.string()); }) == ErrorCode::file);
 }
 
-TEST_CASE("the tolerance of a scaled norm is unchanged, that of another is divided by h, that of "
-          "the gradient is NaN") {
+TEST_CASE(
+    "the tolerance of a scaled norm is unchanged, that of another is divided by h, and without "
+    "one it is NaN") {
   const Folder folder;
   json report = sample_report();
-  for (const char* norm : {"l2-scaled", "linf-scaled", "l2", "linf", "gradient", "none"}) {
+  for (const char* norm : {"l2-scaled", "linf-scaled", "l2", "linf", "none"}) {
     CAPTURE(norm);
     report["norm"] = norm;
     const std::vector<double> tolerance = scaled_tolerance(history_of(folder, report));
     const std::string word = norm;
-    if (word == "gradient" || word == "none") {
+    if (word == "none") {
       CHECK(std::isnan(tolerance[5]));
     } else {
       const bool scaled = word.ends_with("-scaled");

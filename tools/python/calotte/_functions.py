@@ -485,7 +485,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         cells includes them, points of the start do not; without a number, free ones are added where
         the fixed ones leave the widths unmet.
     seed: of random points. method: auto, lloyd, lbfgs or lbfgs-laplacian.
-    norm: that is compared with the tolerance: l2, linf, l2-scaled, linf-scaled or gradient.
+    norm: that is compared with the tolerance: l2, linf, l2-scaled or linf-scaled.
     tolerance: default 1e-6, and 1e-4 with well_centred.
     max_iterations: on each level.
     well_centred: without obtuse triangles and short Voronoi edges, as models need. Default: with
