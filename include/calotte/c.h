@@ -236,9 +236,6 @@ typedef struct calotte_recipe {
   int64_t well_centred;
   double least_spacing;        /**< of that end: the least edge over the spacing; 0: 0.8 */
   int64_t seed;                /**< of random points; 0: 1 */
-  int64_t rule;                /**< quadrature points: 1, 3, 6, 7, 13 or 19; 0: 3 */
-  int64_t final_rule;          /**< the same near the end; 0: 6 */
-  int64_t triangle_divisions;  /**< of quadrature, 1 to 100; 0: 1 */
   int64_t limited_area;        /**< 1: the surface, a part of the sphere, with rings around it, for
                                   calotte_write_grid(); requires widths */
   int64_t walls_x;             /**< 1: the box ends at walls in x; see calotte_write_grid() */

@@ -114,16 +114,10 @@ struct Recipe {
   /// Generators that stay where they are, 3 x n, the first columns of the result. A unit column, up
   /// to round-off, keeps its bits. Default: none.
   Points3 fixed = {};
-  Start start = {};                  ///< the generators to begin with
-  Stop stop = {};                    ///< the end of the run
-  std::uint64_t seed = 1;            ///< of random points
-  Method method = Method::automatic; ///< see Method
-  /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
-  int rule = 3;
-  /// Rule near the end of a descent; same values. A run converges with this rule only, but for runs
-  /// with insertion and a tolerance of 1e-5 or more, in which `rule` takes its place.
-  int final_rule = 6;
-  int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
+  Start start = {};                          ///< the generators to begin with
+  Stop stop = {};                            ///< the end of the run
+  std::uint64_t seed = 1;                    ///< of random points
+  Method method = Method::automatic;         ///< see Method
   Duplicates duplicates = Duplicates::merge; ///< of the start
   double merge_within = 0;                   ///< of the start, see DelaunayOptions
 };

@@ -135,15 +135,9 @@ Stop stop_of(const calotte_recipe& given) {
   return stop;
 }
 
-/// The members of method and quadrature, and what becomes of equal points.
+/// The method, and what becomes of equal points.
 void take_method(const calotte_recipe& given, Recipe& recipe) {
   recipe.method = value_of(given.method, method_words(), recipe.method, "method");
-  if (given.rule != 0)
-    recipe.rule = integer_of(given.rule, "the quadrature rule");
-  if (given.final_rule != 0)
-    recipe.final_rule = integer_of(given.final_rule, "the final quadrature rule");
-  if (given.triangle_divisions != 0)
-    recipe.triangle_divisions = integer_of(given.triangle_divisions, "triangle_divisions");
   if (flag_of(given.refuse_duplicates, "refuse_duplicates"))
     recipe.duplicates = Duplicates::refuse;
   recipe.merge_within = given.merge_within;

@@ -14,7 +14,6 @@
 #include "cvt/worlds.h"
 #include "domain/planar_domain.h"
 #include "domain/region.h"
-#include "integrals/quadrature.h"
 #include "mesh/canonical_order.h"
 
 #include <calotte/error.h>
@@ -46,14 +45,9 @@ void require_options(const CvtOptions& options) {
     refuse("insertion_rounds or cells is negative; give 0 or more");
   if ((options.insertion_rounds > 0) != (options.cells > 0))
     refuse("insertion needs both insertion_rounds and cells; give both or neither");
-  if (options.triangle_divisions < 1 || options.triangle_divisions > 100)
-    refuse("triangle_divisions is " + std::to_string(options.triangle_divisions) +
-           "; give a number from 1 to 100");
   if (!(options.least_spacing >= 0 && options.least_spacing <= 0.95))
     refuse("least_spacing is " + std::to_string(options.least_spacing) +
            "; give a share of the demanded spacing, 0 to 0.95");
-  quadrature_rule(options.rule);
-  quadrature_rule(options.final_rule);
 }
 
 namespace {

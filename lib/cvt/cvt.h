@@ -60,14 +60,14 @@ struct CvtOptions {
   /// is not well_centred. Default 0.8.
   double least_spacing = usual_least_spacing;
   static constexpr double usual_least_spacing = 0.8; ///< its default
-  /// Quadrature points per half kite: 1, 3, 6, 7, 13 or 19; no effect for uniform density.
+  /// Quadrature points per half kite, see make_integrand(); no effect for uniform density. All runs
+  /// of make_grid() have 3 in the loop and 6 to finish, but see options_of_descent().
   int rule = 3;
   /// Rule from the iteration on in which the norm is at most ten times the tolerance or a line
-  /// search fails; same values as `rule`. A run converges with this rule only. No effect for
-  /// uniform density and with Norm::none. With insertion_rounds and a tolerance of 1e-5 or more,
-  /// `rule` takes its place.
+  /// search fails. A run converges with this rule only. No effect for uniform density and with
+  /// Norm::none. With insertion_rounds and a tolerance of 1e-5 or more, `rule` takes its place.
   int final_rule = 6;
-  int triangle_divisions = 1; ///< divides each half kite into this number squared; 1 to 100
+  int divisions = 1;                         ///< of both rules, see make_integrand()
   Duplicates duplicates = Duplicates::merge; ///< of the start, see DelaunayOptions
   double merge_within = 0;                   ///< of the start, see DelaunayOptions; >= 0 and finite
   /// Number of generators that stay where they are: the first columns of the start, and of the

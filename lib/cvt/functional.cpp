@@ -186,8 +186,8 @@ public:
   FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options, Level&& level)
       : tessellation_(std::move(cells), points, options.partition, std::move(level)),
         density_(options.density),
-        coarse_(make_integrand(options.density, options.rule, options.triangle_divisions)),
-        fine_(make_integrand(options.density, options.final_rule, options.triangle_divisions)),
+        coarse_(make_integrand(options.density, options.rule, options.divisions)),
+        fine_(make_integrand(options.density, options.final_rule, options.divisions)),
         rule_(options.density.uniform() ? 0 : options.rule),
         final_rule_(options.density.uniform() ? 0 : options.final_rule) {}
 

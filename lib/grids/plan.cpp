@@ -331,9 +331,6 @@ CvtOptions options_of(const Schedule& schedule) {
   options.well_centred = *recipe.stop.well_centred;
   static_assert(Stop().least_spacing == CvtOptions::usual_least_spacing);
   options.least_spacing = recipe.stop.least_spacing;
-  options.rule = recipe.rule;
-  options.final_rule = recipe.final_rule;
-  options.triangle_divisions = recipe.triangle_divisions;
   options.duplicates = recipe.duplicates;
   options.merge_within = recipe.merge_within;
   options.fixed = recipe.fixed.cols();

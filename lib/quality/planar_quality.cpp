@@ -148,7 +148,7 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
   CvtOptions options;
   options.density = density;
   options.final_rule = rule;
-  options.triangle_divisions = divisions;
+  options.divisions = divisions;
   Level level;
   level.mesh = mesh;
   const std::unique_ptr<Functional> functional =

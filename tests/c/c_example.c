@@ -387,9 +387,6 @@ static void recipes(void) {
   REFUSES(iterations, -1, "iterations");
   REFUSES(well_centred, 2, "give -1, 0 or 1");
   REFUSES(least_spacing, 1, "spacing");
-  REFUSES(rule, 4, "rule");
-  REFUSES(final_rule, 4, "rule");
-  REFUSES(triangle_divisions, 101, "divi");
   REFUSES(limited_area, 1, "limited area");
   REFUSES(limited_area, 2, "limited_area is 2; give 0 or 1");
   REFUSES(walls_x, 1, "walls");

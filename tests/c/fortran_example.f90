@@ -39,7 +39,6 @@ module calotte
     integer(c_int64_t) :: max_iterations = 0, iterations = 0, well_centred = 0
     real(c_double) :: least_spacing = 0
     integer(c_int64_t) :: seed = 0
-    integer(c_int64_t) :: rule = 0, final_rule = 0, triangle_divisions = 0
     integer(c_int64_t) :: limited_area = 0, walls_x = 0, walls_y = 0
     integer(c_int64_t) :: boundary_generators = 0, refuse_duplicates = 0
     real(c_double) :: merge_within = 0

@@ -62,13 +62,7 @@ static int recipe_named(const char* name, calotte_recipe* out) {
       {"points", {.start_points = start_points, .start_count = start_count}},
       {"pure", {.cells = 642, .density = density, .well_centred = -1, .tolerance = 1e-3}},
       {"well-centred", {.cells = 642, .well_centred = 1}},
-      {"rules",
-       {.cells = 642,
-        .density = density,
-        .rule = 6,
-        .final_rule = 7,
-        .method = "lloyd",
-        .iterations = 20}},
+      {"lloyd", {.cells = 642, .density = density, .method = "lloyd", .iterations = 20}},
   };
   size_t i;
   for (i = 0; i < sizeof requests / sizeof *requests; ++i)

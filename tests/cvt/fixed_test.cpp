@@ -90,7 +90,6 @@ CvtOptions graded(std::int64_t cells, std::int64_t fixed, int bisections) {
   options.insertion_rounds = 1;
   options.bisections = bisections;
   options.tolerance = 1e-5;
-  options.final_rule = 6;
   return options;
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
 
 TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   CvtOptions options = graded(2500, 2, x8());
-  options.triangle_divisions = 2;
+  options.divisions = 2;
   int descents = 0, steps = 0;
   double before = 0;
   std::tuple<int, int, int, int> rule_and_stage;

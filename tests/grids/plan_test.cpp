@@ -235,7 +235,6 @@ TEST_CASE("plan: values out of range are refused before any work") {
   refused([](Recipe& r) { r.stop.tolerance = not_a_number; }, "the tolerance is nan");
   refused([](Recipe& r) { r.stop.max_iterations = -5; }, "-5");
   refused([](Recipe& r) { r.stop.least_spacing = not_a_number; }, "least_spacing is nan");
-  refused([](Recipe& r) { r.rule = 5; }, "5");
   refused([](Recipe& r) { r.start.insertion_rounds = 1 << 30; }, "give 1 to 100");
   refused([](Recipe& r) { r.fixed = Points3::Constant(3, 2, not_a_number); },
           "fixed generator 0 is not finite; give finite coordinates @0");

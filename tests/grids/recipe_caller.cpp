@@ -70,13 +70,8 @@ std::map<std::string, Recipe> requests() {
       {"pure",
        {.cells = 642, .density = density(), .stop = {.tolerance = 1e-3, .well_centred = false}}},
       {"well-centred", {.cells = 642, .stop = {.well_centred = true}}},
-      {"rules",
-       {.cells = 642,
-        .density = density(),
-        .stop = {.iterations = 20},
-        .method = Method::lloyd,
-        .rule = 6,
-        .final_rule = 7}},
+      {"lloyd",
+       {.cells = 642, .density = density(), .stop = {.iterations = 20}, .method = Method::lloyd}},
   };
 }
 

@@ -26,7 +26,7 @@ REQUESTS = {
     "points": "a start of 100 points",
     "pure": "642 cells, the density of x8, a pure CVT with the tolerance 1e-3",
     "well-centred": "642 cells, a well-centred end",
-    "rules": "642 cells, that density, rules 6 and 7, 20 iterations of Lloyd's method",
+    "lloyd": "642 cells, that density, 20 iterations of Lloyd's method",
 }
 
 # The same in words of calotte cvt, with the suffix of the file that holds all generators in their order. A file of

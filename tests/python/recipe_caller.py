@@ -47,8 +47,7 @@ REQUESTS = {
     "points": {"start": start()},
     "pure": {"start": 642, "density": density, "well_centred": False, "tolerance": 1e-3},
     "well-centred": {"start": 642, "well_centred": True},
-    "rules": {"start": 642, "density": density, "rule": 6, "final_rule": 7, "method": "lloyd",
-              "iterations": 20},
+    "lloyd": {"start": 642, "density": density, "method": "lloyd", "iterations": 20},
 }
 
 

@@ -288,9 +288,6 @@ TEST_CASE("bad usage is refused before any work") {
                 other.substr(0, other.find(' ')) + " excludes --iterations" + see);
   check_usage("never --method newton" + out,
               "--method: newton not in {auto,lloyd,lbfgs,lbfgs-laplacian}" + see);
-  check_usage("never --rule 5" + out, "--rule: 5 not in {1,3,6,7,13,19}" + see);
-  check_usage("never --triangle-divisions 0" + out,
-              "--triangle-divisions: \"0\" is not an integer from 1 to 100" + see);
   check_usage("never --checkpoint-minutes 0" + out,
               "--checkpoint-minutes 0 is not a positive number; give one such as 10");
   check_usage("never --density tanh:lon=0,lat=0,beta=1,alpha=1,gamma=0" + out,
@@ -411,7 +408,7 @@ TEST_CASE("the examples run, from anywhere, and write beside themselves") {
     CHECK(bench.run((plane ? "check --plane " : "check ") + mesh).code == 0);
   }
   CHECK(fs::exists(bench.folder() / "examples/x8.json"));
-  CHECK(has(bench.file("examples/x8.nc"), "; rule 7; final-rule 7; ")); // MPI-SCVT's names
+  // MPI-SCVT's names
   CHECK(has(bench.file("examples/x8.nc"), "; tolerance 1e-04; max-iterations 30"));
   CHECK(has(bench.file("examples/coastal.nc"), "cell-width of "));
 }
@@ -461,9 +458,8 @@ TEST_CASE("a mesh file contains its provenance, and equal runs give equal bytes"
   CHECK(bench.run(run + " -o second.nc --threads 1 --regions 3").code == 0);
   CHECK((bench.file("first.nc") == bench.file("second.nc")));
   CHECK(has(bench.file("first.nc"), "calotte 0.9."));
-  CHECK(history("first.nc") ==
-        "start continuation; cells 42; seed 3; density " + bump +
-            "; method auto; rule 3; final-rule 6; triangle-divisions 1; duplicates merge; ");
+  CHECK(history("first.nc") == "start continuation; cells 42; seed 3; density " + bump +
+                                   "; method auto; duplicates merge; ");
   CHECK(has(bench.file("first.nc"), "merge-within 0; iterations 4"));
   CHECK(bench.run(run + " --method lloyd -o other.nc").code == 0);
   CHECK(history("other.nc") != history("first.nc"));
@@ -691,16 +687,21 @@ TEST_CASE("signals within a second count as one") {
 
 TEST_CASE("a signal a second after another one ends the process at once") {
   const Bench bench;
-  // One iteration of this run takes longer than any wait here.
+  // One iteration of this run, whose density is a maximum of many bumps, takes longer than any wait
+  // here.
+  std::string bumps;
+  for (int k = 0; k < 3000; ++k)
+    bumps += (k == 0 ? "\"" : ", \"") + bump + "\"";
+  bench.file("bumps.toml", "density = [" + bumps + "]\n");
   const pid_t process =
-      bench.start("cvt --cells 5000 --start random --density " + bump +
-                  " --rule 19 --triangle-divisions 100 -o mesh.vtp --checkpoint run.checkpoint");
+      bench.start("cvt --cells 20000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
+                  "--checkpoint run.checkpoint");
   wait_for_handler(process, SIGTERM);
   REQUIRE(::kill(process, SIGTERM) == 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(1300));
   REQUIRE(::kill(process, SIGINT) == 0);
   CHECK(bench.finish(process).code == -SIGINT);
-  CHECK(bench.names().empty());
+  CHECK(bench.names() == std::set<std::string>{"bumps.toml"});
 }
 
 TEST_CASE("kill -9 at any moment: the run resumes from its checkpoint to the same bits") {
@@ -778,21 +779,11 @@ TEST_CASE("a checkpoint of another configuration is refused with the option that
   check_other(base, base + "--seed 2", "seed 1", "seed 2");
   check_other(base, base + "--density " + bump, "density uniform", "density " + bump);
   check_other(base, base + "--method lloyd", "method auto", "method lloyd");
-  const std::string dense = base + "--density " + bump + " ";
-  check_other(dense, dense + "--rule 6", "rule 3", "rule 6");
-  check_other(dense, dense + "--final-rule 7", "final-rule 6", "final-rule 7");
-  check_other(dense, dense + "--triangle-divisions 2", "triangle-divisions 1",
-              "triangle-divisions 2");
   check_other(base, base + "--duplicates refuse", "duplicates merge", "duplicates refuse");
   check_other(base, base + "--merge-within 1e-4", "merge-within 0", "merge-within 1e-04");
   check_other("--cells 42 --start icosahedron --iterations 2",
               "--cells 42 --start icosahedron --bisections 1 --iterations 2", "bisections 0",
               "bisections 1");
-  bench.run("cvt --cells 42 --iterations 2" + kept + " -o mesh.vtp");
-  CHECK(bench
-            .run("cvt --cells 42 --iterations 2 --rule 6 --final-rule 7 --triangle-divisions 2 "
-                 "--resume run.checkpoint -o mesh.vtp")
-            .code == 0); // uniform density uses none of these
   bench.run("cvt points.txt --iterations 2" + kept + " -o mesh.vtp");
   fs::copy_file(bench.folder() / "points.txt", bench.folder() / "same.txt");
   CHECK(bench.run("cvt same.txt --iterations 2 --resume run.checkpoint -o mesh.vtp").code == 0);
@@ -1028,7 +1019,7 @@ TEST_CASE("on a terminal a line shows the level and a range of the time left [sl
       bench.run("", "exec script -qefc \"'" CALOTTE_COMMAND "' cvt --cells 20000 --start density "
                     "--density " +
                         bump +
-                        " --rule 19 --iterations 240 --threads 1 -o mesh.vtp\" "
+                        " --iterations 1500 --threads 1 -o mesh.vtp\" "
                         "/dev/null </dev/null;");
   CHECK(outcome.code == 0);
   CHECK(has(outcome.out, "\rcalotte: 20000 cells, iteration "));

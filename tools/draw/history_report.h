@@ -43,8 +43,7 @@ std::vector<double> elapsed_seconds(const History& history);
 std::vector<double> scaled_l2(const History& history);
 std::vector<double> scaled_linf(const History& history);
 
-/// For each evaluation the tolerance of the stopping norm on that scale; NaN if it has none there
-/// (the gradient).
+/// For each evaluation the tolerance of the stopping norm on that scale; NaN for a run without one.
 std::vector<double> scaled_tolerance(const History& history);
 
 /// For each run and evaluation E/E_min - 1, NaN if it was not accepted. E_min is the minimum of the

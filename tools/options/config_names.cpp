@@ -23,19 +23,11 @@ std::string BorrowedName::known() const {
 
 const std::vector<BorrowedName>& borrowed_names() {
   static const std::vector<BorrowedName> names{
-      {"convergence_criteria", {"tolerance"}, {}, ""},
-      {"maximum_iterations", {"max-iterations"}, {}, ""},
-      {"quadrature_rule",
-       {"rule", "final-rule"},
-       {{"0", "centroid", "1"},
-        {"3", "7-point", "7"},
-        {"4", "13-point", "13"},
-        {"5", "19-point", "19"}},
-       "MPI-SCVT's 1 (vertex) and 2 (midpoint) are not here"},
+      {"convergence_criteria", "tolerance", {}},
+      {"maximum_iterations", "max-iterations", {}},
       {"sort_method",
-       {"sort"},
-       {{"0", "distance", "distance"}, {"1", "voronoi", "voronoi"}, {"", "halo", "halo"}},
-       ""},
+       "sort",
+       {{"0", "distance", "distance"}, {"1", "voronoi", "voronoi"}, {"", "halo", "halo"}}},
   };
   return names;
 }

@@ -9,7 +9,7 @@ namespace calotte::tools {
 /// A name of MPI-SCVT's for an option that has another name here.
 struct BorrowedName {
   std::string name;
-  std::vector<std::string> options; ///< the long names of those that it sets
+  std::string option; ///< its long name here
 
   /// A value of MPI-SCVT's.
   struct Value {
@@ -18,7 +18,6 @@ struct BorrowedName {
     std::string ours;   ///< the value of the option here
   };
   std::vector<Value> values; ///< empty: values are unchanged
-  std::string others;        ///< a remark on further values, or ""
 
   /// The option's value for a value of MPI-SCVT's; "" if there is none.
   std::string ours(const std::string& value) const;
@@ -27,9 +26,7 @@ struct BorrowedName {
 };
 
 /// The names of MPI-SCVT that mean the same here (Jacobsen et al.'s MPI-SCVT, the keys of its
-/// config.xml). bisections has the same name here. triangle_divisions also has the same name but
-/// another number: MPI-SCVT's n halves the sides n times; here 2^n divides them into that many
-/// parts.
+/// config.xml). bisections has the same name here.
 const std::vector<BorrowedName>& borrowed_names();
 
 } // namespace calotte::tools

@@ -96,7 +96,7 @@ CLI::Option* option_of(CLI::App& command, const std::string& name) {
 
 const BorrowedName* borrowed_of(CLI::App& command, const std::string& key) {
   for (const BorrowedName& borrowed : borrowed_names())
-    if (hyphenated(borrowed.name) == key && option_of(command, borrowed.options.front()))
+    if (hyphenated(borrowed.name) == key && option_of(command, borrowed.option))
       return &borrowed;
   return nullptr;
 }
@@ -107,7 +107,7 @@ std::vector<std::string> known_names(CLI::App& command) {
     if (option->get_configurable())
       names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
   for (const BorrowedName& borrowed : borrowed_names())
-    if (option_of(command, borrowed.options.front()))
+    if (option_of(command, borrowed.option))
       names.push_back(borrowed.name);
   return names;
 }
@@ -128,9 +128,7 @@ public:
   void apply(const ConfigSetting& setting) {
     const std::string key = hyphenated(setting.key);
     if (const BorrowedName* borrowed = borrowed_of(command_, key)) {
-      const std::vector<ConfigValue> values = translated(setting, *borrowed);
-      for (const std::string& name : borrowed->options)
-        apply(setting, values, *option_of(command_, name));
+      apply(setting, translated(setting, *borrowed), *option_of(command_, borrowed->option));
     } else if (CLI::Option* option = option_of(command_, key)) {
       apply(setting, setting.values, *option);
     } else {
@@ -154,8 +152,7 @@ private:
     for (ConfigValue& value : values) {
       const std::string ours = borrowed.ours(value.text);
       if (ours.empty())
-        refuse(setting, setting.key + " " + value.text + " is not one of " + borrowed.known() +
-                            (borrowed.others.empty() ? "" : "; " + borrowed.others));
+        refuse(setting, setting.key + " " + value.text + " is not one of " + borrowed.known());
       value = {Kind::text, ours};
     }
     return values;

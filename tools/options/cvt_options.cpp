@@ -150,25 +150,6 @@ void add_end(CLI::App& command, CvtRequest& request) {
       ->excludes(limit);
 }
 
-void add_quadrature(CLI::App& command, CvtRequest& request) {
-  const CLI::IsMember rules({1, 3, 6, 7, 13, 19});
-  command
-      .add_option("--rule", request.rule,
-                  "Quadrature points on each half kite; no effect for uniform density")
-      ->check(rules)
-      ->capture_default_str();
-  command
-      .add_option("--final-rule", request.final_rule,
-                  "Quadrature points once the norm is below ten times the tolerance")
-      ->check(rules)
-      ->capture_default_str();
-  command
-      .add_option("--triangle-divisions", request.triangle_divisions,
-                  "Divides each half kite into this number squared before quadrature; 1 to 100")
-      ->transform(whole_number(1, 100))
-      ->capture_default_str();
-}
-
 void add_files(CLI::App& command, CvtRequest& request) {
   command.add_option("-o,--output", request.mesh, help_of_output())->type_name("FILE")->required();
   request.format = add_format(command);
@@ -235,7 +216,6 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   {
     const OptionGroup group(command, "Method");
     add_method(command, *request);
-    add_quadrature(command, *request);
   }
   const OptionGroup group(command, "Output");
   add_files(command, *request);

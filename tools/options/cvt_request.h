@@ -38,8 +38,6 @@ struct CvtRequest {
   std::optional<double> given_tolerance;
   int max_iterations = Stop{}.max_iterations;
   std::optional<int> iterations;
-  int rule = Recipe{}.rule, final_rule = Recipe{}.final_rule;
-  int triangle_divisions = Recipe{}.triangle_divisions;
   std::shared_ptr<PartitionWords> partition;
 
   std::shared_ptr<FormatWords> format;

@@ -52,11 +52,6 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
   };
   text += density_configuration(*request.density);
   add("method", request.method);
-  if (!schedule.recipe.density.uniform()) {
-    add("rule", std::to_string(request.rule));
-    add("final-rule", std::to_string(request.final_rule));
-    add("triangle-divisions", std::to_string(request.triangle_divisions));
-  }
   add("duplicates", request.partition->duplicates);
   add("merge-within", shortest(request.partition->merge_within));
   return text;

@@ -134,9 +134,6 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.stop = stop_of(request);
   recipe.seed = request.seed.value_or(recipe.seed);
   recipe.method = std::ranges::find(method_words(), request.method, &Word<Method>::word)->value;
-  recipe.rule = request.rule;
-  recipe.final_rule = request.final_rule;
-  recipe.triangle_divisions = request.triangle_divisions;
   const DelaunayOptions merging = options_of(*request.partition, planar(request));
   recipe.duplicates = merging.duplicates;
   recipe.merge_within = merging.merge_within;

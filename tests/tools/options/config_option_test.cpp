@@ -34,8 +34,6 @@ public:
     app_.add_option("--cells", cells)
         ->check(CLI::Validator([](std::string&) { return ""; }, "N|auto"))
         ->type_name("");
-    app_.add_option("--rule", rule);
-    app_.add_option("--final-rule", final_rule);
     app_.add_option("--seed", seed);
     app_.add_flag("--lonlat", lonlat);
     config_ = add_config(app_);
@@ -57,7 +55,7 @@ public:
   std::string points, centres, start, sort, cells;
   std::vector<std::string> densities;
   double tolerance = 0, half_life = 0;
-  int limit = 0, iterations = 0, rule = 0, final_rule = 0;
+  int limit = 0, iterations = 0;
   std::uint64_t seed = 0;
   bool lonlat = false;
 
@@ -198,43 +196,23 @@ TEST_CASE("file names are relative to the folder of the file of options") {
 
 TEST_CASE("the names of MPI-SCVT") {
   Parser parser;
-  parser.parse("convergence_criteria = 1e-10\nmaximum_iterations = 1000\nquadrature_rule = 3\n"
+  parser.parse("convergence_criteria = 1e-10\nmaximum_iterations = 1000\n"
                "sort_method = 0\n");
   CHECK(parser.tolerance == 1e-10);
   CHECK(parser.limit == 1000);
-  CHECK(parser.rule == 7);
-  CHECK(parser.final_rule == 7);
   CHECK(parser.sort == "distance");
-  for (const auto& [value, rule] : {std::pair("0", 1),
-                                    {"'centroid'", 1},
-                                    {"'7-point'", 7},
-                                    {"4", 13},
-                                    {"'13-point'", 13},
-                                    {"5", 19},
-                                    {"'19-point'", 19}}) {
-    Parser other;
-    other.parse("quadrature_rule = " + std::string(value));
-    CHECK(other.rule == rule);
-    CHECK(other.final_rule == rule);
-  }
   for (const std::string sort : {"halo", "distance", "voronoi"}) {
     Parser other;
     other.parse("sort-method = '" + sort + "'");
     CHECK(other.sort == sort);
   }
   Parser other;
-  other.parse("sort_method = 1\nquadrature-rule = 3", "--final-rule 19");
+  other.parse("sort_method = 1\nmaximum-iterations = 9", "--max-iterations 7");
   CHECK(other.sort == "voronoi");
-  CHECK(other.rule == 7);
-  CHECK(other.final_rule == 19);
-  for (const std::string rule : {"1", "2", "6", "-1", "'vertex'"})
-    CHECK(refused_value("quadrature_rule = " + rule)
-              .ends_with(" is not one of 0 (centroid), 3 (7-point), 4 (13-point), 5 (19-point); "
-                         "MPI-SCVT's 1 (vertex) and 2 (midpoint) are not here"));
+  CHECK(other.limit == 7);
   CHECK(refused_value("sort_method = 2") == "2 is not one of 0 (distance), 1 (voronoi), halo");
-  CHECK(refused_value("quadrature_rule = true") ==
-        "true is not one of 0 (centroid), 3 (7-point), 4 (13-point), 5 (19-point); MPI-SCVT's 1 "
-        "(vertex) and 2 (midpoint) are not here");
+  CHECK(refused_value("sort_method = true") ==
+        "true is not one of 0 (distance), 1 (voronoi), halo");
 }
 
 TEST_CASE("an unknown name is refused with the nearest, and the line") {
@@ -248,7 +226,7 @@ TEST_CASE("an unknown name is refused with the nearest, and the line") {
   unknown("max_iteration", "max-iterations");
   unknown("maximal_iterations", "maximum_iterations");
   unknown("convergence_criterion", "convergence_criteria");
-  unknown("quadrature_rules", "quadrature_rule");
+  unknown("sort_methods", "sort_method");
   unknown("see", "seed");
   unknown("Seed", "seed");
   CHECK(refusal("speedometer = 1\n") ==
@@ -263,8 +241,6 @@ TEST_CASE("a name that is given twice is refused with both lines") {
         "line 3: max-iterations is given twice, also on line 1; leave one out");
   CHECK(refusal("[a]\nconvergence_criteria = 1\n[b]\ntolerance = 2\n") ==
         "line 4: tolerance is given twice, also on line 2; leave one out");
-  CHECK(refusal("rule = 3\nquadrature_rule = 3\n") ==
-        "line 2: rule is given twice, also on line 1; leave one out");
   CHECK(refusal("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by a rule of TOML
 }
 
@@ -329,8 +305,8 @@ TEST_CASE("a file that cannot be read") {
 }
 
 TEST_CASE("the distance of words is a metric that counts letters") {
-  const std::vector<std::string> words{"",          "a",        "b",    "ab",        "tolerance",
-                                       "tolerence", "olerance", "rule", "final-rule"};
+  const std::vector<std::string> words{"",          "a",        "b",    "ab",         "tolerance",
+                                       "tolerence", "olerance", "sort", "sort-method"};
   for (const std::string& a : words)
     for (const std::string& b : words) {
       CHECK((edit_distance(a, b) == 0) == (a == b));
@@ -341,5 +317,5 @@ TEST_CASE("the distance of words is a metric that counts letters") {
     }
   CHECK(edit_distance("tolerance", "tolerence") == 1);
   CHECK(edit_distance("tolerance", "olerance") == 1);
-  CHECK(edit_distance("rule", "final-rule") == 6);
+  CHECK(edit_distance("sort", "sort-method") == 7);
 }

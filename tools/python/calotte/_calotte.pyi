@@ -337,9 +337,6 @@ class Recipe:
     radius_km: float
     limited_area: bool
     seed: int
-    rule: int
-    final_rule: int
-    triangle_divisions: int
     merge_within: float
     bisections: int | None
     insertion_rounds: int | None

@@ -461,8 +461,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
         kind: str = _USUAL.kind, bisections: int | None = None, iterations: int | None = None,
         boundary: str = _USUAL.boundary, walls: str = _USUAL.walls,
-        limited_area: bool = _USUAL.limited_area, rule: int = _USUAL.rule, final_rule: int = _USUAL.final_rule,
-        triangle_divisions: int = _USUAL.triangle_divisions, duplicates: str = _USUAL.duplicates,
+        limited_area: bool = _USUAL.limited_area, duplicates: str = _USUAL.duplicates,
         merge_within: float = _USUAL.merge_within, regions: int | None = None,
         progress: Progress | bool | None = None, earth_radius: float = EARTH_RADIUS_KM) -> Cvt:
     """A centroidal Voronoi tessellation of the sphere, of a plane, or of a part of them.
@@ -505,8 +504,6 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     walls: "x" or "y", a direction in which a periodic box ends at walls. The run covers a wider box;
         `cells` of the result are those between the walls.
     limited_area: the run covers the region and the rings of cells around it; see limited_area().
-    rule, final_rule: quadrature points per half kite during a run and at its end: 1, 3, 6, 7, 13 or
-        19. triangle_divisions: divides each half kite into this number squared.
     duplicates, merge_within: of the start, as for delaunay().
     regions: parts that run in parallel.
     progress: a function that receives a dict after each iteration and ends the run by returning
@@ -525,8 +522,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
-        limited_area=limited_area, rule=rule, final_rule=final_rule,
-        triangle_divisions=triangle_divisions, duplicates=duplicates, merge_within=merge_within)
+        limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
     mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])
     if between is None:

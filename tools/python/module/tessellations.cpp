@@ -102,9 +102,6 @@ void add_recipe(py::module_& module) {
       .def_readwrite("radius_km", &Recipe::radius_km)
       .def_readwrite("limited_area", &Recipe::limited_area)
       .def_readwrite("seed", &Recipe::seed)
-      .def_readwrite("rule", &Recipe::rule)
-      .def_readwrite("final_rule", &Recipe::final_rule)
-      .def_readwrite("triangle_divisions", &Recipe::triangle_divisions)
       .def_readwrite("merge_within", &Recipe::merge_within);
   const auto of_start = [&](const char* name, auto Start::*field) {
     add_field(
