@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "integrals/integrand.h"
 
-#include <calotte/error.h>
-
 namespace calotte::integrals_detail {
 namespace {
 
@@ -28,11 +26,12 @@ std::vector<QuadratureRule::Node> composite(const QuadratureRule& rule, int divi
 } // namespace
 
 Integrand make_integrand(const Density& density, int rule, int divisions) {
-  constexpr int points_at_sites = 3;
+  constexpr int points_at_sites = 3, uniform_points = 6, uniform_divisions = 3;
+  if (density.uniform())
+    return {DensityEvaluator(density), true, false,
+            composite(quadrature_rule(uniform_points), uniform_divisions)};
   const bool at_sites = rule == rule_at_sites;
   const QuadratureRule& nodes = quadrature_rule(at_sites ? points_at_sites : rule);
-  if (density.uniform())
-    return {DensityEvaluator(density), true, false, {}};
   return {DensityEvaluator(density), false, at_sites, composite(nodes, divisions)};
 }
 

@@ -18,7 +18,8 @@ struct Integrand {
   bool uniform = true;
   /// The density is evaluated at the sites only, and linear on each triangle; not in a plane.
   bool at_sites = false;
-  /// The nodes on all parts of a half kite; weights sum to 1. Empty for uniform density.
+  /// The nodes on all parts of a half kite; weights sum to 1. For uniform density those that only
+  /// the energy of cells at the boundary of a region takes.
   std::vector<QuadratureRule::Node> nodes;
 };
 
@@ -26,8 +27,8 @@ struct Integrand {
 inline constexpr int rule_at_sites = -1;
 
 /// \param rule a number of points, see quadrature_rule(), or rule_at_sites.
-/// \param divisions 1 to 100.
-/// \throws Error invalid_argument for an ill-formed density, or a rule that does not exist.
+/// \param divisions >= 1. Neither has an effect for uniform density.
+/// \throws Error invalid_argument for an ill-formed density.
 Integrand make_integrand(const Density& density, int rule, int divisions);
 
 } // namespace calotte::integrals_detail

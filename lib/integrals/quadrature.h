@@ -17,9 +17,8 @@ struct QuadratureRule {
   int degree; ///< polynomials up to this degree are integrated exactly
 };
 
-/// The rule of 1, 3, 6, 7, 13 or 19 interior points: degrees 1, 2, 4, 5, 7 and 9 (Strang and Fix,
-/// 1973; Dunavant, Int. J. Numer. Methods Eng. 21, 1985). \throws Error invalid_argument for
-/// another number.
+/// The rule of 3 or 6 interior points: degrees 2 and 4 (Strang and Fix, 1973; Dunavant, Int. J.
+/// Numer. Methods Eng. 21, 1985). \pre points is 3 or 6.
 const QuadratureRule& quadrature_rule(int points);
 
 } // namespace calotte::integrals_detail

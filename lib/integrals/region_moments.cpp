@@ -68,9 +68,7 @@ struct CellSums {
 class TangentRule {
 public:
   TangentRule(const Integrand& integrand, const TangentPlane& plane)
-      : integrand_(&integrand), plane_(&plane),
-        nodes_(integrand.uniform ? quadrature_rule(19).nodes
-                                 : std::span<const QuadratureRule::Node>(integrand.nodes)) {}
+      : integrand_(&integrand), plane_(&plane), nodes_(integrand.nodes) {}
 
   CellSums operator()(const std::vector<CellSide>& sides) const {
     const std::vector<double> rho = densities(sides);

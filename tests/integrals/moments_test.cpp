@@ -176,7 +176,7 @@ TEST_CASE("the closed form agrees with quadrature, obtuse triangles included") {
     CAPTURE(c.name);
     const Moments exact = mesh_moments(c.mesh, Density{});
     const bool coarse = c.mesh.points.cols() < 1000;
-    const Moments fine = mesh_moments(c.mesh, ones(), 19, coarse ? 12 : 2);
+    const Moments fine = mesh_moments(c.mesh, ones(), 6, coarse ? 100 : 12);
     CHECK(largest_difference(exact, fine) < 1e-11);
   }
 }
@@ -189,8 +189,8 @@ TEST_CASE("every rule converges at its order under division") {
   density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     rho = (2 * x.row(2).array() + x.row(0).array()).exp().matrix().transpose();
   };
-  const Moments exact = mesh_moments(mesh, density, 19, 8);
-  for (const int points : {1, 3, 6, 7}) {
+  const Moments exact = mesh_moments(mesh, density, 6, 20);
+  for (const int points : {3, 6}) {
     const QuadratureRule& rule = quadrature_rule(points);
     const double once = largest_difference(mesh_moments(mesh, density, points, 1), exact);
     const double twice = largest_difference(mesh_moments(mesh, density, points, 2), exact);
