@@ -168,7 +168,7 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   outcome.before = run.state ? run.state->report().iterations.size() : 0;
   Keeper keeper(request, run.configuration, outcome.before);
   KeptStates states(request, run.schedule.recipe.surface, outcome.before);
-  RunOptions options{options_of(*request.partition, planar(request)).partition,
+  RunOptions options{options_of(*request.partition).partition,
                      [&](const calotte::Progress& now) {
                        return after_iteration(*now.run, run.schedule, keeper, states, progress,
                                               outcome);

@@ -49,7 +49,7 @@ void require_request(const Request& request) {
   period_of(request.periodic);               // throws for an invalid box
   options_of(*request.format, request.mesh); // throws for a file that cannot be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
-                  {request.points, centres_file(*request.partition), *request.config});
+                  {request.points, *request.config});
 }
 
 Surface surface_of(const Request& request) {
@@ -181,8 +181,7 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
 
 void run(const Request& request) {
   require_request(request);
-  const DelaunayOptions options = options_of(*request.partition, request.plane); // reads centres
-  std::cout << triangulate_file(request, options);
+  std::cout << triangulate_file(request, options_of(*request.partition));
 }
 
 } // namespace

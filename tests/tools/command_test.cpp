@@ -98,10 +98,8 @@ TEST_CASE("bad usage is refused before any work") {
               "--sort: any not in {halo,distance,voronoi}; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --fast",
               "unknown option --fast; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --centres absent",
-              "--centres absent is not a file; give sample, fibonacci or a file of points");
-  check_usage("delaunay never -o mesh.vtp --centres never --regions 3",
-              "--regions and a file of centres exclude each other; leave one of them out");
+  check_usage("delaunay never -o mesh.vtp --centres never",
+              "--centres: never not in {sample,fibonacci}; see calotte delaunay --help");
   check_usage("delaunay never", "--output is required; see calotte delaunay --help");
   check_usage("delaunay -o mesh.vtp", "--points is required; see calotte delaunay --help");
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
@@ -285,11 +283,10 @@ TEST_CASE("the report has the documented content") {
 TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
   const Bench bench;
   CHECK(bench.run("points random 3000 -o points.txt").code == 0);
-  CHECK(bench.run("points fibonacci 17 -o centres.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o first.vtp").code == 0);
   for (const char* options :
        {"--threads 1", "--threads 3 --regions 42", "--regions 1", "--sort distance --regions 12",
-        "--sort voronoi --regions 12", "--centres fibonacci", "--centres centres.txt"}) {
+        "--sort voronoi --regions 12", "--centres fibonacci"}) {
     CHECK(bench.run("delaunay points.txt -o mesh.vtp " + std::string(options)).code == 0);
     CHECK(contents(bench.folder() / "mesh.vtp") == contents(bench.folder() / "first.vtp"));
   }
@@ -578,7 +575,7 @@ TEST_CASE("invalid planar input is refused, naming line or option") {
   check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 5", 2,
                        "--periodic 5 is not a box");
   check_refusal_naming(bench, "delaunay points.txt -o mesh.nc --periodic 5,5", 2, "--plane");
-  CHECK(bench.run("delaunay --plane points.txt -o good.off --centres points.txt").code == 0);
+  CHECK(bench.run("delaunay --plane points.txt -o good.off").code == 0);
   check_refusal_naming(bench, "delaunay --plane good.off -o mesh.vtp", 2, "--plane requires text");
   check_refusal_naming(bench, "delaunay --plane --lonlat points.txt -o mesh.vtp", 2, "excludes");
 }

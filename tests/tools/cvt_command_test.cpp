@@ -321,7 +321,6 @@ TEST_CASE(
   check_refusal(bench, "cvt never --config config.off -o config.off", 2, both("config.off"));
   check_refusal(bench, "cvt never --resume points.off -o points.off", 2,
                 "points.off: not a checkpoint; give the file that a run wrote as its checkpoint");
-  check_refusal(bench, "cvt never --centres points.off -o points.off", 2, both("points.off"));
   check_refusal(bench, "cvt never --cell-width points.off -o points.off", 2, both("points.off"));
   CHECK(bench.file("points.off") == "0 0 1\n");
 }
@@ -550,11 +549,10 @@ TEST_CASE("the report has the documented content") {
 TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
   const Bench bench;
   const std::string run = "cvt --cells 500 --start random --iterations 20 --density " + bump;
-  CHECK(bench.run("points fibonacci 9 -o centres.txt").code == 0);
   CHECK(bench.run(run + " -o first.vtp").code == 0);
   for (const std::string options :
        {"--threads 1", "--threads 3 --regions 7", "--regions 1", "--sort distance --regions 6",
-        "--sort voronoi --regions 6", "--centres fibonacci", "--centres centres.txt"}) {
+        "--sort voronoi --regions 6", "--centres fibonacci"}) {
     CAPTURE(options);
     CHECK(bench.run(run + " -o mesh.vtp " + options).code == 0);
     CHECK((bench.file("mesh.vtp") == bench.file("first.vtp")));

@@ -25,7 +25,7 @@ using Kind = ConfigValue::Kind;
 
 bool is_flag(const CLI::Option& option) { return option.get_expected_min() == 0; }
 
-/// The words of its type without those for its values: FLOAT, FILE, sample|FILE.
+/// The words of its type without those for its values: FLOAT, FILE, KM|FILE.
 std::string type_of(const CLI::Option& option) {
   const std::string name = option.get_type_name();
   return name.substr(0, name.find(':'));
@@ -67,20 +67,16 @@ std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& 
   return "";
 }
 
-/// A word, or a number of km, that an option accepts instead of a file.
-bool is_word(const CLI::Option& option, const std::string& value) {
-  std::istringstream words(type_of(option));
-  for (std::string word; std::getline(words, word, '|');)
-    if (word == value || (word == "KM" && measure_of(value)))
-      return true;
-  return value == "-";
+/// Standard input, or a number of km, that an option accepts instead of a file.
+bool is_no_file(const CLI::Option& option, const std::string& value) {
+  return value == "-" || (type_of(option).starts_with("KM|") && measure_of(value));
 }
 
 /// \param folder base of relative file names.
 void give(CLI::Option& option, const std::vector<ConfigValue>& values,
           const std::filesystem::path& folder) {
   for (const ConfigValue& value : values) {
-    const bool file = takes_file(option) && !is_word(option, value.text);
+    const bool file = takes_file(option) && !is_no_file(option, value.text);
     option.add_result(file ? (folder / value.text).string() : value.text);
   }
   option.run_callback();

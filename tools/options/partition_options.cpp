@@ -3,36 +3,14 @@
 
 #include "help/help.h"
 #include "options/numbers.h"
-#include "options/point_file.h"
-
-#include <calotte/error.h>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <filesystem>
 #include <limits>
 #include <map>
 
 namespace calotte::tools {
-namespace {
-
-Points3 read_centres(const PartitionWords& words, bool plane) {
-  if (words.regions)
-    throw Error(ErrorCode::invalid_argument,
-                "--regions and a file of centres exclude each other; leave one of them out");
-  if (std::error_code absent;
-      words.centres != "-" && !std::filesystem::exists(words.centres, absent))
-    throw Error(ErrorCode::invalid_argument,
-                "--centres " + words.centres +
-                    " is not a file; give sample, fibonacci or a file of points");
-  if (!plane)
-    return read_point_file(words.centres, false).points;
-  return read_planar_point_file(words.centres).points;
-}
-
-} // namespace
-
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   auto words = std::make_shared<PartitionWords>();
   const OptionGroup group(command, "Parallel");
@@ -45,10 +23,9 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
       ->transform(whole_number(1, std::numeric_limits<int>::max()));
   command
       .add_option("--centres", words->centres,
-                  "Centres of the regions: sample (a coarse CVT of the points), fibonacci (a "
-                  "lattice), or a file of points (text such as MPI-SCVT's RegionList, or a mesh). "
-                  "Does not affect the result")
-      ->type_name("sample|fibonacci|FILE")
+                  "Centres of the regions: sample (a coarse CVT of the points) or fibonacci (a "
+                  "lattice). Does not affect the result")
+      ->check(CLI::IsMember({"sample", "fibonacci"}))
       ->capture_default_str();
   command
       .add_option("--sort", words->sort,
@@ -67,11 +44,7 @@ std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
   return words;
 }
 
-std::string centres_file(const PartitionWords& words) {
-  return words.centres == "sample" || words.centres == "fibonacci" ? "" : words.centres;
-}
-
-DelaunayOptions options_of(const PartitionWords& words, bool plane) {
+DelaunayOptions options_of(const PartitionWords& words) {
   static const std::map<std::string, Overlap> sorts{
       {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
   DelaunayOptions options;
@@ -79,10 +52,7 @@ DelaunayOptions options_of(const PartitionWords& words, bool plane) {
   options.partition.overlap = sorts.at(words.sort);
   options.duplicates = words.duplicates == "merge" ? Duplicates::merge : Duplicates::refuse;
   options.merge_within = words.merge_within;
-  if (words.centres == "fibonacci")
-    options.partition.centres = Centres::fibonacci;
-  else if (!centres_file(words).empty())
-    options.partition.given_centres = read_centres(words, plane);
+  options.partition.centres = words.centres == "sample" ? Centres::sample : Centres::fibonacci;
   return options;
 }
 

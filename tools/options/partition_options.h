@@ -22,12 +22,7 @@ struct PartitionWords {
 /// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
 std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
 
-/// The file of centres; "" if there is none.
-std::string centres_file(const PartitionWords& words);
-
-/// Reads the file of centres where there is one, in the plane x y a line.
-/// \throws Error invalid_argument, or as read_points.
-DelaunayOptions options_of(const PartitionWords& words, bool plane = false);
+DelaunayOptions options_of(const PartitionWords& words);
 
 /// Runs the work with that number of threads, or with all.
 void with_threads(std::optional<int> threads, const std::function<void()>& work);

@@ -107,7 +107,6 @@ void require_request(const CvtRequest& request) {
   const WidthWords& widths = request.density->widths;
   const std::vector<std::string> inputs{request.points,
                                         request.fixed,
-                                        centres_file(*request.partition),
                                         widths.file,
                                         widths.raster,
                                         request.domain->file.value_or(""),

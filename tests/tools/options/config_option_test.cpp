@@ -23,7 +23,7 @@ class Parser {
 public:
   Parser() {
     app_.add_option("POINTS,--points", points)->type_name("FILE");
-    app_.add_option("--centres", centres)->type_name("sample|fibonacci|FILE");
+    app_.add_option("--cell-width", cell_width)->type_name("KM|FILE");
     app_.add_option("--density", densities)->allow_extra_args(false);
     app_.add_option("--start", start)->check(CLI::IsMember({"random", "spiral"}));
     app_.add_option("--sort", sort);
@@ -52,7 +52,7 @@ public:
 
   std::string in_folder(const std::string& file) const { return folder_ / file; }
 
-  std::string points, centres, start, sort, cells;
+  std::string points, cell_width, start, sort, cells;
   std::vector<std::string> densities;
   double tolerance = 0, half_life = 0;
   int limit = 0, iterations = 0;
@@ -178,14 +178,14 @@ TEST_CASE("a flag that is false is not given") {
 
 TEST_CASE("file names are relative to the folder of the file of options") {
   Parser parser;
-  parser.parse("points = \"points.txt\"\ncentres = \"centres.txt\"\nsort = \"points.txt\"\n");
+  parser.parse("points = \"points.txt\"\ncell-width = \"widths.txt\"\nsort = \"points.txt\"\n");
   CHECK(parser.points == parser.in_folder("points.txt"));
-  CHECK(parser.centres == parser.in_folder("centres.txt"));
+  CHECK(parser.cell_width == parser.in_folder("widths.txt"));
   CHECK(parser.sort == "points.txt"); // an option that is not allowed in a file
   Parser outright;
-  outright.parse("points = \"/absolute\"\ncentres = \"fibonacci\"\n");
+  outright.parse("points = \"/absolute\"\ncell-width = \"60km\"\n");
   CHECK(outright.points == "/absolute");
-  CHECK(outright.centres == "fibonacci");
+  CHECK(outright.cell_width == "60km");
   Parser standard;
   standard.parse("points = \"-\"\n");
   CHECK(standard.points == "-");
