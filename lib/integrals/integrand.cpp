@@ -26,13 +26,19 @@ std::vector<QuadratureRule::Node> composite(const QuadratureRule& rule, int divi
 } // namespace
 
 Integrand make_integrand(const Density& density, int rule, int divisions) {
-  constexpr int points_at_sites = 3, uniform_points = 6, uniform_divisions = 3;
+  constexpr int points_at_sites = 3;
   if (density.uniform())
-    return {DensityEvaluator(density), true, false,
-            composite(quadrature_rule(uniform_points), uniform_divisions)};
+    return {DensityEvaluator(density), true, false, {}};
   const bool at_sites = rule == rule_at_sites;
   const QuadratureRule& nodes = quadrature_rule(at_sites ? points_at_sites : rule);
   return {DensityEvaluator(density), false, at_sites, composite(nodes, divisions)};
+}
+
+std::span<const QuadratureRule::Node> uniform_nodes() {
+  constexpr int points = 6, divisions = 3;
+  static const std::vector<QuadratureRule::Node> nodes =
+      composite(quadrature_rule(points), divisions);
+  return nodes;
 }
 
 } // namespace calotte::integrals_detail

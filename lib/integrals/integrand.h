@@ -7,6 +7,7 @@
 
 #include <calotte/density.h>
 
+#include <span>
 #include <vector>
 
 namespace calotte::integrals_detail {
@@ -18,8 +19,7 @@ struct Integrand {
   bool uniform = true;
   /// The density is evaluated at the sites only, and linear on each triangle; not in a plane.
   bool at_sites = false;
-  /// The nodes on all parts of a half kite; weights sum to 1. For uniform density those that only
-  /// the energy of cells at the boundary of a region takes.
+  /// The nodes on all parts of a half kite; weights sum to 1. Empty for uniform density.
   std::vector<QuadratureRule::Node> nodes;
 };
 
@@ -30,5 +30,9 @@ inline constexpr int rule_at_sites = -1;
 /// \param divisions >= 1. Neither has an effect for uniform density.
 /// \throws Error invalid_argument for an ill-formed density.
 Integrand make_integrand(const Density& density, int rule, int divisions);
+
+/// Nodes for energies of uniform density that have no closed form: of cells at the boundary of a
+/// region.
+std::span<const QuadratureRule::Node> uniform_nodes();
 
 } // namespace calotte::integrals_detail

@@ -68,7 +68,8 @@ struct CellSums {
 class TangentRule {
 public:
   TangentRule(const Integrand& integrand, const TangentPlane& plane)
-      : integrand_(&integrand), plane_(&plane), nodes_(integrand.nodes) {}
+      : integrand_(&integrand), plane_(&plane),
+        nodes_(integrand.uniform ? uniform_nodes() : integrand.nodes) {}
 
   CellSums operator()(const std::vector<CellSide>& sides) const {
     const std::vector<double> rho = densities(sides);
