@@ -134,7 +134,7 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.stop = stop_of(request);
   recipe.seed = request.seed.value_or(recipe.seed);
   recipe.method = std::ranges::find(method_words(), request.method, &Word<Method>::word)->value;
-  const DelaunayOptions merging = options_of(*request.partition, planar(request));
+  const DelaunayOptions merging = options_of(*request.partition);
   recipe.duplicates = merging.duplicates;
   recipe.merge_within = merging.merge_within;
   if (!request.points.empty())
