@@ -692,7 +692,7 @@ TEST_CASE("a signal a second after another one ends the process at once") {
     bumps += (k == 0 ? "\"" : ", \"") + bump + "\"";
   bench.file("bumps.toml", "density = [" + bumps + "]\n");
   const pid_t process =
-      bench.start("cvt --cells 20000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
+      bench.start("cvt --cells 40000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
                   "--checkpoint run.checkpoint");
   wait_for_handler(process, SIGTERM);
   REQUIRE(::kill(process, SIGTERM) == 0);
