@@ -175,7 +175,6 @@ def test_what_does_not_fit():
     refuses("part of the sphere only", calotte.cvt, 100, boundary="generators")
     refuses("periodic box", calotte.cvt, 100, surface=RECTANGLE, walls="y")
     refuses("no period", calotte.cvt, 100, surface=BOX, walls="xy")
-    refuses("rule", calotte.cvt, 100, density="x4", rule=2)
     assert refuses("", calotte.cvt, points[[0, *range(50)]], duplicates="refuse").index == 1
     assert refuses("fixed point 99", calotte.cvt, 100, fixed=calotte.random_points(100)).index == 99
 
