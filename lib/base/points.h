@@ -30,6 +30,11 @@ inline const Vec3& column(const Points3Ref& points, std::int64_t i) {
   return *reinterpret_cast<const Vec3*>(points.data() + points.outerStride() * i);
 }
 
+/// A caller's point of 2 or 3 rows; z = 0 if there are 2.
+inline Vec3 point(const PointsRef& points, std::int64_t i) {
+  return {points(0, i), points(1, i), points.rows() > 2 ? points(2, i) : 0};
+}
+
 /// \throws Error invalid_argument unless a caller's points have the given number of rows.
 /// \param columns the shape to give instead, for the message.
 /// \param instead the function for points of the other kind, for the message, or empty.

@@ -11,7 +11,7 @@
 
 namespace calotte::mesh_detail {
 
-bool is_convex(const PlanarMesh& mesh) {
+bool is_convex(const Mesh& mesh) {
   const std::vector<std::int32_t> next = boundary_successors(faces_of(mesh));
   const auto successor = [&](std::int32_t site) { return next[static_cast<std::size_t>(site)]; };
   const auto point = [&](std::int32_t site) {

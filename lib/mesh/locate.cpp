@@ -10,12 +10,10 @@
 #include "curve/radix_sort.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
-#include "mesh/locate_spaces.h"
-#include "mesh/planar_mesh.h"
+#include "mesh/seen_mesh.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <mutex>
@@ -28,12 +26,12 @@ namespace {
 
 using base_detail::require;
 
-template <class Space, class AnyMesh> class Locator {
+template <Space S> class Locator {
 public:
-  using Position = typename Space::Position;
+  using Position = typename S::Position;
 
-  Locator(const AnyMesh& mesh, const Space& space)
-      : mesh_(mesh), faces_(faces_of(mesh)), space_(space) {
+  explicit Locator(const SeenMesh<S>& mesh)
+      : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)) {
     set_starts();
   }
 
@@ -71,7 +69,7 @@ private:
     std::sort(starts_.begin(), starts_.end(), precedes);
   }
   std::uint64_t key_of(std::int64_t t) const {
-    return curve_key(space_.square(space_.vertex(mesh_.triangles(0, t))));
+    return curve_key(seen_.square(seen_.vertex(mesh_.triangles(0, t))));
   }
 
   /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
@@ -82,7 +80,7 @@ private:
     int came = 3; // from across this vertex: p is on the inner side there
     for (std::int64_t steps = 0; steps <= mesh_.triangles.cols(); ++steps) {
       int v = 0;
-      while (v < 3 && (v == came || space_.side(t, v, p) >= 0))
+      while (v < 3 && (v == came || seen_.side(t, v, p) >= 0))
         ++v;
       if (v == 3)
         return t;
@@ -96,15 +94,15 @@ private:
   }
 
   bool holds(std::int64_t t, const Position& p) const {
-    return space_.side(t, 0, p) >= 0 && space_.side(t, 1, p) >= 0 && space_.side(t, 2, p) >= 0;
+    return seen_.side(t, 0, p) >= 0 && seen_.side(t, 1, p) >= 0 && seen_.side(t, 2, p) >= 0;
   }
 
   /// Of all triangles, the lowest that holds p, or `outside`.
   std::int32_t search(const Position& p) const {
     std::int32_t lowest = outside;
-    for (int k = 0; k < Space::copies; ++k) {
-      const Position copy = space_.copy(p, k);
-      const Vec3 at = space_.coordinates(copy);
+    for (int k = 0; k < S::copies; ++k) {
+      const Position copy = seen_.copy(p, k);
+      const Vec3 at = seen_.coordinates(copy);
       tree().visit([&](const Box3& box) { return square_from(box, at) <= 0; },
                    [&](std::int32_t t) {
                      if ((lowest < 0 || t < lowest) && holds(t, copy))
@@ -119,7 +117,7 @@ private:
     std::array<bool, 3> on{};
     int count = 0;
     for (int v = 0; v < 3; ++v) {
-      on[static_cast<std::size_t>(v)] = space_.side(t, v, p) == 0;
+      on[static_cast<std::size_t>(v)] = seen_.side(t, v, p) == 0;
       count += on[static_cast<std::size_t>(v)] ? 1 : 0;
     }
     if (count == 0)
@@ -172,7 +170,7 @@ private:
       Corner best = here;
       bool tied = false;
       const bool all = for_each_neighbour(here, [&](std::int32_t site, Corner corner) {
-        const int order = space_.compare(p, site, site_at(faces_, best));
+        const int order = seen_.compare(p, site, site_at(faces_, best));
         if (order < 0)
           best = corner;
         tied = tied || order == 0;
@@ -192,7 +190,7 @@ private:
       const bool all = for_each_neighbour(Corner(found[k]), [&](std::int32_t site, Corner corner) {
         const bool known = std::any_of(found.begin(), found.end(),
                                        [&](Corner c) { return site_at(faces_, c) == site; });
-        if (!known && space_.compare(p, site, lowest) == 0)
+        if (!known && seen_.compare(p, site, lowest) == 0)
           found.push_back(corner);
       });
       if (!all)
@@ -207,13 +205,13 @@ private:
   std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
     std::int32_t best = mesh_.triangles(0, t);
     const auto square_to = [&](std::int32_t site) {
-      const Vec3 apart = space_.seen(site, p) - space_.seen(p);
+      const Vec3 apart = seen_.seen(site, p) - seen_.seen(p);
       return dot(apart, apart);
     };
     double reach = square_to(best);
     const auto consider = [&](std::int32_t triangle) {
       for (const std::int32_t site : mesh_.triangles.col(triangle))
-        if (const int order = space_.compare(p, site, best);
+        if (const int order = seen_.compare(p, site, best);
             order < 0 || (order == 0 && site < best)) {
           best = site;
           reach = square_to(site);
@@ -221,8 +219,8 @@ private:
     };
     consider(t);
     constexpr double rounding = 1 + 1e-9;
-    for (int k = 0; k < Space::copies; ++k) {
-      const Vec3 at = space_.coordinates(space_.copy(p, k));
+    for (int k = 0; k < S::copies; ++k) {
+      const Vec3 at = seen_.coordinates(seen_.copy(p, k));
       tree().visit(
           [&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
           consider);
@@ -236,12 +234,12 @@ private:
       return;
     }
     for (int v = 0; v < 3; ++v)
-      out.weights(v, i) = space_.side(t, v, p) == 0 ? 0 : std::max(0.0, space_.area(t, v, p));
+      out.weights(v, i) = seen_.side(t, v, p) == 0 ? 0 : std::max(0.0, seen_.area(t, v, p));
     out.weights.col(i) /= out.weights.col(i).sum();
   }
 
   bool convex() const {
-    std::call_once(asked_, [&] { convex_ = space_.has_convex_boundary(); });
+    std::call_once(asked_, [&] { convex_ = seen_.has_convex_boundary(); });
     return convex_;
   }
 
@@ -251,7 +249,7 @@ private:
       std::vector<Box3> boxes(static_cast<std::size_t>(count));
       std::vector<std::uint64_t> keys(boxes.size());
       for (std::int64_t t = 0; t < count; ++t) {
-        boxes[static_cast<std::size_t>(t)] = space_.box(t);
+        boxes[static_cast<std::size_t>(t)] = seen_.box(t);
         keys[static_cast<std::size_t>(t)] = key_of(t);
       }
       tree_ = BoxTree(boxes, keys);
@@ -259,9 +257,9 @@ private:
     return tree_;
   }
 
-  const AnyMesh& mesh_;
+  const SeenMesh<S>& seen_;
+  const Mesh& mesh_;
   Faces faces_;
-  const Space& space_;
   std::vector<KeyedItem> starts_; ///< some triangles, by key
   mutable std::once_flag asked_;
   mutable bool convex_ = false; ///< of the boundary, once a position is near it
@@ -269,73 +267,74 @@ private:
   mutable BoxTree tree_; ///< of all triangles, once a position needs them
 };
 
-template <class Space, class AnyMesh>
-Locations locate_all(const AnyMesh& mesh, const Space& space, std::int64_t count) {
+template <Space S> Locations locate_all(const SeenMesh<S>& mesh, const PointsRef& positions) {
+  const std::int64_t count = positions.cols();
   Locations out{Ids(count), Triples(3, count), Ids(count)};
-  const Locator<Space, AnyMesh> locator(mesh, space);
+  const Locator<S> locator(mesh);
   Array<std::uint64_t> keys(count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      keys[i] = curve_key(space.square(space.coordinates(space.position(i))));
+      keys[i] = curve_key(mesh.square(mesh.coordinates(mesh.position(point(positions, i)))));
   });
   const Order order = order_by_key(std::move(keys));
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::int32_t t = locator.start_near(order.keys[begin]);
     for (std::int64_t k = begin; k != end; ++k) {
       const std::int32_t i = order.items[k];
-      t = locator.locate(space.position(i), t, i, out);
+      t = locator.locate(mesh.position(point(positions, i)), t, i, out);
     }
   });
   return out;
 }
 
-template <class AnyMesh> void require_triangles(const AnyMesh& mesh) {
-  require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
-}
-
-/// \param bad(i) whether the position cannot be located.
+/// \param bad(p) whether a position cannot be located.
 template <class Bad>
-void require_positions(std::int64_t count, const Bad& bad, ErrorCode code,
-                       const std::string& what) {
-  for (std::int64_t i = 0; i < count; ++i)
-    if (bad(i))
+void refuse_positions(const PointsRef& positions, const Bad& bad, ErrorCode code,
+                      const std::string& what) {
+  for (std::int64_t i = 0; i < positions.cols(); ++i)
+    if (bad(positions.col(i)))
       throw Error(code, "position " + std::to_string(i) + what, i);
 }
 
-} // namespace
-
-Locations locate_in_plane(const PlanarMesh& mesh, const base_detail::Points2Ref& positions) {
-  require_triangles(mesh);
-  require_positions(
-      positions.cols(), [&](std::int64_t i) { return !positions.col(i).allFinite(); },
-      ErrorCode::not_finite, " is not finite; leave it out");
-  constexpr double most_periods = 1 << 30;
-  const auto is_far = [&](std::int64_t i) {
-    return (positions.col(i).array().abs() > most_periods * mesh.period.array() &&
-            mesh.period.array() > 0)
-        .any();
-  };
-  require_positions(positions.cols(), is_far, ErrorCode::invalid_argument,
-                    " is more than 2^30 periods away; give its copy in the box");
-  return locate_all(mesh, InPlane(mesh, positions), positions.cols());
+void require_finite(const PointsRef& positions) {
+  refuse_positions(
+      positions, [](const auto& p) { return !p.allFinite(); }, ErrorCode::not_finite,
+      " is not finite; leave it out");
 }
 
+void require_directions(const PointsRef& given) {
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  require_finite(positions);
+  refuse_positions(
+      positions, [](const auto& p) { return (p.array() == 0).all(); }, ErrorCode::zero_vector,
+      " is the zero vector, which is no direction; leave it out");
+}
+
+void require_plane_positions(const PointsRef& given, const Eigen::Vector2d& period) {
+  const base_detail::Points2Ref positions = base_detail::plane_points_of(given);
+  require_finite(positions);
+  constexpr double most_periods = 1 << 30;
+  refuse_positions(
+      positions,
+      [&](const auto& p) {
+        return (p.array().abs() > most_periods * period.array() && period.array() > 0).any();
+      },
+      ErrorCode::invalid_argument, " is more than 2^30 periods away; give its copy in the box");
+}
+
+} // namespace
 } // namespace mesh_detail
 
-Locations locate(const Mesh& mesh, const PointsRef& given) {
+Locations locate(const Mesh& mesh, const PointsRef& positions) {
   using namespace mesh_detail;
-  if (!mesh.surface.is_sphere())
-    return locate_in_plane(planar(mesh), base_detail::plane_points_of(given));
-  require_triangles(mesh);
-  const base_detail::Points3Ref positions = base_detail::directions_of(given);
-  const auto at = [&](std::int64_t i) { return positions.col(i); };
-  require_positions(
-      positions.cols(), [&](std::int64_t i) { return !at(i).allFinite(); }, ErrorCode::not_finite,
-      " is not finite; leave it out");
-  require_positions(
-      positions.cols(), [&](std::int64_t i) { return (at(i).array() == 0).all(); },
-      ErrorCode::zero_vector, " is the zero vector, which is no direction; leave it out");
-  return locate_all(mesh, OnSphere(mesh, positions), positions.cols());
+  require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
+  if (mesh.surface.is_sphere())
+    require_directions(positions);
+  else
+    require_plane_positions(positions, mesh.surface.period());
+  return in_space_of(mesh.surface, [&](const Space auto& space) {
+    return locate_all(SeenMesh(mesh, space), positions);
+  });
 }
 
 } // namespace calotte

@@ -6,6 +6,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "curve/hilbert.h"
+#include "curve/plane_square.h"
 #include "curve/radix_sort.h"
 #include "mesh/canonical_order.h"
 #include "mesh/ids.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 
@@ -114,18 +114,8 @@ Array<std::int32_t> curve_order_in_plane(const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!is_finite(column(points, i)))
       refuse_infinite(i);
-  const Eigen::Vector3d low = points.rowwise().minCoeff();
-  const double half = std::max((points.rowwise().maxCoeff() - low).maxCoeff() / 2,
-                               std::numeric_limits<double>::min());
-  const auto part = [&](double value, double least) {
-    return std::clamp((value - least) / half - 1, -1.0, 1.0);
-  };
-  return order_by_key(
-             keys_of(
-                 points,
-                 [&](std::int64_t i) {
-                   return CubePoint{0, part(points(0, i), low.x()), part(points(1, i), low.y())};
-                 }))
+  const PlaneSquare square(points);
+  return order_by_key(keys_of(points, [&](std::int64_t i) { return square(column(points, i)); }))
       .items;
 }
 

@@ -7,8 +7,7 @@
 #include "base/spherical_triangle.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
-#include "mesh/locate_spaces.h"
-#include "mesh/planar_mesh.h"
+#include "mesh/seen_mesh.h"
 #include "voronoi/room.h"
 
 #include <calotte/locate.h>
@@ -33,21 +32,21 @@ struct Weight {
 };
 using Row = std::vector<Weight>;
 
-// ---- Circles and areas of points that OnSphere and InPlane see
+// ---- Circles and areas of points as a position sees them
 
-Vec3 circumcentre(const OnSphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
+Vec3 circumcentre(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
   return exact_detail::normalised(cross(b - a, c - a));
 }
-Vec3 circumcentre(const InPlane&, const Vec3& a, const Vec3& b, const Vec3& c) {
+Vec3 circumcentre(const Plane&, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   const double twice = 2 * cross(u, v).z, uu = dot(u, u), vv = dot(v, v);
   return {a.x + (v.y * uu - u.y * vv) / twice, a.y + (u.x * vv - v.x * uu) / twice, 0};
 }
-double area(const OnSphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
+double area(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
   return triangle_area(a, b, c);
 }
-double area(const InPlane&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return cross(b - a, c - a).z / 2;
+double area(const Plane&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return Plane::area_term(a, b, c) / 2;
 }
 
 // ---- Natural neighbours
@@ -59,12 +58,12 @@ struct Side {
   int across;
 };
 
-template <class Space, class AnyMesh> class NaturalNeighbours {
+template <Space S> class NaturalNeighbours {
 public:
-  using Position = typename Space::Position;
+  using Position = typename S::Position;
 
-  NaturalNeighbours(const AnyMesh& mesh, const Space& space)
-      : mesh_(mesh), faces_(faces_of(mesh)), space_(space) {}
+  explicit NaturalNeighbours(const SeenMesh<S>& mesh)
+      : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)) {}
 
   /// \param t the triangle that holds p, which is no site and not on an open edge.
   void set(const Position& p, std::int32_t t, Row& out) const {
@@ -94,7 +93,7 @@ private:
   /// is inside. The triangles inside form a tree, as no site is inside of all.
   void add_sides(const Position& p, const Side& edge, std::vector<Side>& out) const {
     const std::int32_t beyond = mesh_.neighbours(edge.across, edge.triangle);
-    if (beyond < 0 || space_.in_circle(beyond, p) <= 0) {
+    if (beyond < 0 || seen_.in_circle(beyond, p) <= 0) {
       out.push_back(edge);
       return;
     }
@@ -104,13 +103,12 @@ private:
   }
 
   Vec3 centre_with(const Position& p, const Side& side) const {
-    return circumcentre(space_, space_.seen(p), space_.seen(start_of(side), p),
-                        space_.seen(end_of(side), p));
+    return circumcentre(S(), seen_.seen(p), seen_.seen(start_of(side), p),
+                        seen_.seen(end_of(side), p));
   }
   Vec3 centre_of(std::int32_t t, const Position& p) const {
-    return circumcentre(space_, space_.seen(mesh_.triangles(0, t), p),
-                        space_.seen(mesh_.triangles(1, t), p),
-                        space_.seen(mesh_.triangles(2, t), p));
+    return circumcentre(S(), seen_.seen(mesh_.triangles(0, t), p),
+                        seen_.seen(mesh_.triangles(1, t), p), seen_.seen(mesh_.triangles(2, t), p));
   }
 
   /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
@@ -120,7 +118,7 @@ private:
     Vec3 last = centre_with(p, after);
     double sum = 0;
     const auto add = [&](const Vec3& corner) {
-      sum += area(space_, first, last, corner);
+      sum += area(S(), first, last, corner);
       last = corner;
     };
     Corner corner{after.triangle, next_vertex(after.across)};
@@ -132,9 +130,9 @@ private:
     return sum;
   }
 
-  const AnyMesh& mesh_;
+  const SeenMesh<S>& seen_;
+  const Mesh& mesh_;
   Faces faces_;
-  const Space& space_;
 };
 
 // ---- Rows
@@ -158,11 +156,12 @@ bool on_boundary(const Triangles& neighbours, const Locations& at, std::int64_t 
   return zeros > 1 || open;
 }
 
-template <class AnyMesh, class Space>
-Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
+template <Space S>
+Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Locations& at,
                    Interpolation kind) {
+  const Mesh& mesh = seen.mesh();
   const std::int64_t count = at.triangle.size();
-  const NaturalNeighbours<Space, AnyMesh> natural(mesh, space);
+  const NaturalNeighbours<S> natural(seen);
   std::vector<std::vector<Row>> blocks(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::vector<Row>& rows = blocks[static_cast<std::size_t>(block)];
@@ -174,7 +173,7 @@ Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
       if (kind == Interpolation::linear || on_boundary(mesh.neighbours, at, i))
         set_linear(mesh.triangles, at, i, row);
       else
-        natural.set(space.position(i), at.triangle[i], row);
+        natural.set(seen.position(point(positions, i)), at.triangle[i], row);
       std::sort(row.begin(), row.end(),
                 [](const Weight& a, const Weight& b) { return a.site < b.site; });
     }
@@ -202,16 +201,12 @@ Weights weights_of(const AnyMesh& mesh, const Space& space, const Locations& at,
 } // namespace
 } // namespace voronoi_detail
 
-Weights interpolation_weights(const Mesh& mesh, const PointsRef& given, Interpolation kind) {
-  if (!mesh.surface.is_sphere()) {
-    const PlanarMesh plane = mesh_detail::planar(mesh);
-    const base_detail::Points2Ref positions = base_detail::plane_points_of(given);
-    return voronoi_detail::weights_of(plane, mesh_detail::InPlane(plane, positions),
-                                      mesh_detail::locate_in_plane(plane, positions), kind);
-  }
-  const base_detail::Points3Ref positions = base_detail::directions_of(given);
-  return voronoi_detail::weights_of(mesh, mesh_detail::OnSphere(mesh, positions),
-                                    locate(mesh, positions), kind);
+Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Interpolation kind) {
+  using namespace voronoi_detail;
+  const Locations at = locate(mesh, positions);
+  return in_space_of(mesh.surface, [&](const Space auto& space) {
+    return weights_of(SeenMesh(mesh, space), positions, at, kind);
+  });
 }
 
 DoubleVector interpolate(const Weights& weights, const DoubleVector& values) {
