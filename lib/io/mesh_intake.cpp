@@ -3,14 +3,12 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
 #include "io/dual.h"
 #include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "mesh/orientation.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -122,6 +120,14 @@ Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t 
   Triangles neighbours = neighbours_of(triangles, points);
   require_one_surface(name, triangles, neighbours);
   return neighbours;
+}
+
+/// Sets all but the points of a mesh whose triangles are those of a file. As above.
+void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* polygons = nullptr) {
+  mesh.neighbours =
+      canonical(name, mesh.triangles, mesh.points.cols(),
+                orientations_of(mesh.points, mesh.triangles, mesh.surface), file, polygons);
+  mesh.site_of_input = themselves(mesh.points.cols());
 }
 
 /// \param triangulate gives the mesh. \throws what it throws, with the file's name.
@@ -310,9 +316,7 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMes
   if (raw.triangles.cols() > 0) {
     require_ids(name, raw.triangles, raw.points.cols());
     Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
-    mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
-                                orientations_of(mesh.points, mesh.triangles), file, &raw.polygons);
-    mesh.site_of_input = themselves(mesh.points.cols());
+    complete(name, mesh, file, &raw.polygons);
     settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
     file.mesh = std::move(mesh);
     if (has_cells)
@@ -331,36 +335,31 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMes
 
 MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
   require_places(name, raw.points);
+  raw.points.row(2).setZero(); // not -0
   MeshFile file = rest_of(format, raw);
-  PlanarMesh mesh;
-  mesh.points = raw.points.topRows<2>();
   if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
     throw Error(ErrorCode::invalid_argument,
                 name + ": it holds cells of the sphere; of a plane only triangles are read");
   if (raw.triangles.cols() == 0) {
-    file.mesh =
-        spatial(named(name, [&] { return planar_delaunay(mesh.points); }), Surface::plane());
+    file.mesh = named(name, [&] { return delaunay(raw.points, Surface::plane()); });
     if (raw.polygons.size() > 0)
       settle_clipped(name, std::move(raw.polygons), file);
     return file;
   }
-  require_ids(name, raw.triangles, mesh.points.cols());
-  mesh.triangles = std::move(raw.triangles);
-  mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
-                              orientations_of(mesh.points, mesh.triangles), file);
-  mesh.site_of_input = themselves(mesh.points.cols());
-  file.mesh = spatial(std::move(mesh), Surface::plane());
+  require_ids(name, raw.triangles, raw.points.cols());
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, Surface::plane()};
+  complete(name, mesh, file);
+  file.mesh = std::move(mesh);
   return file;
 }
 
 namespace {
 
-template <class Points>
-auto mesh_of_columns_in_order(const std::string& name, const Points& points, Triangles& triangles,
-                              MeshFile& file) {
+Mesh mesh_of_columns_in_order(const std::string& name, const Points3& points, Triangles& triangles,
+                              const Surface& surface, MeshFile& file) {
   require_ids(name, triangles, points.cols());
-  canonical(name, triangles, points.cols(), orientations_of(points, triangles), file);
-  return mesh_of_columns(points, triangles);
+  canonical(name, triangles, points.cols(), orientations_of(points, triangles, surface), file);
+  return mesh_of_columns(points, triangles, surface);
 }
 
 } // namespace
@@ -370,25 +369,21 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
   file.format = "triangles";
   if (lies_in_plane(points)) {
     require_places(name, points);
-    file.mesh =
-        spatial(mesh_of_columns_in_order(name, Points2(points.topRows<2>()), triangles, file),
-                Surface::plane());
+    file.mesh = mesh_of_columns_in_order(name, points, triangles, Surface::plane(), file);
+    file.mesh->points.row(2).setZero(); // not -0
     return file;
   }
   require_directions(name, points);
-  file.mesh = mesh_of_columns_in_order(name, points, triangles, file);
+  file.mesh = mesh_of_columns_in_order(name, points, triangles, {}, file);
   file.sphere_radius = radius_of(points);
   return file;
 }
 
-MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, RawMesh rest) {
+MeshFile periodic_mesh_file_of(const std::string& name, Mesh mesh, RawMesh rest) {
   MeshFile file = rest_of("MPAS", rest);
-  mesh.neighbours = canonical(name, mesh.triangles, mesh.points.cols(),
-                              orientations_of(mesh.points, mesh.triangles, mesh.period), file);
-  mesh.site_of_input = themselves(mesh.points.cols());
+  complete(name, mesh, file);
   settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
-  const Surface surface = PlanarDomain{{}, mesh.period};
-  file.mesh = spatial(std::move(mesh), surface);
+  file.mesh = std::move(mesh);
   if (rest.polygons.size() > 0) {
     turn_cells(name, rest.polygons, false, file);
     require_no_overlap(rest.polygons, name);

@@ -29,7 +29,7 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
 
 /// A mesh in a periodic plane, whose points are within the periods. It has a boundary where `rest`
 /// has polygons, one for each point. \throws Error parse.
-MeshFile periodic_mesh_file_of(const std::string& name, PlanarMesh mesh, RawMesh rest);
+MeshFile periodic_mesh_file_of(const std::string& name, Mesh mesh, RawMesh rest);
 
 /// Whether z is 0 at all of three or more points: a mesh of the plane.
 bool lies_in_plane(const Points3& points);

@@ -7,12 +7,12 @@
 #include "io/netcdf_fields.h"
 #include "io/netcdf_reader.h"
 #include "io/polygons.h"
-#include "mesh/planar_mesh.h"
 
 #include "base/parallel.h"
 #include "base/points.h"
-#include "domain/periodic_box.h"
+#include "domain/surface.h"
 #include "exact/predicates.h"
+#include "exact/space.h"
 
 #include <calotte/error.h>
 
@@ -124,9 +124,9 @@ Eigen::Vector2d periods_of(const NetcdfReader& file) {
 
 /// Rows x and y into [0, period); what is there keeps its bits.
 void wrap(Points3& places, const Eigen::Vector2d& period) {
-  for (int row = 0; row < 2; ++row)
-    for (double& x : places.row(row))
-      x = domain_detail::wrapped(x, period[row]);
+  const Plane plane(period);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    set_column(places, i, plane.wrapped(column(places, i)));
 }
 
 bool has_edge_fields(const RawMesh& raw) {
@@ -242,18 +242,18 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
 MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (file.text("", "is_periodic").starts_with("NO"))
     return read_bounded_plane(file, choice);
-  PlanarMesh mesh;
-  mesh.period = periods_of(file);
-  Points3 places = finite_places_of(file, "Cell");
-  wrap(places, mesh.period);
-  mesh.points = places.topRows<2>();
+  const Eigen::Vector2d period = periods_of(file);
+  Mesh mesh;
+  mesh.surface = domain_detail::UncheckedSurface::of_plane({}, period);
+  mesh.points = finite_places_of(file, "Cell");
+  wrap(mesh.points, period);
   CompleteVertices complete = complete_vertices(file, mesh.points.cols());
   mesh.triangles = std::move(complete.triangles);
   RawMesh rest;
   read_density_and_fields(file, mesh.points.cols(), choice, rest);
-  require_walls(file, mesh.period, complete.all);
+  require_walls(file, period, complete.all);
   if (!complete.all) {
-    rest.polygons = cells_between_walls(file, std::move(places), mesh.period);
+    rest.polygons = cells_between_walls(file, mesh.points, period);
     select_vertices(rest.fields, complete.vertex);
   }
   return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));

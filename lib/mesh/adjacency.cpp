@@ -2,10 +2,10 @@
 #include "mesh/adjacency.h"
 
 #include "base/matrix_memory.h"
+#include "base/points.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
 #include "mesh/by_vertex.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <numeric>
@@ -39,27 +39,16 @@ bool are_twins(const HalfEdge& a, const HalfEdge& b) {
   return a.runs_up() != b.runs_up() || a.lower == a.higher;
 }
 
-/// The order of sites; 0 for equal ones.
-int compare_columns(const Points3& points, std::int32_t a, std::int32_t b) {
-  const auto column = [&](std::int32_t i) {
-    return Vec3{points(0, i), points(1, i), points(2, i)};
-  };
-  return compare_directions(column(a), column(b));
-}
-
-int compare_columns(const Points2& points, std::int32_t a, std::int32_t b) {
-  return compare(Vec2{points(0, a), points(1, a)}, Vec2{points(0, b), points(1, b)});
-}
-
 /// For each column the one that stands for its site: a column in a triangle for itself, any other
 /// for the lowest equal one in a triangle, or if there is none the lowest equal one.
-template <class Points>
-std::vector<std::int32_t> stands_for(const Points& columns, const std::vector<bool>& in_triangle) {
-  std::vector<std::int32_t> order(static_cast<std::size_t>(columns.cols()));
+/// \param compare(a, b) the order of sites; 0 for equal ones.
+template <class Compare>
+std::vector<std::int32_t> stands_for(const Compare& compare, const std::vector<bool>& in_triangle) {
+  std::vector<std::int32_t> order(in_triangle.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<std::int32_t> result = order;
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const int sign = compare_columns(columns, a, b);
+    const int sign = compare(a, b);
     if (sign != 0)
       return sign < 0;
     const bool a_in = in_triangle[static_cast<std::size_t>(a)];
@@ -67,8 +56,7 @@ std::vector<std::int32_t> stands_for(const Points& columns, const std::vector<bo
     return a_in != b_in ? a_in : a < b;
   });
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (!in_triangle[static_cast<std::size_t>(order[k])] &&
-        compare_columns(columns, order[k - 1], order[k]) == 0)
+    if (!in_triangle[static_cast<std::size_t>(order[k])] && compare(order[k - 1], order[k]) == 0)
       result[static_cast<std::size_t>(order[k])] = result[static_cast<std::size_t>(order[k - 1])];
   return result;
 }
@@ -96,22 +84,26 @@ Triangles neighbours_of(const Triangles& triangles, std::int64_t points) {
   return neighbours;
 }
 
-namespace {
-
-template <class AnyMesh, class Points>
-AnyMesh mesh_of(const Points& columns, const Triangles& triangles) {
+Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles, const Surface& surface) {
   const auto count = static_cast<std::size_t>(columns.cols());
   std::vector<bool> in_triangle(count);
   for (const std::int32_t id : triangles.reshaped())
     in_triangle[static_cast<std::size_t>(id)] = true;
 
-  AnyMesh mesh;
+  Mesh mesh;
+  mesh.surface = surface;
   mesh.points = columns;
   mesh.triangles = triangles;
   mesh.site_of_input.resize(count);
   std::iota(mesh.site_of_input.begin(), mesh.site_of_input.end(), 0);
   if (std::find(in_triangle.begin(), in_triangle.end(), false) != in_triangle.end()) {
-    const std::vector<std::int32_t> stands = stands_for(columns, in_triangle);
+    const std::vector<std::int32_t> stands = stands_for(
+        [&](std::int32_t a, std::int32_t b) {
+          const Vec3 &p = column(columns, a), &q = column(columns, b);
+          return surface.is_sphere() ? compare_directions(p, q)
+                                     : compare(Vec2{p.x, p.y}, Vec2{q.x, q.y});
+        },
+        in_triangle);
     std::vector<std::int32_t> site(count, -1);
     std::int32_t sites = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -127,16 +119,6 @@ AnyMesh mesh_of(const Points& columns, const Triangles& triangles) {
   }
   mesh.neighbours = neighbours_of(mesh.triangles, mesh.points.cols());
   return mesh;
-}
-
-} // namespace
-
-Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles) {
-  return mesh_of<Mesh>(columns, triangles);
-}
-
-PlanarMesh mesh_of_columns(const Points2& columns, const Triangles& triangles) {
-  return mesh_of<PlanarMesh>(columns, triangles);
 }
 
 } // namespace calotte::mesh_detail

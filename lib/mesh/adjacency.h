@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
 #include <calotte/types.h>
@@ -15,10 +14,9 @@ namespace calotte::mesh_detail {
 Triangles neighbours_of(const Triangles& triangles, std::int64_t points);
 
 /// A mesh whose triangles refer to input columns: a column in no triangle that has the same
-/// direction as one in a triangle is its duplicate; the others stay as sites. \pre as
-/// neighbours_of.
-Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles);
-/// The same with places.
-PlanarMesh mesh_of_columns(const Points2& columns, const Triangles& triangles);
+/// direction as one in a triangle, or the same coordinates in a plane, is its duplicate; the others
+/// stay as sites. \pre as neighbours_of.
+Mesh mesh_of_columns(const Points3& columns, const Triangles& triangles,
+                     const Surface& surface = {});
 
 } // namespace calotte::mesh_detail

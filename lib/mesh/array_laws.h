@@ -12,7 +12,7 @@
 /// law is empty where it holds.
 namespace calotte::mesh_detail {
 
-template <class AnyMesh> std::string shape_failure(const AnyMesh& mesh) {
+inline std::string shape_failure(const Mesh& mesh) {
   if (mesh.triangles.cols() == 0)
     return "the mesh has no triangle";
   if (mesh.triangles.cols() > std::numeric_limits<std::int32_t>::max())

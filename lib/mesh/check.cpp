@@ -2,7 +2,6 @@
 #include "mesh/check_laws.h"
 #include "mesh/edge_counts.h"
 #include "mesh/planar_check.h"
-#include "mesh/planar_mesh.h"
 
 #include "base/points.h"
 #include "base/spherical_triangle.h"
@@ -151,7 +150,7 @@ Check prove(const Mesh& mesh, mesh_detail::Proof proof, const ProgressCallback& 
 
 EdgeCounts count_edges(const Mesh& mesh) {
   return mesh.surface.is_sphere() ? mesh_detail::count_edges_of(OnSphere(mesh))
-                                  : mesh_detail::count_edges_in_plane(mesh_detail::planar(mesh));
+                                  : mesh_detail::count_edges_in_plane(mesh);
 }
 
 // Why local laws are enough. The triangles are counter-clockwise and turn around each inner site

@@ -33,8 +33,8 @@ enum class Proof { delaunay, surface };
 
 /// The laws in an order in which each may rely on those before it.
 /// \param site_failure(i) of a site alone; surface() is asked for when all sites are sound.
-template <class AnyMesh, class SiteFailure, class MakeSurface>
-std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failure,
+template <class SiteFailure, class MakeSurface>
+std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
                              const MakeSurface& surface, Proof proof, Check& result,
                              Monitor& monitor) {
   std::string failure = shape_failure(mesh);
@@ -77,8 +77,8 @@ std::string first_broken_law(const AnyMesh& mesh, const SiteFailure& site_failur
   return s.area_failure(area, result);
 }
 
-template <class AnyMesh, class SiteFailure, class MakeSurface>
-Check check_laws(const AnyMesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface,
+template <class SiteFailure, class MakeSurface>
+Check check_laws(const Mesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface,
                  Proof proof, const ProgressCallback& progress) {
   Monitor monitor(progress);
   Check result;

@@ -4,11 +4,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
-#include "exact/plane_predicates.h"
-#include "exact/predicates.h"
+#include "exact/space.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -43,11 +41,6 @@ template <class Sign> Orientations tally(const Triangles& triangles, const Sign&
   return all;
 }
 
-/// The copy of x nearest to the origin, in whole periods; 0 if there is no period.
-int nearest_copy(double x, double origin, double period) {
-  return period > 0 ? static_cast<int>(-std::lround((x - origin) / period)) : 0;
-}
-
 /// A side of a triangle without a neighbour.
 struct OpenSide {
   std::int32_t lower, higher;
@@ -76,29 +69,14 @@ std::vector<OpenSide> open_sides(const Triangles& triangles, const Triangles& ne
 
 } // namespace
 
-Orientations orientations_of(const Points3& points, const Triangles& triangles) {
-  return tally(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    return exact_detail::orientation(column(points, a), column(points, b), column(points, c));
-  });
-}
-
-Orientations orientations_of(const Points2& points, const Triangles& triangles) {
-  const auto place = [&](std::int32_t i) { return Vec2{points(0, i), points(1, i)}; };
-  return tally(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    return exact_detail::orientation(place(a), place(b), place(c));
-  });
-}
-
-Orientations orientations_of(const Points2& points, const Triangles& triangles,
-                             const Eigen::Vector2d& period) {
-  const auto copy = [&](std::int32_t i, std::int32_t near) {
-    return Image{{points(0, i), points(1, i)},
-                 nearest_copy(points(0, i), points(0, near), period.x()),
-                 nearest_copy(points(1, i), points(1, near), period.y())};
-  };
-  return tally(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    return exact_detail::orientation(Vec2{period.x(), period.y()}, copy(a, a), copy(b, a),
-                                     copy(c, a));
+Orientations orientations_of(const Points3& points, const Triangles& triangles,
+                             const Surface& surface) {
+  return in_space_of(surface, [&](const Space auto& space) {
+    return tally(triangles, [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+      const auto p = space.position(column(points, a));
+      return space.orientation(p, space.near(column(points, b), p),
+                               space.near(column(points, c), p));
+    });
   });
 }
 

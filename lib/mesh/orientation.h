@@ -22,14 +22,10 @@ struct Orientations {
   }
 };
 
-/// \pre ids are in range, and points are directions.
-Orientations orientations_of(const Points3& points, const Triangles& triangles);
-/// In the plane. \pre ids are in range, and points are finite.
-Orientations orientations_of(const Points2& points, const Triangles& triangles);
-/// In a periodic plane, where a triangle's corners are the nearest copies of its sites.
-/// \param period as in PlanarMesh.
-Orientations orientations_of(const Points2& points, const Triangles& triangles,
-                             const Eigen::Vector2d& period);
+/// In a periodic plane a triangle's corners are the nearest copies of its sites.
+/// \pre ids are in range; points are directions, or finite ones of the plane within the periods.
+Orientations orientations_of(const Points3& points, const Triangles& triangles,
+                             const Surface& surface = {});
 
 /// Reverses every triangle: its last two vertices change places.
 void reverse(Triangles& triangles);

@@ -2,9 +2,8 @@
 #include "mesh/planar_check.h"
 
 #include "curve/hilbert.h"
-#include "exact/plane_predicates.h"
+#include "exact/space.h"
 #include "mesh/edge_counts.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,27 +12,30 @@ namespace calotte {
 namespace {
 
 using exact_detail::Image;
+using exact_detail::Plane;
 using exact_detail::roundoff;
 using exact_detail::Vec2;
 using mesh_detail::Area;
 using mesh_detail::Proof;
 
-std::string place_failure(const PlanarMesh& mesh, std::int64_t site) {
-  const auto p = mesh.points.col(site);
+std::string site_failure(const Mesh& mesh, std::int64_t site) {
+  const std::string name = "site " + std::to_string(site);
+  if (!(mesh.points(2, site) == 0))
+    return name + " of the plane has a z that is not 0";
+  const Eigen::Vector2d p = mesh.points.col(site).head<2>(), &period = mesh.surface.period();
   if (!p.allFinite())
-    return "site " + std::to_string(site) + " is not a place";
-  const auto outside = p.array() < 0 || p.array() >= mesh.period.array();
-  return (mesh.period.array() > 0 && outside).any()
-             ? "site " + std::to_string(site) + " is outside the periodic " +
-                   (mesh.period.minCoeff() > 0 ? "box" : "channel")
+    return name + " is not a place";
+  const auto outside = p.array() < 0 || p.array() >= period.array();
+  return (period.array() > 0 && outside).any()
+             ? name + " is outside the periodic " + (mesh.surface.is_box() ? "box" : "channel")
              : std::string();
 }
 
 /// The power of two that brings the largest of the coordinates and periods to between 1/2 and 1.
-int scale_of(const PlanarMesh& mesh) {
+int scale_of(const Mesh& mesh) {
   const double largest = mesh.points.size() > 0 ? mesh.points.cwiseAbs().maxCoeff() : 0;
   int exponent = 0;
-  std::frexp(std::max(largest, mesh.period.maxCoeff()), &exponent);
+  std::frexp(std::max(largest, mesh.surface.period().maxCoeff()), &exponent);
   return -exponent;
 }
 
@@ -53,14 +55,15 @@ Area half_cross(const Vec2& p, const Vec2& q, double off) {
 struct InPlane : mesh_detail::Faces {
   static constexpr const char* circle = "circle";
 
-  const PlanarMesh& mesh;
+  const Mesh& mesh;
   Proof proof;
+  Plane plane;
   Vec2 period; ///< 0 in a direction without one
   int scale;   ///< exponent, for areas
 
-  explicit InPlane(const PlanarMesh& given, Proof wanted = Proof::surface)
-      : Faces(mesh_detail::faces_of(given)), mesh(given),
-        proof(wanted), period{given.period.x(), given.period.y()}, scale(scale_of(given)) {}
+  explicit InPlane(const Mesh& given, Proof wanted = Proof::surface)
+      : Faces(mesh_detail::faces_of(given)), mesh(given), proof(wanted),
+        plane(given.surface.period()), period(plane.period()), scale(scale_of(given)) {}
 
   bool periodic() const { return period.x > 0 || period.y > 0; }
   bool is_box() const { return period.x > 0 && period.y > 0; }
@@ -79,13 +82,11 @@ struct InPlane : mesh_detail::Faces {
   }
 
   int orientation(std::int32_t a, std::int32_t b, std::int32_t c) const {
-    return exact_detail::orientation(period, image(a, a), image(b, a), image(c, a));
+    return plane.orientation(image(a, a), image(b, a), image(c, a));
   }
 
   int in_circle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const {
-    const Image p = image(a, a), q = image(b, a), r = image(c, a), s = image(d, a);
-    const int sign = exact_detail::in_circle(period, p, q, r, s);
-    return sign != 0 ? sign : exact_detail::in_circle_tie(period, p, q, r, s);
+    return plane.in_circle_resolved(image(a, a), image(b, a), image(c, a), image(d, a));
   }
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
@@ -215,21 +216,15 @@ struct InPlane : mesh_detail::Faces {
 // into its area, so areas that sum to the box's leave one part of one sheet. In a channel a part
 // that bends to the left alone has the characteristic 1, or 0 and straight walls: the sum 0 leaves
 // the latter, and areas that sum to the channel between its outermost sites one of one sheet.
-// Triangles narrower
-// than half of the box lie in the plane without overlap, which is what in_circle() works in. Such a
-// mesh with Delaunay edges is Delaunay.
+// Triangles narrower than half of the box lie in the plane without overlap, which is what
+// in_circle() works in. Such a mesh with Delaunay edges is Delaunay.
 Check mesh_detail::check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress) {
-  const PlanarMesh plane = planar(mesh);
-  const auto site_failure = [&](std::int64_t site) {
-    return mesh.points(2, site) == 0
-               ? place_failure(plane, site)
-               : "site " + std::to_string(site) + " of the plane has a z that is not 0";
-  };
   return check_laws(
-      plane, site_failure, [&] { return InPlane(plane, proof); }, proof, progress);
+      mesh, [&](std::int64_t site) { return site_failure(mesh, site); },
+      [&] { return InPlane(mesh, proof); }, proof, progress);
 }
 
-EdgeCounts mesh_detail::count_edges_in_plane(const PlanarMesh& mesh) {
+EdgeCounts mesh_detail::count_edges_in_plane(const Mesh& mesh) {
   return count_edges_of(InPlane(mesh));
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mesh/check_laws.h"
-#include "mesh/planar_mesh.h"
 #include "mesh/room.h"
 
 #include <calotte/check.h>
@@ -12,7 +11,7 @@ namespace calotte::mesh_detail {
 /// What check() or check_surface() finds. \pre the mesh is one of the plane.
 Check check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
 
-/// As count_edges().
-EdgeCounts count_edges_in_plane(const PlanarMesh& mesh);
+/// As count_edges(). \pre as above.
+EdgeCounts count_edges_in_plane(const Mesh& mesh);
 
 } // namespace calotte::mesh_detail
