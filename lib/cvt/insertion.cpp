@@ -12,7 +12,7 @@
 #include "domain/periodic_box.h"
 #include "domain/planar_domain.h"
 #include "domain/surface.h"
-#include "generators/midpoints.h"
+#include "exact/space.h"
 #include "mesh/edges.h"
 #include "mesh/planar_mesh.h"
 
@@ -209,7 +209,7 @@ Points3 change_edges(const AnyMesh& mesh, const Points3& points, const Density& 
 
 struct OnSphere {
   static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
-  static Vec3 middle(const Vec3& a, const Vec3& b) { return midpoint(a, b); }
+  static Vec3 middle(const Vec3& a, const Vec3& b) { return Sphere::midpoint(a, b); }
   static bool holds(const Vec3&) { return true; }
   static bool keeps(const Vec3&, const Vec3&) { return false; }
 };
@@ -230,9 +230,7 @@ struct InPlane {
     return {way.x, way.y, 0};
   }
   Vec3 middle(const Vec3& a, const Vec3& b) const {
-    if (outline != nullptr)
-      return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, 0};
-    return {middle_in_box(a.x, b.x, period.x), middle_in_box(a.y, b.y, period.y), 0};
+    return outline != nullptr ? Plane().midpoint(a, b) : Plane(period).midpoint(a, b);
   }
   bool holds(const Vec3& place) const {
     return outline == nullptr || outline->side({place.x, place.y}) == Side::inside;
@@ -305,7 +303,7 @@ Points2 split_and_collapsed(const PlanarMesh& mesh, const PlanarDomain& domain,
 
 bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
   constexpr double share = 0.2;
-  const Vec3 middle = midpoint(a, b);
+  const Vec3 middle = Sphere::midpoint(a, b);
   const double reach = share * norm(b - a);
   bool near = false;
   outline.for_each_edge_near(middle, reach, [&](const SphericalOutline::Edge&) { near = true; });

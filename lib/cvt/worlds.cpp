@@ -15,7 +15,6 @@
 #include "domain/arcs.h"
 #include "domain/periodic_box.h"
 #include "domain/planar_domain.h"
-#include "generators/midpoints.h"
 #include "mesh/canonical_order.h"
 #include "mesh/planar_mesh.h"
 #include "mesh/subdivide.h"
@@ -265,8 +264,8 @@ PlanarMesh PlanarWorld::mesh(const Points3& points, Connectivity&& canonical) co
 }
 
 Level PlanarWorld::set_bisected(State& state, const PlanarMesh& coarse) const {
-  const Sites sites =
-      make_planar_sites(generators_detail::bisected(coarse, domain_), Duplicates::refuse, 0);
+  const Mesh whole = mesh_detail::spatial(PlanarMesh(coarse), domain_);
+  const Sites sites = make_planar_sites(bisect(whole).topRows<2>(), Duplicates::refuse, 0);
   set_places(state, sites);
   if (!domain_.periodic()) // a part of the midpoints
     return {};

@@ -150,14 +150,18 @@ void require_sphere(const Surface& surface, const std::string& what) {
                                                    "give one of the sphere");
 }
 
+void require_plane(const Surface& surface, const std::string& what) {
+  base_detail::require(!surface.is_sphere(), what + " for the plane, and the surface is one of the "
+                                                    "sphere; give one of the plane");
+}
+
 Region part_of_sphere(const Surface& surface, const std::string& what) {
   require_sphere(surface, what);
   return region_of(surface);
 }
 
 PlanarDomain part_of_plane(const Surface& surface, const std::string& what) {
-  base_detail::require(!surface.is_sphere(), what + " for the plane, and the surface is one of the "
-                                                    "sphere; give one of the plane");
+  require_plane(surface, what);
   return domain_of(surface);
 }
 

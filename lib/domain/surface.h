@@ -25,6 +25,9 @@ Region region_of(const Surface& surface);
 /// \throws Error invalid_argument for a plane.
 void require_sphere(const Surface& surface, const std::string& what);
 
+/// \throws Error invalid_argument for the sphere.
+void require_plane(const Surface& surface, const std::string& what);
+
 /// The part of the sphere, or of the plane, for a function that knows this kind of surface alone.
 /// \param what is of that kind, for the message: "a lattice is".
 /// \throws Error invalid_argument for a surface of the other kind.

@@ -5,7 +5,6 @@
 #include "base/require.h"
 #include "density/demanded_spacing.h"
 #include "density/hexagons.h"
-#include "domain/region.h"
 #include "domain/rings.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
@@ -197,14 +196,14 @@ double whole_cells(double n, double edges) {
 } // namespace
 
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
-  const Region region = domain_detail::part_of_sphere(surface, "generators along the boundary are");
+  domain_detail::require_sphere(surface, "generators along the boundary are");
   constexpr std::int64_t samples = 65536;
   require(cells >= 4 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
                                                   "; give 4 to " + std::to_string(most_points));
-  if (region.whole())
+  if (!surface.is_bounded())
     return Points3(3, 0);
-  const SphericalOutline outline(region);
-  const Rings rings = rings_of(region.rings);
+  const SphericalOutline outline(surface);
+  const Rings rings = rings_of({surface.rings().begin(), surface.rings().end()});
   const auto n = static_cast<double>(cells);
   double edges = 0;
   for (const std::vector<Mark>& marks :

@@ -9,13 +9,11 @@
 #include "base/vec3.h"
 #include "density/planar_density.h"
 #include "density/sampling.h"
-#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
-#include "generators/midpoints.h"
+#include "exact/space.h"
 #include "generators/room.h"
 #include "mesh/edges.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +36,6 @@ using base_detail::require;
 using base_detail::require_count;
 using base_detail::SplitMix;
 using base_detail::Vec3;
-using generators_detail::midpoint;
 using generators_detail::most_points;
 
 void put(Points3& points, std::int64_t column, const Vec3& p) {
@@ -145,11 +142,9 @@ Points3 random_points(std::int64_t n, const Surface& surface, const Density& den
   if (surface.is_whole_sphere())
     return random_sphere(n, density, seed);
   if (surface.is_sphere())
-    return density_detail::draw(
-        n, density, domain_detail::SphericalOutline(domain_detail::region_of(surface)), seed);
-  const PlanarDomain domain = domain_detail::domain_of(surface);
+    return density_detail::draw(n, density, domain_detail::SphericalOutline(surface), seed);
   return base_detail::with_z(
-      density_detail::draw(n, density_detail::planar_density(density, domain), domain, seed));
+      density_detail::draw(n, density_detail::planar_density(density, surface), surface, seed));
 }
 
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
@@ -260,15 +255,14 @@ Points3 cubed_sphere(std::int64_t m) {
 }
 
 Points3 bisect(const Mesh& mesh) {
-  if (!mesh.surface.is_sphere())
-    return base_detail::with_z(generators_detail::bisected(mesh_detail::planar(mesh),
-                                                           domain_detail::domain_of(mesh.surface)));
   const std::int64_t n = mesh.points.cols();
   const mesh_detail::EdgeCount edges = mesh_detail::count_edges(mesh);
   Points3 points(3, n + edges.all);
   points.leftCols(n) = mesh.points;
-  mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
-    put(points, n + e, midpoint(get(points, a), get(points, b)));
+  exact_detail::in_space_of(mesh.surface, [&](const exact_detail::Space auto& space) {
+    mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
+      put(points, n + e, space.midpoint(get(points, a), get(points, b)));
+    });
   });
   return mesh.surface.is_bounded() ? inside_after(n, std::move(points), mesh.surface) : points;
 }

@@ -5,7 +5,7 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "generators/midpoints.h"
+#include "exact/space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ Points3 bisected_icosahedron(int level) {
     for (const auto& [a, b] : mesh.edges)
       base_detail::set_column(
           points, count++,
-          midpoint(base_detail::column(points, a), base_detail::column(points, b)));
+          Sphere::midpoint(base_detail::column(points, a), base_detail::column(points, b)));
   }
   return points;
 }

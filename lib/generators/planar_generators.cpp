@@ -7,10 +7,7 @@
 #include "domain/outline.h"
 #include "domain/planar_domain.h"
 #include "domain/surface.h"
-#include "generators/midpoints.h"
 #include "generators/room.h"
-#include "mesh/edges.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +24,6 @@ using base_detail::require_count;
 using domain_detail::Outline;
 using domain_detail::Side;
 using exact_detail::Vec2;
-using generators_detail::middle_in_box;
 using generators_detail::most_points;
 
 constexpr double rise = std::numbers::sqrt3 / 2; ///< of rows, over the spacing
@@ -114,16 +110,17 @@ double spacing_for(std::int64_t n, const Outline& outline) {
   return best;
 }
 
-Points2 lattice_inside(std::int64_t n, const Outline& outline) {
+Points3 lattice_inside(std::int64_t n, const Outline& outline) {
   const Lattice lattice(outline, spacing_for(n, outline));
   std::vector<std::int64_t> begin = count_rows(outline, lattice);
   const std::int64_t total = base_detail::exclusive_scan(std::span(begin));
   require(total > 0, "no place of a lattice of " + std::to_string(n) +
                          " places is inside the domain; increase the number");
-  Points2 places(2, total);
+  Points3 places(3, total);
   base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
     std::int64_t next = begin[static_cast<std::size_t>(row)];
-    for_each_inside(outline, lattice, row, [&](const Vec2& p) { places.col(next++) << p.x, p.y; });
+    for_each_inside(outline, lattice, row,
+                    [&](const Vec2& p) { places.col(next++) << p.x, p.y, 0; });
   });
   return places;
 }
@@ -178,62 +175,30 @@ std::optional<double> regular_spacing(const Grid& grid, const Eigen::Vector2d& p
   return std::nullopt;
 }
 
-Points2 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
+Points3 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
   const Grid grid = grid_for(n, period);
   if (const std::optional<double> spacing = regular_spacing(grid, period))
-    return hexagonal_box(grid.columns, grid.rows, *spacing).points.topRows<2>();
+    return hexagonal_box(grid.columns, grid.rows, *spacing).points;
   const double across = period.x() / static_cast<double>(grid.columns),
                up = period.y() / static_cast<double>(grid.rows);
-  Points2 places(2, grid.columns * grid.rows);
+  Points3 places(3, grid.columns * grid.rows);
   for (std::int64_t row = 0; row < grid.rows; ++row)
     for (std::int64_t column = 0; column < grid.columns; ++column)
       places.col(row * grid.columns + column)
           << (static_cast<double>(column) + (row % 2 == 0 ? 0 : 0.5)) * across,
-          static_cast<double>(row) * up;
-  return places;
-}
-
-// ---- Bisection
-
-Points2 bisected_box(const PlanarMesh& mesh) {
-  const std::int64_t n = mesh.points.cols();
-  const mesh_detail::EdgeCount edges = mesh_detail::count_edges(mesh);
-  Points2 places(2, n + edges.all);
-  places.leftCols(n) = mesh.points;
-  mesh_detail::for_each_edge(mesh, edges, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
-    for (int i = 0; i < 2; ++i)
-      places(i, n + e) = middle_in_box(mesh.points(i, a), mesh.points(i, b), mesh.period[i]);
-  });
-  return places;
-}
-
-Points2 bisected_inside(const PlanarMesh& mesh, const Outline& outline) {
-  const std::int64_t n = mesh.points.cols();
-  Points2 places(2, n + mesh_detail::count_edges(mesh).all);
-  places.leftCols(n) = mesh.points;
-  std::int64_t next = n;
-  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
-    const Eigen::Vector2d middle = mesh.points.col(a) / 2 + mesh.points.col(b) / 2;
-    if (outline.side({middle.x(), middle.y()}) != Side::outside)
-      places.col(next++) = middle;
-  });
-  places.conservativeResize(Eigen::NoChange, next);
+          static_cast<double>(row) * up, 0;
   return places;
 }
 
 } // namespace
 
-Points2 generators_detail::bisected(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  return domain.rings.empty() ? bisected_box(mesh) : bisected_inside(mesh, Outline(domain));
-}
-
 Points3 hexagonal_lattice(std::int64_t n, const Surface& surface) {
-  const PlanarDomain domain = domain_detail::part_of_plane(surface, "a hexagonal lattice is");
-  require_count(n, domain.periodic() ? 12 : 1, "the number of points");
-  if (!domain.periodic())
-    return base_detail::with_z(lattice_inside(n, Outline(domain)));
-  require_domain(domain);
-  return base_detail::with_z(lattice_of_box(n, domain.period));
+  domain_detail::require_plane(surface, "a hexagonal lattice is");
+  require_count(n, surface.is_bounded() ? 1 : 12, "the number of points");
+  if (surface.is_bounded())
+    return lattice_inside(n, Outline(surface));
+  require_domain(surface);
+  return lattice_of_box(n, surface.period());
 }
 
 } // namespace calotte
