@@ -24,7 +24,7 @@ struct Step {
 
 class Walk {
 public:
-  Walk(const Points2& sites, const Neighbours& neighbours)
+  Walk(const Points3& sites, const Neighbours& neighbours)
       : sites_(sites), neighbours_(neighbours) {}
 
   /// Goes from a cell at one place to the cell at another. Calls cross(cell, next, place).
@@ -119,7 +119,7 @@ private:
     return first;
   }
 
-  const Points2& sites_;
+  const Points3& sites_;
   const Neighbours& neighbours_;
 };
 
@@ -200,7 +200,7 @@ std::vector<BoundaryVertex> walk_ring(const Walk& walk, const std::vector<Vec2>&
 
 } // namespace
 
-std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points2& sites,
+std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points3& sites,
                                                        const Neighbours& neighbours) {
   const Walk walk(sites, neighbours);
   std::vector<std::vector<BoundaryVertex>> rings;

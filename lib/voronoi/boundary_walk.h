@@ -34,7 +34,7 @@ struct BoundaryVertex {
 /// bisector comes first. Each step makes progress in the edge's direction, so that the walk ends,
 /// and the vertices of a ring form a closed walk in the triangulation, whatever the rounding. A
 /// bisector that runs along the boundary but for rounding belongs to the site on the domain's side.
-std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points2& sites,
+std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points3& sites,
                                                        const Neighbours& neighbours);
 
 } // namespace calotte::voronoi_detail

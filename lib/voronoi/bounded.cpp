@@ -5,12 +5,12 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/clipped_cell.h"
-#include "domain/planar_domain.h"
+#include "domain/outline.h"
 #include "mesh/ids.h"
-#include "mesh/planar_mesh.h"
 #include "voronoi/boundary_walk.h"
 #include "voronoi/groups.h"
 #include "voronoi/open.h"
+#include "voronoi/stages.h"
 
 #include <calotte/error.h>
 
@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-void require_mesh(const PlanarMesh& mesh) {
+void require_mesh(const Mesh& mesh) {
   require(are_ids(mesh.triangles, mesh.points.cols()),
           "the mesh has an id that is not one of its " + std::to_string(mesh.points.cols()) +
               " points: triangulate the points anew");
@@ -113,7 +113,7 @@ struct Crossing {
 
 /// In their order on each edge.
 std::vector<Crossing> crossings_of(const std::vector<std::vector<BoundaryVertex>>& rings,
-                                   const std::vector<DelaunayEdge>& edges, const Points2& sites) {
+                                   const std::vector<DelaunayEdge>& edges, const Points3& sites) {
   std::vector<Crossing> crossings;
   std::int32_t vertex = 0;
   for (const auto& ring : rings)
@@ -152,7 +152,7 @@ void add(std::array<Beyond, 3>& list, const Beyond& beyond) {
 /// How often the boundary turns around each triangle, which is 0 or 1 by the rings' orientation.
 /// To the left of an edge it turns once more for each crossing that starts there.
 std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges,
-                                          const std::vector<int>& starts, const PlanarMesh& mesh) {
+                                          const std::vector<int>& starts, const Mesh& mesh) {
   constexpr std::int8_t unknown = -1;
   std::vector<std::int8_t> inside(static_cast<std::size_t>(mesh.triangles.cols()), unknown);
   std::vector<std::array<Beyond, 3>> beyond(inside.size());
@@ -187,7 +187,7 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
 }
 
 /// From the corner across from the longest side, which keeps the most digits.
-Vec3 circumcentre_of(const Points2& sites, const Triangles& triangles, std::int64_t t) {
+Vec3 circumcentre_of(const Points3& sites, const Triangles& triangles, std::int64_t t) {
   const auto at = [&](int i) {
     const std::int32_t site = triangles(i % 3, t);
     return Vec2{sites(0, site), sites(1, site)};
@@ -299,7 +299,7 @@ void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
   out.vertices_on_cell.items = Eigen::Map<const Ids>(vertices.data(), std::ssize(vertices));
 }
 
-void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& vertex_of_triangle,
+void set_vertices(const Mesh& mesh, const std::vector<std::int32_t>& vertex_of_triangle,
                   const std::vector<std::vector<BoundaryVertex>>& rings, std::int32_t inner,
                   Voronoi& out) {
   std::int64_t count = inner;
@@ -315,7 +315,7 @@ void set_vertices(const PlanarMesh& mesh, const std::vector<std::int32_t>& verte
       set_column(out.vertices, v++, {at.place.x, at.place.y, 0});
 }
 
-Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
+Voronoi bounded(const Mesh& mesh, const Outline& outline) {
   const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
   const auto rings = walk_boundary(outline, mesh.points, neighbours_of(edges, mesh.points.cols()));
   const std::vector<Crossing> crossings = crossings_of(rings, edges, mesh.points);
@@ -331,7 +331,7 @@ Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
 
   Voronoi out;
   out.on_sphere = false;
-  out.cells = with_z(mesh.points);
+  out.cells = with_z(mesh.points.topRows<2>());
   set_vertices(mesh, vertex_of_triangle, rings, inner, out);
   std::vector<Side> sides;
   add_inner_sides(edges, crossings, vertex_of_triangle, inner, sides);
@@ -344,10 +344,10 @@ Voronoi bounded(const PlanarMesh& mesh, const Outline& outline) {
 
 } // namespace
 
-Voronoi bounded(const PlanarMesh& mesh, const PlanarDomain& domain) {
-  const Outline outline(domain);
+Voronoi bounded(const Mesh& mesh) {
+  const Outline outline(mesh.surface);
   require_mesh(mesh);
-  require_inside(mesh.points, outline);
+  require_inside(mesh.points.topRows<2>(), outline);
   return bounded(mesh, outline);
 }
 

@@ -6,8 +6,7 @@
 #include "base/points.h"
 #include "base/spherical_angles.h"
 #include "base/spherical_triangle.h"
-#include "domain/periodic_box.h"
-#include "exact/predicates.h"
+#include "exact/space.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
 
@@ -191,42 +190,34 @@ void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
 
 // ---- Measures
 
-struct Sphere {
-  static Vec3 way(const Vec3& a, const Vec3& b) { return b - a; }
-  static Vec3 middle(const Vec3& a, const Vec3& b) { return normalised(a + b); }
-  static double length(const Vec3& a, const Vec3& b) {
-    return 2 * std::atan2(norm(b - a), norm(a + b));
-  }
-  static double area(const Vec3& a, const Vec3& b, const Vec3& c) { return triangle_area(a, b, c); }
-  static Vec3 to_the_right(const Vec3& way, const Vec3& place) { return cross(way, place); }
-  static double angle(const Vec3& place, const Vec3& direction) {
-    const Vec3 east{-place.y, place.x, 0};
-    return std::atan2(dot(direction, cross(place, east)), dot(direction, east));
-  }
-};
+Vec3 middle(const Sphere&, const Vec3& a, const Vec3& b) { return normalised(a + b); }
+Vec3 middle(const Plane& plane, const Vec3& a, const Vec3& b) {
+  return plane.wrapped(a + 0.5 * plane.offset(a, b));
+}
 
-/// Ways lead to nearest copies where the plane is periodic.
-struct Plane {
-  Vec2 period;
+double length(const Sphere&, const Vec3& a, const Vec3& b) {
+  return 2 * std::atan2(norm(b - a), norm(a + b));
+}
+double length(const Plane& plane, const Vec3& a, const Vec3& b) { return norm(plane.offset(a, b)); }
 
-  Vec3 way(const Vec3& a, const Vec3& b) const {
-    const Vec2 offset = domain_detail::nearest_offset(a, b, period);
-    return {offset.x, offset.y, 0};
-  }
-  Vec3 middle(const Vec3& a, const Vec3& b) const {
-    const Vec3 middle = a + 0.5 * way(a, b);
-    return {domain_detail::wrapped(middle.x, period.x), domain_detail::wrapped(middle.y, period.y),
-            0};
-  }
-  double length(const Vec3& a, const Vec3& b) const { return norm(way(a, b)); }
-  double area(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    return cross(way(a, b), way(a, c)).z / 2;
-  }
-  static Vec3 to_the_right(const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
-  static double angle(const Vec3&, const Vec3& direction) {
-    return eastern(std::atan2(direction.y, direction.x), 2 * std::numbers::pi);
-  }
-};
+double area(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return triangle_area(a, b, c);
+}
+double area(const Plane& plane, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return cross(plane.offset(a, b), plane.offset(a, c)).z / 2;
+}
+
+Vec3 to_the_right(const Sphere&, const Vec3& way, const Vec3& at) { return cross(way, at); }
+Vec3 to_the_right(const Plane&, const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
+
+/// Of a direction at a point, from east.
+double angle(const Sphere&, const Vec3& at, const Vec3& direction) {
+  const Vec3 east{-at.y, at.x, 0};
+  return std::atan2(dot(direction, cross(at, east)), dot(direction, east));
+}
+double angle(const Plane&, const Vec3&, const Vec3& direction) {
+  return eastern(std::atan2(direction.y, direction.x), 2 * std::numbers::pi);
+}
 
 /// The place, length and angle of an edge.
 struct EdgeMeasure {
@@ -236,36 +227,36 @@ struct EdgeMeasure {
 };
 
 /// \param cut the place of an edge that halves the way to a missing cell; null for other edges.
-template <class Space>
-EdgeMeasure measured(const Space& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
+template <Space S>
+EdgeMeasure measured(const S& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
   const Vec3& from = column(of.cells, of.cells_on_edge(0, e));
   if (cut != nullptr)
-    return {*cut, 2 * space.length(from, *cut), space.way(from, *cut)};
+    return {*cut, 2 * length(space, from, *cut), space.offset(from, *cut)};
   if (of.cells_on_edge(1, e) >= 0) {
     const Vec3& to = column(of.cells, of.cells_on_edge(1, e));
-    return {space.middle(from, to), space.length(from, to), space.way(from, to)};
+    return {middle(space, from, to), length(space, from, to), space.offset(from, to)};
   }
   const Vec3 &right = column(of.vertices, of.vertices_on_edge(0, e)),
              &left = column(of.vertices, of.vertices_on_edge(1, e));
-  const Vec3 middle = space.middle(right, left);
-  return {middle, std::numbers::sqrt3 * space.length(right, left),
-          space.to_the_right(space.way(right, left), middle)};
+  const Vec3 at = middle(space, right, left);
+  return {at, std::numbers::sqrt3 * length(space, right, left),
+          to_the_right(space, space.offset(right, left), at)};
 }
 
-template <class Space>
-void measure_edge(const Space& space, std::int64_t e, const Points3& cut_edges, Voronoi& out) {
+template <Space S>
+void measure_edge(const S& space, std::int64_t e, const Points3& cut_edges, Voronoi& out) {
   const bool cut =
       out.cells_on_edge(1, e) < 0 && cut_edges.cols() > 0 && cut_edges.col(e).allFinite();
   const EdgeMeasure edge = measured(space, e, cut ? &column(cut_edges, e) : nullptr, out);
   set_column(out.edges, e, edge.middle);
-  out.dv[e] = space.length(column(out.vertices, out.vertices_on_edge(0, e)),
-                           column(out.vertices, out.vertices_on_edge(1, e)));
+  out.dv[e] = length(space, column(out.vertices, out.vertices_on_edge(0, e)),
+                     column(out.vertices, out.vertices_on_edge(1, e)));
   out.dc[e] = edge.dc;
-  out.angle[e] = space.angle(edge.middle, edge.normal);
+  out.angle[e] = angle(space, edge.middle, edge.normal);
 }
 
 /// The kites of cells that are there, between edges that are.
-template <class Space> void measure_kites(const Space& space, std::int64_t v, Voronoi& out) {
+template <Space S> void measure_kites(const S& space, std::int64_t v, Voronoi& out) {
   out.vertex_area[v] = 0;
   for (int j = 0; j < 3; ++j) {
     out.kites(j, v) = 0;
@@ -277,22 +268,22 @@ template <class Space> void measure_kites(const Space& space, std::int64_t v, Vo
       continue;
     const Vec3 &p = column(out.vertices, v), &c = column(out.cells, cell);
     out.kites(j, v) =
-        space.area(p, column(out.edges, e), c) + space.area(p, c, column(out.edges, next));
+        area(space, p, column(out.edges, e), c) + area(space, p, c, column(out.edges, next));
     out.vertex_area[v] += out.kites(j, v);
   }
 }
 
 /// The fan of triangles from the site.
-template <class Space> void measure_cell(const Space& space, std::int32_t i, Voronoi& out) {
+template <Space S> void measure_cell(const S& space, std::int32_t i, Voronoi& out) {
   double sum = 0;
   const std::span<const std::int32_t> vertices = out.vertices_on_cell[i];
   for (std::size_t place = 0; place != vertices.size(); ++place)
-    sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, place)),
-                      column(out.vertices, vertices[place]));
+    sum += area(space, column(out.cells, i), column(out.vertices, start_of(out, i, place)),
+                column(out.vertices, vertices[place]));
   out.cell_area[i] = sum;
 }
 
-template <class Space> void measure(const Space& space, const Points3& cut_edges, Voronoi& out) {
+template <Space S> void measure(const S& space, const Points3& cut_edges, Voronoi& out) {
   for_each_block(out.cells_on_edge.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e != end; ++e)
       measure_edge(space, e, cut_edges, out);
@@ -328,9 +319,9 @@ void measure_open(Voronoi& out, const Points3& cut_edges) {
   make_room(out.vertex_area, vertices, 1);
   make_room(out.cell_area, out.cells.cols(), 1);
   if (out.on_sphere)
-    measure(Sphere{}, cut_edges, out);
+    measure(Sphere(), cut_edges, out);
   else
-    measure(Plane{{out.period.x(), out.period.y()}}, cut_edges, out);
+    measure(Plane(out.period), cut_edges, out);
 }
 
 } // namespace calotte::voronoi_detail

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/room.h"
 
@@ -22,9 +20,9 @@ struct BegunVoronoi {
 /// \throws Error invalid_argument, as voronoi(mesh).
 BegunVoronoi begun(Mesh& mesh);
 
-/// The cells of a part of the plane, which clips them.
+/// The cells of a part of the plane, which clips them. \pre the mesh's surface is such a part.
 /// \throws Error invalid_argument, as voronoi(mesh).
-Voronoi bounded(const PlanarMesh& mesh, const PlanarDomain& domain);
+Voronoi bounded(const Mesh& mesh);
 
 /// Sets all other ids; frees the rings and the neighbours.
 /// \throws Error invalid_argument if two cells share two edges.

@@ -6,9 +6,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "domain/surface.h"
 #include "exact/predicates.h"
-#include "mesh/planar_mesh.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/far_side.h"
 #include "voronoi/geometry.h"
@@ -165,7 +163,7 @@ Voronoi voronoi(const Mesh& mesh) {
   using namespace voronoi_detail;
   const Surface& surface = mesh.surface;
   if (!surface.is_sphere() && surface.is_bounded())
-    return bounded(mesh_detail::planar(mesh), domain_detail::domain_of(surface));
+    return bounded(mesh);
   return surface.is_sphere() && !mesh.closed() ? voronoi_of_open(mesh) : voronoi_of_closed(mesh);
 }
 
