@@ -8,7 +8,6 @@
 #include "io/field_order.h"
 #include "io/polygons.h"
 #include "mesh/canonical_order.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/check.h>
 
@@ -142,13 +141,11 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
   return mesh;
 }
 
-std::optional<PlanarMesh> planar_mesh_of_cells(const Points2& centres, const Polygons& polygons) {
+std::optional<Mesh> planar_mesh_of_cells(const Points3& centres, const Polygons& polygons) {
   const Dual dual = dual_of(polygons, polygons.corners.cols());
   if (dual.failed >= 0 || dual.triangles.cols() == 0)
     return {};
-  PlanarMesh mesh;
-  mesh.points = centres;
-  mesh.site_of_input = themselves(centres.cols());
+  Mesh mesh{centres, {}, {}, themselves(centres.cols()), Surface::plane()};
   order_neighbours(dual.neighbours, order_triangles(dual.triangles, {}, mesh.triangles),
                    mesh.neighbours);
   return mesh;

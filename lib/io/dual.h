@@ -2,7 +2,6 @@
 #pragma once
 
 #include "io/room.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/mesh_field.h>
 #include <calotte/mesh_file.h>
@@ -47,6 +46,6 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
 /// The same triangles in a plane, of centres whose triangulation may have more: those of the hull.
 /// The corners need not be circumcentres. none where other than three polygons surround a corner,
 /// and without triangles.
-std::optional<PlanarMesh> planar_mesh_of_cells(const Points2& centres, const Polygons& polygons);
+std::optional<Mesh> planar_mesh_of_cells(const Points3& centres, const Polygons& polygons);
 
 } // namespace calotte::io_detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "domain/planar_domain.h"
+#include "domain/surface.h"
 #include "io/polygons.h"
 
 #include <calotte/error.h>
@@ -32,7 +32,7 @@ std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
 
 /// The closed lines of that boundary.
 Surface domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
-  PlanarDomain domain;
+  Surface::Rings rings;
   for (std::size_t start = 0; start < next.size(); ++start) {
     std::vector<std::int32_t> ring;
     for (auto at = static_cast<std::int32_t>(start); next[static_cast<std::size_t>(at)] >= 0;) {
@@ -40,9 +40,9 @@ Surface domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
       at = std::exchange(next[static_cast<std::size_t>(at)], -1);
     }
     if (!ring.empty())
-      domain.rings.emplace_back(polygons.corners(Eigen::all, ring).topRows<2>());
+      rings.emplace_back(polygons.corners(Eigen::all, ring).topRows<2>());
   }
-  return domain;
+  return domain_detail::UncheckedSurface::of_plane(std::move(rings), {0, 0});
 }
 
 /// Whether the polygons are the Voronoi cells that a part of the plane clips.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/points.h"
 #include "base/require.h"
-#include "delaunay/delaunay.h"
-#include "domain/periodic_box.h"
+#include "exact/space.h"
 #include "io/room.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/voronoi.h>
 
@@ -21,7 +20,9 @@ namespace calotte {
 namespace {
 
 using base_detail::require;
-using domain_detail::wrapped;
+using base_detail::set_column;
+using base_detail::Vec3;
+using exact_detail::Plane;
 
 /// The lattice that planar_hex starts from: in a direction with walls it has a row or column more
 /// on either side, which are left out. Cells are numbered by rows.
@@ -80,8 +81,8 @@ template <class Body> void for_each_cell(const Lattice& lattice, const Body& bod
       body(first_row + row, first_column + column);
 }
 
-Eigen::Vector3d within(const Eigen::Vector2d& place, const Eigen::Vector2d& period) {
-  return {wrapped(place.x(), period.x()), wrapped(place.y(), period.y()), 0};
+Vec3 within(const Eigen::Vector2d& place, const Eigen::Vector2d& period) {
+  return Plane(period).wrapped(Vec3{place.x(), place.y(), 0});
 }
 
 Polygons polygons_of(const Lattice& lattice) {
@@ -97,7 +98,7 @@ Polygons polygons_of(const Lattice& lattice) {
   std::vector<bool> used(static_cast<std::size_t>(2 * all));
   std::int64_t next = 0;
   for_each_cell(lattice, [&](std::int64_t row, std::int64_t column) {
-    out.centres.col(next) = within(lattice.centre(row, column), out.period);
+    set_column(out.centres, next, within(lattice.centre(row, column), out.period));
     for (const std::int64_t corner : lattice.corners(row, column)) {
       ids.push_back(static_cast<std::int32_t>(corner));
       used[static_cast<std::size_t>(corner)] = true;
@@ -116,7 +117,7 @@ Polygons polygons_of(const Lattice& lattice) {
         if (const std::int32_t to =
                 number[static_cast<std::size_t>(2 * lattice.id(row, column) + which)];
             to >= 0)
-          out.corners.col(to) = within(lattice.corner(row, column, which), out.period);
+          set_column(out.corners, to, within(lattice.corner(row, column, which), out.period));
   out.ids.items.resize(std::ssize(ids));
   for (std::size_t k = 0; k < ids.size(); ++k)
     out.ids.items[static_cast<Eigen::Index>(k)] = number[static_cast<std::size_t>(ids[k])];
@@ -134,13 +135,12 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
     file.not_voronoi = "they have a boundary";
     return file;
   }
-  Points2 places(2, columns * rows);
+  Points3 points(3, columns * rows);
   std::int64_t next = 0;
   for_each_cell(lattice, [&](std::int64_t row, std::int64_t column) {
-    places.col(next++) = within(lattice.centre(row, column), lattice.period()).head<2>();
+    set_column(points, next++, within(lattice.centre(row, column), lattice.period()));
   });
-  file.mesh = mesh_detail::spatial(periodic_delaunay(places, lattice.period()),
-                                   Surface::periodic(lattice.period()));
+  file.mesh = delaunay(points, Surface::periodic(lattice.period()));
   return file;
 }
 

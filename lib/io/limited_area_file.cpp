@@ -43,8 +43,7 @@ Points3 spanning(const Points3& generators, const Surface& meshed, const Density
   if (!meshed.is_bounded())
     return generators;
   const Points3 hull =
-      cvt_detail::hull_of(domain_detail::SphericalOutline(domain_detail::region_of(meshed)),
-                          density, generators.cols());
+      cvt_detail::hull_of(domain_detail::SphericalOutline(meshed), density, generators.cols());
   Points3 all(3, generators.cols() + hull.cols());
   all << generators, hull;
   return all;

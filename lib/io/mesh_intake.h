@@ -4,7 +4,6 @@
 #include "delaunay/delaunay.h"
 #include "io/formats.h"
 #include "io/room.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/mesh_file.h>
 

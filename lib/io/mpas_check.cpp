@@ -5,7 +5,6 @@
 #include "base/points.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
-#include "mesh/planar_mesh.h"
 #include "voronoi/geometry.h"
 #include "voronoi/stages.h"
 

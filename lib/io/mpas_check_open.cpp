@@ -3,7 +3,7 @@
 
 #include "base/points.h"
 #include "domain/clipped_cell.h"
-#include "domain/periodic_box.h"
+#include "exact/space.h"
 #include "io/mpas.h"
 #include "io/mpas_open.h"
 #include "io/open_cells.h"
@@ -116,8 +116,7 @@ Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
     const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
                  way = part.on_sphere ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
-                                      : domain_detail::norm(domain_detail::nearest_offset(
-                                            cell, edge, {part.period.x(), part.period.y()}));
+                                      : norm(Plane(part.period).offset(cell, edge));
     if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
       places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
   }

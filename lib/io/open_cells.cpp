@@ -3,8 +3,7 @@
 
 #include "base/points.h"
 #include "domain/clipped_cell.h"
-#include "domain/periodic_box.h"
-#include "exact/predicates.h"
+#include "exact/space.h"
 #include "io/polygons.h"
 #include "voronoi/open.h"
 
@@ -38,13 +37,9 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
     id = vertex[static_cast<std::size_t>(id)];
 }
 
-Vec2 period_of(const Voronoi& cells) { return {cells.period.x(), cells.period.y()}; }
-
 /// The length of a chord; in a periodic plane to the nearest copy.
 double distance(const Voronoi& cells, const Vec3& from, const Vec3& to) {
-  return cells.on_sphere
-             ? norm(to - from)
-             : domain_detail::norm(domain_detail::nearest_offset(from, to, period_of(cells)));
+  return norm(cells.on_sphere ? to - from : Plane(cells.period).offset(from, to));
 }
 
 /// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
@@ -79,11 +74,10 @@ Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
              &c = column(cells.cells, cells.cells_on_vertex(2, v));
   if (cells.on_sphere)
     return normalised(cross(b - a, c - a));
-  const Vec2 period = period_of(cells);
-  const Vec2 centre = domain_detail::circumcentre(domain_detail::nearest_offset(a, b, period),
-                                                  domain_detail::nearest_offset(a, c, period));
-  return {domain_detail::wrapped(a.x + centre.x, period.x),
-          domain_detail::wrapped(a.y + centre.y, period.y), 0};
+  const Plane plane(cells.period);
+  const Vec3 to_b = plane.offset(a, b), to_c = plane.offset(a, c);
+  const Vec2 centre = domain_detail::circumcentre({to_b.x, to_b.y}, {to_c.x, to_c.y});
+  return plane.wrapped(Vec3{a.x + centre.x, a.y + centre.y, 0});
 }
 
 OpenCells open_cells(const Polygons& polygons) {

@@ -2,8 +2,8 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "domain/clipped_cell.h"
-#include "domain/periodic_box.h"
 #include "exact/predicates.h"
+#include "exact/space.h"
 #include "io/centroids.h"
 #include "io/polygons.h"
 #include "io/room.h"
@@ -77,11 +77,8 @@ Vec3 centroid(const Ring& ring) {
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
   const Vec3 &centre = column(polygons.centres, i), middle = centroid(ring_of(polygons, i));
-  const Vec2 period{polygons.period.x(), polygons.period.y()};
   const double distance =
-      polygons.on_sphere
-          ? norm(centre - middle)
-          : domain_detail::norm(domain_detail::nearest_offset(centre, middle, period));
+      norm(polygons.on_sphere ? centre - middle : Plane(polygons.period).offset(centre, middle));
   return distance / std::sqrt(area);
 }
 
@@ -148,9 +145,8 @@ Range area_range(const Polygons& polygons, const DoubleVector& areas) {
 
 /// In a periodic plane to the nearest copy.
 double distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
-  const Vec2 period{polygons.period.x(), polygons.period.y()};
   return polygons.on_sphere ? 2 * std::atan2(length(b - a), length(a + b))
-                            : domain_detail::norm(domain_detail::nearest_offset(a, b, period));
+                            : length(Plane(polygons.period).offset(a, b));
 }
 
 /// Between the centres of polygons that share a side.

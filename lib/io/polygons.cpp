@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/spherical_triangle.h"
-#include "domain/periodic_box.h"
+#include "exact/space.h"
 
 #include <calotte/error.h>
 
@@ -116,8 +116,7 @@ Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner
   const Vec3 &from = place(polygons, first), &to = place(polygons, corner);
   if (polygons.on_sphere)
     return to;
-  const Vec2 way =
-      domain_detail::nearest_offset(from, to, {polygons.period.x(), polygons.period.y()});
+  const Vec3 way = Plane(polygons.period).offset(from, to);
   return {from.x + way.x, from.y + way.y, 0};
 }
 

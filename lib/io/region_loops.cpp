@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
-#include "domain/region.h"
+#include "domain/surface.h"
 #include "exact/predicates.h"
 #include "io/region_file.h"
 #include "io/text.h"
@@ -86,7 +86,8 @@ Surface read_region_loops(std::istream& in, const std::string& name, std::istrea
          "the loop that begins in line " + std::to_string(lines[static_cast<std::size_t>(begin)])});
     drop_repeated(rings.back().corners);
   }
-  return named(name, [&] { return Region{corners_of(enclosed(rings))}; });
+  const std::vector<Points3> corners = named(name, [&] { return corners_of(enclosed(rings)); });
+  return domain_detail::UncheckedSurface::of_sphere({corners.begin(), corners.end()});
 }
 
 } // namespace calotte::io_detail

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
-#include "domain/periodic_box.h"
+#include "exact/space.h"
 #include "io/room.h"
 
 #include <calotte/mesh_file.h>
 
 #include <array>
-#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
@@ -20,21 +19,18 @@ using namespace io_detail;
 /// Corners, and copies of them by their shift in whole periods.
 class Copies {
 public:
-  Copies(const Points3& corners, const Vec2& period) : corners_(corners), period_(period) {}
+  Copies(const Points3& corners, const Plane& plane) : corners_(corners), plane_(plane) {}
 
   /// The corner's copy that is nearest to a place.
   std::int32_t near(std::int32_t corner, const Vec3& place) {
-    const Vec3& here = column(corners_, corner);
-    const double i = domain_detail::periods_between(place.x, here.x, period_.x),
-                 j = domain_detail::periods_between(place.y, here.y, period_.y);
-    if (i == 0 && j == 0)
+    const Plane::Position copy = plane_.near(column(corners_, corner), {{place.x, place.y}, 0, 0});
+    if (copy.i == 0 && copy.j == 0)
       return corner;
-    const std::array<std::int32_t, 3> key{corner, static_cast<std::int32_t>(i),
-                                          static_cast<std::int32_t>(j)};
+    const std::array<std::int32_t, 3> key{corner, copy.i, copy.j};
     const auto [known, is_new] =
         known_.try_emplace(key, static_cast<std::int32_t>(corners_.cols() + std::ssize(copies_)));
     if (is_new)
-      copies_.push_back({here.x + i * period_.x, here.y + j * period_.y, 0});
+      copies_.push_back(plane_.coordinates(copy));
     return known->second;
   }
 
@@ -48,7 +44,7 @@ public:
 
 private:
   const Points3& corners_;
-  Vec2 period_;
+  Plane plane_;
   std::vector<Vec3> copies_;
   std::map<std::array<std::int32_t, 3>, std::int32_t> known_;
 };
@@ -58,7 +54,7 @@ private:
 Polygons unwrapped(Polygons polygons) {
   if (!(polygons.period.maxCoeff() > 0))
     return polygons;
-  Copies copies(polygons.corners, {polygons.period.x(), polygons.period.y()});
+  Copies copies(polygons.corners, Plane(polygons.period));
   const bool centred = polygons.centres.cols() == polygons.size();
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     const std::span<std::int32_t> ids = polygons.ids[i];

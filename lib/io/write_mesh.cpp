@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/write_mesh.h"
-#include "domain/planar_domain.h"
 #include "io/file.h"
 #include "io/file_names.h"
 #include "io/formats.h"
@@ -13,7 +12,6 @@
 #include "base/points.h"
 #include "domain/surface.h"
 #include "mesh/ids.h"
-#include "mesh/planar_mesh.h"
 #include "mesh/renumber.h"
 
 #include <calotte/check.h>

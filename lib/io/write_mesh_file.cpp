@@ -11,7 +11,6 @@
 #include "io/written_fields.h"
 
 #include "base/monitor.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
@@ -110,11 +109,7 @@ std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
   if (!file.plane() || file.mesh->surface.period().maxCoeff() > 0 || !file.polygons ||
       holds_cells(format))
     return {};
-  std::optional<PlanarMesh> mesh =
-      planar_mesh_of_cells(file.mesh->points.topRows<2>(), *file.polygons);
-  if (!mesh)
-    return {};
-  return mesh_detail::spatial(std::move(*mesh), Surface::plane());
+  return planar_mesh_of_cells(file.mesh->points, *file.polygons);
 }
 
 /// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
