@@ -63,14 +63,15 @@ CALOTTE_INLINE double arc_of_chord(double square) {
 /// atan(x) for |x| <= 1; loses digits for larger |x|.
 CALOTTE_INLINE double arc_tangent(double x) { return arc_sine(x / std::sqrt(1 + x * x)); }
 
-constexpr double logistic_range = 1000;
-
-/// 1/(1 + 2^t), to 4 units in the last place, for |t| <= logistic_range. With t = k + r, |r| <=
+/// 1/(1 + 2^t), to 4 units in the last place; t is clamped to 1000 in size. With t = k + r, |r| <=
 /// 1/2, and tanh(r ln(2)/2) = odd/even, 2^t is 2^k (even + odd)/(even - odd): one division serves
 /// the power and the quotient. odd and even are a minimax approximation (error 6e-18).
-CALOTTE_INLINE double logistic_within(double t) {
+CALOTTE_INLINE double logistic(double t) {
+  constexpr double range = 1000;
   constexpr double shifter =
       0x1.8p52; // adding it rounds to an integer, which stands in the last bits
+  t = t < -range ? -range : t;
+  t = t > range ? range : t;
   const double shifted = t + shifter, r = t - (shifted - shifter), r2 = r * r;
   const double odd =
       r * (0.34657359027997264 + r2 * (0.004624841170852369 + r2 * 5.287083987433538e-06));
@@ -79,13 +80,6 @@ CALOTTE_INLINE double logistic_within(double t) {
   const auto exponent = std::bit_cast<std::uint64_t>(shifted) << 52;
   const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(even + odd) + exponent);
   return down / (down + power);
-}
-
-/// The same for any t, which is clamped to the range.
-CALOTTE_INLINE double logistic(double t) {
-  t = t < -logistic_range ? -logistic_range : t;
-  t = t > logistic_range ? logistic_range : t;
-  return logistic_within(t);
 }
 
 } // namespace calotte::base_detail

@@ -12,9 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -43,32 +41,17 @@ Profile profile_of(const Bump& bump, std::size_t b) {
   return profile;
 }
 
-/// The square of the chord from a unit vector to the centre of a bump, or to the antipode of the
-/// centre. For a stretched bump, |x - c| is the reduced length.
-template <bool stretched, bool to_antipode>
-CALOTTE_INLINE double chord_square(const Profile& bump, const Vec3& x) {
-  const double along = stretched ? dot(x, bump.major) : 0, squeeze = bump.shrink * along;
-  if constexpr (to_antipode) {
-    const Vec3 sum = x + bump.centre;
-    const double square = dot(sum, sum);
-    return stretched ? square + (2 - bump.shrink) * squeeze * along : square;
-  } else {
-    Vec3 apart = x - bump.centre;
-    if constexpr (stretched)
-      apart = apart - squeeze * bump.major;
-    return dot(apart, apart);
-  }
-}
-
 /// The chord from a unit vector to the nearer end of the axis of a bump.
 struct Chord {
   double square;
   double side; ///< negative where that end is the antipode of the centre
 };
 
-template <bool stretched> CALOTTE_INLINE Chord chord_from(const Profile& bump, const Vec3& x) {
-  const double near = chord_square<stretched, false>(bump, x),
-               far = chord_square<stretched, true>(bump, x);
+/// For a stretched bump, |x - c| is the reduced length.
+CALOTTE_INLINE Chord chord_from(const Profile& bump, const Vec3& x) {
+  const double along = dot(x, bump.major), squeeze = bump.shrink * along;
+  const Vec3 apart = x - bump.centre - squeeze * bump.major, sum = x + bump.centre;
+  const double near = dot(apart, apart), far = dot(sum, sum) + (2 - bump.shrink) * squeeze * along;
   return {far < near ? far : near, far - near};
 }
 
@@ -83,69 +66,31 @@ CALOTTE_INLINE double angle_of(double arc, double side) {
 constexpr std::size_t row = 64;
 using Row = std::array<double, row>;
 
-/// Sets the squares of the chords to one end of the axis. True if it is the nearer end for all
-/// points: the squares of both chords have the sum 4.
-template <bool stretched, bool to_antipode>
-CALOTTE_INLINE bool chord_row(const Profile& bump, const double* x, const double* y,
-                              const double* z, std::size_t count, Row& square) {
-  constexpr double nearer = 1.9; // less than 2 by more than the rounding error
-  std::uint64_t signs = 0;
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t j = 0; j < count; ++j) {
-    square[j] = chord_square<stretched, to_antipode>(bump, {x[j], y[j], z[j]});
-    signs |= std::bit_cast<std::uint64_t>(nearer - square[j]);
-  }
-  return signs >> 63 == 0;
-}
-
 /// The loops are apart because an iteration of all of them is one long chain of operations: a
 /// processor sees too few of them at a time to overlap them.
-template <bool stretched, bool gentle>
 CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double* y, const double* z,
                              std::size_t count, double* rho) {
   alignas(64) Row square, side, angle;
-  const bool far = chord_square<stretched, false>(bump, {x[0], y[0], z[0]}) > 2;
-  // Points that are integrated together are close to each other.
-  const bool same_side = far ? chord_row<stretched, true>(bump, x, y, z, count, square)
-                             : chord_row<stretched, false>(bump, x, y, z, count, square);
-  if (!same_side) {
-    CALOTTE_VECTOR_LOOP
-    for (std::size_t j = 0; j < count; ++j) {
-      const Chord chord = chord_from<stretched>(bump, {x[j], y[j], z[j]});
-      square[j] = chord.square;
-      side[j] = chord.side;
-    }
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t j = 0; j < count; ++j) {
+    const Chord chord = chord_from(bump, {x[j], y[j], z[j]});
+    square[j] = chord.square;
+    side[j] = chord.side;
   }
   CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j)
-    angle[j] = arc_of_chord(square[j]);
-  if (!same_side || far) {
-    CALOTTE_VECTOR_LOOP
-    for (std::size_t j = 0; j < count; ++j)
-      angle[j] = angle_of(angle[j], same_side ? -1 : side[j]);
-  }
+    angle[j] = angle_of(arc_of_chord(square[j]), side[j]);
   CALOTTE_VECTOR_LOOP
   for (std::size_t j = 0; j < count; ++j)
-    rho[j] = gentle ? gentle_value_at(bump, angle[j]) : value_at(bump, angle[j]);
+    rho[j] = value_at(bump, angle[j]);
 }
 
-/// Four kinds of bumps: a branch inside of a loop would prevent vectorisation.
 CALOTTE_VECTOR_WIDTHS
 void bump_values(const Profile& profile, const double* x, const double* y, const double* z,
                  std::size_t count, double* rho) {
   const Profile bump = profile; // writing to rho cannot change it
-  const bool stretched = bump.shrink > 0, gentle = is_gentle(bump);
-  for (std::size_t j = 0; j < count; j += row) {
-    const std::size_t size = std::min(row, count - j);
-    if (stretched && gentle)
-      bump_row<true, true>(bump, x + j, y + j, z + j, size, rho + j);
-    else if (stretched)
-      bump_row<true, false>(bump, x + j, y + j, z + j, size, rho + j);
-    else if (gentle)
-      bump_row<false, true>(bump, x + j, y + j, z + j, size, rho + j);
-    else
-      bump_row<false, false>(bump, x + j, y + j, z + j, size, rho + j);
-  }
+  for (std::size_t j = 0; j < count; j += row)
+    bump_row(bump, x + j, y + j, z + j, std::min(row, count - j), rho + j);
 }
 
 void join(const double* values, std::size_t count, bool maximum, double* rho) {
@@ -243,7 +188,7 @@ DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double rea
   Bounds bounds;
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
-    const Chord chord = chord_from<true>(profile, middle);
+    const Chord chord = chord_from(profile, middle);
     const double angle = angle_of(arc_of_chord(chord.square), chord.side);
     const double least = value_at(profile, std::min(std::numbers::pi, angle + change)),
                  greatest = value_at(profile, std::max(0.0, angle - change)) * (1 + slack);

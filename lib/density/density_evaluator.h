@@ -31,17 +31,6 @@ CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
   return bump.gamma + bump.height * logistic((bump.beta - distance) * bump.slope);
 }
 
-/// True if no angle leaves the range in which logistic_within() holds.
-inline bool is_gentle(const Profile& bump) {
-  return std::max(bump.beta, std::numbers::pi) * std::abs(bump.slope) <=
-         base_detail::logistic_range;
-}
-
-/// The same for a gentle bump and an angle.
-CALOTTE_INLINE double gentle_value_at(const Profile& bump, double angle) {
-  return bump.gamma + bump.height * logistic_within((bump.beta - angle) * bump.slope);
-}
-
 /// The profile without centre and axis.
 /// \param name names the bump in messages.
 /// \throws Error invalid_argument if a number is out of range.
