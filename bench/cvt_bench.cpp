@@ -93,8 +93,8 @@ void run_library(benchmark::State& state, Workload& work, const Options& options
 void run_serial(benchmark::State& state, Workload& work, const Options& options) {
   if (work.before.cols() == 0) {
     const Points3 start = bisected_start(work.n, options.order);
-    work.before = spherical_cvt(start, fixed_iterations(work.target, warm_up)).mesh.points;
-    work.after = spherical_cvt(work.before, fixed_iterations(work.target, 1)).mesh.points;
+    work.before = cvt(start, Surface::sphere(), fixed_iterations(work.target, warm_up)).mesh.points;
+    work.after = cvt(work.before, Surface::sphere(), fixed_iterations(work.target, 1)).mesh.points;
   }
   for (auto _ : state) {
     const Iterated outcome = run_stripack_iteration(work.before, work.target);

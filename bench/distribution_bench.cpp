@@ -77,14 +77,14 @@ Points3 generators(const std::string& set, std::int64_t n) {
   options.bisections = from.bisections;
   options.tolerance = 1e-3;
   options.max_iterations = 300;
-  Points3 points = spherical_cvt(from.start, options).mesh.points;
+  Points3 points = cvt(from.start, Surface::sphere(), options).mesh.points;
   while (points.cols() < n)
-    points = bisect(spherical_delaunay(points));
+    points = bisect(delaunay(points));
   options.bisections = 0;
   options.norm = Norm::none;
   options.method = Method::lloyd;
   options.max_iterations = 3;
-  return spherical_cvt(points, options).mesh.points;
+  return cvt(points, Surface::sphere(), options).mesh.points;
 }
 
 /// Centres of the paper's decompositions: bisected icosahedra, and a coarse CVT of the x8 density.
@@ -99,7 +99,8 @@ Points3 centres_of(const std::string& decomposition, int regions) {
   CvtOptions options;
   options.density = x8_density();
   options.tolerance = 1e-3;
-  return spherical_cvt(random_sphere(regions, site_density(x8_density())), options).mesh.points;
+  return cvt(random_sphere(regions, site_density(x8_density())), Surface::sphere(), options)
+      .mesh.points;
 }
 
 Partition partition_of(const Cut& cut) {
@@ -167,7 +168,8 @@ class Iterations {
 public:
   Iterations(const Workload& work, const Cut& cut)
       : points_(work.points), partition_(partition_of(cut)),
-        functional_(cvt_detail::make_functional(work.points, options_of(work, cut))) {}
+        functional_(
+            cvt_detail::make_functional(work.points, Surface::sphere(), options_of(work, cut))) {}
 
   /// \returns the wall-clock seconds of this iteration.
   double step() {
@@ -242,8 +244,8 @@ public:
     for (std::size_t k = 0; k < count; ++k)
       base_detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
     partition_.given_centres = centres;
-    DelaunayReport report;
-    spherical_delaunay(points_, {.partition = partition_}, &report);
+    DelaunayReport report =
+        triangulate(points_, Surface::sphere(), {.partition = partition_}).report;
     if (report.serial) {
       report.seconds_per_region = {report.seconds.triangulate};
       return report;

@@ -162,13 +162,13 @@ std::vector<RoundRow> reading_rows(const std::filesystem::path& folder, const Me
 void register_all(const Options& options, Workload& work) {
   work.limit.emplace(tbb::global_control::max_allowed_parallelism,
                      static_cast<std::size_t>(options.threads));
-  work.as_bisected = spherical_delaunay(bisected_icosahedron(options.level));
+  work.as_bisected = delaunay(bisected_icosahedron(options.level));
   work.mesh = renumbered(work.as_bisected, Numbering::curve);
   work.files = Files(options.folder);
   write_mesh(work.files, work.mesh); // reports the number of bytes
   const auto remove = [&work] { work.files.remove(); };
   std::vector<RoundRow> rows = {
-      row_of("delaunay", [&work] { spherical_delaunay(work.mesh.points); }),
+      row_of("delaunay", [&work] { delaunay(work.mesh.points); }),
       row_of("renumbered", [&work] { renumbered(work.as_bisected, Numbering::curve); }),
       row_of("voronoi", [&work] { voronoi(work.mesh); }),
       row_of(

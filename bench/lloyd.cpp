@@ -135,8 +135,9 @@ Iterated run_cvt(const Points3& start, const Target& target, int iterations, int
     return false;
   };
   Cvt result;
-  arena.execute(
-      [&] { result = spherical_cvt(start, fixed_iterations(target, iterations), note_cpu); });
+  arena.execute([&] {
+    result = cvt(start, Surface::sphere(), fixed_iterations(target, iterations), note_cpu);
+  });
   Iterated out;
   out.points = std::move(result.mesh.points);
   if (std::ssize(result.report.iterations) != iterations) {

@@ -57,7 +57,7 @@ Points3 start_of(std::int64_t cells, const Density& density) {
   CvtOptions options = options_of(density, Method::automatic, 3000);
   options.tolerance = 1e-9;
   options.bisections = from.bisections;
-  return bisect(spherical_cvt(from.start, options).mesh);
+  return bisect(cvt(from.start, Surface::sphere(), options).mesh);
 }
 
 /// For each goal that was reached, the number of evaluations and the seconds.
@@ -90,7 +90,8 @@ void register_all(const Options& options) {
                           const CvtOptions cvt_options =
                               options_of(named_density(set), methods.at(name), limit);
                           for (auto _ : state) {
-                            const CvtReport report = spherical_cvt(*start, cvt_options).report;
+                            const CvtReport report =
+                                cvt(*start, Surface::sphere(), cvt_options).report;
                             state.SetIterationTime(report.seconds);
                             add_counters(state, report);
                           }

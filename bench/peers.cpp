@@ -44,11 +44,13 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   Outcome outcome;
-  Mesh mesh;
+  Triangulation result;
   Points3 own = points; // handed over, as the command does; the peers' copies are not timed either
   const Stopwatch watch;
-  arena.execute([&] { mesh = spherical_delaunay(std::move(own), options, &outcome.report); });
+  arena.execute([&] { result = triangulate(std::move(own), Surface::sphere(), options); });
   watch.stop(outcome);
+  outcome.report = std::move(result.report);
+  const Mesh& mesh = result.mesh;
   outcome.sites = mesh.points.cols();
   outcome.triangles = mesh.triangles.cols();
   if (mesh.points.cols() != points.cols()) {

@@ -3,7 +3,6 @@
 // rounds as delaunay_bench does. The triangles of both are compared in every round.
 
 #include "delaunay/delaunay.h"
-#include "mesh/planar_mesh.h"
 #include "peers.h"
 #include "program.h"
 #include "report.h"
@@ -57,10 +56,12 @@ Outcome run_library(const Points2& points, int threads) {
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   Outcome outcome;
-  PlanarMesh mesh;
+  Triangulation result;
   const Stopwatch watch;
-  arena.execute([&] { mesh = planar_delaunay(points, {}, &outcome.report); });
+  arena.execute([&] { result = triangulate(points, Surface::plane()); });
   watch.stop(outcome);
+  outcome.report = std::move(result.report);
+  const Mesh& mesh = result.mesh;
   outcome.triangles = mesh.triangles.cols();
   Digest digest;
   for (const auto& t : mesh.triangles.colwise())

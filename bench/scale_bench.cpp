@@ -106,7 +106,12 @@ void print_part(const char* stage, double seconds, std::int64_t sites) {
 
 /// Triangulates and reports the cost; the mesh stays alive.
 Cost triangulation(Points3 points, Mesh& mesh, DelaunayReport* report = nullptr) {
-  return cost_of([&] { mesh = spherical_delaunay(std::move(points), {}, report); });
+  return cost_of([&] {
+    Triangulation result = triangulate(std::move(points), Surface::sphere());
+    mesh = std::move(result.mesh);
+    if (report != nullptr)
+      *report = std::move(result.report);
+  });
 }
 
 /// The small set, the reference for the time per site of a large one. Its first triangulation
@@ -240,9 +245,8 @@ bool iterate(std::int64_t n, const Options& options, Json& json) {
   Points3 points = random_sphere(n, seed);
   Cvt grid;
   const Cost cost = cost_of([&] {
-    grid = spherical_cvt(
-        std::move(points),
-        {.method = Method::lloyd, .norm = Norm::none, .max_iterations = options.iterations});
+    grid = cvt(std::move(points), Surface::sphere(),
+               {.method = Method::lloyd, .norm = Norm::none, .max_iterations = options.iterations});
   });
   print("CVT, with two triangulations", cost, n);
   Json& out = json["cvt"] = to_json(cost, n);

@@ -95,7 +95,7 @@ RoundRow row_of(const std::string& set, std::int64_t n, const std::string& metho
     tbb::task_arena arena(options.threads);
     for (auto _ : state) {
       CvtReport report;
-      arena.execute([&] { report = spherical_cvt(start.points, cvt_options).report; });
+      arena.execute([&] { report = cvt(start.points, Surface::sphere(), cvt_options).report; });
       state.SetIterationTime(report.seconds);
       add_counters(state, report, n, options.threads);
     }

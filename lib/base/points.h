@@ -37,28 +37,20 @@ inline Vec3 point(const PointsRef& points, std::int64_t i) {
 
 /// \throws Error invalid_argument unless a caller's points have the given number of rows.
 /// \param columns the shape to give instead, for the message.
-/// \param instead the function for points of the other kind, for the message, or empty.
+/// \param instead what points of the other kind need, for the message, or empty.
 inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::string& columns,
                          const std::string& instead) {
   const bool other = points.rows() == 2 || points.rows() == 3;
   require(points.rows() == rows, "the points have " + std::to_string(points.rows()) +
                                      (points.rows() == 1 ? " row" : " rows") + "; give " + columns +
-                                     (other && !instead.empty() ? ", or call " + instead : ""));
+                                     (other && !instead.empty() ? ", or " + instead : ""));
 }
 
 /// A caller's directions, in place.
-/// \param planar the function for points of 2 rows, for the message, or empty.
+/// \param planar what points of 2 rows need, for the message, or empty.
 /// \throws Error invalid_argument unless they have 3 rows.
 inline Points3Ref directions_of(const PointsRef& points, const std::string& planar = {}) {
   require_rows(points, 3, "3 x n columns x y z", planar);
-  return points;
-}
-
-/// A caller's places in the plane, in place.
-/// \param spherical the function for points of 3 rows, for the message, or empty.
-/// \throws Error invalid_argument unless they have 2 rows.
-inline Points2Ref places_of(const PointsRef& points, const std::string& spherical = {}) {
-  require_rows(points, 2, "2 x n columns x y", spherical);
   return points;
 }
 

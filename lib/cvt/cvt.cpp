@@ -6,15 +6,13 @@
 #include "base/require.h"
 #include "cvt/cvt.h"
 #include "cvt/descent.h"
+#include "cvt/functional.h"
+#include "cvt/inner_mesh.h"
 #include "cvt/laplacian.h"
-#include "cvt/planar_cells.h"
-#include "cvt/region_world.h"
+#include "cvt/levels.h"
 #include "cvt/stages.h"
 #include "cvt/state.h"
-#include "cvt/worlds.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
-#include "mesh/canonical_order.h"
+#include "domain/surface.h"
 
 #include <calotte/error.h>
 
@@ -126,8 +124,7 @@ struct Ending {
 };
 
 /// The descent of one level.
-template <class World>
-Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOptions& options,
+Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const CvtOptions& options,
                const CvtCallback& callback) {
   State& state = State::of(whole);
   if (state.penalty == 0 && options.norm != Norm::none) // the tolerance may be another now
@@ -140,7 +137,7 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
   const double before = state.report.seconds;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Functional> functional =
-      world.functional(state.points, options, std::move(level));
+      make_functional(state.points, surface, options, std::move(level));
   ShapeLimits limits = shape_limits;
   limits.least_spacing = options.least_spacing;
   functional->penalise_shapes(state.penalty, state.demanded_spacing, limits);
@@ -171,11 +168,12 @@ Ending iterate(const World& world, CvtState& whole, Level&& level, const CvtOpti
 
 /// Throws, before any work, if insertion or the bisections lead to fewer or more generators than a
 /// mesh can hold.
-template <class World>
-void require_room(const World& world, const State& state, const CvtOptions& options) {
-  if (options.insertion_rounds > 0 && (options.cells < world.fewest || options.cells > most_points))
+void require_room(const Surface& surface, const State& state, const CvtOptions& options) {
+  if (options.insertion_rounds > 0 &&
+      (options.cells < fewest_generators(surface) || options.cells > most_points))
     throw Error(ErrorCode::invalid_argument, "cells is " + std::to_string(options.cells) +
-                                                 "; give at least " + std::to_string(world.fewest) +
+                                                 "; give at least " +
+                                                 std::to_string(fewest_generators(surface)) +
                                                  " and at most " + std::to_string(most_points));
   if (options.insertion_rounds > 0 && options.cells < state.fixed)
     throw Error(ErrorCode::invalid_argument,
@@ -185,7 +183,8 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
                 options.cells);
   const std::int64_t n = state.points.cols();
   int most = 0;
-  for (std::int64_t cells = world.bisected(n); cells <= most_points; cells = world.bisected(cells))
+  for (std::int64_t cells = bisected(surface, n); cells <= most_points;
+       cells = bisected(surface, cells))
     ++most;
   if (state.bisections_left > most)
     throw Error(ErrorCode::invalid_argument,
@@ -193,7 +192,7 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
                     " generators are too many; give at most " + std::to_string(most));
   std::int64_t cells = std::max(n, options.insertion_rounds > 0 ? options.cells : 0);
   for (int k = 0; k < state.bisections_left; ++k)
-    cells = world.bisected(cells);
+    cells = bisected(surface, cells);
   if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
     throw Error(ErrorCode::invalid_argument, std::to_string(cells) +
                                                  " generators are too many for the method "
@@ -202,17 +201,8 @@ void require_room(const World& world, const State& state, const CvtOptions& opti
                                                  "; give the method lbfgs or lloyd");
 }
 
-/// The mesh of the state's points, in the order of the start.
-template <class World> auto mesh_of(const World& world, const State& state, Ending&& ending) {
-  if (!ending.mesh)
-    return world.triangulated(in_order(state));
-  make_canonical(ending.mesh->triangles, ending.mesh->neighbours, state.id);
-  return world.mesh(in_order(state), std::move(*ending.mesh));
-}
-
 /// The start of the descent of a stage.
-template <class World>
-Level begin(const World& world, Stage stage, State& state, const CvtOptions& options,
+Level begin(const Surface& surface, Stage stage, State& state, const CvtOptions& options,
             Ending&& ending) {
   if (stage == Stage::polish) {
     begin_polish(state);
@@ -223,36 +213,43 @@ Level begin(const World& world, Stage stage, State& state, const CvtOptions& opt
     return {};
   }
   state.memory = {};
-  const auto mesh = mesh_of(world, state, std::move(ending));
-  return stage == Stage::bisect ? begin_level(world, state, options, mesh)
-                                : begin_round(world, state, options, mesh);
+  const Mesh mesh = mesh_of_run(state, surface, std::move(ending.mesh));
+  return stage == Stage::bisect ? begin_level(state, options, mesh)
+                                : begin_round(state, options, mesh);
 }
 
-template <class World>
-typename World::Result run(const World& world, CvtState whole, Level&& level, CvtOptions options,
-                           const CvtCallback& callback) {
-  State& state = State::of(whole);
+/// Throws, before any work, for a surface or options that a run refuses.
+/// \returns the density in the form that the functional takes.
+Density require_run(const Surface& surface, const CvtOptions& options) {
   require_options(options);
-  options.density = world.density(options.density);
+  if (!surface.is_sphere())
+    require_finite_plane(surface);
+  return density_of_run(options.density, surface);
+}
+
+Cvt run(const Surface& surface, CvtState whole, Level&& level, CvtOptions options,
+        const CvtCallback& callback) {
+  State& state = State::of(whole);
+  options.density = require_run(surface, options);
   require_state(state);
-  world.require_points(state);
-  require_room(world, state, options);
+  require_points(state, surface);
+  require_room(surface, state, options);
   if (state.report.levels.empty())
-    state.report.levels = levels_of(world, state.points.cols(), state.bisections_left, options);
+    state.report.levels = levels_of(surface, state.points.cols(), state.bisections_left, options);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   const auto descend = [&](Level&& start) {
-    return iterate(world, whole, std::move(start),
-                   options_of_descent(state, options, World::at_sites), callback);
+    return iterate(surface, whole, std::move(start), options_of_descent(state, surface, options),
+                   callback);
   };
   Ending ending = descend(std::move(level));
   for (Stage next = stage_after(state, options); !ending.stopped && next != Stage::end;
        next = stage_after(state, options))
-    ending = descend(begin(world, next, state, options, std::move(ending)));
+    ending = descend(begin(surface, next, state, options, std::move(ending)));
   const bool ended = stage_after(state, options) == Stage::end;
   state.memory = {};
-  typename World::Result result;
-  result.mesh = mesh_of(world, state, std::move(ending));
+  Cvt result;
+  result.mesh = inner_mesh(mesh_of_run(state, surface, std::move(ending.mesh)), options.boundary);
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
@@ -263,19 +260,10 @@ typename World::Result run(const World& world, CvtState whole, Level&& level, Cv
   return result;
 }
 
-template <class World>
-typename World::Result run(const World& world, Begun&& begun, const CvtOptions& options,
-                           const CvtCallback& callback) {
+Cvt run(const Surface& surface, Begun&& begun, const CvtOptions& options,
+        const CvtCallback& callback) {
   begun.state.rounds_left = rounds_of_level(begun.state.bisections_left, options);
-  return run(world, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
-             callback);
-}
-
-template <class Points>
-Cvt run_from(Points&& start, const CvtOptions& options, const CvtCallback& callback) {
-  require_options(options);
-  SphericalWorld::density(options.density);
-  return run(SphericalWorld(), SphericalWorld::begin(std::forward<Points>(start), options), options,
+  return run(surface, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
              callback);
 }
 
@@ -297,55 +285,24 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
   }
 }
 
-Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback) {
-  return cvt_detail::run(cvt_detail::SphericalWorld(), std::move(state), {}, options, callback);
-}
-
-Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options, const CvtCallback& callback) {
-  return cvt_detail::run_from(base_detail::directions_of(start, "planar_cvt()"), options, callback);
+Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options,
+        const CvtCallback& callback) {
+  cvt_detail::require_run(surface, options);
+  return cvt_detail::run(surface, cvt_detail::begin(start, surface, options), options, callback);
 }
 
 template <>
-Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback) {
-  return cvt_detail::run_from(std::move(start), options, callback);
+Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
+        const CvtCallback& callback) {
+  if (!surface.is_whole_sphere())
+    return cvt(PointsRef(start), surface, options, callback);
+  cvt_detail::require_run(surface, options);
+  return cvt_detail::run(surface, cvt_detail::begin(std::move(start), options), options, callback);
 }
 
-Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options,
-                  const CvtCallback& callback) {
-  if (region.whole())
-    return spherical_cvt(start, options, callback);
-  const base_detail::Points3Ref points = base_detail::directions_of(start, "planar_cvt()");
-  cvt_detail::require_options(options);
-  const cvt_detail::RegionWorld world(region);
-  cvt_detail::RegionWorld::density(options.density);
-  Cvt result = cvt_detail::run(world, world.begin(points, options), options, callback);
-  result.mesh = world.inner(std::move(result.mesh), options.boundary);
-  return result;
-}
-
-Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
-                  const CvtCallback& callback) {
-  if (region.whole())
-    return spherical_cvt(std::move(state), options, callback);
-  const cvt_detail::RegionWorld world(region);
-  Cvt result = cvt_detail::run(world, std::move(state), {}, options, callback);
-  result.mesh = world.inner(std::move(result.mesh), options.boundary);
-  return result;
-}
-
-PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-                     const CvtCallback& callback) {
-  return cvt_detail::run(cvt_detail::PlanarWorld(domain), std::move(state), {}, options, callback);
-}
-
-PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain, const CvtOptions& options,
-                     const CvtCallback& callback) {
-  const base_detail::Points2Ref places = base_detail::places_of(start, "spherical_cvt()");
-  cvt_detail::require_options(options);
-  const cvt_detail::PlanarWorld plane(domain);
-  plane.density(options.density);
-  cvt_detail::require_inside(places, domain);
-  return cvt_detail::run(plane, cvt_detail::PlanarWorld::begin(places, options), options, callback);
+Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
+        const CvtCallback& callback) {
+  return cvt_detail::run(surface, std::move(state), {}, options, callback);
 }
 
 } // namespace calotte

@@ -2,19 +2,17 @@
 #pragma once
 
 #include "cvt/room.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/cvt.h>
 #include <calotte/density.h>
 #include <calotte/options.h>
+#include <calotte/surface.h>
 
 #include <concepts>
 #include <cstdint>
 #include <functional>
 
-/// Runs of descents from given generators, one function a surface; make_grid() calls them.
+/// Runs of descents from given generators; make_grid() calls them.
 namespace calotte {
 
 /// Called after each accepted iteration; true ends the run there.
@@ -80,82 +78,55 @@ struct CvtOptions {
   Partition partition = {};           ///< affects time and memory, not the result
 };
 
-/// Computes a centroidal Voronoi tessellation of the unit sphere. It moves the generators until
-/// they are, up to the tolerance, the constrained centroids M/|M| of their cells, with M the
-/// integral of rho x (Jacobsen et al., 2013, Sect. 3.3), and then moves them to these centroids. It
-/// minimises the energy E, the sum over cells of the integral of rho |x - x_i|^2. Each region's
-/// task integrates over the cells that the region owns.
+/// Computes a centroidal Voronoi tessellation of a surface. It moves the generators until they are,
+/// up to the tolerance, the constrained centroids M/|M| of their cells, with M the integral of rho
+/// x (Jacobsen et al., 2013, Sect. 3.3), or the centroids in the plane, and then moves them to
+/// these centroids. It minimises the energy E, the sum over cells of the integral of rho |x -
+/// x_i|^2. Each region's task integrates over the cells that the region owns.
 ///
 /// The same start gives the same bits for any number of threads and regions. A run that does not
-/// converge within max_iterations is no error; the report says so.
+/// converge within max_iterations is no error; the report says so. Lengths in the report are in
+/// radians, or in the plane's unit.
 ///
-/// \param start 3 x n directions of any norm, 12 distinct at least, not within a hemisphere; by
-///        default equal ones merge.
+/// The boundary of a bounded surface clips the cells. Generators stay inside: where the centroid of
+/// a cell lies outside the surface, its generator moves to the nearest point inside. A bisection
+/// adds the midpoints of the edges that lie inside.
+///
+/// The mesh of a part of the sphere has the Delaunay triangles of the generators whose circumcentre
+/// lies in the part. It is open along the boundary, within about a cell of it; a generator may be
+/// in no triangle. With Boundary::generators the mesh ends at the generators on the boundary. A
+/// bisection then adds no midpoint between two of them along the boundary.
+///
+/// \param start 3 x n directions of any norm, 12 distinct at least, not within a hemisphere; 4 in a
+///        part of the sphere. In the plane as triangulate() takes them, not on one line. All inside
+///        the surface; by default equal ones merge.
+/// \param surface the sphere or a part of it, a bounded plane, or a periodic box.
 /// \param callback called after each accepted iteration, see CvtCallback; default none.
+/// \return the mesh in the order of the start; after bisections, the midpoints follow.
 ///
-/// \throws Error as spherical_delaunay(); too_few_sites for fewer than 12 generators, or when they
-///         leave a hemisphere empty or meet; invalid_argument for an option out of range, or a
-///         density that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
-Cvt spherical_cvt(const PointsRef& start, const CvtOptions& options = {},
-                  const CvtCallback& callback = {});
+/// \throws Error as triangulate() and Surface::within(); too_few_sites for fewer generators, or
+/// when
+///         they leave a hemisphere empty or meet; invalid_argument for an option out of range, with
+///         the index of a generator outside the surface, or for a density that is ill-formed,
+///         negative or NaN somewhere, or zero over a whole cell.
+Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options = {},
+        const CvtCallback& callback = {});
 
 /// The same for a start handed over: an rvalue Points3, which is not kept beside the run's own
 /// points.
 template <std::same_as<Points3> Points>
-Cvt spherical_cvt(Points&& start, const CvtOptions& options = {}, const CvtCallback& callback = {});
+Cvt cvt(Points&& start, const Surface& surface, const CvtOptions& options = {},
+        const CvtCallback& callback = {});
 /// Its one specialisation.
 template <>
-Cvt spherical_cvt(Points3&& start, const CvtOptions& options, const CvtCallback& callback);
+Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
+        const CvtCallback& callback);
 
-/// Continues from a state. With the same options the result has the bits of an uninterrupted run.
-/// CvtOptions::bisections, duplicates, merge_within and fixed have no effect; the state holds the
-/// bisections that remain and the number of fixed generators.
+/// Continues from a state of a run on the same surface. With the same options the result has the
+/// bits of an uninterrupted run. CvtOptions::bisections, duplicates, merge_within and fixed have no
+/// effect; the state holds the bisections that remain and the number of fixed generators.
 /// \throws Error as above; invalid_argument for an incomplete state.
-Cvt spherical_cvt(CvtState state, const CvtOptions& options, const CvtCallback& callback = {});
-
-/// The same in a region of the sphere, whose boundary clips the cells. Generators stay inside:
-/// where the centroid of a cell lies outside the region, its generator moves to the nearest point
-/// inside. A bisection adds the midpoints of the edges that lie inside.
-///
-/// The mesh has the Delaunay triangles of the generators whose circumcentre lies in the region. It
-/// is open along the boundary, within about a cell of it; a generator may be in no triangle. With
-/// Boundary::generators the mesh ends at the generators on the boundary. A bisection then adds no
-/// midpoint between two of them along the boundary.
-///
-/// \param start 3 x n directions inside the region, 4 distinct at least.
-/// \throws Error as above and as Surface::within(); invalid_argument with the index of a generator
-///         outside the region.
-Cvt spherical_cvt(const PointsRef& start, const Region& region, const CvtOptions& options = {},
-                  const CvtCallback& callback = {});
-/// Continues from a state in a region.
-/// \throws Error as above; invalid_argument for an incomplete state.
-Cvt spherical_cvt(CvtState state, const Region& region, const CvtOptions& options,
-                  const CvtCallback& callback = {});
-
-/// A centroidal Voronoi tessellation of a planar domain.
-struct PlanarCvt {
-  /// Delaunay triangulation of the generators, in the order of the start (after bisections, the
-  /// midpoints follow); periodic if the domain is.
-  PlanarMesh mesh;
-  CvtReport report; ///< how the run went
-};
-
-/// The same in a domain of the plane, whose boundary clips the cells. The centroid M/m of a cell at
-/// a reflex corner may lie outside the domain; its generator then moves to the nearest point inside
-/// and stays there. A bisection adds the midpoints of the edges that lie inside. Lengths in the
-/// report are in the domain's unit.
-///
-/// \param start 2 x n places inside the domain, 3 distinct at least, not on one line; in a periodic
-///         box as periodic_delaunay() requires.
-/// \param domain bounded by rings, or a periodic box.
-/// \throws Error as planar_delaunay() and periodic_delaunay(); invalid_argument as above, as
-///         require_domain(), or with the index of a generator outside of the domain.
-PlanarCvt planar_cvt(const PointsRef& start, const PlanarDomain& domain,
-                     const CvtOptions& options = {}, const CvtCallback& callback = {});
-
-/// Continues from a state of a run in the same domain.
-/// \throws Error as above; invalid_argument for an incomplete state.
-PlanarCvt planar_cvt(CvtState state, const PlanarDomain& domain, const CvtOptions& options,
-                     const CvtCallback& callback = {});
+Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
+        const CvtCallback& callback = {});
 
 } // namespace calotte

@@ -6,14 +6,12 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_loops.h"
+#include "cvt/cells.h"
 #include "cvt/cvt.h"
 #include "cvt/glide.h"
-#include "cvt/planar_cells.h"
-#include "cvt/region_cells.h"
 #include "cvt/shape.h"
-#include "cvt/spherical_cells.h"
 #include "cvt/tessellation.h"
-#include "domain/planar_domain.h"
+#include "exact/space.h"
 #include "integrals/quads.h"
 #include "integrals/rows.h"
 
@@ -94,12 +92,11 @@ void gather_sites(const Vec3* x, const CellMoments* moments, std::size_t count, 
     gather_by([&](std::size_t lane) { return std::min(lane, count - 1); }, x, moments, rows);
 }
 
-template <class Cells, bool with_gradient>
-CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) {
+template <Space S, bool with_gradient> CALOTTE_VECTOR_WIDTHS void evaluate_rows(SiteRows& rows) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Vec3 x = at(rows.x, lane);
-    const typename Cells::Pull pull = Cells::pull(x, {at(rows.first, lane), rows.energy[lane]});
+    const Pull pull = Cells<S>::pull(x, {at(rows.first, lane), rows.energy[lane]});
     const double mass = std::abs(pull.mass);
     const bool valid = mass > 0 && mass <= std::numeric_limits<double>::max();
     rows.energy[lane] = valid ? rows.energy[lane] : std::numeric_limits<double>::quiet_NaN();
@@ -128,7 +125,7 @@ void put_site(const SiteRows& rows, std::size_t lane, std::int32_t site, bool fi
 
 /// Evaluates a patch's own generators; its other sites hold a plane's hull, and come last.
 /// \param x the places of the patch's sites.
-template <class Cells>
+template <Space S>
 CALOTTE_ALL_INSTRUCTIONS void
 evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
                const Array<CellMoments>& moments, const std::vector<std::uint8_t>& fixed,
@@ -140,15 +137,15 @@ evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
   std::array<Vec3, lanes + 1> generators;
   for (std::size_t first = 0; first < sites.size(); first += lanes) {
     const auto part = sites.subspan(first, std::min(lanes, sites.size() - first));
-    if (Cells::places_wrap)
+    if (Cells<S>::places_wrap)
       for (std::size_t lane = 0; lane < part.size(); ++lane)
         generators[lane] = column(points, part[lane]);
-    gather_sites(Cells::places_wrap ? generators.data() : x.begin() + first,
+    gather_sites(Cells<S>::places_wrap ? generators.data() : x.begin() + first,
                  moments.begin() + first, part.size(), rows);
     if (with_gradient)
-      evaluate_rows<Cells, true>(rows);
+      evaluate_rows<S, true>(rows);
     else
-      evaluate_rows<Cells, false>(rows);
+      evaluate_rows<S, false>(rows);
     for (std::size_t lane = 0; lane < part.size(); ++lane) {
       const std::int32_t site = part[lane];
       put_site(rows, lane, site, !fixed.empty() && fixed[static_cast<std::size_t>(site)] != 0,
@@ -181,9 +178,9 @@ void count_off_centroid(const Array<SiteTerms>& terms, const DoubleVector& inver
   iteration.largest_offset = std::sqrt(most);
 }
 
-template <class Cells> class FunctionalOver final : public Functional {
+template <Space S> class FunctionalOver final : public Functional {
 public:
-  FunctionalOver(Cells cells, const Points3& points, const CvtOptions& options, Level&& level)
+  FunctionalOver(Cells<S> cells, const Points3& points, const CvtOptions& options, Level&& level)
       : tessellation_(std::move(cells), points, options.partition, std::move(level)),
         density_(options.density),
         coarse_(make_integrand(options.density, options.rule, options.divisions)),
@@ -220,7 +217,7 @@ private:
   }
   void hold(Rows& weights) const;
 
-  Tessellation<Cells> tessellation_;
+  Tessellation<S> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
   int rule_, final_rule_;       ///< their numbers of points, 0 where none is used
@@ -232,9 +229,9 @@ private:
 };
 
 /// Frees the memory of `out` before sorting and triangulating, which need most of the memory.
-template <class Cells>
-Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& integrand,
-                                        bool with_gradient, Evaluation& out) {
+template <Space S>
+Effort FunctionalOver<S>::integrate(const Points3& points, const Integrand& integrand,
+                                    bool with_gradient, Evaluation& out) {
   Effort effort;
   tessellation_.move(points);
   if (tessellation_.drifted()) {
@@ -244,7 +241,7 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   }
   const auto receive = [&](const Patch& patch, const Array<Vec3>& x,
                            const Array<CellMoments>& moments) {
-    evaluate_sites<Cells>(patch, points, x, moments, fixed_, with_gradient, out, terms_);
+    evaluate_sites<S>(patch, points, x, moments, fixed_, with_gradient, out, terms_);
   };
   const auto set_room = [&](bool room) {
     if (!room) {
@@ -260,9 +257,9 @@ Effort FunctionalOver<Cells>::integrate(const Points3& points, const Integrand& 
   return effort;
 }
 
-template <class Cells>
-void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, bool with_gradient,
-                                     Evaluation& out) {
+template <Space S>
+void FunctionalOver<S>::evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                                 Evaluation& out) {
   Clock::time_point mark = Clock::now();
   const Effort effort = integrate(points, final_rule ? fine_ : coarse_, with_gradient, out);
   CvtIteration& iteration = out.iteration = {};
@@ -286,21 +283,21 @@ void FunctionalOver<Cells>::evaluate(const Points3& points, bool final_rule, boo
   iteration.seconds = lap(mark);
 }
 
-template <class Cells>
-void FunctionalOver<Cells>::set_centroids(const Points3& points, const Evaluation& at,
-                                          Points3& to) const {
+template <Space S>
+void FunctionalOver<S>::set_centroids(const Points3& points, const Evaluation& at,
+                                      Points3& to) const {
   if (to.cols() != points.cols())
     base_detail::make_room(to, 3, points.cols());
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3& x = column(points, i);
-      set_column(to, i, is_fixed(i) ? x : Cells::centroid(x, column(at.gradient, i), at.mass[i]));
+      set_column(to, i,
+                 is_fixed(i) ? x : Cells<S>::centroid(x, column(at.gradient, i), at.mass[i]));
     }
   });
 }
 
-template <class Cells>
-void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) {
+template <Space S> void FunctionalOver<S>::add_penalty(const Points3& points, Evaluation& out) {
   const DoubleVector inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
   out.shapes = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
@@ -314,9 +311,9 @@ void FunctionalOver<Cells>::add_penalty(const Points3& points, Evaluation& out) 
   out.iteration.shape_excess = out.shapes.worst;
 }
 
-template <class Cells>
-void FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3& d,
-                                    Points3& to) const {
+template <Space S>
+void FunctionalOver<S>::retract(const Points3& x, double step, const Points3& d,
+                                Points3& to) const {
   tessellation_.cells().retract(x, step, d, to);
   if (!fixed_.empty())
     for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -326,9 +323,9 @@ void FunctionalOver<Cells>::retract(const Points3& x, double step, const Points3
     });
 }
 
-template <class Cells>
-void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x,
-                                            base_detail::Part part) const {
+template <Space S>
+void FunctionalOver<S>::make_tangential(Points3& vectors, const Points3& x,
+                                        base_detail::Part part) const {
   tessellation_.cells().make_tangential(vectors, x, part);
   for (std::int64_t i = part.begin; !fixed_.empty() && i != part.end; ++i)
     if (is_fixed(i))
@@ -336,7 +333,7 @@ void FunctionalOver<Cells>::make_tangential(Points3& vectors, const Points3& x,
 }
 
 /// Removes the couplings of fixed generators: those of a boundary condition.
-template <class Cells> void FunctionalOver<Cells>::hold(Rows& weights) const {
+template <Space S> void FunctionalOver<S>::hold(Rows& weights) const {
   if (fixed_.empty())
     return;
   for_each_block(weights.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -348,42 +345,31 @@ template <class Cells> void FunctionalOver<Cells>::hold(Rows& weights) const {
 }
 
 /// The mesh is that of the last evaluation; at other points it may not be Delaunay.
-template <class Cells> Laplacian FunctionalOver<Cells>::laplacian(const Points3& points) {
+template <Space S> Laplacian FunctionalOver<S>::laplacian(const Points3& points) {
   Effort unused;
   tessellation_.move(points);
-  const Cells& cells = tessellation_.cells();
+  const Cells<S>& cells = tessellation_.cells();
   Laplacian matrix = tessellation_.find_faults(unused).none()
                          ? cells.laplacian(tessellation_.mesh(), density_)
-                         : cells.laplacian(cells.signs().triangulate(), density_);
+                         : cells.laplacian(cells.triangulate(), density_);
   hold(matrix.weights);
   return matrix;
 }
 
-template <class Cells>
-std::optional<Connectivity> FunctionalOver<Cells>::take_mesh(const Points3& points) {
+template <Space S> std::optional<Connectivity> FunctionalOver<S>::take_mesh(const Points3& points) {
   std::optional<Connectivity> mesh = tessellation_.take_mesh(points);
   return tessellation_.cells().has_hull() ? std::nullopt : std::move(mesh);
 }
 
 } // namespace
 
-std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options,
-                                            Level&& level) {
-  return std::make_unique<FunctionalOver<SphericalCells>>(SphericalCells(), points, options,
-                                                          std::move(level));
-}
-
-std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
+std::unique_ptr<Functional> make_functional(const Points3& points, const Surface& surface,
                                             const CvtOptions& options, Level&& level) {
-  return std::make_unique<FunctionalOver<PlanarCells>>(PlanarCells(domain), points, options,
-                                                       std::move(level));
-}
-
-std::unique_ptr<Functional> make_functional(const Points3& points,
-                                            std::shared_ptr<const SphericalOutline> outline,
-                                            const CvtOptions& options) {
-  RegionCells cells(std::move(outline), options.boundary, options.density, points);
-  return std::make_unique<FunctionalOver<RegionCells>>(std::move(cells), points, options, Level());
+  return in_space_of(surface, [&]<class S>(const S&) -> std::unique_ptr<Functional> {
+    return std::make_unique<FunctionalOver<S>>(
+        Cells<S>(surface, options.boundary, options.density, points), points, options,
+        std::move(level));
+  });
 }
 
 } // namespace calotte::cvt_detail

@@ -8,11 +8,10 @@
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/tessellation.h"
-#include "domain/planar_domain.h"
-#include "domain/spherical_outline.h"
 #include "integrals/integrand.h"
 
 #include <calotte/cvt.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 #include <memory>
@@ -32,7 +31,7 @@ struct Evaluation {
   CvtIteration iteration; ///< energy, norms, effort
   Points3 centroids;      ///< Lloyd's map, 3 x n; without the gradient
   Points3 gradient;       ///< dE/dx, tangential; on request
-  Array<double> mass;     ///< with the gradient; see SphericalCells::Pull
+  Array<double> mass;     ///< with the gradient; see Pull
   double penalty = 0;     ///< for the shapes of a polish; the gradient includes it
   ShapeTerms shapes;      ///< of a polish
 
@@ -86,19 +85,10 @@ public:
   virtual Laplacian laplacian(const Points3& points) = 0;
 };
 
-/// On the sphere, for unit columns, with Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x).
+/// The functional of a surface, see Cells.
+/// \pre the density of the options is that of surface_density().
 /// \throws Error as Tessellation.
-std::unique_ptr<Functional> make_functional(const Points3& points, const CvtOptions& options,
-                                            Level&& level = {});
-
-/// In a planar domain, for columns with z = 0, which may leave a periodic box.
-/// \pre the density of the options is that of planar_density().
-std::unique_ptr<Functional> make_functional(const Points3& points, const PlanarDomain& domain,
+std::unique_ptr<Functional> make_functional(const Points3& points, const Surface& surface,
                                             const CvtOptions& options, Level&& level = {});
-
-/// In a region of the sphere, for unit columns.
-std::unique_ptr<Functional> make_functional(const Points3& points,
-                                            std::shared_ptr<const SphericalOutline> outline,
-                                            const CvtOptions& options);
 
 } // namespace calotte::cvt_detail

@@ -4,9 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
-#include "cvt/planar_cells.h"
-#include "cvt/region_cells.h"
-#include "cvt/spherical_cells.h"
+#include "cvt/cells.h"
 #include "density/hexagons.h"
 
 #include <algorithm>
@@ -49,9 +47,9 @@ std::vector<std::int32_t> triangles_around(const Connectivity& mesh, const Brink
   return found;
 }
 
-template <class Cells> class Glide {
+template <Space S> class Glide {
 public:
-  Glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
+  Glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
         const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits, Effort& effort)
       : tessellation_(tessellation), points_(points), integrand_(integrand), fixed_(fixed),
         limits_(limits), effort_(effort) {}
@@ -71,7 +69,7 @@ public:
 
 private:
   const Connectivity& mesh() const { return tessellation_.mesh(); }
-  const Cells& cells() const { return tessellation_.cells(); }
+  const Cells<S>& cells() const { return tessellation_.cells(); }
   bool is_free(std::int32_t site) const {
     return site < points_.cols() && (fixed_.empty() || fixed_[static_cast<std::size_t>(site)] == 0);
   }
@@ -202,9 +200,10 @@ private:
       const auto region = static_cast<std::size_t>(patch.region);
       farthest[region] = 0;
       for (std::int32_t i = 0; i < patch.owned; ++i) {
-        const Vec3& from =
-            Cells::places_wrap ? column(points_, patch.sites[static_cast<std::size_t>(i)]) : x[i];
-        const typename Cells::Pull pull = Cells::pull(from, moments[i]);
+        const Vec3& from = Cells<S>::places_wrap
+                               ? column(points_, patch.sites[static_cast<std::size_t>(i)])
+                               : x[i];
+        const Pull pull = Cells<S>::pull(from, moments[i]);
         const bool valid = pull.mass > 0 && moments[i].energy > 0;
         const Vec3 to = valid ? pull.centroid : from, way = to - from;
         set_column(centroids, begin_[region] + i, to);
@@ -242,7 +241,7 @@ private:
     tessellation_.make_delaunay(effort_);
   }
 
-  Tessellation<Cells>& tessellation_;
+  Tessellation<S>& tessellation_;
   Points3& points_;
   const Integrand& integrand_;
   const std::vector<std::uint8_t>& fixed_;
@@ -254,14 +253,14 @@ private:
 
 } // namespace
 
-template <class Cells>
-std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
+template <Space S>
+std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
                    const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits) {
   constexpr int most_rounds = 8; // a step may bring another dislocation to its brink
   Effort effort;
   tessellation.move(points);
   tessellation.make_delaunay(effort);
-  Glide<Cells> glide(tessellation, points, integrand, fixed, limits, effort);
+  Glide<S> glide(tessellation, points, integrand, fixed, limits, effort);
   std::int64_t steps = 0;
   for (int round = 0; round < most_rounds; ++round) {
     const std::int64_t tried = glide.step();
@@ -272,11 +271,9 @@ std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Int
   return steps;
 }
 
-template std::int64_t glide(Tessellation<SphericalCells>&, Points3&, const Integrand&,
+template std::int64_t glide(Tessellation<Sphere>&, Points3&, const Integrand&,
                             const std::vector<std::uint8_t>&, const ShapeLimits&);
-template std::int64_t glide(Tessellation<PlanarCells>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&, const ShapeLimits&);
-template std::int64_t glide(Tessellation<RegionCells>&, Points3&, const Integrand&,
+template std::int64_t glide(Tessellation<Plane>&, Points3&, const Integrand&,
                             const std::vector<std::uint8_t>&, const ShapeLimits&);
 
 } // namespace calotte::cvt_detail

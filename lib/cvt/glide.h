@@ -27,8 +27,8 @@ namespace calotte::cvt_detail {
 /// \param limits whose least_edge and least_cotangent tell what is short and nearly right.
 /// \param fixed a flag for each generator that does not move; empty if there is none.
 /// \return number of steps that were tried; 0 if no edge is on the brink.
-template <class Cells>
-std::int64_t glide(Tessellation<Cells>& tessellation, Points3& points, const Integrand& integrand,
+template <Space S>
+std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
                    const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits);
 
 } // namespace calotte::cvt_detail

@@ -6,19 +6,15 @@
 #include "base/lists.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "density/planar_density.h"
+#include "density/surface_density.h"
 #include "domain/arcs.h"
 #include "domain/outline.h"
-#include "domain/periodic_box.h"
-#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "exact/space.h"
 #include "mesh/edges.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -116,7 +112,7 @@ void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t cont
 }
 
 /// Whether sites are on the hull of an open mesh, where rings are open.
-template <class AnyMesh> std::vector<std::uint8_t> hull_of(const AnyMesh& mesh) {
+std::vector<std::uint8_t> hull_of(const Mesh& mesh) {
   std::vector<std::uint8_t> hull(static_cast<std::size_t>(mesh.points.cols()), 0);
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
@@ -127,7 +123,7 @@ template <class AnyMesh> std::vector<std::uint8_t> hull_of(const AnyMesh& mesh) 
 }
 
 /// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others.
-template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) {
+std::vector<std::int8_t> oddities(const Mesh& mesh) {
   constexpr int many = 8, few = 4;
   std::vector<std::int32_t> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
@@ -143,9 +139,9 @@ template <class AnyMesh> std::vector<std::int8_t> oddities(const AnyMesh& mesh) 
 
 /// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
 /// as longer, so that an insertion splits these; those at sites with few as shorter.
-template <class AnyMesh, class Space>
-std::vector<Edge> edges_of(const AnyMesh& mesh, const Points3& points, const Density& density,
-                           const Space& space) {
+template <Space S>
+std::vector<Edge> edges_of(const Mesh& mesh, const Points3& points, const Density& density,
+                           const S& space) {
   constexpr double preference = 2;
   const DoubleVector fine = fineness(density, points);
   const std::vector<std::int8_t> odd = oddities(mesh);
@@ -185,74 +181,51 @@ Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& spli
   return out;
 }
 
-/// \param Space has offset(a, b), middle(a, b), holds(middle) and keeps(a, b), which forbids to
-///        split an edge between fixed points.
-template <class AnyMesh, class Space>
-Points3 change_edges(const AnyMesh& mesh, const Points3& points, const Density& density,
-                     const Space& space, const EdgeChanges& numbers) {
+/// The midpoints of split edges lie inside the boundary.
+template <Space S>
+Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& density,
+                     const S& space, const EdgeChanges& numbers) {
   require_counts(points.cols(), numbers.splits, numbers.collapses);
+  const OutlineOf<S>* const outline = outline_of<S>(mesh.surface);
   std::vector<Edge> edges = edges_of(mesh, points, density, space);
   const auto middle = [&](const Edge& edge) {
-    return space.middle(column(points, edge.a), column(points, edge.b));
+    return space.midpoint(column(points, edge.a), column(points, edge.b));
   };
   const auto may_split = [&](const Edge& edge) {
-    return edge.b >= numbers.fixed || !space.keeps(column(points, edge.a), column(points, edge.b));
+    if constexpr (S::on_sphere)
+      return outline == nullptr || edge.b >= numbers.fixed ||
+             !lies_along(*outline, column(points, edge.a), column(points, edge.b));
+    return true;
   };
   const auto may_collapse = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
   Choice choice(points.cols(), edges); // whose neighbours are those of all edges
-  std::erase_if(edges, [&](const Edge& edge) { return !space.holds(middle(edge)); });
+  std::erase_if(
+      edges, [&](const Edge& edge) { return side_of<S>(outline, middle(edge)) != Side::inside; });
   const std::vector<Edge> split = choice.choose(edges, numbers.splits, is_longer, may_split),
                           contracted =
                               choice.choose(edges, numbers.collapses, is_shorter, may_collapse);
   return split_and_collapsed(points, split, contracted, numbers.fixed, middle);
 }
 
-struct OnSphere {
-  static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
-  static Vec3 middle(const Vec3& a, const Vec3& b) { return Sphere::midpoint(a, b); }
-  static bool holds(const Vec3&) { return true; }
-  static bool keeps(const Vec3&, const Vec3&) { return false; }
-};
-
-struct InRegion : OnSphere {
-  const SphericalOutline* outline;
-
-  bool holds(const Vec3& place) const { return outline->side(place) == Side::inside; }
-  bool keeps(const Vec3& a, const Vec3& b) const { return lies_along(*outline, a, b); }
-};
-
-struct InPlane {
-  Vec2 period;
-  const Outline* outline; ///< none without a boundary
-
-  Vec3 offset(const Vec3& a, const Vec3& b) const {
-    const Vec2 way = nearest_offset(a, b, period);
-    return {way.x, way.y, 0};
-  }
-  Vec3 middle(const Vec3& a, const Vec3& b) const {
-    return outline != nullptr ? Plane().midpoint(a, b) : Plane(period).midpoint(a, b);
-  }
-  bool holds(const Vec3& place) const {
-    return outline == nullptr || outline->side({place.x, place.y}) == Side::inside;
-  }
-  static bool keeps(const Vec3&, const Vec3&) { return false; }
-};
-
+/// The points as a run has them: unit vectors on the sphere.
 /// \param fixed number of points that keep their bits.
-Points3 unit(const Points3& points, std::int64_t fixed = 0) {
-  Points3 out = points;
-  for (std::int64_t i = fixed; i < points.cols(); ++i)
-    base_detail::set_column(out, i, unit_of_any_norm(column(points, i)));
+Points3 points_of_run(const Mesh& mesh, std::int64_t fixed = 0) {
+  Points3 out = mesh.points;
+  for (std::int64_t i = fixed; mesh.surface.is_sphere() && i < out.cols(); ++i)
+    base_detail::set_column(out, i, unit_of_any_norm(column(mesh.points, i)));
   return out;
 }
+
+} // namespace
+
+namespace cvt_detail {
 
 /// Where h changes by a factor 1 + g from one cell to the next, one row of cells in 1/g must end.
 /// Over all directions of an edge, its |change of log h| is 2/pi of g times its length; there are
 /// three edges for each cell, whose area is sqrt(3)/2 h^2.
-template <class AnyMesh>
-double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Density& density) {
+double dislocations(const Mesh& mesh, const Density& density) {
   constexpr double per_edge = std::numbers::sqrt3 / 2 * (std::numbers::pi / 2) / 3;
-  const DoubleVector fine = fineness(density, points);
+  const DoubleVector fine = fineness(density, points_of_run(mesh));
   double sum = 0;
   mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
     if (const double larger = std::max(fine[a], fine[b]); larger > 0)
@@ -261,44 +234,10 @@ double sum_dislocations(const AnyMesh& mesh, const Points3& points, const Densit
   return per_edge * sum;
 }
 
-/// \param points of the mesh, with z = 0.
-Points3 split_and_collapsed_in_plane(const PlanarMesh& mesh, const Points3& points,
-                                     const PlanarDomain& domain, const Density& density,
-                                     const EdgeChanges& numbers) {
-  const std::unique_ptr<const Outline> outline =
-      domain.periodic() ? nullptr : std::make_unique<const Outline>(domain);
-  const InPlane space{{domain.period.x(), domain.period.y()}, outline.get()};
-  return change_edges(mesh, points, density_detail::planar_density(density, domain), space,
-                      numbers);
-}
-
-} // namespace
-
-namespace cvt_detail {
-
-double dislocations(const Mesh& mesh, const Density& density) {
-  return sum_dislocations(mesh, unit(mesh.points), density);
-}
-
-double dislocations(const PlanarMesh& mesh, const Density& density) {
-  return sum_dislocations(mesh, base_detail::with_z(mesh.points), density);
-}
-
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes) {
-  return change_edges(mesh, unit(mesh.points, changes.fixed), density, OnSphere(), changes);
-}
-
-Points3 split_and_collapsed(const Mesh& mesh, const SphericalOutline& outline,
-                            const Density& density, const EdgeChanges& changes) {
-  return change_edges(mesh, unit(mesh.points, changes.fixed), density, InRegion{{}, &outline},
-                      changes);
-}
-
-Points2 split_and_collapsed(const PlanarMesh& mesh, const PlanarDomain& domain,
-                            const Density& density, const EdgeChanges& changes) {
-  return split_and_collapsed_in_plane(mesh, base_detail::with_z(mesh.points), domain, density,
-                                      changes)
-      .topRows<2>();
+  return in_space_of(mesh.surface, [&](const Space auto& space) {
+    return change_edges(mesh, points_of_run(mesh, changes.fixed), density, space, changes);
+  });
 }
 
 bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
@@ -314,13 +253,8 @@ bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
 
 Points3 split_and_collapse(const Mesh& mesh, const Density& density, std::int64_t splits,
                            std::int64_t collapses) {
-  const EdgeChanges numbers{splits, collapses};
-  if (!mesh.surface.is_sphere())
-    return split_and_collapsed_in_plane(mesh_detail::planar(mesh), mesh.points,
-                                        domain_of(mesh.surface), density, numbers);
-  if (mesh.surface.is_bounded())
-    return split_and_collapsed(mesh, SphericalOutline(region_of(mesh.surface)), density, numbers);
-  return split_and_collapsed(mesh, density, numbers);
+  return split_and_collapsed(mesh, density_detail::surface_density(density, mesh.surface),
+                             {splits, collapses});
 }
 
 } // namespace calotte

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "cvt/room.h"
-#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/density.h>
 #include <calotte/types.h>
@@ -16,27 +14,20 @@ namespace calotte::cvt_detail {
 /// An estimate of the number of dislocations that a mesh needs so that its spacing can follow a
 /// density: the integral of |grad h| / h^2, h the spacing. It grows as sqrt(n), and is 0 for
 /// uniform density.
+/// \pre here and below, the density is that of surface_density().
 double dislocations(const Mesh& mesh, const Density& density);
-
-/// The same in the plane. \pre the density is that of planar_density().
-double dislocations(const PlanarMesh& mesh, const Density& density);
 
 /// What a split and collapse of edges does.
 struct EdgeChanges {
   std::int64_t splits = 0, collapses = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
-  /// contracted; one to another point is contracted to the fixed one.
+  /// contracted; one to another point is contracted to the fixed one. On a bounded part of the
+  /// sphere an edge between two of them along the boundary, see lies_along(), is not split.
   std::int64_t fixed = 0;
 };
 
 /// As split_and_collapse().
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
-/// The same where midpoints must lie in a region. An edge between two fixed points along the
-/// boundary, see lies_along(), is not split.
-Points3 split_and_collapsed(const Mesh& mesh, const SphericalOutline& outline,
-                            const Density& density, const EdgeChanges& changes);
-Points2 split_and_collapsed(const PlanarMesh& mesh, const PlanarDomain& domain,
-                            const Density& density, const EdgeChanges& changes);
 
 /// True if the midpoint of an edge is within a fifth of its length of the boundary.
 bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b);

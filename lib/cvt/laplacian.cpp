@@ -4,11 +4,8 @@
 #include "base/elementary.h"
 #include "base/parallel.h"
 #include "base/points.h"
-#include "cvt/signs.h"
 #include "domain/clipped_cell.h"
 #include "mesh/vertex_rings.h"
-
-#include <calotte/delaunay.h>
 
 #include <algorithm>
 #include <array>
@@ -41,9 +38,8 @@ double arc_ratio(double square, double q) {
   return arc_sine(std::clamp(sine, -1.0, 1.0)) / std::sqrt(square);
 }
 
-/// For edges on the sphere.
 /// \param most bound of |delta|/l.
-Shares spherical_shares(const std::array<Vec3, 3>& x, double most) {
+Shares shares_of(const Sphere&, const std::array<Vec3, 3>& x, double most) {
   const double inverse = 1 / norm(cross(x[1] - x[0], x[2] - x[0]));
   Shares shares;
   for (int v = 0; v < 3; ++v) {
@@ -54,62 +50,75 @@ Shares spherical_shares(const std::array<Vec3, 3>& x, double most) {
   return shares;
 }
 
-Shares planar_shares(const std::array<Vec3, 3>& x, const Vec2& period) {
+Shares shares_of(const Plane& plane, const std::array<Vec3, 3>& x, double) {
   Shares shares;
   for (int v = 0; v < 3; ++v) {
     const Vec3& c = x[previous_vertex(v)];
-    const Vec2 p = nearest_offset(c, x[v], period),
-               q = nearest_offset(c, x[next_vertex(v)], period);
-    shares[static_cast<std::size_t>(v)] = share_of(dot(p, q) / cross(p, q) / 2);
+    const Vec3 p = plane.offset(c, x[v]), q = plane.offset(c, x[next_vertex(v)]);
+    shares[static_cast<std::size_t>(v)] = share_of((p.x * q.x + p.y * q.y) / cross(p, q).z / 2);
   }
   return shares;
 }
 
-/// The edges of the mesh on the sphere.
-class SphericalEdges {
+/// The edges of the mesh. Of cells that a domain of the plane clips, only the parts inside count.
+template <Space S> class Edges {
 public:
-  explicit SphericalEdges(const Points3& points) : points_(&points) {}
+  Edges(const ClippedSites<S>& sites, const Faces& mesh, const Array<Corner>& starts)
+      : sites_(sites) {
+    if constexpr (!S::on_sphere)
+      if (sites.outline != nullptr)
+        clip_cells(mesh, starts);
+  }
 
-  const Vec3& place(std::int32_t site) const { return column(*points_, site); }
-  Vec3 offset(std::int32_t from, std::int32_t to) const { return place(to) - place(from); }
-  static Shares shares(const std::array<Vec3, 3>& x) {
-    return spherical_shares(x, std::numeric_limits<double>::infinity());
+  const Vec3& place(std::int32_t site) const {
+    return sites_.placed.points[static_cast<std::size_t>(site)];
+  }
+  Vec3 offset(std::int32_t from, std::int32_t to) const {
+    return sites_.placed.space.offset(place(from), place(to));
+  }
+  Shares shares(const std::array<Vec3, 3>& x) const {
+    return shares_of(sites_.placed.space, x,
+                     sites_.outline != nullptr ? 0.5 : std::numeric_limits<double>::infinity());
   }
   /// The weight, for rho = 1/2, of the edge from i to j, which has c to its left and d to its
   /// right.
   /// \param usual its value where no boundary comes near.
-  static double weight(std::int32_t, std::int32_t, std::int32_t, std::int32_t, double usual) {
+  double weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d,
+                double usual) const {
+    if constexpr (!S::on_sphere)
+      if (is_clipped(i) && is_clipped(j))
+        return i < j ? clipped_weight(i, j, c, d) : clipped_weight(j, i, d, c);
     return usual;
   }
-  /// The other terms on the diagonal.
+  /// The other terms on the diagonal. A boundary that faces away from the generator, such as the
+  /// far side of an island, contributes a negative term; their sum is at least 0, so that the
+  /// matrix stays positive.
   /// \param area of the site.
-  static double held(std::int32_t, double rho, double area) { return rho * area * area; }
-
-private:
-  const Points3* points_;
-};
-
-/// In a region, whose boundary clips cells.
-class RegionEdges : public SphericalEdges {
-public:
-  RegionEdges(const Points3& places, double area) : SphericalEdges(places), area_(area) {}
-
-  static Shares shares(const std::array<Vec3, 3>& x) { return spherical_shares(x, 0.5); }
-  double held(std::int32_t, double rho, double area) const {
-    return rho * area * area * (4 * std::numbers::pi) / area_;
+  double held(std::int32_t i, double rho, double area) const {
+    if (S::on_sphere && sites_.outline == nullptr)
+      return rho * area * area;
+    const bool clipped = is_clipped(i);
+    const double whole = clipped ? area_[i] : area;
+    if constexpr (S::on_sphere)
+      return rho * whole * whole * (4 * std::numbers::pi) / sites_.area;
+    return rho * (whole * whole * (4 * std::numbers::pi) / sites_.area +
+                  2 * std::max(clipped ? boundary_[i] : 0, 0.0));
   }
 
 private:
-  double area_;
-};
+  bool is_clipped(std::int32_t i) const { return clipped_.size() > 0 && clipped_[i] != 0; }
+  Vec2 in_plane(std::int32_t site) const { return {place(site).x, place(site).y}; }
+  Vec2 between(std::int32_t from, std::int32_t to) const {
+    const Vec3 way = offset(from, to);
+    return {way.x, way.y};
+  }
 
-/// For cells that the domain clips, only the parts inside count.
-class PlanarEdges {
-public:
-  PlanarEdges(const PlanarSites& sites, const Faces& mesh, const Array<Corner>& starts)
-      : sites_(&sites), clipped_(sites.generators), boundary_(sites.generators),
-        area_(sites.generators) {
-    for_each_block(sites.generators, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  void clip_cells(const Faces& mesh, const Array<Corner>& starts) {
+    const std::int64_t n = sites_.generators;
+    clipped_ = Array<std::uint8_t>(n);
+    boundary_ = Array<double>(n);
+    area_ = Array<double>(n);
+    for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       std::vector<Corner> ring;
       for (std::int64_t i = begin; i != end; ++i) {
         gather_ring(mesh, starts[i], ring);
@@ -118,46 +127,19 @@ public:
     });
   }
 
-  const Vec3& place(std::int32_t site) const { return sites_->places[site]; }
-  Vec3 offset(std::int32_t from, std::int32_t to) const {
-    const Vec2 way = between(from, to);
-    return {way.x, way.y, 0};
-  }
-  Shares shares(const std::array<Vec3, 3>& x) const { return planar_shares(x, sites_->period); }
-  double weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d,
-                double usual) const {
-    if (clipped_[i] == 0 || clipped_[j] == 0)
-      return usual;
-    return i < j ? clipped_weight(i, j, c, d) : clipped_weight(j, i, d, c);
-  }
-  /// A boundary that faces away from the generator, such as the far side of an island, contributes
-  /// a negative term; their sum is at least 0, so that the matrix stays positive.
-  double held(std::int32_t i, double rho, double area) const {
-    const double whole = clipped_[i] != 0 ? area_[i] : area;
-    return rho * (whole * whole * (4 * std::numbers::pi) / sites_->area +
-                  2 * std::max(boundary_[i], 0.0));
-  }
-
-private:
-  Vec2 between(std::int32_t from, std::int32_t to) const {
-    return nearest_offset(sites_->places[from], sites_->places[to], sites_->period);
-  }
-
   void clip(const Triangles& triangles, const std::vector<Corner>& ring, std::int32_t i) {
     clipped_[i] = 0;
     boundary_[i] = area_[i] = 0;
-    if (sites_->outline == nullptr)
-      return;
     std::vector<CellCorner> cell;
     for (const auto [t, v] : ring) {
       const Vec2 beyond = between(i, triangles(previous_vertex(v), t));
       cell.push_back({circumcentre(between(i, triangles(next_vertex(v), t)), beyond), beyond});
     }
-    const Vec2 site{sites_->places[i].x, sites_->places[i].y};
-    if (!near_boundary(*sites_->outline, site, cell))
+    const Vec2 site = in_plane(i);
+    if (!near_boundary(*sites_.outline, site, cell))
       return;
     clipped_[i] = 1;
-    for (const CellSide& side : clipped_cell(*sites_->outline, site, cell)) {
+    for (const CellSide& side : clipped_cell(*sites_.outline, site, cell)) {
       area_[i] += cross(side.p, side.q) / 2;
       boundary_[i] += side.boundary ? cross(side.p, side.q) / 2 : 0;
     }
@@ -166,11 +148,11 @@ private:
   /// The integral of l^2/4 - s^2 over l, s from the edge's middle on, where the Voronoi edge is
   /// inside; a thousandth of an equilateral triangle's of the smaller cell's width at least.
   double clipped_weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
-    const Vec2 site{sites_->places[i].x, sites_->places[i].y}, to = between(i, j);
+    const Vec2 to = between(i, j);
     const double length = norm(to);
     double weight = 0;
     for (const CellSide& part :
-         parts_inside(*sites_->outline, site, {circumcentre(between(i, d), to), to},
+         parts_inside(*sites_.outline, in_plane(i), {circumcentre(between(i, d), to), to},
                       circumcentre(to, between(i, c)))) {
       const double p = cross(to, part.p) / length, q = cross(to, part.q) / length;
       weight += (length * length / 4 * (q - p) - (q * q * q - p * p * p) / 3) / length;
@@ -179,8 +161,8 @@ private:
     return std::max(weight, 2 * least_share * square);
   }
 
-  const PlanarSites* sites_;
-  Array<std::uint8_t> clipped_;
+  const ClippedSites<S>& sites_;
+  Array<std::uint8_t> clipped_; ///< by generator; none where a boundary clips no edges
   Array<double> boundary_,
       area_; ///< of clipped cells: between the generator and the boundary, and all
 };
@@ -200,9 +182,9 @@ struct Source {
 
 /// The shares of triangles, each computed about once where sites that follow each other are close
 /// to each other: the last ones stay in a table.
-template <class Edges> class SharesTable {
+template <Space S> class SharesTable {
 public:
-  SharesTable(const Triangles& triangles, const Edges& edges)
+  SharesTable(const Triangles& triangles, const Edges<S>& edges)
       : triangles_(triangles), edges_(edges) {}
 
   float of(std::int32_t t, int vertex) {
@@ -219,7 +201,7 @@ private:
   static constexpr std::size_t slots = 1 << 12;
 
   const Triangles& triangles_;
-  const Edges& edges_;
+  const Edges<S>& edges_;
   std::vector<std::int32_t> triangle_ = std::vector<std::int32_t>(slots, -1);
   std::vector<Shares> shares_ = std::vector<Shares>(slots);
 };
@@ -231,8 +213,8 @@ struct Row {
   double diagonal;
 };
 
-template <class Edges>
-void set_row(const Source& source, SharesTable<Edges>& shares, const Edges& edges, std::int32_t i,
+template <Space S>
+void set_row(const Source& source, SharesTable<S>& shares, const Edges<S>& edges, std::int32_t i,
              Row& row) {
   gather_ring(source.mesh, source.starts[i], row.ring);
   row.elements.clear();
@@ -277,7 +259,7 @@ Array<std::int32_t> row_begins(const Source& source) {
   return begin;
 }
 
-template <class Edges> Laplacian make_matrix(const Source& source, const Edges& edges) {
+template <Space S> Laplacian make_matrix(const Source& source, const Edges<S>& edges) {
   const std::int64_t n = source.rows();
   Laplacian matrix{{row_begins(source), {}}, Array<double>(n)};
   Rows& rows = matrix.weights;
@@ -305,24 +287,16 @@ template <class Edges> Laplacian make_matrix(const Source& source, const Edges& 
 
 } // namespace
 
-Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density) {
-  const Source source(mesh, evaluate(density, points));
-  return make_matrix(source, SphericalEdges(points));
-}
-
-Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
-                          const Connectivity& mesh, const Density& density) {
-  const Source source(mesh, evaluate(density, Points3(places.leftCols(generators))));
-  return make_matrix(source, RegionEdges(places, area));
-}
-
-Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+template <Space S>
+Laplacian graph_laplacian(const ClippedSites<S>& sites, const Connectivity& mesh,
                           const Density& density) {
-  Points3 points(3, sites.generators);
-  for (std::int64_t i = 0; i < sites.generators; ++i)
-    set_column(points, i, sites.places[i]);
-  const Source source(mesh, evaluate(density, points));
-  return make_matrix(source, PlanarEdges(sites, source.mesh, source.starts));
+  const Eigen::Map<const Points3> generators(&sites.placed.points.front().x, 3, sites.generators);
+  const Source source(mesh, evaluate(density, generators));
+  return make_matrix(source, Edges<S>(sites, source.mesh, source.starts));
 }
+
+template Laplacian graph_laplacian(const ClippedSites<Sphere>&, const Connectivity&,
+                                   const Density&);
+template Laplacian graph_laplacian(const ClippedSites<Plane>&, const Connectivity&, const Density&);
 
 } // namespace calotte::cvt_detail

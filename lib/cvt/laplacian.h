@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/memory.h"
-#include "base/vec3.h"
+#include "cvt/repair.h"
 #include "cvt/room.h"
-#include "domain/outline.h"
+#include "domain/surface.h"
 #include "mesh/connectivity.h"
 
 #include <calotte/density.h>
@@ -35,6 +35,14 @@ struct Laplacian {
   Array<double> scale; ///< 1/D
 };
 
+/// The sites of a mesh on a surface.
+template <Space S> struct ClippedSites {
+  PlacedSites<S> placed;
+  std::int64_t generators;     ///< the first of them
+  const OutlineOf<S>* outline; ///< of the surface; null without a boundary
+  double area;                 ///< of the surface
+};
+
 /// The graph Laplacian that approximates the second derivative of the CVT energy E, n x n, for each
 /// coordinate of the generators: sum over edges of 2 w (e_i - e_j)(e_i - e_j)^T, w = rho times the
 /// sum over both sides of (l^2 delta/4 - delta^3/3)/l, l the edge's length, delta the signed arc
@@ -43,35 +51,21 @@ struct Laplacian {
 /// an equilateral triangle's are raised to that.
 ///
 /// To it is added rho times the square of the site's area, a third of its triangles, over a 4 pi-th
-/// of the sphere's or the domain's, on the diagonal: a motion of all generators in one direction,
+/// of the surface, on the diagonal: a motion of all generators in one direction,
 /// which costs the Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined
 /// plane.
 ///
-/// \param points 3 x n unit columns that span the sphere.
-/// \param mesh their Delaunay triangulation.
-/// \pre at most most_laplacian_rows points.
-Laplacian graph_laplacian(const Points3& points, const Connectivity& mesh, const Density& density);
-
-/// The same for the generators in a region, of which the hull's places follow. Circumcentres beyond
-/// half of an edge's length from it count as if they were there: the boundary clips such cells.
-/// \param area of the region.
-Laplacian graph_laplacian(const Points3& places, std::int64_t generators, double area,
-                          const Connectivity& mesh, const Density& density);
-
-/// A domain of the plane, with generators in it.
-struct PlanarSites {
-  const Array<Vec3>& places; ///< as PlaneSigns takes them
-  std::int64_t generators;   ///< the first of them
-  Vec2 period;
-  const Outline* outline; ///< or none, of a periodic box
-  double area;            ///< of the domain
-};
-
-/// The same in the plane. Voronoi edges beside the hull's places lie outside of the domain, and
-/// count for nothing. A cell that the domain clips has on the diagonal 2 rho times the area between
-/// its generator and the boundary: half of the trace of what the second derivative, 2 m less the
+/// On a bounded surface the hull's places follow the generators. Where the boundary of a region
+/// clips cells, circumcentres beyond half of an edge's length from it count as if they were there.
+/// In the plane Voronoi edges beside the hull's places lie outside of the domain, and count for
+/// nothing; a cell that the domain clips has on the diagonal 2 rho times the area between its
+/// generator and the boundary: half of the trace of what the second derivative, 2 m less the
 /// integrals over Voronoi edges, is when all generators move as one.
-Laplacian graph_laplacian(const PlanarSites& sites, const Connectivity& mesh,
+///
+/// \param mesh the Delaunay triangulation of the sites.
+/// \pre at most most_laplacian_rows generators.
+template <Space S>
+Laplacian graph_laplacian(const ClippedSites<S>& sites, const Connectivity& mesh,
                           const Density& density);
 
 } // namespace calotte::cvt_detail

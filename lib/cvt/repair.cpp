@@ -3,22 +3,48 @@
 
 #include "base/triangle.h"
 
+#include <array>
 #include <optional>
 #include <utility>
 
 namespace calotte::cvt_detail {
 namespace {
 
+using Corners = std::array<std::int32_t, 3>; ///< of a triangle
+
 Corners corners_of(const Connectivity& mesh, std::int32_t t) {
   return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
 }
 
-template <class Signs>
-bool is_delaunay(const Connectivity& mesh, const Signs& signs, const TriangleEdge& edge) {
+/// A triangle's corners; of periodic copies those next to the first.
+template <Space S>
+std::array<typename S::Position, 3> positions_of(const PlacedSites<S>& sites,
+                                                 const Corners& corners) {
+  const auto at = [&](std::size_t v) -> const Vec3& {
+    return sites.points[static_cast<std::size_t>(corners[v])];
+  };
+  const typename S::Position first = sites.space.position(at(0));
+  return {first, sites.space.near(at(1), first), sites.space.near(at(2), first)};
+}
+
+template <Space S> bool is_counter_clockwise(const PlacedSites<S>& sites, const Corners& corners) {
+  const auto [a, b, c] = positions_of(sites, corners);
+  return sites.space.is_short(b, c) && sites.space.orientation(a, b, c) > 0;
+}
+
+/// Whether the circumcircle of the triangle contains the far corner of the one beyond an edge; the
+/// library's rule resolves ties.
+template <Space S>
+bool is_delaunay(const Connectivity& mesh, const PlacedSites<S>& sites, const TriangleEdge& edge) {
   const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
-  return beyond < 0 ||
-         !signs.circle_holds(corners_of(mesh, t), edge.across,
-                             mesh.triangles(vertex_across(mesh.neighbours, beyond, t), beyond));
+  if (beyond < 0)
+    return true;
+  const auto corner = positions_of(sites, corners_of(mesh, t));
+  const std::int32_t far = mesh.triangles(vertex_across(mesh.neighbours, beyond, t), beyond);
+  return sites.space.in_circle_resolved(
+             corner[0], corner[1], corner[2],
+             sites.space.near(sites.points[static_cast<std::size_t>(far)],
+                              corner[static_cast<std::size_t>(next_vertex(edge.across))])) <= 0;
 }
 
 /// Replaces the edge bc of the triangles abc and dcb by ad, which gives abd and dca. The four outer
@@ -56,11 +82,11 @@ void flip_and_count(Connectivity& mesh, const TriangleEdge& edge,
 
 /// Flips an edge of an overturned triangle such that both triangles are valid, as where a site has
 /// moved across the opposite edge. False if there is none.
-template <class Signs>
-bool turn_back(Connectivity& mesh, const Signs& signs, std::int32_t t,
+template <Space S>
+bool turn_back(Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t t,
                std::vector<TriangleEdge>& pending, Repair& result) {
   const Corners corners = corners_of(mesh, t);
-  if (signs.is_counter_clockwise(corners)) // by a flip of another triangle
+  if (is_counter_clockwise(sites, corners)) // by a flip of another triangle
     return true;
   for (int v = 0; v < 3; ++v) {
     const std::int32_t u = mesh.neighbours(v, t);
@@ -69,7 +95,8 @@ bool turn_back(Connectivity& mesh, const Signs& signs, std::int32_t t,
     const std::int32_t a = mesh.triangles(v, t), b = mesh.triangles(next_vertex(v), t),
                        c = mesh.triangles(previous_vertex(v), t),
                        d = mesh.triangles(vertex_across(mesh.neighbours, u, t), u);
-    if (a != d && signs.is_counter_clockwise({a, b, d}) && signs.is_counter_clockwise({d, c, a})) {
+    if (a != d && is_counter_clockwise(sites, {a, b, d}) &&
+        is_counter_clockwise(sites, {d, c, a})) {
       flip_and_count(mesh, {t, v}, pending, result);
       return true;
     }
@@ -78,13 +105,13 @@ bool turn_back(Connectivity& mesh, const Signs& signs, std::int32_t t,
 }
 
 /// Flips until all edges are Delaunay; false if that takes more than `most` flips.
-template <class Signs>
-bool flip_all(Connectivity& mesh, const Signs& signs, std::vector<TriangleEdge> pending,
+template <Space S>
+bool flip_all(Connectivity& mesh, const PlacedSites<S>& sites, std::vector<TriangleEdge> pending,
               std::int64_t most, Repair& result) {
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
     pending.pop_back();
-    if (is_delaunay(mesh, signs, edge))
+    if (is_delaunay(mesh, sites, edge))
       continue;
     if (result.flips >= most)
       return false;
@@ -95,34 +122,39 @@ bool flip_all(Connectivity& mesh, const Signs& signs, std::vector<TriangleEdge> 
 
 } // namespace
 
-template <class Signs>
-void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
+template <Space S>
+void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t triangle,
                 Faults& faults) {
   const Corners corners = corners_of(mesh, triangle);
-  if (!signs.is_counter_clockwise(corners))
+  if (!is_counter_clockwise(sites, corners))
     faults.overturned.push_back(triangle);
+  const auto at = positions_of(sites, corners);
   for (int v = 0; v < 3; ++v)
-    if (!signs.is_clearly_acute(corners, v) && !is_delaunay(mesh, signs, {triangle, v}))
+    if (!sites.space.is_clearly_acute(at[static_cast<std::size_t>(v)],
+                                      at[static_cast<std::size_t>(next_vertex(v))],
+                                      at[static_cast<std::size_t>(previous_vertex(v))]) &&
+        !is_delaunay(mesh, sites, {triangle, v}))
       faults.edges.push_back({triangle, v});
 }
 
-template <class Signs>
-std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults) {
+template <Space S>
+std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites,
+                             const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which runs in parallel.
-  const std::int64_t most = signs.sites() / 16;
+  const std::int64_t most = std::ssize(sites.points) / 16;
   Repair result;
   std::vector<TriangleEdge> pending = faults.edges;
   for (const std::int32_t t : faults.overturned)
-    if (!turn_back(mesh, signs, t, pending, result))
+    if (!turn_back(mesh, sites, t, pending, result))
       return std::nullopt;
-  if (!flip_all(mesh, signs, std::move(pending), most, result))
+  if (!flip_all(mesh, sites, std::move(pending), most, result))
     return std::nullopt;
   return result;
 }
 
-template void add_faults(const Connectivity&, const SphereSigns&, std::int32_t, Faults&);
-template void add_faults(const Connectivity&, const PlaneSigns&, std::int32_t, Faults&);
-template std::optional<Repair> repair(Connectivity&, const SphereSigns&, const Faults&);
-template std::optional<Repair> repair(Connectivity&, const PlaneSigns&, const Faults&);
+template void add_faults(const Connectivity&, const PlacedSites<Sphere>&, std::int32_t, Faults&);
+template void add_faults(const Connectivity&, const PlacedSites<Plane>&, std::int32_t, Faults&);
+template std::optional<Repair> repair(Connectivity&, const PlacedSites<Sphere>&, const Faults&);
+template std::optional<Repair> repair(Connectivity&, const PlacedSites<Plane>&, const Faults&);
 
 } // namespace calotte::cvt_detail

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vec3.h"
 #include "cvt/room.h"
-#include "cvt/signs.h"
+#include "exact/space.h"
+#include "mesh/connectivity.h"
 
 #include <calotte/types.h>
 
@@ -27,10 +29,17 @@ struct Faults {
   bool none() const { return edges.empty() && overturned.empty(); }
 };
 
+/// A mesh's points in their space, by site.
+template <Space S> struct PlacedSites {
+  const S& space;
+  std::span<const Vec3> points; ///< as the space has them; of a periodic plane in the box
+};
+
 /// Adds the faults of one triangle, and of its edges across from corners that are not clearly
-/// acute. Signs are SphereSigns or PlaneSigns.
-template <class Signs>
-void add_faults(const Connectivity& mesh, const Signs& signs, std::int32_t triangle,
+/// acute. In a periodic plane a triangle with a side as long as half of a period is overturned: its
+/// nearest copies are ambiguous, and a triangulation has no such sides.
+template <Space S>
+void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t triangle,
                 Faults& faults);
 
 struct Repair {
@@ -42,7 +51,7 @@ struct Repair {
 /// valid ones, then from the faulty edges on. Empty if a triangle stays overturned or the flips
 /// would take longer than a new triangulation; the mesh is then unusable. After flips of overturned
 /// triangles others may be overturned, which the caller must find.
-template <class Signs>
-std::optional<Repair> repair(Connectivity& mesh, const Signs& signs, const Faults& faults);
+template <Space S>
+std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites, const Faults& faults);
 
 } // namespace calotte::cvt_detail

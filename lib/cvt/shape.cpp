@@ -4,9 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
-#include "cvt/planar_cells.h"
-#include "cvt/region_cells.h"
-#include "cvt/spherical_cells.h"
+#include "cvt/cells.h"
 
 #include <algorithm>
 #include <array>
@@ -31,8 +29,8 @@ struct Cotangent {
   double value, area; ///< area Q of the parallelogram
   Vec3 u, v, normal;  ///< unit normal
 
-  template <class Cells>
-  Cotangent(const Cells& cells, const Angle& angle)
+  template <Space S>
+  Cotangent(const Cells<S>& cells, const Angle& angle)
       : u(cells.offset(cells.place(angle.c), cells.place(angle.a))),
         v(cells.offset(cells.place(angle.c), cells.place(angle.b))) {
     const Vec3 product = cross(u, v);
@@ -86,9 +84,9 @@ Excess excess_of(double value, double least, double most) {
   return {std::max(value - most, 0.0), 1};
 }
 
-template <class Cells> class Penalty {
+template <Space S> class Penalty {
 public:
-  Penalty(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
+  Penalty(const Cells<S>& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed)
       : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits),
         fixed_(fixed) {}
@@ -164,7 +162,7 @@ private:
     part.add_shares(other, beyond, slope);
   }
 
-  const Cells& cells_;
+  const Cells<S>& cells_;
   const Connectivity& mesh_;
   const DoubleVector& inverse_spacing_;
   const ShapeLimits& limits_;
@@ -180,9 +178,10 @@ std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int3
 
 } // namespace
 
-template <class Cells>
-bool is_distorted(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
-                  const ShapeLimits& limits, std::int32_t triangle) {
+template <Space S>
+bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
+                  const DoubleVector& inverse_spacing, const ShapeLimits& limits,
+                  std::int32_t triangle) {
   const auto ids = mesh.triangles.col(triangle);
   if (ids.maxCoeff() >= inverse_spacing.size())
     return false;
@@ -204,8 +203,8 @@ bool is_distorted(const Cells& cells, const Connectivity& mesh, const DoubleVect
   return beyond(ab, ids[0], ids[1]) || beyond(bc, ids[1], ids[2]) || beyond(ca, ids[2], ids[0]);
 }
 
-template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+template <Space S>
+ShapeTerms add_shape_terms(const Cells<S>& cells, const Connectivity& mesh,
                            std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
                            const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
                            double factor, Points3& gradient) {
@@ -214,7 +213,7 @@ ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
             [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
   const std::int64_t count = std::ssize(triangles);
   std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  const Penalty<Cells> penalty(cells, mesh, inverse_spacing, limits, fixed);
+  const Penalty<S> penalty(cells, mesh, inverse_spacing, limits, fixed);
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
       penalty.add_triangle(triangles[static_cast<std::size_t>(i)],
@@ -237,21 +236,15 @@ ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
   return all;
 }
 
-template bool is_distorted(const SphericalCells&, const Connectivity&, const DoubleVector&,
+template bool is_distorted(const Cells<Sphere>&, const Connectivity&, const DoubleVector&,
                            const ShapeLimits&, std::int32_t);
-template ShapeTerms add_shape_terms(const SphericalCells&, const Connectivity&,
+template bool is_distorted(const Cells<Plane>&, const Connectivity&, const DoubleVector&,
+                           const ShapeLimits&, std::int32_t);
+template ShapeTerms add_shape_terms(const Cells<Sphere>&, const Connectivity&,
                                     std::vector<std::int32_t>, const DoubleVector&,
                                     const ShapeLimits&, const std::vector<std::uint8_t>&, double,
                                     Points3&);
-template bool is_distorted(const PlanarCells&, const Connectivity&, const DoubleVector&,
-                           const ShapeLimits&, std::int32_t);
-template ShapeTerms add_shape_terms(const PlanarCells&, const Connectivity&,
-                                    std::vector<std::int32_t>, const DoubleVector&,
-                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
-                                    Points3&);
-template bool is_distorted(const RegionCells&, const Connectivity&, const DoubleVector&,
-                           const ShapeLimits&, std::int32_t);
-template ShapeTerms add_shape_terms(const RegionCells&, const Connectivity&,
+template ShapeTerms add_shape_terms(const Cells<Plane>&, const Connectivity&,
                                     std::vector<std::int32_t>, const DoubleVector&,
                                     const ShapeLimits&, const std::vector<std::uint8_t>&, double,
                                     Points3&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cells.h"
 #include "cvt/cvt.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
@@ -50,22 +51,23 @@ struct ShapeTerms {
 
 /// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has
 /// the same bits for any number of threads and any order of the triangles. In the plane, triangles
-/// with their circumcentre outside the domain do not count, see RegionCells::has_centre(), nor do
+/// with their circumcentre outside the domain do not count, see Cells::has_centre(), nor do
 /// their edges' ratios.
 ///
 /// \param triangles all that may be beyond a limit; each once.
 /// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
 /// \param fixed a flag for each generator that does not move; empty if there is none. Shapes of
 ///        such alone do not count.
-template <class Cells>
-ShapeTerms add_shape_terms(const Cells& cells, const Connectivity& mesh,
+template <Space S>
+ShapeTerms add_shape_terms(const Cells<S>& cells, const Connectivity& mesh,
                            std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
                            const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
                            double factor, Points3& gradient);
 
 /// Whether a triangle may be beyond a limit.
-template <class Cells>
-bool is_distorted(const Cells& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
-                  const ShapeLimits& limits, std::int32_t triangle);
+template <Space S>
+bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
+                  const DoubleVector& inverse_spacing, const ShapeLimits& limits,
+                  std::int32_t triangle);
 
 } // namespace calotte::cvt_detail

@@ -3,10 +3,13 @@
 
 #include "cvt/cvt.h"
 #include "cvt/functional.h"
+#include "cvt/insertion.h"
+#include "cvt/levels.h"
 #include "density/hexagons.h"
 #include "integrals/integrand.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -20,7 +23,37 @@ double spacing_of(const CvtIteration& iteration) {
   return hexagon_width(std::sqrt(iteration.energy * n / hexagon_energy) / n);
 }
 
+/// A round after a descent of more than 15 evaluations counts for two: where widths are steep, a
+/// round takes long and gains less.
+int count_of_round(const State& state) {
+  constexpr int steep = 15;
+  return state.iterations_of_level > steep ? 2 : 1;
+}
+
+/// The edges of a round: a twentieth of the dislocations that the density demands while rounds are
+/// left, and the difference to the number of cells. Half of them give less energy, but the errors
+/// of a model's vorticity, divergence and kinetic energy grow with the number of dislocations. With
+/// fewer, cells are sheared, so that the stable step of gravity waves is shorter.
+EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density& density,
+                            std::int64_t cells) {
+  constexpr double share = 0.05; // of the dislocations
+  constexpr double most = 0.02;  // of the generators
+  const std::int64_t n = mesh.points.cols();
+  std::int64_t both = 0;
+  if (state.rounds_left > 0)
+    both = static_cast<std::int64_t>(
+        std::ceil(std::min(share * dislocations(mesh, density), most * static_cast<double>(n))));
+  return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0),
+          state.fixed};
+}
+
 } // namespace
+
+std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left) {
+  for (int k = 0; k < bisections_left; ++k)
+    cells = halved(surface, cells);
+  return cells;
+}
 
 const CvtIteration& last_accepted(const State& state) {
   const std::vector<CvtIteration>& all = state.report.iterations;
@@ -102,7 +135,8 @@ CvtOptions early(const CvtOptions& options) {
   return here;
 }
 
-CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites) {
+CvtOptions options_of_descent(const State& state, const Surface& surface,
+                              const CvtOptions& options) {
   constexpr int most_in_polish = 60;
   constexpr double fine = 1e-5;
   constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
@@ -110,13 +144,13 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   if (state.penalty > 0) {
     here.method = Method::lbfgs;
     here.max_iterations = most_in_polish;
-    if (at_sites && state.points.cols() >= resolving)
+    if (surface.is_sphere() && state.points.cols() >= resolving)
       here.rule = rule_at_sites;
     return here;
   }
   if (options.insertion_rounds == 0 || options.norm == Norm::none)
     return here;
-  if (at_sites && state.points.cols() >= resolving)
+  if (surface.is_sphere() && state.points.cols() >= resolving)
     here.rule = rule_at_sites;
   const Stage next = stage_after(state, options);
   if (next != Stage::insert && next != Stage::bisect) {
@@ -128,12 +162,47 @@ CvtOptions options_of_descent(const State& state, const CvtOptions& options, boo
   return here;
 }
 
+std::vector<CvtLevel> levels_of(const Surface& surface, std::int64_t first, int bisections,
+                                const CvtOptions& options) {
+  const bool inserts = options.insertion_rounds > 0, counted = options.norm == Norm::none;
+  const CvtOptions here = inserts && !counted ? early(options) : options;
+  std::vector<CvtLevel> levels;
+  for (int left = bisections; left >= 0; --left) {
+    levels.push_back({inserts ? cells_of_level(surface, options.cells, left) : first,
+                      inserts ? rounds_of_level(left, options) : 0, counted ? 0 : here.tolerance,
+                      here.max_iterations});
+    if (left > 0)
+      first = bisected(surface, first);
+  }
+  return levels;
+}
+
 void begin_descent(State& state) {
   state.memory = {};
   state.iterations_of_level = 0;
   state.final_rule = false;
   state.stuck = false;
   state.report.converged = false;
+}
+
+Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh) {
+  Level level = set_bisected(state, mesh);
+  --state.bisections_left;
+  state.rounds_left = rounds_of_level(state.bisections_left, options);
+  state.site_of_input.clear();
+  begin_descent(state);
+  return level;
+}
+
+Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh) {
+  Level level = set_split_and_collapsed(
+      state, mesh, options.density,
+      edge_changes_of(state, mesh, options.density,
+                      cells_of_level(mesh.surface, options.cells, state.bisections_left)));
+  state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
+  state.site_of_input.clear();
+  begin_descent(state);
+  return level;
 }
 
 void begin_polish(State& state) {

@@ -2,17 +2,18 @@
 #pragma once
 
 #include "cvt/cvt.h"
-#include "cvt/insertion.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
 
 #include <calotte/cvt.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <vector>
 
 /// The course of a run: descents, and what happens to the generators between two of them.
 ///
@@ -35,12 +36,7 @@ enum class Stage {
 };
 
 /// The number of generators at the end of a level of a run with insertion.
-template <class World>
-std::int64_t cells_of_level(const World& world, std::int64_t cells, int bisections_left) {
-  for (int k = 0; k < bisections_left; ++k)
-    cells = world.halved(cells);
-  return cells;
-}
+std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left);
 
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
@@ -62,8 +58,8 @@ bool may_glide(const State& state, const CvtOptions& options);
 ShapeLimits limits_of_glide(const State& state);
 
 /// The options of the current descent.
-/// \param at_sites whether the cells can be integrated with rule_at_sites.
-CvtOptions options_of_descent(const State& state, const CvtOptions& options, bool at_sites);
+CvtOptions options_of_descent(const State& state, const Surface& surface,
+                              const CvtOptions& options);
 
 void begin_descent(State& state);
 
@@ -80,72 +76,14 @@ CvtOptions early(const CvtOptions& options);
 
 /// The levels of a run.
 /// \param first number of generators of the start. \param bisections that follow.
-template <class World>
-std::vector<CvtLevel> levels_of(const World& world, std::int64_t first, int bisections,
-                                const CvtOptions& options) {
-  const bool inserts = options.insertion_rounds > 0, counted = options.norm == Norm::none;
-  const CvtOptions here = inserts && !counted ? early(options) : options;
-  std::vector<CvtLevel> levels;
-  for (int left = bisections; left >= 0; --left) {
-    levels.push_back({inserts ? cells_of_level(world, options.cells, left) : first,
-                      inserts ? rounds_of_level(left, options) : 0, counted ? 0 : here.tolerance,
-                      here.max_iterations});
-    if (left > 0)
-      first = world.bisected(first);
-  }
-  return levels;
-}
-
-/// A round after a descent of more than 15 evaluations counts for two: where widths are steep, a
-/// round takes long and gains less.
-inline int count_of_round(const State& state) {
-  constexpr int steep = 15;
-  return state.iterations_of_level > steep ? 2 : 1;
-}
+std::vector<CvtLevel> levels_of(const Surface& surface, std::int64_t first, int bisections,
+                                const CvtOptions& options);
 
 /// The next level.
-template <class World, class AnyMesh>
-Level begin_level(const World& world, State& state, const CvtOptions& options,
-                  const AnyMesh& mesh) {
-  Level level = world.set_bisected(state, mesh);
-  --state.bisections_left;
-  state.rounds_left = rounds_of_level(state.bisections_left, options);
-  state.site_of_input.clear();
-  begin_descent(state);
-  return level;
-}
-
-/// The edges of a round: a twentieth of the dislocations that the density demands while rounds are
-/// left, and the difference to the number of cells. Half of them give less energy, but the errors
-/// of a model's vorticity, divergence and kinetic energy grow with the number of dislocations. With
-/// fewer, cells are sheared, so that the stable step of gravity waves is shorter.
-template <class AnyMesh>
-EdgeChanges edge_changes_of(const State& state, const AnyMesh& mesh, const Density& density,
-                            std::int64_t cells) {
-  constexpr double share = 0.05; // of the dislocations
-  constexpr double most = 0.02;  // of the generators
-  const std::int64_t n = mesh.points.cols();
-  std::int64_t both = 0;
-  if (state.rounds_left > 0)
-    both = static_cast<std::int64_t>(
-        std::ceil(std::min(share * dislocations(mesh, density), most * static_cast<double>(n))));
-  return {both + std::max<std::int64_t>(cells - n, 0), both + std::max<std::int64_t>(n - cells, 0),
-          state.fixed};
-}
+Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh);
 
 /// A round of insertion and contraction.
-template <class World, class AnyMesh>
-Level begin_round(const World& world, State& state, const CvtOptions& options,
-                  const AnyMesh& mesh) {
-  Level level = world.set_split_and_collapsed(
-      state, mesh, options.density,
-      edge_changes_of(state, mesh, options.density,
-                      cells_of_level(world, options.cells, state.bisections_left)));
-  state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
-  state.site_of_input.clear();
-  begin_descent(state);
-  return level;
-}
+Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh);
 
 /// Sets the factor of the penalty and the demanded spacing from the last evaluation.
 void begin_polish(State& state);

@@ -3,9 +3,6 @@
 
 #include "base/clock.h"
 #include "base/parallel.h"
-#include "cvt/planar_cells.h"
-#include "cvt/region_cells.h"
-#include "cvt/spherical_cells.h"
 #include "delaunay/divide.h"
 
 #include <algorithm>
@@ -21,14 +18,14 @@ constexpr std::int64_t sampled =
 } // namespace
 
 /// One sort and one division serve both the triangulation and the tasks of the regions.
-template <class Cells>
-Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Partition& partition,
-                                  Level&& level)
+template <Space S>
+Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points, const Partition& partition,
+                              Level&& level)
     : cells_(std::move(cells)), generators_(points.cols()), partition_(partition) {
   cells_.move(points);
   Sites sites = level.sites ? std::move(*level.sites) : cells_.sites();
   if (sites.size() != generators_) // two points have met
-    cells_.signs().triangulate();  // which says it
+    cells_.triangulate();          // which says it
   Regions regions = delaunay_detail::divide(sites, partition_);
   Owners owners = owners_of(sites, regions);
   if (!level.mesh) {
@@ -45,7 +42,7 @@ Tessellation<Cells>::Tessellation(Cells cells, const Points3& points, const Part
     rebuild(unused);
 }
 
-template <class Cells> bool Tessellation<Cells>::drifted() const {
+template <Space S> bool Tessellation<S>::drifted() const {
   const double spacing = cells_.spacing();
   for (std::int64_t k = 0; k < sample_.size(); ++k) {
     const Vec3 way =
@@ -56,13 +53,13 @@ template <class Cells> bool Tessellation<Cells>::drifted() const {
   return false;
 }
 
-template <class Cells> void Tessellation<Cells>::note_sample() {
+template <Space S> void Tessellation<S>::note_sample() {
   sample_ = Array<Vec3>((generators_ + sampled - 1) / sampled);
   for (std::int64_t k = 0; k < sample_.size(); ++k)
     sample_[k] = cells_.place(static_cast<std::int32_t>(k * sampled));
 }
 
-template <class Cells> void Tessellation<Cells>::divide() {
+template <Space S> void Tessellation<S>::divide() {
   division_.patches.clear(); // sorting takes as much memory
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
@@ -73,9 +70,9 @@ template <class Cells> void Tessellation<Cells>::divide() {
                         static_cast<std::int32_t>(division_.work.size())});
 }
 
-template <class Cells>
-typename Tessellation<Cells>::Owners Tessellation<Cells>::owners_of(const Sites& sites,
-                                                                    const Regions& regions) const {
+template <Space S>
+typename Tessellation<S>::Owners Tessellation<S>::owners_of(const Sites& sites,
+                                                            const Regions& regions) const {
   const auto count = static_cast<std::int32_t>(regions.centres.size());
   Owners owners{Array<std::int32_t>(cells_.places()), count};
   std::fill(owners.owner.begin() + generators_, owners.owner.end(), 0);
@@ -86,7 +83,7 @@ typename Tessellation<Cells>::Owners Tessellation<Cells>::owners_of(const Sites&
   return owners;
 }
 
-template <class Cells> void Tessellation<Cells>::set_division(Owners&& owners) {
+template <Space S> void Tessellation<S>::set_division(Owners&& owners) {
   division_.ownership = make_ownership(std::move(owners.owner), owners.regions);
   division_.patches = make_patches(mesh_.triangles, division_.ownership);
   division_.work = std::vector<RegionWork>(division_.patches.size());
@@ -94,8 +91,8 @@ template <class Cells> void Tessellation<Cells>::set_division(Owners&& owners) {
     division_.work[k].report.sites = division_.patches[k].owned;
 }
 
-template <class Cells>
-Division Tessellation<Cells>::focus(Array<std::int32_t>&& owner, std::int32_t regions) {
+template <Space S>
+Division Tessellation<S>::focus(Array<std::int32_t>&& owner, std::int32_t regions) {
   Division all = std::exchange(division_, {});
   focused_ = true;
   rebuilt_ = false;
@@ -103,7 +100,7 @@ Division Tessellation<Cells>::focus(Array<std::int32_t>&& owner, std::int32_t re
   return all;
 }
 
-template <class Cells> void Tessellation<Cells>::resume(Division&& all) {
+template <Space S> void Tessellation<S>::resume(Division&& all) {
   division_ = std::move(all);
   if (rebuilt_)
     division_.patches = make_patches(mesh_.triangles, division_.ownership);
@@ -113,13 +110,13 @@ template <class Cells> void Tessellation<Cells>::resume(Division&& all) {
   changed_ = {};
 }
 
-template <class Cells> void Tessellation<Cells>::adopt(Owners&& owners) {
+template <Space S> void Tessellation<S>::adopt(Owners&& owners) {
   set_division(std::move(owners));
   note_sample();
 }
 
 /// Positions of a patch's sites, by local number.
-template <class Cells> Array<Vec3> Tessellation<Cells>::exchange(const Patch& patch) const {
+template <Space S> Array<Vec3> Tessellation<S>::exchange(const Patch& patch) const {
   constexpr std::int64_t together = 16;
   Array<Vec3> x(std::ssize(patch.sites));
   for (std::int64_t i = 0; i < x.size();) {
@@ -134,17 +131,16 @@ template <class Cells> Array<Vec3> Tessellation<Cells>::exchange(const Patch& pa
   return x;
 }
 
-template <class Cells>
-void Tessellation<Cells>::find_faults(const Patch& patch, RegionWork& work) const {
-  const auto signs = cells_.signs();
+template <Space S> void Tessellation<S>::find_faults(const Patch& patch, RegionWork& work) const {
   for (const std::int32_t suspect : work.suspects)
-    add_faults(mesh_, signs, patch.triangles[static_cast<std::size_t>(suspect)], work.faults);
+    add_faults(mesh_, cells_.placed(), patch.triangles[static_cast<std::size_t>(suspect)],
+               work.faults);
 }
 
 /// Runs the task of each region, then adds faults and effort in the order of the regions.
-template <class Cells>
+template <Space S>
 template <class Task>
-Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
+Faults Tessellation<S>::run_tasks(const Task& task, Effort& effort) {
   for_each_task(std::ssize(division_.patches), [&](std::int64_t k) {
     RegionWork& work = division_.work[static_cast<std::size_t>(k)];
     work.suspects.clear();
@@ -166,7 +162,7 @@ Faults Tessellation<Cells>::run_tasks(const Task& task, Effort& effort) {
   return all;
 }
 
-template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
+template <Space S> Faults Tessellation<S>::find_faults(Effort& effort) {
   return run_tasks(
       [&](const Patch& patch, RegionWork& work) {
         Clock::time_point mark = Clock::now();
@@ -180,10 +176,9 @@ template <class Cells> Faults Tessellation<Cells>::find_faults(Effort& effort) {
 }
 
 /// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
-template <class Cells>
-bool Tessellation<Cells>::repair_faults(const Faults& faults, Effort& effort) {
+template <Space S> bool Tessellation<S>::repair_faults(const Faults& faults, Effort& effort) {
   Clock::time_point start = Clock::now();
-  const std::optional<Repair> repaired = repair(mesh_, cells_.signs(), faults);
+  const std::optional<Repair> repaired = repair(mesh_, cells_.placed(), faults);
   if (repaired) {
     renew_patches(division_.patches, mesh_.triangles, division_.ownership, repaired->changed);
     if (focused_)
@@ -195,11 +190,11 @@ bool Tessellation<Cells>::repair_faults(const Faults& faults, Effort& effort) {
 }
 
 /// Triangulates the points again.
-template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
+template <Space S> void Tessellation<S>::rebuild(Effort& effort) {
   Clock::time_point start = Clock::now();
   division_.patches.clear();
   mesh_ = {};
-  mesh_ = cells_.signs().triangulate();
+  mesh_ = cells_.triangulate();
   division_.patches = make_patches(mesh_.triangles, division_.ownership);
   rebuilt_ = true;
   effort.rebuilt = true;
@@ -207,9 +202,9 @@ template <class Cells> void Tessellation<Cells>::rebuild(Effort& effort) {
 }
 
 /// Calls the receiver in the tasks of regions without faults, and returns the faults of others.
-template <class Cells>
-Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver& receive,
-                                      Effort& effort) {
+template <Space S>
+Faults Tessellation<S>::integrate(const Integrand& integrand, const Receiver& receive,
+                                  Effort& effort) {
   return run_tasks(
       [&](const Patch& patch, RegionWork& work) {
         Clock::time_point mark = Clock::now();
@@ -228,10 +223,10 @@ Faults Tessellation<Cells>::integrate(const Integrand& integrand, const Receiver
 }
 
 /// After a repair few faults are left, and none after a new triangulation.
-template <class Cells>
-void Tessellation<Cells>::integrate_repaired(const Integrand& integrand,
-                                             const std::function<void(bool)>& set_room,
-                                             const Receiver& receive, Effort& effort) {
+template <Space S>
+void Tessellation<S>::integrate_repaired(const Integrand& integrand,
+                                         const std::function<void(bool)>& set_room,
+                                         const Receiver& receive, Effort& effort) {
   bool turned = false; // a second time, flips have not sufficed
   const auto make_sound = [&](const Faults& faults) {
     if (faults.none())
@@ -254,7 +249,7 @@ void Tessellation<Cells>::integrate_repaired(const Integrand& integrand,
   restless_ = effort.flips > 0 || effort.rebuilt;
 }
 
-template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
+template <Space S> void Tessellation<S>::make_delaunay(Effort& effort) {
   for (int tries = 0;; ++tries) {
     const Faults faults = find_faults(effort);
     if (faults.none())
@@ -266,9 +261,9 @@ template <class Cells> void Tessellation<Cells>::make_delaunay(Effort& effort) {
   }
 }
 
-template <class Cells>
-std::vector<std::int32_t> Tessellation<Cells>::distorted(const DoubleVector& inverse_spacing,
-                                                         const ShapeLimits& limits) const {
+template <Space S>
+std::vector<std::int32_t> Tessellation<S>::distorted(const DoubleVector& inverse_spacing,
+                                                     const ShapeLimits& limits) const {
   const std::int64_t count = mesh_.triangles.cols();
   std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -282,26 +277,24 @@ std::vector<std::int32_t> Tessellation<Cells>::distorted(const DoubleVector& inv
   return all;
 }
 
-template <class Cells>
-std::optional<Connectivity> Tessellation<Cells>::take_mesh(const Points3& points) {
+template <Space S> std::optional<Connectivity> Tessellation<S>::take_mesh(const Points3& points) {
   move(points);
   Effort unused;
   const Faults faults = find_faults(unused);
   division_.patches.clear();
-  if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.signs(), faults)))
+  if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.placed(), faults)))
     return std::nullopt;
   return std::move(mesh_);
 }
 
-template <class Cells> std::vector<CvtRegion> Tessellation<Cells>::regions() const {
+template <Space S> std::vector<CvtRegion> Tessellation<S>::regions() const {
   std::vector<CvtRegion> reports;
   for (const RegionWork& work : division_.work)
     reports.push_back(work.report);
   return reports;
 }
 
-template class Tessellation<SphericalCells>;
-template class Tessellation<PlanarCells>;
-template class Tessellation<RegionCells>;
+template class Tessellation<Sphere>;
+template class Tessellation<Plane>;
 
 } // namespace calotte::cvt_detail

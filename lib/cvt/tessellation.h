@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "cvt/cells.h"
 #include "cvt/repair.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
@@ -62,13 +63,11 @@ struct Division {
 ///          -> [ faults? repair, or else rebuild ] -> integrate, until it finds no faults
 ///
 /// divide() and rebuild() sort or triangulate the points, which takes more memory than all else.
-///
-/// \tparam Cells SphericalCells, or PlanarCells: what the cells are in their space.
-template <class Cells> class Tessellation {
+template <Space S> class Tessellation {
 public:
   /// \param points 3 x n.
-  /// \throws Error as Cells::Signs::triangulate().
-  Tessellation(Cells cells, const Points3& points, const Partition& partition, Level&& level);
+  /// \throws Error as Cells::triangulate().
+  Tessellation(Cells<S> cells, const Points3& points, const Partition& partition, Level&& level);
 
   /// Moves the points.
   void move(const Points3& points) { cells_.move(points); }
@@ -104,7 +103,7 @@ public:
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
 
-  const Cells& cells() const { return cells_; }
+  const Cells<S>& cells() const { return cells_; }
   const Connectivity& mesh() const { return mesh_; }
   const Division& division() const { return division_; }
 
@@ -135,7 +134,7 @@ private:
   void find_faults(const Patch& patch, RegionWork& work) const;
   template <class Task> Faults run_tasks(const Task& task, Effort& effort);
 
-  Cells cells_;
+  Cells<S> cells_;
   std::int64_t generators_;
   Partition partition_;
   Connectivity mesh_;

@@ -36,15 +36,15 @@ inline double square_distance(const SiteBox& box, const Vec3& p) {
 
 /// The region in which sites in conflict with a face may lie, in doubles: a site outside it is
 /// certainly not in conflict.
-template <class Space> class Zone;
+template <class Chart> class Zone;
 
-template <> class Zone<Sphere> {
+template <> class Zone<SphereChart> {
 public:
-  Zone(FaceOf<Sphere> face, const Sphere& space) {
+  Zone(FaceOf<SphereChart> face, const SphereChart& chart) {
     const std::int8_t infinite = face->infinite;
     for (int i = 0; i < 3; ++i)
       corner_[static_cast<std::size_t>(i)] =
-          i == infinite ? normalised(space.view().focus) : face->vertex(i)->place.unit;
+          i == infinite ? normalised(chart.view().focus) : face->vertex(i)->place.unit;
     normal_ = cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
     const double longest = std::max({norm(corner_[1] - corner_[0]), norm(corner_[2] - corner_[0]),
                                      norm(corner_[2] - corner_[1])});
@@ -75,9 +75,9 @@ private:
 
 /// f(x) = n.(x - a) - q |x - a|^2 is positive inside the circle, n and q the lifted triangle's
 /// normal (see plane.h); beyond a hull's edge, an infinite circle, q = 0.
-template <> class Zone<Plane> {
+template <> class Zone<PlaneChart> {
 public:
-  Zone(FaceOf<Plane> face, const Plane&) {
+  Zone(FaceOf<PlaneChart> face, const PlaneChart&) {
     const std::int8_t infinite = face->infinite;
     const int first = infinite < 0 ? 0 : next_vertex(infinite);
     a_ = face->vertex(first)->place.unit;
@@ -136,20 +136,20 @@ inline bool are_members(const std::vector<Run>& members, const Sites& sites, int
 /// The sites in conflict with a face, found from the nearest cells on: at most a few, because each
 /// changes the triangulation around it. No member of the region is among them, because the circle
 /// of a face contains no member. If the circle meets only boxes of members, no site is tested.
-template <class Space> class ConflictQuery {
+template <class Chart> class ConflictQuery {
 public:
-  ConflictQuery(Triangulation<Space>& triangulation, const Sites& sites,
+  ConflictQuery(Triangulation<Chart>& triangulation, const Sites& sites,
                 const std::vector<Run>& members)
       : triangulation_(triangulation), sites_(sites), members_(members) {}
 
   /// Number of boxes and sites tested so far.
   std::int64_t looks() const { return looks_; }
 
-  const std::vector<std::int32_t>& run(FaceOf<Space> face) {
+  const std::vector<std::int32_t>& run(FaceOf<Chart> face) {
     face_ = face;
     found_.clear();
     near_ = face->vertex(face->infinite == 0 ? 1 : 0)->place.unit;
-    const Zone<Space> zone(face, triangulation_.space());
+    const Zone<Chart> zone(face, triangulation_.chart());
     descend(sites_.boxes.levels() - 1, 0, sites_.boxes.nodes(sites_.boxes.levels() - 1), zone);
     return found_;
   }
@@ -158,7 +158,7 @@ private:
   static constexpr std::size_t enough = 8;
 
   /// Nodes begin to end - 1 of a level, the nearest first.
-  void descend(int level, std::int64_t begin, std::int64_t end, const Zone<Space>& zone) {
+  void descend(int level, std::int64_t begin, std::int64_t end, const Zone<Chart>& zone) {
     const SiteBoxes& boxes = sites_.boxes;
     std::array<std::pair<double, std::int64_t>, SiteBoxes::width> order;
     std::size_t count = 0;
@@ -194,14 +194,14 @@ private:
     for (int i = 0; i < 3; ++i)
       if (i != face_->infinite && face_->vertex(i)->place.site == sites_.id[rank])
         return false;
-    Space& space = triangulation_.space();
-    return space.has_place(rank) && triangulation_.conflicts(face_, space.place(rank));
+    Chart& chart = triangulation_.chart();
+    return chart.has_place(rank) && triangulation_.conflicts(face_, chart.place(rank));
   }
 
-  Triangulation<Space>& triangulation_;
+  Triangulation<Chart>& triangulation_;
   const Sites& sites_;
   const std::vector<Run>& members_; ///< ascending
-  FaceOf<Space> face_;
+  FaceOf<Chart> face_;
   Vec3 near_{};
   std::vector<std::int32_t> found_;
   std::int64_t looks_ = 0;

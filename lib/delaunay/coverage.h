@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "delaunay/plane.h"
+#include "delaunay/plane_chart.h"
 #include "delaunay/regions.h"
 #include "delaunay/room.h"
-#include "delaunay/sphere.h"
+#include "delaunay/sphere_chart.h"
 #include "delaunay/triangulate.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 /// bounded errors.
 namespace calotte::delaunay_detail {
 
-template <class Space> using FaceOf = typename Triangulation<Space>::Face;
+template <class Chart> using FaceOf = typename Triangulation<Chart>::Face;
 
 /// Error of a triangle's normal (b - a) x (c - a), for each unit of its longest side: a difference
 /// of unit vectors errs by 10 roundoffs and its own rounding, the cross product by two such times a
@@ -25,16 +25,16 @@ template <class Space> using FaceOf = typename Triangulation<Space>::Face;
 inline constexpr double normal_error = 50 * roundoff;
 
 /// The flat triangle's normal (b - a) x (c - a), not normalised.
-inline Vec3 normal_of(FaceOf<Sphere> face) { return face->circle.normal; }
-inline Vec3 normal_of(FaceOf<Plane> face) {
+inline Vec3 normal_of(FaceOf<SphereChart> face) { return face->circle.normal; }
+inline Vec3 normal_of(FaceOf<PlaneChart> face) {
   return cross(face->vertex(1)->place.unit - face->vertex(0)->place.unit,
                face->vertex(2)->place.unit - face->vertex(0)->place.unit);
 }
 
 /// True if the normal of the triangle points outward, so that its circumcap is less than a
 /// hemisphere.
-inline bool is_below_hemisphere(FaceOf<Sphere> face) { return face->circle.offset > 0; }
-inline bool is_below_hemisphere(FaceOf<Plane>) { return true; }
+inline bool is_below_hemisphere(FaceOf<SphereChart> face) { return face->circle.offset > 0; }
+inline bool is_below_hemisphere(FaceOf<PlaneChart>) { return true; }
 
 /// A triangle's circumcircle, in doubles.
 struct Circumcircle {
@@ -76,7 +76,7 @@ template <class Face> bool is_within_depth(Face face) {
 
 /// True if the cap lies in all half-spaces: its highest point over each is cos(angle - r), the
 /// angle from the cap's centre to the normal, or 1 if the cap contains the normal.
-inline bool is_covered(FaceOf<Sphere> face, const std::vector<HalfSpace>& covered) {
+inline bool is_covered(FaceOf<SphereChart> face, const std::vector<HalfSpace>& covered) {
   const Circumcircle cap = circumcircle(face);
   if (!is_below_hemisphere(face) || !(cap.error < 1e-3) || cap.radius > 0.9)
     return false;
@@ -98,9 +98,9 @@ inline bool is_covered(FaceOf<Sphere> face, const std::vector<HalfSpace>& covere
 
 /// True if the disc lies in all half-planes. With e the relative error of q, radius and centre, a +
 /// ((ab . ab) ac - (ac . ac) ab) turned / 2q, err by some e times the radius and longest side.
-inline bool is_covered(FaceOf<Plane> face, const std::vector<HalfSpace>& covered) {
+inline bool is_covered(FaceOf<PlaneChart> face, const std::vector<HalfSpace>& covered) {
   const Circumcircle disc = circumcircle(face);
-  if (!(disc.error < 1e-3) || disc.radius > Plane::diameter)
+  if (!(disc.error < 1e-3) || disc.radius > PlaneChart::diameter)
     return false;
   const Vec3& a = face->vertex(0)->place.unit;
   const Vec3 ab = face->vertex(1)->place.unit - a, ac = face->vertex(2)->place.unit - a;

@@ -38,11 +38,11 @@ double depth_of(const Vec3& x, const Vec3& centre, double inner,
 
 /// Certifies a face by the cull test.
 /// \return true if the face has an owned vertex and is not certified.
-template <class Space>
-bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCounts& counts) {
+template <class Chart>
+bool is_open(FaceOf<Chart> face, const std::vector<HalfSpace>& covered, CullCounts& counts) {
   if (face->certified || !has_owned_vertex(face))
     return false;
-  if (Triangulation<Space>::is_infinite(face) ||
+  if (Triangulation<Chart>::is_infinite(face) ||
       !(is_within_depth(face) || is_covered(face, covered)))
     return true;
   face->certified = true;
@@ -51,12 +51,12 @@ bool is_open(FaceOf<Space> face, const std::vector<HalfSpace>& covered, CullCoun
 }
 
 /// The faces that are still to be certified.
-template <class Space>
-std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
+template <class Chart>
+std::vector<FaceOf<Chart>> open_faces(Triangulation<Chart>& triangulation,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {
-  std::vector<FaceOf<Space>> open;
-  triangulation.for_each_face([&](FaceOf<Space> face) {
-    if (is_open<Space>(face, covered, counts))
+  std::vector<FaceOf<Chart>> open;
+  triangulation.for_each_face([&](FaceOf<Chart> face) {
+    if (is_open<Chart>(face, covered, counts))
       open.push_back(face);
   });
   return open;
@@ -64,11 +64,11 @@ std::vector<FaceOf<Space>> open_faces(Triangulation<Space>& triangulation,
 
 /// Inserts sites.
 /// \return the open faces among those around the sites, which are the only new ones.
-template <class Space>
-std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
-                                      Triangulation<Space>& triangulation,
+template <class Chart>
+std::vector<FaceOf<Chart>> insert_all(const std::vector<std::int32_t>& ranks,
+                                      Triangulation<Chart>& triangulation,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {
-  std::vector<FaceOf<Space>> around;
+  std::vector<FaceOf<Chart>> around;
   for (const std::int32_t rank : ranks) {
     triangulation.insert({rank, Member::not_owned});
     const auto star = triangulation.last_star();
@@ -77,52 +77,52 @@ std::vector<FaceOf<Space>> insert_all(const std::vector<std::int32_t>& ranks,
   counts.inserted += std::ssize(ranks);
   // A later star may have replaced a face of an earlier one. The order is that of the insertions;
   // by address, the counts of predicates would differ from run to run.
-  std::vector<FaceOf<Space>> open;
+  std::vector<FaceOf<Chart>> open;
   constexpr std::int32_t listed = 0, unlisted = -1;
-  for (const FaceOf<Space> face : around)
-    if (face->number == unlisted && is_open<Space>(face, covered, counts)) {
+  for (const FaceOf<Chart> face : around)
+    if (face->number == unlisted && is_open<Chart>(face, covered, counts)) {
       face->number = listed;
       open.push_back(face);
     }
-  for (const FaceOf<Space> face : open)
+  for (const FaceOf<Chart> face : open)
     face->number = unlisted;
   return open;
 }
 
 /// True if the triangle belongs to a closed mesh: it is finite, and its circumcap is below a
 /// hemisphere. Larger empty caps are the far side of sites within a hemisphere.
-bool may_stand(FaceOf<Sphere> face, const Sites& sites) {
-  if (Triangulation<Sphere>::is_infinite(face))
+bool may_stand(FaceOf<SphereChart> face, const Sites& sites) {
+  if (Triangulation<SphereChart>::is_infinite(face))
     return false;
   const auto given = [&](int i) { return sites.given(face->vertex(i)->place.site); };
   return orientation(given(0), given(1), given(2)) > 0;
 }
-bool may_stand(FaceOf<Plane>, const Sites&) { return true; }
+bool may_stand(FaceOf<PlaneChart>, const Sites&) { return true; }
 
 /// Number of open faces beyond which they are first tested in patches. Random sites leave some 5 in
 /// a region of 20 000; a cluster, at least those around it.
 constexpr std::size_t many_open = 16;
 
 /// Certifies open faces in patches; returns those that are still open.
-template <class Space>
-std::vector<FaceOf<Space>>
-certify_patches(Triangulation<Space>& triangulation, const Sites& sites,
+template <class Chart>
+std::vector<FaceOf<Chart>>
+certify_patches(Triangulation<Chart>& triangulation, const Sites& sites,
                 const std::vector<Run>& members, const std::vector<HalfSpace>& covered,
-                const std::vector<FaceOf<Space>>& open, CullCounts& counts) {
-  Patches<Space> patches(triangulation, sites, members, covered);
-  for (const FaceOf<Space> face : open) {
+                const std::vector<FaceOf<Chart>>& open, CullCounts& counts) {
+  Patches<Chart> patches(triangulation, sites, members, covered);
+  for (const FaceOf<Chart> face : open) {
     if (patches.is_marked(face))
       continue;
-    const std::vector<FaceOf<Space>>& patch = patches.around(face);
+    const std::vector<FaceOf<Chart>>& patch = patches.around(face);
     if (!std::all_of(patch.begin(), patch.end(),
-                     [&](FaceOf<Space> of_patch) { return may_stand(of_patch, sites); }))
+                     [&](FaceOf<Chart> of_patch) { return may_stand(of_patch, sites); }))
       continue;
-    for (const FaceOf<Space> of_patch : patch)
+    for (const FaceOf<Chart> of_patch : patch)
       of_patch->certified = has_owned_vertex(of_patch);
   }
-  std::vector<FaceOf<Space>> left;
+  std::vector<FaceOf<Chart>> left;
   std::copy_if(open.begin(), open.end(), std::back_inserter(left),
-               [](FaceOf<Space> face) { return !face->certified; });
+               [](FaceOf<Chart> face) { return !face->certified; });
   counts.by_query += std::ssize(open) - std::ssize(left);
   return left;
 }
@@ -138,13 +138,13 @@ constexpr std::int64_t looks_an_effort = 4;
 
 } // namespace
 
-template <class Space>
+template <class Chart>
 CALOTTE_ALL_INSTRUCTIONS std::vector<Member> gather(const Sites& sites, const Regions& regions,
                                                     std::int32_t k) {
   const auto region = static_cast<std::size_t>(k);
   const std::vector<HalfSpace>& covered = regions.covered[region];
   const Vec3& centre = regions.centres[region];
-  const double inner = inner_radius(centre, covered, Space::diameter);
+  const double inner = inner_radius(centre, covered, Chart::diameter);
   std::vector<Member> members;
   std::size_t count = 0;
   for (const Run& run : regions.members[region])
@@ -156,29 +156,29 @@ CALOTTE_ALL_INSTRUCTIONS std::vector<Member> gather(const Sites& sites, const Re
         members.push_back({r, Member::not_owned});
         continue;
       }
-      const double depth = depth_of(sites.unit[r], centre, inner, covered, Space::diameter);
+      const double depth = depth_of(sites.unit[r], centre, inner, covered, Chart::diameter);
       // Rounded down, by more than the rounding of half-spaces: 1e-14.
       members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0))});
     }
   return members;
 }
 
-template <class Space>
-CALOTTE_ALL_INSTRUCTIONS bool certify(Triangulation<Space>& triangulation, const Sites& sites,
+template <class Chart>
+CALOTTE_ALL_INSTRUCTIONS bool certify(Triangulation<Chart>& triangulation, const Sites& sites,
                                       const Regions& regions, std::int32_t k, CullCounts& counts) {
   const std::vector<HalfSpace>& covered = regions.covered[static_cast<std::size_t>(k)];
-  ConflictQuery<Space> query(triangulation, sites, regions.members[static_cast<std::size_t>(k)]);
-  const std::int64_t filtered = triangulation.space().counts().filtered;
+  ConflictQuery<Chart> query(triangulation, sites, regions.members[static_cast<std::size_t>(k)]);
+  const std::int64_t filtered = triangulation.chart().counts().filtered;
   const std::int64_t patience = effort * (std::ssize(triangulation.members()) + 1000);
-  std::vector<FaceOf<Space>> open = open_faces(triangulation, covered, counts);
+  std::vector<FaceOf<Chart>> open = open_faces(triangulation, covered, counts);
   if (open.size() > many_open)
     open = certify_patches(triangulation, sites, regions.members[static_cast<std::size_t>(k)],
                            covered, open, counts);
   while (!open.empty()) {
     std::vector<std::int32_t> missing;
-    for (const FaceOf<Space> face : open) {
+    for (const FaceOf<Chart> face : open) {
       const std::vector<std::int32_t>& found = query.run(face);
-      if (counts.inserted + triangulation.space().counts().filtered - filtered +
+      if (counts.inserted + triangulation.chart().counts().filtered - filtered +
               query.looks() / looks_an_effort >
           patience)
         return false;
@@ -199,17 +199,17 @@ CALOTTE_ALL_INSTRUCTIONS bool certify(Triangulation<Space>& triangulation, const
   return true;
 }
 
-template <class Space> void certify_all(Triangulation<Space>& triangulation) {
-  triangulation.for_each_face([](FaceOf<Space> face) { face->certified = true; });
+template <class Chart> void certify_all(Triangulation<Chart>& triangulation) {
+  triangulation.for_each_face([](FaceOf<Chart> face) { face->certified = true; });
 }
 
-template std::vector<Member> gather<Sphere>(const Sites&, const Regions&, std::int32_t);
-template std::vector<Member> gather<Plane>(const Sites&, const Regions&, std::int32_t);
-template bool certify(Triangulation<Sphere>&, const Sites&, const Regions&, std::int32_t,
+template std::vector<Member> gather<SphereChart>(const Sites&, const Regions&, std::int32_t);
+template std::vector<Member> gather<PlaneChart>(const Sites&, const Regions&, std::int32_t);
+template bool certify(Triangulation<SphereChart>&, const Sites&, const Regions&, std::int32_t,
                       CullCounts&);
-template bool certify(Triangulation<Plane>&, const Sites&, const Regions&, std::int32_t,
+template bool certify(Triangulation<PlaneChart>&, const Sites&, const Regions&, std::int32_t,
                       CullCounts&);
-template void certify_all(Triangulation<Sphere>&);
-template void certify_all(Triangulation<Plane>&);
+template void certify_all(Triangulation<SphereChart>&);
+template void certify_all(Triangulation<PlaneChart>&);
 
 } // namespace calotte::delaunay_detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "delaunay/plane.h"
+#include "delaunay/plane_chart.h"
 #include "delaunay/regions.h"
 #include "delaunay/room.h"
-#include "delaunay/sphere.h"
+#include "delaunay/sphere_chart.h"
 #include "delaunay/triangulate.h"
 
-/// For the Spaces Sphere and Plane.
+/// For the charts SphereChart and PlaneChart.
 namespace calotte::delaunay_detail {
 
 struct CullCounts {
@@ -16,7 +16,7 @@ struct CullCounts {
 };
 
 /// The members of region k.
-template <class Space>
+template <class Chart>
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
 
 /// Certifies every triangle with an owned vertex. The paper's cull test (Jacobsen et al., 2013, Eq.
@@ -29,11 +29,11 @@ std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int3
 /// \return true if all owned sites have closed stars, within reasonable effort. False if the focus
 ///         lies in one of their circumcaps, as with a few sites, or if all sites are in a
 ///         hemisphere; in the plane only if the effort is exceeded.
-template <class Space>
-bool certify(Triangulation<Space>& triangulation, const Sites& sites, const Regions& regions,
+template <class Chart>
+bool certify(Triangulation<Chart>& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
 
 /// Marks every finite face as certified, for a set as a whole, from which no site is left out.
-template <class Space> void certify_all(Triangulation<Space>& triangulation);
+template <class Chart> void certify_all(Triangulation<Chart>& triangulation);
 
 } // namespace calotte::delaunay_detail

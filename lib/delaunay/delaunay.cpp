@@ -11,8 +11,8 @@
 #include "delaunay/regions.h"
 #include "delaunay/sample.h"
 #include "delaunay/unite.h"
+#include "domain/surface.h"
 #include "mesh/edges.h"
-#include "mesh/planar_mesh.h"
 
 #include <calotte/error.h>
 
@@ -50,18 +50,18 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
 
 /// Triangulates the whole set as one region, on the sphere from its centre. No triangle needs a
 /// certificate.
-template <class Space> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
+template <class Chart> Reports triangulate_whole(const Sites& sites, DelaunayReport& report) {
   std::vector<Member> members(static_cast<std::size_t>(sites.size()));
   for (std::size_t r = 0; r < members.size(); ++r)
     members[r] = {static_cast<std::int32_t>(r), 0};
-  Triangulation<Space> triangulation{Space(sites)};
+  Triangulation<Chart> triangulation{Chart(sites)};
   if (!triangulation.build(members))
     refuse_degenerate(sites);
   certify_all(triangulation);
   Reports reports(sites.size());
   reports.regions.push_back(
       report_triangles(triangulation, sites, Array<std::int32_t>(), reports.triangles_of));
-  add(report, triangulation.space().counts());
+  add(report, triangulation.chart().counts());
   report.serial = true;
   report.regions = 1;
   report.overlap = 1;
@@ -78,11 +78,11 @@ struct CapResult {
 };
 
 /// One region: gather, project, triangulate, cull and certify. False if that fails for its cap.
-template <class Space>
+template <class Chart>
 bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k, Reports& reports,
                      CapResult& result) {
   Clock::time_point start = Clock::now();
-  std::vector<Member> members = gather<Space>(sites, regions, k);
+  std::vector<Member> members = gather<Chart>(sites, regions, k);
   const auto count_owned = [&] {
     return std::count_if(members.begin(), members.end(), [](const Member& m) { return m.owned(); });
   };
@@ -94,19 +94,19 @@ bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
   for (const Member& m : members)
     reach = std::max(reach, dot(sites.unit[m.rank] - centre, sites.unit[m.rank] - centre));
   reach = 1.000001 * std::sqrt(reach);
-  const Space space(sites, centre, reach);
-  if (!Space::has_all_places(reach)) {
-    std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
+  const Chart chart(sites, centre, reach);
+  if (!Chart::has_all_places(reach)) {
+    std::erase_if(members, [&](const Member& m) { return !chart.has_place(m.rank); });
     if (count_owned() != result.owned) // one of its own sites is at the focus
       return false;
   }
-  Triangulation<Space> triangulation(space);
+  Triangulation<Chart> triangulation(chart);
   if (!triangulation.build(members)) // too few, or on one line: add sites from outside
-    triangulation = build_with_sample<Space>(space, sites.size(), members);
+    triangulation = build_with_sample<Chart>(chart, sites.size(), members);
   if (triangulation.members().empty() || !certify(triangulation, sites, regions, k, result.cull))
     return false;
   result.triangles = report_triangles(triangulation, sites, regions.owner, reports.triangles_of);
-  result.predicates = triangulation.space().counts();
+  result.predicates = triangulation.chart().counts();
   result.members = std::ssize(triangulation.members());
   result.seams = result.triangles.own_seams();
   result.seconds = lap(start);
@@ -142,7 +142,7 @@ void add_incomplete(const std::vector<CapResult>& caps, const Array<std::int32_t
 
 /// All regions, each in its own task. Those that cannot certify their sites are merged, and these
 /// and their neighbours are triangulated again. Empty if that is not enough.
-template <class Space>
+template <class Chart>
 std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
   Reports reports(sites.size());
@@ -159,7 +159,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
         return;
       const std::int32_t k = list[static_cast<std::size_t>(i)];
       CapResult cap;
-      const bool done = triangulate_cap<Space>(sites, regions, k, reports, cap);
+      const bool done = triangulate_cap<Chart>(sites, regions, k, reports, cap);
       if (!done)
         failures +=
             cap.cull.hull ? std::ssize(caps) : 1; // where there is a hull, merging is no help
@@ -201,10 +201,10 @@ std::vector<std::vector<std::int32_t>> adjacent_sites(const Mesh& mesh) {
   return adjacent;
 }
 
-template <class Space, class Points>
+template <class Chart, class Points>
 Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
                     Monitor* monitor = nullptr) {
-  if constexpr (std::is_same_v<Space, Plane>)
+  if constexpr (std::is_same_v<Chart, PlaneChart>)
     return make_planar_sites(points, duplicates, merge_within, monitor);
   else
     return make_sites(std::forward<Points>(points), duplicates, merge_within, monitor);
@@ -212,13 +212,13 @@ Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
 
 /// The mesh of centres; none if they are too few, coincide, or lie on one line, or on the sphere in
 /// a hemisphere.
-template <class Space, class Points> std::optional<Mesh> mesh_of(const Points& points) {
+template <class Chart, class Points> std::optional<Mesh> mesh_of(const Points& points) {
   try {
-    Sites sites = make_sites_of<Space>(points, Duplicates::merge, 0);
+    Sites sites = make_sites_of<Chart>(points, Duplicates::merge, 0);
     DelaunayReport unused;
-    Reports reports = triangulate_whole<Space>(sites, unused);
+    Reports reports = triangulate_whole<Chart>(sites, unused);
     Mesh mesh = make_mesh(std::move(sites), std::move(reports));
-    if (mesh.points.cols() == points.cols() && (std::is_same_v<Space, Plane> || mesh.closed()))
+    if (mesh.points.cols() == points.cols() && (std::is_same_v<Chart, PlaneChart> || mesh.closed()))
       return mesh;
   } catch (const Error&) {
   }
@@ -234,7 +234,7 @@ std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>&
   for (std::size_t k = 0; k < count; ++k)
     set_column(points, static_cast<std::int64_t>(k), centres[k]);
   const std::optional<Mesh> mesh =
-      planar ? mesh_of<Plane>(points.topRows<2>()) : mesh_of<Sphere>(points);
+      planar ? mesh_of<PlaneChart>(points.topRows<2>()) : mesh_of<SphereChart>(points);
   if (mesh)
     return adjacent_sites(*mesh);
   std::vector<std::vector<std::int32_t>> adjacent(count);
@@ -260,18 +260,18 @@ namespace {
 
 /// Computes the mesh from sites and regions; in a plane its points have z = 0. Each array is freed
 /// after its last use, because the largest sets take all of the memory.
-template <class Space>
+template <class Chart>
 Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& report,
                          Monitor& monitor) {
   Clock::time_point mark = Clock::now();
   sites.cells = {};
   std::optional<Reports> reports;
   if (regions.centres.size() > 1)
-    reports = triangulate_caps<Space>(sites, regions, report, monitor);
+    reports = triangulate_caps<Chart>(sites, regions, report, monitor);
   regions = {};
   if (!reports) {
     monitor.begin("triangulate", triangulated, 1);
-    reports = triangulate_whole<Space>(sites, report);
+    reports = triangulate_whole<Chart>(sites, report);
   }
   report.seconds.triangulate = lap(mark);
 
@@ -282,7 +282,7 @@ Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& repor
   return mesh;
 }
 
-template <class Space>
+template <class Chart>
 Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report,
                  Monitor& monitor) {
   Clock::time_point mark = Clock::now();
@@ -290,15 +290,15 @@ Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& repo
   monitor.begin("regions", divided, 1);
   Regions regions = divide(sites, partition);
   report.seconds.regions = lap(mark);
-  return triangulate_regions<Space>(std::move(sites), std::move(regions), report, monitor);
+  return triangulate_regions<Chart>(std::move(sites), std::move(regions), report, monitor);
 }
 
-template <class Space, class Points>
+template <class Chart, class Points>
 Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
                Monitor& monitor) {
   monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
-  Sites sites = make_sites_of<Space>(std::forward<Points>(points), options.duplicates,
+  Sites sites = make_sites_of<Chart>(std::forward<Points>(points), options.duplicates,
                                      options.merge_within, &monitor);
   report = {};
   report.threads = thread_count();
@@ -312,8 +312,8 @@ template <class Points>
 Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
-  Sites sites = sites_of<Sphere>(std::forward<Points>(points), options, report, monitor);
-  Mesh mesh = triangulate<Sphere>(std::move(sites), options.partition, report, monitor);
+  Sites sites = sites_of<SphereChart>(std::forward<Points>(points), options, report, monitor);
+  Mesh mesh = triangulate<SphereChart>(std::move(sites), options.partition, report, monitor);
   report.seconds.total = lap(start);
   monitor.finish();
   return mesh;
@@ -334,31 +334,28 @@ Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
                    DelaunayReport& report) {
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
-  Sites sites = sites_of<Plane>(points, options, report, monitor);
-  Mesh mesh = triangulate<Plane>(std::move(sites), options.partition, report, monitor);
+  Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
+  Mesh mesh = triangulate<PlaneChart>(std::move(sites), options.partition, report, monitor);
   mesh.surface = Surface::plane();
   report.seconds.total = lap(start);
   monitor.finish();
   return mesh;
 }
 
-PlanarMesh mesh_of_box(const Points2Ref& points, const Eigen::Vector2d& period,
-                       const DelaunayOptions& options, DelaunayReport& report) {
+Mesh mesh_of_box(const Points2Ref& points, const Surface& box, const DelaunayOptions& options,
+                 DelaunayReport& report) {
   Clock::time_point start = Clock::now();
-  require_in_box(points, period);
+  require_inside(with_z(points), box);
   Monitor monitor(options.progress);
-  Sites sites = sites_of<Plane>(points, options, report, monitor);
-  const Points2 distinct = sites.points.topRows<2>();
-  const auto triangulate_images = [&](std::vector<Image> images, const Vec2& box) {
-    Sites copies = make_sites(std::move(images), box);
+  Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
+  const auto triangulate_images = [&](std::vector<Image> images, const Vec2& period) {
+    Sites copies = make_sites(std::move(images), period);
     report.sites_per_region.clear();
     report.owned_per_region.clear();
     report.seconds_per_region.clear();
-    Mesh whole = triangulate<Plane>(std::move(copies), options.partition, report, monitor);
-    whole.surface = Surface::plane();
-    return planar(std::move(whole));
+    return triangulate<PlaneChart>(std::move(copies), options.partition, report, monitor);
   };
-  PlanarMesh mesh = triangulate_periodic(distinct, period, triangulate_images);
+  Mesh mesh = triangulate_periodic(sites.points, box, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);
   report.seconds.total = lap(start);
   monitor.finish();
@@ -368,7 +365,7 @@ PlanarMesh mesh_of_box(const Points2Ref& points, const Eigen::Vector2d& period,
 Mesh spherical_mesh(Sites&& sites, Regions&& regions) {
   DelaunayReport unused;
   Monitor monitor({});
-  return triangulate_regions<Sphere>(std::move(sites), std::move(regions), unused, monitor);
+  return triangulate_regions<SphereChart>(std::move(sites), std::move(regions), unused, monitor);
 }
 
 } // namespace calotte::delaunay_detail

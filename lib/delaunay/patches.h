@@ -19,15 +19,15 @@ namespace calotte::delaunay_detail {
 /// Delaunay: they are the constrained Delaunay triangulation of the patch, of which there is one
 /// only, because no four sites are cocircular to the predicates (Lee and Lin, 1986). The plane of
 /// the argument is the region's view; a cap that does not contain its focus is a disc there.
-template <class Space> class Patches {
+template <class Chart> class Patches {
 public:
-  Patches(Triangulation<Space>& triangulation, const Sites& sites, const std::vector<Run>& members,
+  Patches(Triangulation<Chart>& triangulation, const Sites& sites, const std::vector<Run>& members,
           const std::vector<HalfSpace>& covered)
       : triangulation_(triangulation), sites_(sites), members_(members), covered_(covered) {}
 
   /// The faces of the patch that holds a face, each marked by its number; none if it reaches the
   /// hull, or a disc around it may hold a site that is not a member.
-  const std::vector<FaceOf<Space>>& around(FaceOf<Space> face) {
+  const std::vector<FaceOf<Chart>>& around(FaceOf<Chart> face) {
     patch_.assign(1, face);
     face->number = seen;
     marked_.push_back(face);
@@ -42,11 +42,11 @@ public:
     return patch_;
   }
 
-  bool is_marked(FaceOf<Space> face) const { return face->number == seen; }
+  bool is_marked(FaceOf<Chart> face) const { return face->number == seen; }
 
   /// Takes all marks away.
   ~Patches() {
-    for (const FaceOf<Space> face : marked_)
+    for (const FaceOf<Chart> face : marked_)
       face->number = -1;
   }
   Patches(const Patches&) = delete;
@@ -55,7 +55,7 @@ public:
 private:
   static constexpr std::int32_t seen = 0;
 
-  void add(FaceOf<Space> face) {
+  void add(FaceOf<Chart> face) {
     if (is_marked(face) || face->certified ||
         (!triangulation_.is_infinite(face) && is_covered(face, covered_)))
       return;
@@ -77,20 +77,20 @@ private:
     // Rounded up by more than the errors of units and of this sum.
     radius_ = (1 + 1e-12) * std::sqrt(square) + 1e-14;
     const int top = sites_.boxes.levels() - 1;
-    return is_before_focus(triangulation_.space()) && holds(top, 0, sites_.boxes.nodes(top));
+    return is_before_focus(triangulation_.chart()) && holds(top, 0, sites_.boxes.nodes(top));
   }
 
   template <class Body> void for_each_corner(const Body& body) const {
-    for (const FaceOf<Space> face : patch_)
+    for (const FaceOf<Chart> face : patch_)
       for (int i = 0; i < 3; ++i)
         body(face->vertex(i)->place.unit);
   }
 
-  bool is_before_focus(const Sphere& space) const {
-    return !space.view().from_centre &&
-           norm(centre_ - normalised(space.view().focus)) > 2 * radius_;
+  bool is_before_focus(const SphereChart& chart) const {
+    return !chart.view().from_centre &&
+           norm(centre_ - normalised(chart.view().focus)) > 2 * radius_;
   }
-  static bool is_before_focus(const Plane&) { return true; }
+  static bool is_before_focus(const PlaneChart&) { return true; }
 
   /// Of the sites of nodes begin to end - 1 of a level.
   bool holds(int level, std::int64_t begin, std::int64_t end) const {
@@ -113,11 +113,11 @@ private:
     return true;
   }
 
-  Triangulation<Space>& triangulation_;
+  Triangulation<Chart>& triangulation_;
   const Sites& sites_;
   const std::vector<Run>& members_;
   const std::vector<HalfSpace>& covered_;
-  std::vector<FaceOf<Space>> patch_, marked_;
+  std::vector<FaceOf<Chart>> patch_, marked_;
   Vec3 centre_{};
   double radius_ = 0; ///< a chord
 };

@@ -2,8 +2,6 @@
 #include "delaunay/periodic.h"
 
 #include "base/require.h"
-#include "mesh/planar_mesh.h"
-
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 
@@ -26,7 +24,7 @@ struct Copies {
 
 /// The copies up to `margin` around the box, at most half of the box: copies in the adjacent boxes
 /// suffice.
-Copies copies_within(const Points2& sites, const Eigen::Vector2d& period, double margin) {
+Copies copies_within(const Points3& sites, const Eigen::Vector2d& period, double margin) {
   Copies copies;
   for (std::int32_t s = 0; s < sites.cols(); ++s) {
     copies.images.push_back({{sites(0, s), sites(1, s)}, 0, 0});
@@ -81,7 +79,7 @@ enum class Found { all, need_more_margin, too_few };
 /// Tests whether the circles of the triangles at the sites of the box are narrower than half of the
 /// box and lie within the margin. It runs in doubles with a margin for rounding: a circle wrongly
 /// reported as too wide costs time, or rejects a set that is sparse to the last digits.
-Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
+Found judge(const Mesh& mesh, const Copies& copies, std::int64_t sites,
             const Eigen::Vector2d& period, double margin) {
   constexpr double room = 1e-6;
   const double unit = period.maxCoeff(), rim = margin / unit;
@@ -108,7 +106,7 @@ Found judge(const PlanarMesh& mesh, const Copies& copies, std::int64_t sites,
 }
 
 /// Of each triangle the copy whose lowest site is in the box, in canonical order.
-Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
+Triangles one_copy_each(const Mesh& mesh, std::int64_t sites,
                         const std::vector<std::int32_t>& site) {
   const auto site_of = [&](std::int32_t copy) { return site[static_cast<std::size_t>(copy)]; };
   const auto is_kept = [&](Eigen::Index t) {
@@ -135,13 +133,12 @@ Triangles one_copy_each(const PlanarMesh& mesh, std::int64_t sites,
 }
 
 /// The mesh of the sites of the box, from `whole`, which contains copies.
-PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& sites,
-                  const Eigen::Vector2d& period) {
-  PlanarMesh mesh;
+Mesh folded(const Mesh& whole, const Copies& copies, const Points3& sites, const Surface& box) {
+  Mesh mesh;
   mesh.points = sites;
   mesh.triangles = one_copy_each(whole, sites.cols(), copies.site);
   mesh.neighbours = neighbours_of(mesh.triangles, sites.cols());
-  mesh.period = period;
+  mesh.surface = box;
   if (mesh.triangles.cols() != 2 * sites.cols())
     throw Error(ErrorCode::internal, "a periodic box of " + std::to_string(sites.cols()) +
                                          " sites has " + std::to_string(mesh.triangles.cols()) +
@@ -151,33 +148,19 @@ PlanarMesh folded(const PlanarMesh& whole, const Copies& copies, const Points2& 
 
 } // namespace
 
-void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period) {
-  constexpr double longest = 1e300; // the coordinates of copies must be finite, too
-  require((period.array() > 0).all() && (period.array() <= longest).all(),
-          "the periodic box is " + std::to_string(period.x()) + " x " + std::to_string(period.y()) +
-              "; give two positive lengths up to 1e300");
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    if (points.col(i).allFinite() &&
-        ((points.col(i).array() < 0).any() || (points.col(i).array() >= period.array()).any()))
-      throw Error(ErrorCode::invalid_argument,
-                  "point " + std::to_string(i) +
-                      " is outside the periodic box, which starts at 0 0: add or subtract "
-                      "periods",
-                  i);
-}
-
-PlanarMesh triangulate_periodic(const Points2& sites, const Eigen::Vector2d& period,
-                                const TriangulateImages& triangulate) {
+Mesh triangulate_periodic(const Points3& sites, const Surface& box,
+                          const TriangulateImages& triangulate) {
+  const Eigen::Vector2d& period = box.period();
   const double most = period.maxCoeff() / 2, spacing = std::sqrt(period.x()) *
                                                        std::sqrt(period.y()) /
                                                        std::sqrt(static_cast<double>(sites.cols()));
   double margin = std::clamp(6 * spacing, most * 0x1p-20, most);
   for (;; margin = std::min(most, 2 * margin)) {
     const Copies copies = copies_within(sites, period, margin);
-    const PlanarMesh whole = triangulate(copies.images, {period.x(), period.y()});
+    const Mesh whole = triangulate(copies.images, {period.x(), period.y()});
     const Found found = judge(whole, copies, sites.cols(), period, margin);
     if (found == Found::all)
-      return folded(whole, copies, sites, period);
+      return folded(whole, copies, sites, box);
     if (found == Found::too_few || margin == most)
       refuse_few(sites.cols());
   }

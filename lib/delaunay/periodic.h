@@ -4,8 +4,8 @@
 #include "base/points.h"
 #include "delaunay/room.h"
 #include "exact/plane_predicates.h"
-#include "mesh/planar_mesh.h"
 
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <functional>
@@ -14,20 +14,16 @@
 namespace calotte::delaunay_detail {
 
 /// Triangulates sites with copies in the plane, see delaunay.cpp.
-using TriangulateImages = std::function<PlanarMesh(std::vector<Image> images, const Vec2& period)>;
+using TriangulateImages = std::function<Mesh(std::vector<Image> images, const Vec2& period)>;
 
 /// The Delaunay triangulation of a doubly periodic box: the function triangulates the sites with
 /// their copies in a margin around the box and keeps one copy of each triangle. It is certified:
 /// every circumcircle of a triangle at a site of the box lies where all copies are present;
 /// otherwise the margin is doubled.
-/// \param sites 2 x n, distinct, in the box.
+/// \param sites 3 x n with z = 0, distinct, in the box.
 /// \throws Error too_few_sites if an empty circle is wider than half of the box: two triangles
 ///         could then share three sites, or one could have a site twice.
-PlanarMesh triangulate_periodic(const Points2& sites, const Eigen::Vector2d& period,
-                                const TriangulateImages& triangulate);
-
-/// \throws Error invalid_argument for a period that is not in (0, 1e300], or a point outside the
-/// box.
-void require_in_box(const Points2Ref& points, const Eigen::Vector2d& period);
+Mesh triangulate_periodic(const Points3& sites, const Surface& box,
+                          const TriangulateImages& triangulate);
 
 } // namespace calotte::delaunay_detail

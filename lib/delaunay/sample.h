@@ -10,8 +10,8 @@ namespace calotte::delaunay_detail {
 
 /// Triangulates the members together with sites sampled from the whole set; empty if these span no
 /// triangle either.
-template <class Space>
-Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
+template <class Chart>
+Triangulation<Chart> build_with_sample(const Chart& chart, std::int64_t sites,
                                        std::vector<Member> members) {
   constexpr std::int64_t sample = 64;
   for (std::int64_t s = 0; s < std::min(sample, sites); ++s)
@@ -22,8 +22,8 @@ Triangulation<Space> build_with_sample(const Space& space, std::int64_t sites,
   std::stable_sort(members.begin(), members.end(),
                    by_rank); // stable: a member precedes its duplicate
   members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
-  std::erase_if(members, [&](const Member& m) { return !space.has_place(m.rank); });
-  Triangulation<Space> triangulation(space);
+  std::erase_if(members, [&](const Member& m) { return !chart.has_place(m.rank); });
+  Triangulation<Chart> triangulation(chart);
   triangulation.build(members);
   return triangulation;
 }

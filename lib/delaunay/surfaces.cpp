@@ -3,7 +3,6 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "mesh/planar_mesh.h"
 
 #include <utility>
 
@@ -20,7 +19,7 @@ Mesh mesh_in_plane(const PointsRef& points, const Surface& surface, const Delaun
                    DelaunayReport& report) {
   const Points2Ref places = plane_points_of(points);
   if (surface.is_box())
-    return mesh_detail::spatial(mesh_of_box(places, surface.period(), options, report), surface);
+    return mesh_of_box(places, surface, options, report);
   require(surface.period().isZero(0),
           "the surface is a channel, periodic in one direction only, and points do not tell where "
           "its walls are: make its mesh with make_grid(), or read it from a file");
@@ -35,8 +34,9 @@ calotte::Triangulation triangulate(const PointsRef& points, const Surface& surfa
                                    const DelaunayOptions& options) {
   calotte::Triangulation out;
   if (surface.is_sphere()) {
-    out.mesh = mesh_of_sphere(directions_of(points, "triangulate() with a surface of the plane"),
-                              options, out.report);
+    out.mesh =
+        mesh_of_sphere(directions_of(points, "call triangulate() with a surface of the plane"),
+                       options, out.report);
     out.mesh.surface = surface;
   } else {
     out.mesh = mesh_in_plane(points, surface, options, out.report);
@@ -52,35 +52,6 @@ calotte::Triangulation triangulate(Points3&& points, const Surface& surface,
   out.mesh = mesh_of_sphere(std::move(points), options, out.report);
   out.mesh.surface = surface;
   return out;
-}
-
-// ---- One function a surface
-
-Mesh spherical_delaunay(const PointsRef& points, const DelaunayOptions& options,
-                        DelaunayReport* report) {
-  DelaunayReport unused;
-  return mesh_of_sphere(directions_of(points, "planar_delaunay()"), options,
-                        report != nullptr ? *report : unused);
-}
-
-template <>
-Mesh spherical_delaunay(Points3&& points, const DelaunayOptions& options, DelaunayReport* report) {
-  DelaunayReport unused;
-  return mesh_of_sphere(std::move(points), options, report != nullptr ? *report : unused);
-}
-
-PlanarMesh planar_delaunay(const PointsRef& points, const DelaunayOptions& options,
-                           DelaunayReport* report) {
-  DelaunayReport unused;
-  return planar(mesh_of_plane(base_detail::places_of(points, "spherical_delaunay()"), options,
-                              report != nullptr ? *report : unused));
-}
-
-PlanarMesh periodic_delaunay(const PointsRef& points, const Eigen::Vector2d& period,
-                             const DelaunayOptions& options, DelaunayReport* report) {
-  DelaunayReport unused;
-  return mesh_of_box(base_detail::places_of(points, "spherical_delaunay()"), period, options,
-                     report != nullptr ? *report : unused);
 }
 
 } // namespace calotte

@@ -56,7 +56,7 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   Circle circle;             ///< of a finite face
 };
 
-/// The Delaunay triangulation of places of a Space (see sphere.h), by incremental insertion,
+/// The Delaunay triangulation of places of a Chart (see sphere.h), by incremental insertion,
 /// completed by one vertex at infinity that is joined to the hull.
 ///
 /// CGAL's Triangulation_data_structure_2 stores vertices and faces. The insertion over it is that
@@ -65,20 +65,20 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
 /// insertion writes a star of three and flips; with its planar predicates, on 20 000 sites in the
 /// same order, it took 1.6 times as long.)
 ///
-/// Invariant after `build`: a Delaunay triangulation, ties as the Space resolves them. From the
+/// Invariant after `build`: a Delaunay triangulation, ties as the Chart resolves them. From the
 /// sphere's centre the vertex at infinity represents the centre, and vanishes once the sites
 /// surround it.
-template <class Space> class Triangulation {
+template <class Chart> class Triangulation {
 public:
-  using Place = typename Space::Place;
+  using Place = typename Chart::Place;
   using Store =
-      CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Space::Circle>>;
+      CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Chart::Circle>>;
   static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 88,
                 "a region is to fit into the cache");
   using Vertex = typename Store::Vertex_handle;
   using Face = typename Store::Face_handle;
 
-  explicit Triangulation(Space space) : space_(std::move(space)) { store_.set_dimension(2); }
+  explicit Triangulation(Chart chart) : chart_(std::move(chart)) { store_.set_dimension(2); }
 
   /// Inserts all members, which are ordered along a curve; false if they lie on one line of the
   /// view.
@@ -90,7 +90,7 @@ public:
   /// The faces around the site that was inserted last; valid until the next insertion.
   std::span<const Face> last_star() const { return {conflicting_.data(), rim_size_}; }
 
-  Space& space() { return space_; }
+  Chart& chart() { return chart_; }
   std::span<const Member> members() const { return members_; }
   static bool is_infinite(Face face) { return face->infinite >= 0; }
 
@@ -124,7 +124,7 @@ private:
   void grow();
   void make_star(Vertex centre);
 
-  Space space_;
+  Chart chart_;
   Store store_;
   Vertex infinity_;
   Face hint_;
@@ -135,10 +135,10 @@ private:
   std::size_t conflicts_ = 0, rim_size_ = 0;
 };
 
-template <class Space> auto Triangulation<Space>::make_vertex(const Member& member) -> Vertex {
+template <class Chart> auto Triangulation<Chart>::make_vertex(const Member& member) -> Vertex {
   Vertex vertex = store_.create_vertex();
   // Constructed there: a copy of what was just written would wait for the writes.
-  ::new (&vertex->place) Place(space_.place(member.rank));
+  ::new (&vertex->place) Place(chart_.place(member.rank));
   vertex->local = static_cast<std::int32_t>(members_.size());
   vertex->depth = member.depth;
   members_.push_back(member);
@@ -147,20 +147,20 @@ template <class Space> auto Triangulation<Space>::make_vertex(const Member& memb
 
 /// Three members not on one line of the view, counter-clockwise; the first is -1 when there are
 /// none. From the centre an antipodal pair is on a line with every site, hence a second pair.
-template <class Space>
-std::array<std::int64_t, 3> Triangulation<Space>::first_triangle(std::span<const Member> members) {
+template <class Chart>
+std::array<std::int64_t, 3> Triangulation<Chart>::first_triangle(std::span<const Member> members) {
   const std::int64_t n = std::ssize(members);
   if (n < 3)
     return {-1, -1, -1};
   const auto place = [&](std::int64_t i) {
-    return space_.place(members[static_cast<std::size_t>(i)].rank);
+    return chart_.place(members[static_cast<std::size_t>(i)].rank);
   };
   const Place a = place(0);
   for (const std::int64_t second : {1, 2})
     for (std::int64_t third = 1; third < n; ++third) {
       if (third == second)
         continue;
-      const int way = space_.orientation(a, place(second), place(third));
+      const int way = chart_.orientation(a, place(second), place(third));
       if (way > 0)
         return {0, second, third};
       if (way < 0)
@@ -169,8 +169,8 @@ std::array<std::int64_t, 3> Triangulation<Space>::first_triangle(std::span<const
   return {-1, -1, -1};
 }
 
-template <class Space>
-CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member> members) {
+template <class Chart>
+CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Chart>::build(std::span<const Member> members) {
   const std::array<std::int64_t, 3> first = first_triangle(members);
   if (first[0] < 0)
     return false;
@@ -190,7 +190,7 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member
   outer[2]->set_neighbors(abc, outer[1], outer[0]);
   for (const Face face : outer)
     face->infinite = 0;
-  abc->circle = space_.circle(a->place, b->place, c->place);
+  abc->circle = chart_.circle(a->place, b->place, c->place);
   hint_ = abc;
 
   // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
@@ -202,14 +202,14 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Space>::build(std::span<const Member
       if (round > 0 && (i & (strides[round - 1] - 1)) == 0) // i is of an earlier round
         continue;
       if (const std::int64_t ahead = i + 8 * strides[round]; ahead < n)
-        space_.expect(members[static_cast<std::size_t>(ahead)].rank);
+        chart_.expect(members[static_cast<std::size_t>(ahead)].rank);
       if (i != first[0] && i != first[1] && i != first[2])
         insert(members[static_cast<std::size_t>(i)]);
     }
   return true;
 }
 
-template <class Space> void Triangulation<Space>::insert(const Member& member) {
+template <class Chart> void Triangulation<Chart>::insert(const Member& member) {
   const Vertex vertex = make_vertex(member);
   const Face start = locate(vertex->place);
   while (!find_conflicts(start, vertex->place))
@@ -222,10 +222,10 @@ template <class Space> void Triangulation<Space>::insert(const Member& member) {
 /// face that contains p, or in an infinite face if p lies beyond the hull. Behind an edge, p is
 /// beyond one of the other two edges of a face without conflict: a test of one of them decides, and
 /// begins before the result of the conflict is needed, so that the processor overlaps the tests.
-template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face {
+template <class Chart> auto Triangulation<Chart>::locate(const Place& p) -> Face {
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
   const auto is_beyond_edge = [&](int i) {
-    return space_.orientation(face->vertex(next_vertex(i))->place,
+    return chart_.orientation(face->vertex(next_vertex(i))->place,
                               face->vertex(previous_vertex(i))->place, p) < 0;
   };
   if (conflicts(face, p))
@@ -242,24 +242,24 @@ template <class Space> auto Triangulation<Space>::locate(const Place& p) -> Face
   }
 }
 
-template <class Space> inline bool Triangulation<Space>::conflicts(Face face, const Place& p) {
+template <class Chart> inline bool Triangulation<Chart>::conflicts(Face face, const Place& p) {
   if (!is_infinite(face)) [[likely]]
-    return space_.in_circle(face->circle, face->vertex(0)->place, face->vertex(1)->place,
+    return chart_.in_circle(face->circle, face->vertex(0)->place, face->vertex(1)->place,
                             face->vertex(2)->place, p) > 0;
   return is_beyond(face, p);
 }
 
-template <class Space> bool Triangulation<Space>::is_beyond(Face face, const Place& p) {
+template <class Chart> bool Triangulation<Chart>::is_beyond(Face face, const Place& p) {
   const Place& a = face->vertex(next_vertex(face->infinite))->place;
   const Place& b = face->vertex(previous_vertex(face->infinite))->place;
-  const int way = space_.orientation(a, b, p);
-  return way != 0 ? way > 0 : space_.between(a, p, b);
+  const int way = chart_.orientation(a, b, p);
+  return way != 0 ? way > 0 : chart_.between(a, p, b);
 }
 
 /// Finds the conflicting faces, which are connected, and their rim, breadth first: the next edges
 /// are known before the last result, so that the processor overlaps their tests.
 /// \return false, with no face marked, if the scratch is too small.
-template <class Space> bool Triangulation<Space>::find_conflicts(Face start, const Place& p) {
+template <class Chart> bool Triangulation<Chart>::find_conflicts(Face start, const Place& p) {
   // The ends of the lists are pointers in registers: as members, each edge would wait for them.
   Face* conflicting = conflicting_.data();
   Edge *inner = inner_edges_.data(), *end = inner, *rim = rim_.data();
@@ -295,7 +295,7 @@ template <class Space> bool Triangulation<Space>::find_conflicts(Face start, con
   return true;
 }
 
-template <class Space> void Triangulation<Space>::grow() {
+template <class Chart> void Triangulation<Chart>::grow() {
   inner_edges_.resize(2 * inner_edges_.size());
   rim_.resize(inner_edges_.size());
   conflicting_.resize(inner_edges_.size());
@@ -303,7 +303,7 @@ template <class Space> void Triangulation<Space>::grow() {
 
 /// Replaces the conflicting faces by the star of a vertex over their rim. The face pointers of the
 /// rim's vertices identify which faces of the star are neighbours.
-template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
+template <class Chart> void Triangulation<Chart>::make_star(Vertex centre) {
   for (; conflicts_ < rim_size_; ++conflicts_)
     conflicting_[conflicts_] = store_.create_face();
   assert(conflicts_ == rim_size_);
@@ -321,7 +321,7 @@ template <class Space> void Triangulation<Space>::make_star(Vertex centre) {
     face->in_conflict = false;
     face->certified = false;
     if (face->infinite < 0)
-      face->circle = space_.circle(centre->place, a->place, b->place);
+      face->circle = chart_.circle(centre->place, a->place, b->place);
   }
   for (std::size_t e = 0; e < rim_size_; ++e) {
     const Face face = conflicting_[e], following = face->vertex(2)->face();

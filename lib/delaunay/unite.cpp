@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "base/split_mix.h"
 #include "base/triangle.h"
-#include "delaunay/plane.h"
-#include "delaunay/sphere.h"
+#include "delaunay/plane_chart.h"
+#include "delaunay/sphere_chart.h"
 
 #include <calotte/error.h>
 
@@ -39,19 +39,19 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
 }
 
 /// A face that a region reports.
-template <class Space> struct Found {
-  typename Triangulation<Space>::Store::Face* face;
+template <class Chart> struct Found {
+  typename Triangulation<Chart>::Store::Face* face;
   std::int32_t lowest; ///< the corner with its lowest site
   std::int32_t member; ///< that site's, if the region owns it; else the number of members
 };
-template <class Space> using AllFound = std::vector<Found<Space>, PoolAllocator<Found<Space>>>;
+template <class Chart> using AllFound = std::vector<Found<Chart>, PoolAllocator<Found<Chart>>>;
 
 /// The certified finite faces, in the order of memory.
-template <class Space> AllFound<Space> find_faces(Triangulation<Space>& triangulation) {
+template <class Chart> AllFound<Chart> find_faces(Triangulation<Chart>& triangulation) {
   const auto members = static_cast<std::int32_t>(triangulation.members().size());
-  AllFound<Space> found;
+  AllFound<Chart> found;
   found.reserve(2 * triangulation.members().size());
-  triangulation.for_each_face([&](typename Triangulation<Space>::Face face) {
+  triangulation.for_each_face([&](typename Triangulation<Chart>::Face face) {
     if (!face->certified || triangulation.is_infinite(face))
       return;
     const int lowest = lowest_corner(*face);
@@ -64,8 +64,8 @@ template <class Space> AllFound<Space> find_faces(Triangulation<Space>& triangul
 /// Numbers faces member by member, those of one by their second site.
 /// \returns the numbers with which the members begin; behind them are the faces whose lowest site
 ///          the region does not own.
-template <class Space>
-std::vector<std::int64_t> number_faces(const AllFound<Space>& found, std::int64_t members) {
+template <class Chart>
+std::vector<std::int64_t> number_faces(const AllFound<Chart>& found, std::int64_t members) {
   struct Listed {
     std::int32_t second; ///< site of the face
     std::int32_t found;  ///< its index
@@ -93,13 +93,13 @@ std::int64_t RegionTriangles::own_seams() const {
                        [&](const Seam& seam) { return seam.triangle < own; });
 }
 
-template <class Space>
-RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
+template <class Chart>
+RegionTriangles report_triangles(Triangulation<Chart>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
                                  Array<std::int32_t>& triangles_of) {
   const std::span<const Member> members = triangulation.members();
-  const AllFound<Space> found = find_faces(triangulation);
-  const std::vector<std::int64_t> begin = number_faces<Space>(found, std::ssize(members));
+  const AllFound<Chart> found = find_faces(triangulation);
+  const std::vector<std::int64_t> begin = number_faces<Chart>(found, std::ssize(members));
   RegionTriangles out{Array<Triple>(std::ssize(found)),
                       Array<Triple>(std::ssize(found)),
                       begin[members.size()],
@@ -129,9 +129,9 @@ RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Site
   return out;
 }
 
-template RegionTriangles report_triangles(Triangulation<Sphere>&, const Sites&,
+template RegionTriangles report_triangles(Triangulation<SphereChart>&, const Sites&,
                                           const Array<std::int32_t>&, Array<std::int32_t>&);
-template RegionTriangles report_triangles(Triangulation<Plane>&, const Sites&,
+template RegionTriangles report_triangles(Triangulation<PlaneChart>&, const Sites&,
                                           const Array<std::int32_t>&, Array<std::int32_t>&);
 
 namespace {

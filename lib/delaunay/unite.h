@@ -44,8 +44,8 @@ struct RegionTriangles {
 /// \param owner by rank, to count a seam's owners.
 /// \param triangles_of by site: set, for the owned sites, to the number of triangles with that
 /// lowest site.
-template <class Space>
-RegionTriangles report_triangles(Triangulation<Space>& triangulation, const Sites& sites,
+template <class Chart>
+RegionTriangles report_triangles(Triangulation<Chart>& triangulation, const Sites& sites,
                                  const Array<std::int32_t>& owner,
                                  Array<std::int32_t>& triangles_of);
 

@@ -9,7 +9,6 @@
 #include "base/require.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
-#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 
@@ -29,7 +28,7 @@ namespace {
 
 using base_detail::shortly;
 using density_detail::WidthField;
-using domain_detail::part_of_sphere;
+using domain_detail::require_sphere;
 
 const char* const widths_are = "cell widths by longitude and latitude are";
 
@@ -174,15 +173,14 @@ double implied_cells(const CellWidth& cell_width, double radius_km) {
 }
 
 double implied_cells(const CellWidth& cell_width, const Surface& surface, double radius_km) {
-  const Region region = part_of_sphere(surface, widths_are);
-  if (region.whole())
+  require_sphere(surface, widths_are);
+  if (!surface.is_bounded())
     return implied_cells(cell_width, radius_km);
   require_radius(radius_km);
   constexpr std::int64_t samples = 1 << 18;
-  const domain_detail::SphericalOutline outline(region);
-  const Points3 places = density_detail::draw(samples, Density{}, outline, 1);
+  const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
   const double mean = evaluate(cell_width, places).array().square().inverse().mean();
-  return 2 / std::numbers::sqrt3 * radius_km * radius_km * outline.area() * mean;
+  return 2 / std::numbers::sqrt3 * radius_km * radius_km * surface.area() * mean;
 }
 
 namespace density_detail {

@@ -7,12 +7,12 @@
 
 namespace calotte::density_detail {
 
-DemandedSpacing::DemandedSpacing(const SphericalOutline& outline, const Density& density,
-                                 double cells, std::int64_t samples)
+DemandedSpacing::DemandedSpacing(const Surface& surface, const Density& density, double cells,
+                                 std::int64_t samples)
     : density_(&density) {
-  const Points3 places = draw(samples, Density{}, outline, 1);
+  const Points3 places = draw(samples, Density{}, surface, 1);
   const double mean = evaluate(density, places).cwiseSqrt().mean();
-  integral_ = mean * outline.area() / cells;
+  integral_ = mean * surface.area() / cells;
 }
 
 double DemandedSpacing::at(const Vec3& x) const {

@@ -3,9 +3,9 @@
 
 #include "base/vec3.h"
 #include "density/room.h"
-#include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 
@@ -15,9 +15,9 @@ namespace calotte::density_detail {
 /// region: h = (I / (n rho^(1/2)))^(1/2), I the integral of rho^(1/2) over the region.
 class DemandedSpacing {
 public:
-  /// \param density which must outlive this.
+  /// \param surface a region of the sphere. \param density which must outlive this.
   /// \param samples random places for the integral.
-  DemandedSpacing(const SphericalOutline& outline, const Density& density, double cells,
+  DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);
 
   /// Radians; infinite where the density is 0.

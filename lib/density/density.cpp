@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/density_evaluator.h"
-#include "density/planar_density.h"
+#include "density/surface_density.h"
 #include "domain/surface.h"
 #include "exact/predicates.h"
 
@@ -223,7 +223,7 @@ Density tanh_bump(const Eigen::Vector3d& centre, double beta, double alpha, doub
 
 Density site_density(const Density& density, const Surface& surface) {
   if (!surface.is_sphere())
-    return site_density(density_detail::planar_density(density, domain_detail::domain_of(surface)));
+    return site_density(density_detail::surface_density(density, surface));
   if (density.uniform())
     return density;
   Density root;
@@ -243,7 +243,7 @@ Density site_density(const Density& density, const Surface& surface) {
 
 DoubleVector evaluate(const Density& density, const PointsRef& points, const Surface& surface) {
   if (!surface.is_sphere())
-    return evaluate(density_detail::planar_density(density, domain_detail::domain_of(surface)),
+    return evaluate(density_detail::surface_density(density, surface),
                     base_detail::with_z(base_detail::plane_points_of(points)));
   const base_detail::Points3Ref x = base_detail::directions_of(points);
   const density_detail::DensityEvaluator evaluator(density);

@@ -3,7 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
-#include "domain/planar_domain.h"
+#include "domain/surface.h"
 
 #include <calotte/error.h>
 
@@ -98,19 +98,17 @@ Shown RegionMap::shown(const Box& box) const {
 
 namespace {
 
-/// The domain, or the rectangle of a periodic box.
-PlanarDomain bounded(const PlanarDomain& domain) {
-  if (!domain.periodic())
-    return domain;
-  require_domain(domain);
-  return rectangle({0, 0}, domain.period);
+Surface bounded(const Surface& surface) {
+  require_finite_plane(surface);
+  return surface.is_bounded() ? surface : rectangle({0, 0}, surface.period());
 }
 
 } // namespace
 
-PlanarMap::PlanarMap(const PlanarDomain& domain)
-    : outline_(bounded(domain)), periodic_(domain.periodic()) {
-  const auto& [low, high] = outline_.box();
+PlanarMap::PlanarMap(const Surface& surface)
+    : bounded_(bounded(surface)), outline_(outline_of<Plane>(bounded_)),
+      periodic_(!surface.is_bounded()) {
+  const auto& [low, high] = outline_->box();
   half_extent_ = {(high.x - low.x) / 2, (high.y - low.y) / 2};
   middle_ = {low.x + half_extent_.x, low.y + half_extent_.y};
   half_ = std::max(half_extent_.x, half_extent_.y);
@@ -121,16 +119,16 @@ Shown PlanarMap::shown(const Box& box) const {
              high = place(box.x + box.side, box.y + box.side, false);
   const Box2 own{{low.x, low.y}, {high.x, high.y}};
   bool crossed = false;
-  outline_.for_each_edge_near(
+  outline_->for_each_edge_near(
       own, [&](const Outline::Edge& edge) { crossed = crossed || crosses(edge, own); });
   if (crossed)
     return Shown::part;
-  return outline_.side(own.low) == Side::outside ? Shown::none : Shown::whole;
+  return outline_->side(own.low) == Side::outside ? Shown::none : Shown::whole;
 }
 
 bool PlanarMap::holds(double, double, const Vec3& place) const {
-  const Side side = outline_.side({place.x, place.y});
-  const Box2& box = outline_.box();
+  const Side side = outline_->side({place.x, place.y});
+  const Box2& box = outline_->box();
   return side == Side::inside ||
          (periodic_ && side == Side::boundary && place.x < box.high.x && place.y < box.high.y);
 }

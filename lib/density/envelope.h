@@ -5,7 +5,6 @@
 #include "density/density_evaluator.h"
 #include "density/room.h"
 #include "domain/outline.h"
-#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
@@ -82,8 +81,8 @@ class PlanarMap {
 public:
   static constexpr const char* name = "domain";
 
-  /// \throws Error as require_domain().
-  explicit PlanarMap(const PlanarDomain& domain);
+  /// \throws Error as require_finite_plane().
+  explicit PlanarMap(const Surface& surface);
 
   static std::vector<Box> squares() { return {Box{}}; }
   Shown shown(const Box& box) const;
@@ -97,7 +96,8 @@ public:
   static DensityEvaluator::Bounds bounds(const DensityEvaluator&, const Box&) { return {1, 1}; }
 
 private:
-  Outline outline_;
+  Surface bounded_; ///< the surface, or the rectangle of a periodic box
+  const Outline* outline_;
   bool periodic_;
   Vec2 middle_, half_extent_; ///< these in the plane
   double half_;               ///< the larger of half_extent_

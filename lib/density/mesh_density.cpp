@@ -2,16 +2,15 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "curve/hilbert.h"
+#include "curve/plane_square.h"
 #include "density/room.h"
-#include "domain/periodic_box.h"
-#include "exact/predicates.h"
+#include "exact/space.h"
 
 #include <calotte/density.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,75 +20,19 @@ namespace {
 
 using namespace density_detail;
 
-/// Unit vectors, in squares on the faces of a cube.
-struct OnSphere {
-  static constexpr int faces = 6;
-  static constexpr bool wraps = false;
-
-  explicit OnSphere(const Mesh&) {}
-
-  static Vec3 vertex(const Vec3& x) { return normalised(x); }
-  static CubePoint square(const Vec3& x) { return to_cube(x); }
-  static Vec3 from_square(const CubePoint& place) { return from_cube(place); }
-
-  /// For each corner of a triangle the volume of x and the edge across from it: negative beyond
-  /// that edge.
-  static std::array<double, 3> sides(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
-    return {dot(x, cross(b - x, c - x)), dot(x, cross(c - x, a - x)), dot(x, cross(a - x, b - x))};
-  }
-};
-
-/// The plane, which may have periods, in the square around the sites.
-struct InPlane {
-  static constexpr int faces = 1;
-  static constexpr bool wraps = true;
-
-  explicit InPlane(const Mesh& mesh)
-      : period{mesh.surface.period().x(), mesh.surface.period().y()} {
-    const Eigen::Vector3d least = mesh.points.rowwise().minCoeff();
-    low = {least.x(), least.y(), 0};
-    half = std::max((mesh.points.rowwise().maxCoeff() - least).maxCoeff() / 2,
-                    std::numeric_limits<double>::min());
-  }
-
-  static Vec3 vertex(const Vec3& x) { return x; }
-  CubePoint square(const Vec3& x) const {
-    const auto part = [&](double value, double from) {
-      return std::clamp((value - from) / half - 1, -1.0, 1.0);
-    };
-    return {0, part(domain_detail::wrapped(x.x, period.x), low.x),
-            part(domain_detail::wrapped(x.y, period.y), low.y)};
-  }
-  Vec3 from_square(const CubePoint& place) const {
-    return {low.x + (place.u + 1) * half, low.y + (place.v + 1) * half, 0};
-  }
-
-  /// The areas instead of volumes, of the copies of the corners near x.
-  std::array<double, 3> sides(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) const {
-    const auto offset = [&](const Vec3& from, const Vec3& to) -> Vec3 {
-      const Vec2 way = domain_detail::nearest_offset(from, to, period);
-      return {way.x, way.y, 0};
-    };
-    const Vec3 to_a = offset(x, a), to_b = to_a + offset(a, b), to_c = to_a + offset(a, c);
-    return {cross(to_b, to_c).z, cross(to_c, to_a).z, cross(to_a, to_b).z};
-  }
-
-  Vec2 period;
-  Vec3 low{0, 0, 0};
-  double half = 1;
-};
-
 /// The triangles of a mesh, and where to start looking for the one that holds a place.
-template <class Space> class Locator {
+template <Space S> class Locator {
 public:
-  explicit Locator(const Mesh& mesh)
-      : space_(mesh), vertices_(3, mesh.points.cols()), triangles_(mesh.triangles),
+  Locator(const Mesh& mesh, const S& space)
+      : space_(space), vertices_(3, mesh.points.cols()), triangles_(mesh.triangles),
         neighbours_(mesh.neighbours) {
+    if constexpr (!S::on_sphere)
+      square_ = PlaneSquare(mesh.points);
     for (Eigen::Index i = 0; i < vertices_.cols(); ++i)
-      set_column(vertices_, i, Space::vertex(column(mesh.points, i)));
-    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / Space::faces)
+      set_column(vertices_, i, space_.coordinates(space_.position(column(mesh.points, i))));
+    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / faces)
       cells_a_side_ *= 2;
-    start_.assign(static_cast<std::size_t>(Space::faces * cells_a_side_ * cells_a_side_), -1);
+    start_.assign(static_cast<std::size_t>(faces * cells_a_side_ * cells_a_side_), -1);
     for (std::int32_t t = 0; t < triangles_.cols(); ++t)
       start_[bucket_of(column(vertices_, triangles_(0, t)))] = t;
     fill_empty();
@@ -108,6 +51,8 @@ public:
   const Triangles& triangles() const { return triangles_; }
 
 private:
+  static constexpr int faces = S::on_sphere ? 6 : 1; ///< squares of the curve
+
   Place place_from(std::int32_t t, const Vec3& x) const {
     for (std::int64_t step = 0; step < triangles_.cols(); ++step) {
       const std::array<double, 3> sides = sides_of(t, x);
@@ -118,7 +63,7 @@ private:
         return {t, weights_of(sides)};
       t = beyond;
     }
-    if constexpr (Space::wraps) // half a period away a walk may lead round
+    if constexpr (!S::on_sphere) // half a period away a walk may lead round
       t = holder_of(x, t);
     return {t, weights_of(sides_of(t, x))};
   }
@@ -137,13 +82,13 @@ private:
   /// the triangle of their middle, which a walk from the cell before finds.
   void fill_empty() {
     std::int32_t t = 0;
-    for (int face = 0; face < Space::faces; ++face)
+    for (int face = 0; face < faces; ++face)
       for (std::int64_t row = 0; row < cells_a_side_; ++row)
         for (std::int64_t k = 0; k < cells_a_side_; ++k) {
           const std::int64_t column = row % 2 == 0 ? k : cells_a_side_ - 1 - k; // to and fro
           std::int32_t& start = start_[bucket(face, row, column)];
           if (start < 0)
-            start = place_from(t, space_.from_square({face, middle(row), middle(column)})).triangle;
+            start = place_from(t, from_square({face, middle(row), middle(column)})).triangle;
           t = start;
         }
   }
@@ -158,7 +103,7 @@ private:
   }
 
   std::size_t bucket_of(const Vec3& x) const {
-    const CubePoint place = space_.square(x);
+    const CubePoint place = on_square(x);
     const auto cell = [&](double u) { // -1 to 1
       const auto scaled =
           static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
@@ -167,9 +112,31 @@ private:
     return bucket(place.face, cell(place.u), cell(place.v));
   }
 
+  CubePoint on_square(const Vec3& x) const {
+    if constexpr (S::on_sphere)
+      return to_cube(x);
+    else
+      return square_(space_.wrapped(x));
+  }
+  Vec3 from_square(const CubePoint& place) const {
+    if constexpr (S::on_sphere)
+      return from_cube(place);
+    else
+      return square_.point(place);
+  }
+
+  /// For each corner of a triangle the area of x and the edge across from it, up to a factor:
+  /// negative beyond that edge. In a periodic plane of the copies of the corners near x.
   std::array<double, 3> sides_of(std::int32_t t, const Vec3& x) const {
-    return space_.sides(column(vertices_, triangles_(0, t)), column(vertices_, triangles_(1, t)),
-                        column(vertices_, triangles_(2, t)), x);
+    const Vec3 &a = column(vertices_, triangles_(0, t)), &b = column(vertices_, triangles_(1, t)),
+               &c = column(vertices_, triangles_(2, t));
+    if constexpr (S::on_sphere) {
+      return {S::area_term(x, b, c), S::area_term(x, c, a), S::area_term(x, a, b)};
+    } else {
+      const Vec3 to_a = space_.offset(x, a), to_b = to_a + space_.offset(a, b),
+                 to_c = to_a + space_.offset(a, c);
+      return {cross(to_b, to_c).z, cross(to_c, to_a).z, cross(to_a, to_b).z};
+    }
   }
 
   static std::array<double, 3> weights_of(std::array<double, 3> sides) {
@@ -181,17 +148,18 @@ private:
     return sides;
   }
 
-  Space space_;
+  S space_;
+  PlaneSquare square_; ///< around the sites, in a plane
   Points3 vertices_;
   Triangles triangles_, neighbours_;
   std::int64_t cells_a_side_ = 1;
   std::vector<std::int32_t> start_; ///< a triangle near each cell
 };
 
-template <class Space>
-Density::Callable interpolation(const Mesh& mesh, const DoubleVector& density) {
+template <Space S>
+Density::Callable interpolation(const Mesh& mesh, const S& space, const DoubleVector& density) {
   constexpr double least = 1e-150; // a density that is 0 has no cell width
-  const auto locator = std::make_shared<const Locator<Space>>(mesh);
+  const auto locator = std::make_shared<const Locator<S>>(mesh, space);
   const auto widths = std::make_shared<const DoubleVector>(density.array().max(least).pow(-0.25));
   return [locator, widths](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
@@ -220,8 +188,8 @@ Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
                              std::to_string(i) + "; give finite numbers that are not negative");
   Density result;
   result.kind = Density::Kind::callable;
-  result.callable = mesh.surface.is_sphere() ? interpolation<OnSphere>(mesh, density)
-                                             : interpolation<InPlane>(mesh, density);
+  result.callable = in_space_of(
+      mesh.surface, [&](const Space auto& space) { return interpolation(mesh, space, density); });
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include "base/require.h"
 #include "density/cell_width_field.h"
 #include "density/sampling.h"
-#include "domain/planar_domain.h"
 #include "domain/surface.h"
 
 #include <cmath>
@@ -21,7 +20,7 @@ using base_detail::require;
 using base_detail::shortly;
 using density_detail::Axis;
 using density_detail::draw;
-using domain_detail::part_of_plane;
+using domain_detail::require_plane;
 
 const char* const widths_are = "cell widths by x and y are";
 
@@ -134,10 +133,10 @@ Density density_of(const PlanarCellWidth& cell_width) {
 }
 
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) {
-  const PlanarDomain domain = part_of_plane(surface, widths_are);
+  require_plane(surface, widths_are);
   constexpr std::int64_t samples = 1 << 18;
   const Field field = field_of(cell_width);
-  const Points2 places = draw(samples, Density{}, domain, 1);
+  const Points3 places = draw(samples, Density{}, surface, 1);
   double sum = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const double width = field.at(places(0, i), places(1, i));
@@ -147,13 +146,14 @@ double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) 
 }
 
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {
-  const PlanarDomain domain = part_of_plane(surface, widths_are);
+  require_plane(surface, widths_are);
   require_widths(cell_width);
-  require_domain(domain);
-  Eigen::Vector2d low(0, 0), high = domain.period;
-  for (std::size_t i = 0; i < domain.rings.size(); ++i) {
-    const Eigen::Vector2d least = domain.rings[i].rowwise().minCoeff(),
-                          most = domain.rings[i].rowwise().maxCoeff();
+  domain_detail::require_finite_plane(surface);
+  const Surface::Rings& rings = surface.rings();
+  Eigen::Vector2d low(0, 0), high = surface.period();
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const Eigen::Vector2d least = rings[i].rowwise().minCoeff(),
+                          most = rings[i].rowwise().maxCoeff();
     low = i == 0 ? least : Eigen::Vector2d(low.cwiseMin(least));
     high = i == 0 ? most : Eigen::Vector2d(high.cwiseMax(most));
   }

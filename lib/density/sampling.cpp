@@ -4,7 +4,8 @@
 #include "base/parallel.h"
 #include "base/split_mix.h"
 #include "density/envelope.h"
-#include "domain/planar_domain.h"
+#include "density/surface_density.h"
+#include "domain/surface.h"
 
 #include <calotte/error.h>
 
@@ -171,19 +172,14 @@ Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) 
 
 } // namespace
 
-Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed) {
-  return draw_from(Envelope(density), n, seed);
-}
-
-Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& outline,
-             std::uint64_t seed) {
+Points3 draw(std::int64_t n, const Density& density, const Surface& surface, std::uint64_t seed) {
+  if (!surface.is_sphere())
+    return draw_from(EnvelopeOf<PlanarMap>(surface_density(density, surface), PlanarMap(surface)),
+                     n, seed);
+  if (!surface.is_bounded())
+    return draw_from(Envelope(density), n, seed);
+  const SphericalOutline& outline = *outline_of<Sphere>(surface);
   return draw_from(EnvelopeOf<RegionMap>(density, RegionMap(outline, density.uniform())), n, seed);
-}
-
-Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
-             std::uint64_t seed) {
-  const EnvelopeOf<PlanarMap> envelope(density, PlanarMap(domain));
-  return draw_from(envelope, n, seed).topRows<2>();
 }
 
 } // namespace calotte::density_detail

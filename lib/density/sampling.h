@@ -2,7 +2,6 @@
 #pragma once
 
 #include "density/room.h"
-#include "domain/planar_domain.h"
 #include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
@@ -12,7 +11,7 @@
 
 namespace calotte::density_detail {
 
-/// n independent points distributed as a density that is not uniform: proposals from its envelope
+/// n independent points distributed as a density on a surface: proposals from its envelope
 /// (envelope.h), each accepted with probability rho over the envelope (von Neumann, 1951). The
 /// random numbers of a proposal depend only on the seed and the index of the proposal.
 ///
@@ -20,16 +19,8 @@ namespace calotte::density_detail {
 /// far follow the wrong distribution. The function then raises the envelope there and draws all
 /// points again.
 ///
-/// \throws Error invalid_argument as random_sphere(n, density, seed).
-Points3 draw(std::int64_t n, const Density& density, std::uint64_t seed);
-
-/// The same in a region of the sphere, also for uniform density.
-Points3 draw(std::int64_t n, const Density& density, const SphericalOutline& outline,
-             std::uint64_t seed);
-
-/// The same in a domain of the plane. \param density uniform, or a callable of places (x, y, 0).
+/// \pre the density is not uniform on the whole sphere.
 /// \throws Error invalid_argument as random_points().
-Points2 draw(std::int64_t n, const Density& density, const PlanarDomain& domain,
-             std::uint64_t seed);
+Points3 draw(std::int64_t n, const Density& density, const Surface& surface, std::uint64_t seed);
 
 } // namespace calotte::density_detail

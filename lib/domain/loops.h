@@ -10,7 +10,7 @@ namespace calotte::domain_detail {
 /// A ring without the loops in which it crosses or touches itself, as simplified coasts do. Of the
 /// two ways from one arc to another that it meets, the one with fewer corners is left out, until no
 /// arcs meet. A ring of which a tenth of the corners would go at once is returned as it is.
-/// \param ring 3 x corners, as of a Region.
+/// \param ring 3 x corners.
 /// \throws Error as rings_of().
 Points3 without_loops(const Points3& ring);
 

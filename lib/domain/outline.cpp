@@ -3,7 +3,6 @@
 
 #include "base/first_fault.h"
 #include "base/parallel.h"
-#include "domain/planar_domain.h"
 
 #include <calotte/error.h>
 
@@ -148,9 +147,9 @@ void Outline::orient() {
   }
 }
 
-Outline::Outline(const PlanarDomain& domain) {
-  for (std::size_t r = 0; r < domain.rings.size(); ++r) {
-    const DoubleMatrix& ring = domain.rings[r];
+Outline::Outline(const Surface::Rings& rings) {
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const DoubleMatrix& ring = rings[r];
     require_ring(ring, static_cast<std::int64_t>(r));
     for (Eigen::Index i = 0; i < ring.cols(); ++i) {
       const Eigen::Vector2d from = ring.col(i), to = ring.col((i + 1) % ring.cols());
@@ -197,16 +196,6 @@ Side Outline::side(const Vec2& place) const {
       inside = !inside;
   });
   return boundary ? Side::boundary : inside ? Side::inside : Side::outside;
-}
-
-void require_inside(const Points2Ref& places, const Outline& outline) {
-  FirstFault outside;
-  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      if (places.col(i).allFinite() && outline.side({places(0, i), places(1, i)}) == Side::outside)
-        outside.at(i);
-  });
-  outside.refuse("point", "is outside of the domain; leave it out, or move it inside");
 }
 
 } // namespace calotte::domain_detail

@@ -3,9 +3,10 @@
 
 #include "base/lists.h"
 #include "base/points.h"
-#include "domain/planar_domain.h"
 #include "domain/room.h"
 #include "exact/plane_predicates.h"
+
+#include <calotte/surface.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,8 +31,8 @@ public:
     Vec2 from, to;
   };
 
-  /// \pre the domain is not periodic. \throws Error as require_domain().
-  explicit Outline(const PlanarDomain& domain);
+  /// \pre there are rings. \throws Error as Surface::within().
+  explicit Outline(const Surface::Rings& rings);
 
   const Box2& box() const { return box_; } ///< the least one around it
   double area() const { return area_; }
@@ -76,8 +77,5 @@ private:
   std::int64_t strips_ = 1;
   Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> edges_in_; ///< by strip
 };
-
-/// \throws Error invalid_argument with the index of the first place outside the domain.
-void require_inside(const Points2Ref& places, const Outline& outline);
 
 } // namespace calotte::domain_detail

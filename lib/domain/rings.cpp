@@ -84,7 +84,7 @@ void require_directions(const Points3& corners, std::int64_t r) {
           corner_name(r, i) + " is no direction; give three finite numbers that are not all 0", r);
 }
 
-Rings rings_of(const std::vector<Points3>& corners) {
+Rings rings_of(const Surface::Rings& corners) {
   Rings rings;
   for (std::size_t r = 0; r < corners.size(); ++r) {
     append_ring(corners[r], static_cast<std::int64_t>(r), rings.arcs.items);

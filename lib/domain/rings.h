@@ -38,7 +38,7 @@ void require_directions(const Points3& corners, std::int64_t ring);
 /// The rings of corners, 3 x n directions each, rounded to unit vectors.
 /// \throws Error invalid_argument, naming ring and corner: fewer than three corners; a corner that
 ///         is no direction; equal or opposite neighbours. Its index() is the ring.
-Rings rings_of(const std::vector<Points3>& corners);
+Rings rings_of(const Surface::Rings& corners);
 
 /// The first arc that meets another elsewhere than in the corner that joins them; -1 for none.
 std::int64_t first_meeting(const Rings& rings, const ArcTree& tree);

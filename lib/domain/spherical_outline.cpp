@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/spherical_outline.h"
 
-#include "domain/region.h"
 #include "domain/spherical_area.h"
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace calotte::domain_detail {
 
-SphericalOutline::SphericalOutline(const Region& region)
-    : SphericalOutline(rings_of(region.rings)) {}
+SphericalOutline::SphericalOutline(const Surface::Rings& rings)
+    : SphericalOutline(rings_of(rings)) {}
 
 SphericalOutline::SphericalOutline(const Rings& rings)
     : tree_(rings.arcs.items), cells_(simple(rings, tree_).arcs.items, rings.corner_of(0)),

@@ -4,7 +4,6 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/outline.h"
-#include "domain/region.h"
 #include "domain/rings.h"
 #include "domain/room.h"
 #include "domain/side_cells.h"
@@ -21,8 +20,8 @@ public:
   /// The region lies to the left of an arc, which is shorter than a half circle; unit vectors.
   using Edge = Arc;
 
-  /// \pre the region is not the whole sphere. \throws Error as Surface::within().
-  explicit SphericalOutline(const Region& region);
+  /// \pre there are rings. \throws Error as Surface::within().
+  explicit SphericalOutline(const Surface::Rings& rings);
 
   double area() const { return area_; }                            ///< steradians
   const std::vector<Edge>& edges() const { return cells_.arcs(); } ///< ring by ring

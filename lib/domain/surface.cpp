@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/surface.h"
 
+#include "base/first_fault.h"
 #include "base/parallel.h"
+#include "base/points.h"
 #include "base/require.h"
 #include "domain/outline.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "domain/spherical_outline.h"
 
 #include <algorithm>
@@ -23,16 +23,13 @@ struct Surface::Bounds {
 
   const domain_detail::SphericalOutline& on_sphere() const {
     std::call_once(once,
-                   [this] { base_detail::in_isolation([this] { spherical.emplace(region()); }); });
+                   [this] { base_detail::in_isolation([this] { spherical.emplace(rings); }); });
     return *spherical;
   }
   const domain_detail::Outline& in_plane() const {
-    std::call_once(once, [this] {
-      base_detail::in_isolation([this] { planar.emplace(PlanarDomain{rings, {0, 0}}); });
-    });
+    std::call_once(once, [this] { base_detail::in_isolation([this] { planar.emplace(rings); }); });
     return *planar;
   }
-  Region region() const { return std::vector<Points3>(rings.begin(), rings.end()); }
 
   Rings rings;
   mutable std::once_flag once;
@@ -54,6 +51,16 @@ Surface domain_detail::UncheckedSurface::of_plane(Surface::Rings rings,
   if (!surface.bounds_)
     surface.period_ = period;
   return surface;
+}
+
+const domain_detail::SphericalOutline*
+domain_detail::UncheckedSurface::outline_on_sphere(const Surface& surface) {
+  return surface.bounds_ ? &surface.bounds_->on_sphere() : nullptr;
+}
+
+const domain_detail::Outline*
+domain_detail::UncheckedSurface::outline_in_plane(const Surface& surface) {
+  return surface.bounds_ ? &surface.bounds_->in_plane() : nullptr;
 }
 
 Surface Surface::plane() { return domain_detail::UncheckedSurface::of_plane({}, {0, 0}); }
@@ -120,30 +127,49 @@ bool Surface::equals(const Surface& other) const {
          (bounds_ == other.bounds_ || std::ranges::equal(rings(), other.rings(), same));
 }
 
-Region::Region(const Surface& surface) {
-  base_detail::require(surface.is_sphere(),
-                       "the surface is a plane; give the sphere or a part of it");
-  rings.assign(surface.rings().begin(), surface.rings().end());
-}
-
-Region::operator Surface() const {
-  return domain_detail::UncheckedSurface::of_sphere({rings.begin(), rings.end()});
-}
-
-PlanarDomain::PlanarDomain(const Surface& surface)
-    : rings(surface.rings()), period(surface.period()) {
-  base_detail::require(!surface.is_sphere(), "the surface is on the sphere; give one of the plane");
-}
-
-PlanarDomain::operator Surface() const {
-  return domain_detail::UncheckedSurface::of_plane(rings, period);
-}
-
 namespace domain_detail {
 
-Region region_of(const Surface& surface) { return surface; }
+namespace {
 
-PlanarDomain domain_of(const Surface& surface) { return surface; }
+void require_in_box(const Points3Ref& points, const Eigen::Vector2d& period) {
+  FirstFault outside;
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      for (int k = 0; k < 2; ++k)
+        if (period[k] > 0 && (points(k, i) < 0 || points(k, i) >= period[k]))
+          outside.at(i);
+  });
+  outside.refuse("point",
+                 "is outside the periodic box, which starts at 0 0: add or subtract periods");
+}
+
+} // namespace
+
+void require_inside(const Points3Ref& points, const Surface& surface, std::int64_t fixed) {
+  if (!surface.is_bounded())
+    return require_in_box(points, surface.period());
+  FirstFault outside;
+  in_space_of(surface, [&]<class S>(const S&) {
+    const OutlineOf<S>& outline = *outline_of<S>(surface);
+    for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i != end; ++i)
+        if (points.col(i).allFinite() && side_of<S>(&outline, column(points, i)) == Side::outside)
+          outside.at(i);
+    });
+  });
+  if (!surface.is_sphere())
+    outside.refuse("point", "is outside of the domain; leave it out, or move it inside");
+  outside.refuse(outside.index() < fixed ? "fixed generator" : "generator",
+                 "is outside the region; give points inside it, or a larger region");
+}
+
+void require_finite_plane(const Surface& surface) {
+  const Eigen::Vector2d& period = surface.period();
+  require(surface.is_bounded() || surface.is_box(),
+          "the domain: it has no rings, and the periodic box is " + std::to_string(period.x()) +
+              " x " + std::to_string(period.y()) +
+              "; give rings, or two lengths from 1e-30 to 1e30");
+}
 
 void require_sphere(const Surface& surface, const std::string& what) {
   base_detail::require(surface.is_sphere(), what + " for the sphere, and the surface is a plane; "
@@ -153,16 +179,6 @@ void require_sphere(const Surface& surface, const std::string& what) {
 void require_plane(const Surface& surface, const std::string& what) {
   base_detail::require(!surface.is_sphere(), what + " for the plane, and the surface is one of the "
                                                     "sphere; give one of the plane");
-}
-
-Region part_of_sphere(const Surface& surface, const std::string& what) {
-  require_sphere(surface, what);
-  return region_of(surface);
-}
-
-PlanarDomain part_of_plane(const Surface& surface, const std::string& what) {
-  require_plane(surface, what);
-  return domain_of(surface);
 }
 
 } // namespace domain_detail

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
 #include "base/require.h"
-#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 #include "domain/tangent_outline.h"
@@ -84,10 +83,10 @@ Polygon::ring_type projected(const Points3& ring, const Stereographic& map) {
 }
 
 /// Outer rings with the holes inside them.
-Polygons polygons_of(const Region& region, const Stereographic& map) {
+Polygons polygons_of(const Surface::Rings& rings, const Stereographic& map) {
   Polygons polygons;
   std::vector<Polygon::ring_type> holes;
-  for (const Points3& ring : region.rings) {
+  for (const DoubleMatrix& ring : rings) {
     Polygon::ring_type line = projected(ring, map);
     if (bg::area(line) > 0) {
       polygons.emplace_back();
@@ -125,10 +124,10 @@ Surface widened(const Surface& surface, double distance) {
   base_detail::require(distance > 0 && std::isfinite(distance),
                        "the distance is " + std::to_string(distance) +
                            "; give a positive angle in radians");
-  const Region region = part_of_sphere(surface, "a widened region is");
-  if (region.whole())
+  require_sphere(surface, "a widened region is");
+  if (!surface.is_bounded())
     return surface;
-  const SphericalOutline outline(region);
+  const SphericalOutline& outline = *outline_of<Sphere>(surface);
   const Vec3 centre = centre_of(outline);
   double reach = 0;
   for (const SphericalOutline::Edge& edge : outline.edges())
@@ -140,18 +139,18 @@ Surface widened(const Surface& surface, double distance) {
   Polygons wide;
   constexpr double inscribed = 1.02; // corners become polygons, here of 24 corners for a circle
   const double offset = inscribed * distance * Stereographic::scale(reach);
-  bg::buffer(polygons_of(region, map), wide,
+  bg::buffer(polygons_of(surface.rings(), map), wide,
              bg::strategy::buffer::distance_symmetric<double>(offset),
              bg::strategy::buffer::side_straight(), bg::strategy::buffer::join_round(24),
              bg::strategy::buffer::end_flat(), bg::strategy::buffer::point_circle(24));
   const double least = 1e-3 * offset;
-  Region result;
+  Surface::Rings rings;
   for (const Polygon& polygon : wide) {
-    result.rings.push_back(lifted(polygon.outer(), least, map));
+    rings.push_back(lifted(polygon.outer(), least, map));
     for (const Polygon::ring_type& hole : polygon.inners())
-      result.rings.push_back(lifted(hole, least, map));
+      rings.push_back(lifted(hole, least, map));
   }
-  return result;
+  return UncheckedSurface::of_sphere(std::move(rings));
 }
 
 } // namespace calotte

@@ -147,8 +147,8 @@ std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& plac
   return turned(std::move(rings), cells, side == Side::inside);
 }
 
-std::vector<Points3> corners_of(const std::vector<WrittenRing>& rings) {
-  std::vector<Points3> all;
+Surface::Rings corners_of(const std::vector<WrittenRing>& rings) {
+  Surface::Rings all;
   for (const WrittenRing& ring : rings) {
     Points3 corners(3, std::ssize(ring.corners));
     for (std::size_t i = 0; i < ring.corners.size(); ++i)

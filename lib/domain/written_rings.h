@@ -64,7 +64,7 @@ std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings);
 std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place);
 
 /// The corners of each ring, 3 x n.
-std::vector<Points3> corners_of(const std::vector<WrittenRing>& rings);
+Surface::Rings corners_of(const std::vector<WrittenRing>& rings);
 
 /// The message of an error of these rings, in which each "ring N" becomes its origin, and a corner
 /// where an edge begins that of the ring as it was written.

@@ -61,6 +61,8 @@ Vec2 Plane::way(const Position& from, const Position& to) const {
 /// period: a difference of points in the box and the sum of that and a period are rounded, each to
 /// u L at most, as is a product with -1, 0 or 1 times the period not at all. With offsets up to D,
 /// the products' and their difference's rounding adds 4u D^2: in all below 4 D e + 2 e^2 + 4u D^2.
+/// The bound is twice that, which also covers a point outside the box, next to which the copies
+/// are.
 int Plane::orientation(const Position& a, const Position& b, const Position& c) const {
   if (is_box() && adjacent(a, b) && adjacent(a, c)) {
     const Vec2 p = way(a, b), q = way(a, c);

@@ -186,11 +186,19 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
 
 static_assert(Space<Sphere> && Space<Plane>);
 
+/// The space of this kind in which a surface lies.
+template <Space S> S in_space([[maybe_unused]] const Surface& surface) {
+  if constexpr (S::on_sphere)
+    return {};
+  else
+    return S(surface.period());
+}
+
 /// Calls body(space) for the space in which a surface lies.
 template <class Body> decltype(auto) in_space_of(const Surface& surface, const Body& body) {
   if (surface.is_sphere())
-    return body(Sphere());
-  return body(Plane(surface.period()));
+    return body(in_space<Sphere>(surface));
+  return body(in_space<Plane>(surface));
 }
 
 /// The unit vector of a direction of any norm; the same bits for any order of its coordinates.

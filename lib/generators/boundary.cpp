@@ -202,15 +202,15 @@ Points3 boundary_points(const Surface& surface, std::int64_t cells, const Densit
                                                   "; give 4 to " + std::to_string(most_points));
   if (!surface.is_bounded())
     return Points3(3, 0);
-  const SphericalOutline outline(surface);
-  const Rings rings = rings_of({surface.rings().begin(), surface.rings().end()});
+  const SphericalOutline& outline = *outline_of<Sphere>(surface);
+  const Rings rings = rings_of(surface.rings());
   const auto n = static_cast<double>(cells);
   double edges = 0;
   for (const std::vector<Mark>& marks :
-       walk_all(rings, DemandedSpacing(outline, density, n, samples)))
+       walk_all(rings, DemandedSpacing(surface, density, n, samples)))
     edges += marks.back().edges;
   std::vector<Vec3> places;
-  const DemandedSpacing spacing(outline, density, whole_cells(n, edges), samples);
+  const DemandedSpacing spacing(surface, density, whole_cells(n, edges), samples);
   const std::vector<std::vector<Mark>> all = walk_all(rings, spacing);
   for (std::size_t r = 0; r < all.size(); ++r) {
     require(all[r].back().edges > 0, "the density is zero along ring " + std::to_string(r) +

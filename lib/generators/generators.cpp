@@ -7,9 +7,7 @@
 #include "base/require.h"
 #include "base/split_mix.h"
 #include "base/vec3.h"
-#include "density/planar_density.h"
 #include "density/sampling.h"
-#include "domain/spherical_outline.h"
 #include "domain/surface.h"
 #include "exact/space.h"
 #include "generators/room.h"
@@ -141,10 +139,7 @@ Points3 random_points(std::int64_t n, const Surface& surface, const Density& den
   require_count(n, 1, "the number of points");
   if (surface.is_whole_sphere())
     return random_sphere(n, density, seed);
-  if (surface.is_sphere())
-    return density_detail::draw(n, density, domain_detail::SphericalOutline(surface), seed);
-  return base_detail::with_z(
-      density_detail::draw(n, density_detail::planar_density(density, surface), surface, seed));
+  return density_detail::draw(n, density, surface, seed);
 }
 
 Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
@@ -167,7 +162,8 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed) {
 
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed) {
   require_count(n, 1, "the number of points");
-  return density.uniform() ? random_sphere(n, seed) : density_detail::draw(n, density, seed);
+  return density.uniform() ? random_sphere(n, seed)
+                           : density_detail::draw(n, density, Surface::sphere(), seed);
 }
 
 Points3 fibonacci_sphere(std::int64_t n) {

@@ -5,7 +5,6 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/outline.h"
-#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "generators/room.h"
 
@@ -196,8 +195,8 @@ Points3 hexagonal_lattice(std::int64_t n, const Surface& surface) {
   domain_detail::require_plane(surface, "a hexagonal lattice is");
   require_count(n, surface.is_bounded() ? 1 : 12, "the number of points");
   if (surface.is_bounded())
-    return lattice_inside(n, Outline(surface));
-  require_domain(surface);
+    return lattice_inside(n, *domain_detail::outline_of<exact_detail::Plane>(surface));
+  domain_detail::require_finite_plane(surface);
   return lattice_of_box(n, surface.period());
 }
 

@@ -3,12 +3,9 @@
 
 #include "base/require.h"
 #include "cvt/cvt.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "domain/surface.h"
 #include "grids/schedule.h"
 #include "grids/start.h"
-#include "mesh/planar_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -78,28 +75,6 @@ CvtCallback callback_of(const ProgressCallback& progress) {
   };
 }
 
-Cvt in_plane(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
-  const Surface& surface = schedule.recipe.surface;
-  const PlanarDomain domain = domain_of(surface);
-  PlanarCvt result =
-      run.state ? planar_cvt(std::move(*run.state), domain, options, callback_of(run.progress))
-                : planar_cvt(generators(schedule).topRows<2>(), domain, options,
-                             callback_of(run.progress));
-  return {mesh_detail::spatial(std::move(result.mesh), surface), std::move(result.report)};
-}
-
-Cvt on_sphere(const Schedule& schedule, const CvtOptions& options, RunOptions&& run) {
-  const Surface& surface = schedule.recipe.surface;
-  const Region region = region_of(surface);
-  Cvt result =
-      run.state ? spherical_cvt(std::move(*run.state), region, options, callback_of(run.progress))
-      : region.whole()
-          ? spherical_cvt(generators(schedule), options, callback_of(run.progress))
-          : spherical_cvt(generators(schedule), region, options, callback_of(run.progress));
-  result.mesh.surface = surface;
-  return result;
-}
-
 } // namespace
 
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
@@ -112,8 +87,8 @@ Cvt make_grid(const Schedule& schedule, RunOptions run) {
   options.partition = run.partition;
   if (run.state)
     require_levels(schedule, *run.state);
-  return schedule.recipe.surface.is_sphere() ? on_sphere(schedule, options, std::move(run))
-                                             : in_plane(schedule, options, std::move(run));
+  return run.state ? cvt(std::move(*run.state), recipe.surface, options, callback_of(run.progress))
+                   : cvt(generators(schedule), recipe.surface, options, callback_of(run.progress));
 }
 
 Cvt make_grid(const Recipe& recipe, RunOptions options) {

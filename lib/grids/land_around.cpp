@@ -4,8 +4,6 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/loops.h"
-#include "domain/region.h"
-#include "domain/spherical_outline.h"
 #include "exact/predicates.h"
 #include "grids/room.h"
 
@@ -52,19 +50,18 @@ Surface land_around(const Coast& coast, const Eigen::Vector3d& place) {
           "the place on land is no direction; give three finite numbers that are not all 0");
   const Vec3 here = normalised(Vec3{place.x(), place.y(), place.z()});
   const Compass compass(here);
-  Region smallest;
+  Surface smallest;
   double least = 2 * std::numbers::pi; // the left side of a lake's ring is larger
   for (const Points3& ring : coast.rings) {
     if (!is_left_of(ring, compass))
       continue;
-    const Region region{{domain_detail::without_loops(ring)}};
-    const domain_detail::SphericalOutline outline(region);
-    if (outline.area() < least && outline.side(here) != domain_detail::Side::outside) {
+    const Surface region = Surface::sphere().within({domain_detail::without_loops(ring)});
+    if (region.area() < least && region.contains({here.x, here.y, here.z})) {
       smallest = region;
-      least = outline.area();
+      least = region.area();
     }
   }
-  require(!smallest.whole(), "no ring of the coast contains the place; give one on land");
+  require(smallest.is_bounded(), "no ring of the coast contains the place; give one on land");
   return smallest;
 }
 

@@ -2,9 +2,8 @@
 #include "base/number_text.h"
 #include "base/require.h"
 #include "cvt/cvt.h"
-#include "cvt/region_world.h"
+#include "cvt/levels.h"
 #include "cvt/stages.h"
-#include "cvt/worlds.h"
 #include "domain/surface.h"
 #include "grids/schedule.h"
 #include "grids/start.h"
@@ -214,7 +213,7 @@ double take_cells(Recipe& recipe, const Surface& asked) {
     const double implied = implied_cells(*recipe.planar_widths, recipe.surface);
     if (counts)
       recipe.cells = static_cast<std::int64_t>(
-          within_range(implied, static_cast<double>(PlanarWorld::fewest)));
+          within_range(implied, static_cast<double>(fewest_generators(recipe.surface))));
     return implied;
   }
   if (!recipe.widths)
@@ -223,7 +222,8 @@ double take_cells(Recipe& recipe, const Surface& asked) {
   if (!counts)
     return implied;
   if (!recipe.surface.is_bounded()) {
-    recipe.cells = reachable(recipe, within_range(implied, double(SphericalWorld::fewest)));
+    recipe.cells =
+        reachable(recipe, within_range(implied, double(fewest_generators(recipe.surface))));
     return implied;
   }
   recipe.cells = static_cast<std::int64_t>(cells_in_part(recipe, asked, implied));
@@ -302,17 +302,6 @@ FirstLevel first_level(const Recipe& recipe) {
                        fixed);
 }
 
-/// The world of the levels' numbers, whose boundary is not asked for.
-struct Numbers {
-  bool sphere;
-  std::int64_t bisected(std::int64_t n) const {
-    return sphere ? SphericalWorld::bisected(n) : PlanarWorld::bisected(n);
-  }
-  std::int64_t halved(std::int64_t n) const {
-    return sphere ? SphericalWorld::halved(n) : PlanarWorld::halved(n);
-  }
-};
-
 } // namespace
 
 CvtOptions options_of(const Schedule& schedule) {
@@ -367,8 +356,7 @@ Schedule plan(Recipe recipe) {
   const FirstLevel first = first_level(all);
   schedule.first = first.kind;
   schedule.levels.resize(static_cast<std::size_t>(first.bisections) + 1); // for their number
-  schedule.levels = levels_of(Numbers{all.surface.is_whole_sphere()}, first.cells, first.bisections,
-                              options_of(schedule));
+  schedule.levels = levels_of(all.surface, first.cells, first.bisections, options_of(schedule));
   cvt_detail::require_options(options_of(schedule));
   return schedule;
 }

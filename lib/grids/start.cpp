@@ -3,8 +3,7 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "cvt/region_world.h"
-#include "cvt/worlds.h"
+#include "cvt/levels.h"
 #include "domain/surface.h"
 #include "generators/room.h"
 #include "grids/free_points.h"
@@ -21,21 +20,16 @@ namespace {
 
 using base_detail::require;
 using base_detail::with_z;
+using cvt_detail::fewest_generators;
 
 /// With fewer, cells of five neighbours are so near to each other that a descent may change the
 /// neighbours of cells.
 constexpr std::int64_t fewest_geodesic = 150;
 
-/// Calls work with the world of a surface, of which only static members may be used.
-template <class Work> auto in_world(const Surface& surface, const Work& work) {
-  if (!surface.is_sphere())
-    return work(static_cast<const PlanarWorld*>(nullptr));
-  return surface.is_bounded() ? work(static_cast<const RegionWorld*>(nullptr))
-                              : work(static_cast<const SphericalWorld*>(nullptr));
-}
-
 /// The number of cells after bisections of n on the whole sphere.
-std::int64_t bisected(std::int64_t n, int bisections) { return ((n - 2) << (2 * bisections)) + 2; }
+std::int64_t bisected_sphere(std::int64_t n, int bisections) {
+  return ((n - 2) << (2 * bisections)) + 2;
+}
 
 bool is_icosahedral(std::int64_t n) {
   std::int64_t tens = n - 2;
@@ -46,7 +40,7 @@ bool is_icosahedral(std::int64_t n) {
 
 int icosahedral_level(std::int64_t n) {
   int level = 0;
-  while (bisected(SphericalWorld::fewest, level) < n)
+  while (bisected_sphere(fewest_generators(Surface::sphere()), level) < n)
     ++level;
   return level;
 }
@@ -101,32 +95,33 @@ std::string not_leading(int bisections, std::int64_t cells) {
 }
 
 void require_icosahedral(std::int64_t cells, int bisections) {
-  constexpr std::int64_t fewest = SphericalWorld::fewest;
+  const std::int64_t fewest = fewest_generators(Surface::sphere());
   if (is_icosahedral(cells) && icosahedral_level(cells) >= bisections)
     return;
   const int level = std::max(icosahedral_level(cells), bisections);
   require(false, "the start icosahedron makes 10 x 4^k + 2 cells, not " + std::to_string(cells) +
                      "; " +
-                     nearest(level == bisections ? 0 : bisected(fewest, level - 1),
-                             bisected(fewest, level), fewest));
+                     nearest(level == bisections ? 0 : bisected_sphere(fewest, level - 1),
+                             bisected_sphere(fewest, level), fewest));
 }
 
 /// The number of generators from which bisections lead to a number of cells of the whole sphere.
 std::int64_t start_on_sphere(std::int64_t cells, int bisections) {
   const std::int64_t n = ((cells - 2) >> (2 * bisections)) + 2;
-  require(n >= SphericalWorld::fewest && bisected(n, bisections) == cells,
-          not_leading(bisections, cells) + nearest(bisected(n, bisections),
-                                                   bisected(n + 1, bisections),
-                                                   bisected(SphericalWorld::fewest, bisections)));
+  require(n >= fewest_generators(Surface::sphere()) && bisected_sphere(n, bisections) == cells,
+          not_leading(bisections, cells) +
+              nearest(bisected_sphere(n, bisections), bisected_sphere(n + 1, bisections),
+                      bisected_sphere(fewest_generators(Surface::sphere()), bisections)));
   return n;
 }
 
 /// The same in a plane: in a box n cells become 4n; elsewhere midpoints outside are left out.
 std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
   const std::int64_t divisor = std::int64_t{1} << (2 * bisections), n = cells / divisor;
-  require(n >= PlanarWorld::fewest, words_of(bisections) + " to " + std::to_string(cells) +
-                                        " cells need a start of fewer than 3 cells; give more "
-                                        "cells or fewer bisections");
+  require(n >= fewest_generators(Surface::plane()),
+          words_of(bisections) + " to " + std::to_string(cells) +
+              " cells need a start of fewer than 3 cells; give more "
+              "cells or fewer bisections");
   require(!box || cells % divisor == 0,
           not_leading(bisections, cells) + nearest(n * divisor, (n + 1) * divisor, 3 * divisor));
   return n;
@@ -137,7 +132,7 @@ std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
 FirstLevel first_of_continuation(std::int64_t cells, bool uniform) {
   if (uniform && cells >= fewest_geodesic)
     return {Start::Kind::geodesic, cells, 0};
-  const std::int64_t least = uniform ? SphericalWorld::fewest : fewest_graded;
+  const std::int64_t least = uniform ? fewest_generators(Surface::sphere()) : fewest_graded;
   FirstLevel first{Start::Kind::density, cells, 0};
   std::int64_t& n = first.cells;
   for (; (n - 2) % 4 == 0 && (n - 2) / 4 + 2 >= least; n = (n - 2) / 4 + 2)
@@ -158,9 +153,7 @@ FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const
   else if (!surface.is_bounded())
     least = std::max(least, spreading(site_density(density)));
   FirstLevel first{Start::Kind::density, cells, 0};
-  const auto halved = [&](std::int64_t n) {
-    return in_world(surface, [n](const auto* world) { return world->halved(n); });
-  };
+  const auto halved = [&](std::int64_t n) { return cvt_detail::halved(surface, n); };
   for (; halved(first.cells) >= least; first.cells = halved(first.cells))
     ++first.bisections;
   return first;
@@ -210,9 +203,7 @@ Points3 free_generators(const Schedule& schedule) {
   }
 }
 
-std::int64_t least_cells(const Surface& surface) {
-  return in_world(surface, [](const auto* world) { return std::int64_t{world->fewest}; });
-}
+std::int64_t least_cells(const Surface& surface) { return fewest_generators(surface); }
 
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Surface& surface) {

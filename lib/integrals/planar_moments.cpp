@@ -3,7 +3,6 @@
 
 #include "base/triangle.h"
 #include "domain/clipped_cell.h"
-#include "domain/periodic_box.h"
 #include "exact/predicates.h"
 
 #include <algorithm>
@@ -112,9 +111,12 @@ struct Shape {
 };
 
 Shape shape_of(const std::array<std::int32_t, 3>& corners, const Array<Vec3>& x,
-               const Vec2& period) {
-  const Vec2 u = nearest_offset(x[corners[0]], x[corners[1]], period),
-             v = nearest_offset(x[corners[0]], x[corners[2]], period);
+               const Plane& plane) {
+  const auto from_first = [&](std::size_t v) -> Vec2 {
+    const Vec3 way = plane.offset(x[corners[0]], x[corners[v]]);
+    return {way.x, way.y};
+  };
+  const Vec2 u = from_first(1), v = from_first(2);
   return {{Vec2{0, 0}, u, v}, circumcentre(u, v), cross(u, v)};
 }
 
@@ -123,7 +125,7 @@ Shape shape_of(const std::array<std::int32_t, 3>& corners, const Array<Vec3>& x,
 bool is_clear(const Shape& shape, double largest, const Vec2& period) {
   const auto& [a, b, c] = shape.corner;
   const double half = std::min(period.x, period.y) / 2;
-  if (half > 0 && !(dot(shape.centre, shape.centre) < half * half / 4)) // see PlaneSigns
+  if (half > 0 && !(dot(shape.centre, shape.centre) < half * half / 4)) // see add_faults()
     return false;
   const auto size = [](const Vec2& v) { return std::abs(v.x) + std::abs(v.y); };
   const double extent = size(b) + size(c), error = 32 * roundoff * (largest + extent) * extent;
@@ -245,7 +247,7 @@ void add_clipped(const PlanarField& field, const Patch& patch, const std::vector
 std::vector<Shape> shapes_of(const PlanarField& field, const Patch& patch, const Array<Vec3>& x) {
   std::vector<Shape> shapes(patch.corners.size());
   for (std::size_t t = 0; t < shapes.size(); ++t)
-    shapes[t] = shape_of(patch.corners[t], x, field.period);
+    shapes[t] = shape_of(patch.corners[t], x, field.plane);
   return shapes;
 }
 
@@ -262,7 +264,7 @@ void integrate(const Integrand& integrand, const PlanarField& field, const Patch
                const Array<Vec3>& x, Array<CellMoments>& moments,
                std::vector<std::int32_t>& suspects) {
   const std::vector<Shape> shapes = shapes_of(field, patch, x);
-  add_suspects(shapes, largest_coordinate(x, field.period), field.period, suspects);
+  add_suspects(shapes, largest_coordinate(x, field.plane.period()), field.plane.period(), suspects);
   const Array<CellKind> kinds = kinds_of(field, patch, shapes, x);
   std::fill(moments.begin(), moments.end(), CellMoments{{0, 0, 0}, 0});
   FanSum sum(integrand, x, moments);
@@ -275,8 +277,8 @@ void integrate(const Integrand& integrand, const PlanarField& field, const Patch
 
 void find_suspects(const PlanarField& field, const Patch& patch, const Array<Vec3>& x,
                    std::vector<std::int32_t>& suspects) {
-  add_suspects(shapes_of(field, patch, x), largest_coordinate(x, field.period), field.period,
-               suspects);
+  add_suspects(shapes_of(field, patch, x), largest_coordinate(x, field.plane.period()),
+               field.plane.period(), suspects);
 }
 
 } // namespace calotte::integrals_detail

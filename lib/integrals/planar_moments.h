@@ -2,6 +2,7 @@
 #pragma once
 
 #include "domain/outline.h"
+#include "exact/space.h"
 #include "integrals/integrand.h"
 #include "integrals/moments.h"
 #include "integrals/patches.h"
@@ -14,8 +15,8 @@ namespace calotte::integrals_detail {
 
 /// A domain for the integration over cells.
 struct PlanarField {
-  const Outline* outline;  ///< or none, of a periodic box
-  Vec2 period;             ///< 0 where there is none
+  const Outline* outline; ///< or none, of a periodic box
+  Plane plane;
   std::int64_t generators; ///< sites from this number on are the hull's, and have no cells
 };
 

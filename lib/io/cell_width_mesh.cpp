@@ -82,7 +82,7 @@ double step_for(const Mesh& mesh) {
 } // namespace
 
 CellWidth resampled(const Points3& points, const DoubleVector& widths) {
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   if (!mesh.closed())
     throw Error(ErrorCode::invalid_argument,
                 "the points lie within a hemisphere; give widths on the "

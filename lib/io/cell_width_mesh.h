@@ -13,7 +13,7 @@ namespace calotte::io_detail {
 /// grid of longitudes and latitudes: see read_cell_width().
 /// \param points 3 x n directions.
 /// \param widths n.
-/// \throws Error as spherical_delaunay(); invalid_argument if the points leave a hemisphere empty.
+/// \throws Error as delaunay(); invalid_argument if the points leave a hemisphere empty.
 CellWidth resampled(const Points3& points, const DoubleVector& widths);
 
 } // namespace calotte::io_detail

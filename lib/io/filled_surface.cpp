@@ -19,7 +19,7 @@ std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
   const Sides sides(polygons);
   std::vector<std::int32_t> next(static_cast<std::size_t>(sides.from.size()), -1);
   for (std::int32_t from = 0; from < sides.from.size(); ++from)
-    for (const Side& side : sides.from[from]) {
+    for (const auto& side : sides.from[from]) {
       if (sides.polygon_of(side.to, from) >= 0)
         continue;
       std::int32_t& after = next[static_cast<std::size_t>(from)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cut.h>
 
-#include "cvt/region_cells.h"
+#include "cvt/hull.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 #include "io/mpas.h"
@@ -42,8 +42,7 @@ private:
 Points3 spanning(const Points3& generators, const Surface& meshed, const Density& density) {
   if (!meshed.is_bounded())
     return generators;
-  const Points3 hull =
-      cvt_detail::hull_of(domain_detail::SphericalOutline(meshed), density, generators.cols());
+  const Points3 hull = cvt_detail::hull_of(meshed, density, generators.cols());
   Points3 all(3, generators.cols() + hull.cols());
   all << generators, hull;
   return all;

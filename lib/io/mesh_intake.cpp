@@ -187,7 +187,7 @@ void settle_polygons(const std::string& name, RawMesh raw, MeshFile& file) {
 /// Cells whose centres have no Delaunay triangulation stay polygons.
 void triangulate_centres(const Points3& centres, MeshFile& file) {
   try {
-    file.mesh = spherical_delaunay(centres);
+    file.mesh = delaunay(centres);
   } catch (const Error& error) {
     file.not_voronoi = error.what();
   }
@@ -322,7 +322,7 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMes
     if (has_cells)
       settle_polygons(name, std::move(raw), file);
   } else if (!has_cells) {
-    file.mesh = named(name, [&] { return spherical_delaunay(raw.points); });
+    file.mesh = named(name, [&] { return delaunay(raw.points); });
     merge_values(*file.mesh, file);
     file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
   } else {

@@ -15,7 +15,7 @@ namespace calotte::io_detail {
 
 /// A mesh of the sphere, of triangles, cells or both. \param format for messages.
 /// \throws Error parse, for a file that contradicts itself; invalid_argument, for a mesh of the
-/// plane; what spherical_delaunay() throws, with the file's name.
+/// plane; what delaunay() throws, with the file's name.
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw);
 
 /// A mesh of the plane, with z = 0 at all points. \throws Error as above; invalid_argument, where z

@@ -32,11 +32,8 @@ Surface read_region_geojson(std::istream& in, const std::string& name) {
     rings = joined(std::move(rings));
     if (rings.empty())
       throw Error(ErrorCode::parse, "its polygons cover the sphere; give no region for that");
-    const std::vector<Points3> corners = corners_of(rings);
     Surface region;
-    with_origins(rings, [&] {
-      region = Surface::sphere().within({corners.begin(), corners.end()});
-    });
+    with_origins(rings, [&] { region = Surface::sphere().within(corners_of(rings)); });
     return region;
   });
 }

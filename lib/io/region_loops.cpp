@@ -86,8 +86,7 @@ Surface read_region_loops(std::istream& in, const std::string& name, std::istrea
          "the loop that begins in line " + std::to_string(lines[static_cast<std::size_t>(begin)])});
     drop_repeated(rings.back().corners);
   }
-  const std::vector<Points3> corners = named(name, [&] { return corners_of(enclosed(rings)); });
-  return domain_detail::UncheckedSurface::of_sphere({corners.begin(), corners.end()});
+  return named(name, [&] { return UncheckedSurface::of_sphere(corners_of(enclosed(rings))); });
 }
 
 } // namespace calotte::io_detail

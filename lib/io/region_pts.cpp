@@ -140,7 +140,8 @@ private:
     if (type_ != "custom")
       fail((type_.empty() ? "no line \"Type:\"" : "the type " + in_quotes(type_) + " is unknown") +
            "; write Type: custom, circle, ellipse or channel");
-    return region_around(corners_of({{ring_, ""}}), point());
+    const Surface::Rings corners = corners_of({{ring_, ""}});
+    return region_around({corners.begin(), corners.end()}, point());
   }
 
   LineReader reader_;

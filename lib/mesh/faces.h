@@ -23,7 +23,7 @@ struct Faces {
   std::int32_t neighbour(std::int64_t t, int i) const { return neighbour_ids(i % 3, t); }
 };
 
-template <class AnyMesh> Faces faces_of(const AnyMesh& mesh) {
+inline Faces faces_of(const Mesh& mesh) {
   return {mesh.triangles, mesh.neighbours, mesh.points.cols()};
 }
 

@@ -3,12 +3,11 @@
 
 #include "base/points.h"
 #include "base/require.h"
+#include "cvt/cells.h"
 #include "cvt/cvt.h"
 #include "cvt/functional.h"
-#include "cvt/planar_cells.h"
-#include "density/planar_density.h"
+#include "density/surface_density.h"
 #include "domain/clipped_cell.h"
-#include "domain/planar_domain.h"
 #include "domain/surface.h"
 #include "quality/cell_measures.h"
 #include "quality/demand.h"
@@ -31,12 +30,11 @@ namespace quality_detail {
 namespace {
 
 /// Computes lengths from each corner, in a box to the nearest copies.
-Shape shape_of(const std::array<Vec3, 3>& p, const Vec2& period) {
+Shape shape_of(const std::array<Vec3, 3>& p, const Plane& plane) {
   Shape shape{};
   for (std::size_t v = 0; v < 3; ++v) {
-    const Vec2 a = nearest_offset(p[v], p[(v + 1) % 3], period),
-               b = nearest_offset(p[v], p[(v + 2) % 3], period);
-    const double twice_area = cross(a, b), product = dot(a, b);
+    const Vec3 a = plane.offset(p[v], p[(v + 1) % 3]), b = plane.offset(p[v], p[(v + 2) % 3]);
+    const double twice_area = cross(a, b).z, product = a.x * b.x + a.y * b.y;
     shape.angle[v] = std::atan2(twice_area, product);
     shape.side[v] = norm(a - b);
     shape.delta[v] = shape.side[v] / 2 * (product / twice_area);
@@ -48,8 +46,9 @@ Shape shape_of(const std::array<Vec3, 3>& p, const Vec2& period) {
 /// place of the hull.
 class Insides {
 public:
-  Insides(const PlanarCells& cells, const PlanarDomain& domain, std::int64_t generators)
-      : cells_(&cells), outline_(domain), generators_(generators) {}
+  /// \pre the surface is bounded.
+  Insides(const Cells<Plane>& cells, const Surface& surface, std::int64_t generators)
+      : cells_(&cells), outline_(*outline_of<Plane>(surface)), generators_(generators) {}
 
   bool triangle(const Triangles& triangles, std::int64_t t) const {
     if (triangles.col(t).maxCoeff() >= generators_)
@@ -81,8 +80,8 @@ private:
                         at(triangles(previous_vertex(v), t)) - here);
   }
 
-  const PlanarCells* cells_;
-  Outline outline_;
+  const Cells<Plane>* cells_;
+  const Outline& outline_;
   std::int64_t generators_;
 };
 
@@ -110,32 +109,31 @@ Array<std::uint8_t> triangles_inside(const Insides& insides, const Triangles& tr
 
 /// The shapes of triangles. \param place of a point by its id.
 template <class Place>
-Shapes shapes_of(const Triangles& triangles, const Vec2& period, const Place& place) {
+Shapes shapes_of(const Triangles& triangles, const Plane& plane, const Place& place) {
   Shapes shapes(triangles.cols());
   for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
-      shapes[t] = shape_of({place(triangles(0, t)), place(triangles(1, t)), place(triangles(2, t))},
-                           period);
+      shapes[t] =
+          shape_of({place(triangles(0, t)), place(triangles(1, t)), place(triangles(2, t))}, plane);
   });
   return shapes;
 }
 
 /// \param mesh of the n generators and the hull.
 /// \param inverse_spacing by generator.
-Quality measure(const PlanarCells& cells, const Connectivity& mesh, const PlanarDomain& domain,
+Quality measure(const Cells<Plane>& cells, const Connectivity& mesh, const Surface& surface,
                 std::int64_t n, DoubleVector&& inverse_spacing) {
-  const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
-  Subject subject{
-      mesh.triangles,
-      mesh.neighbours,
-      make_vertex_rings(mesh.triangles, mesh.neighbours, n),
-      shapes_of(mesh.triangles, period, [&](std::int32_t place) { return cells.place(place); }),
-      std::move(inverse_spacing),
-      {},
-      {}};
-  if (domain.periodic())
+  Subject subject{mesh.triangles,
+                  mesh.neighbours,
+                  make_vertex_rings(mesh.triangles, mesh.neighbours, n),
+                  shapes_of(mesh.triangles, cells.space(),
+                            [&](std::int32_t place) { return cells.place(place); }),
+                  std::move(inverse_spacing),
+                  {},
+                  {}};
+  if (!surface.is_bounded())
     return measure_shapes(subject, n);
-  const Insides insides(cells, domain, n);
+  const Insides insides(cells, surface, n);
   subject.inside = triangles_inside(insides, mesh.triangles);
   subject.whole = whole_cells(insides, mesh, subject.rings, n);
   return measure_shapes(subject, n);
@@ -143,7 +141,7 @@ Quality measure(const PlanarCells& cells, const Connectivity& mesh, const Planar
 
 /// The evaluation of a density.
 /// \param mesh of the generators and the hull.
-Evaluation evaluated(const Points3& points, const Connectivity& mesh, const PlanarDomain& domain,
+Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Surface& surface,
                      const Density& density, int rule = 6, int divisions = 1) {
   CvtOptions options;
   options.density = density;
@@ -152,7 +150,7 @@ Evaluation evaluated(const Points3& points, const Connectivity& mesh, const Plan
   Level level;
   level.mesh = mesh;
   const std::unique_ptr<Functional> functional =
-      make_functional(points, domain, options, std::move(level));
+      make_functional(points, surface, options, std::move(level));
   Evaluation result;
   functional->evaluate(points, true, true, result);
   functional->set_centroids(points, result, result.centroids);
@@ -174,10 +172,10 @@ double root_integral(const Points3& points, const Connectivity& mesh, const Surf
   return sum;
 }
 
-void require_mesh(const Mesh& mesh, const PlanarDomain& domain) {
-  require_domain(domain);
+void require_mesh(const Mesh& mesh) {
+  require_finite_plane(mesh.surface);
   require_voronoi_mesh(mesh);
-  require_inside(Points2(mesh.points.topRows<2>()), domain);
+  require_inside(mesh.points, mesh.surface);
 }
 
 /// Sets the measures of clipped cells, too. \param cells clipped by the domain.
@@ -205,58 +203,57 @@ void set_sides(const Voronoi& cells, CellMeasures& out) {
 } // namespace quality_detail
 
 CellMeasures quality_detail::cell_measures_in_plane(const Mesh& mesh, const Density& density) {
-  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
-  require_mesh(mesh, domain);
-  const Density planar = planar_density(density, domain);
+  require_mesh(mesh);
+  const Surface& surface = mesh.surface;
+  const Density planar = surface_density(density, surface);
   const Points3& points = mesh.points;
-  const Vec2 period{domain.period.x(), domain.period.y()};
-  PlanarCells cells(domain);
+  Cells<Plane> cells(mesh.surface);
   cells.move(points);
-  const Connectivity closed = cells.signs().triangulate();
-  const double root = root_integral(points, closed, mesh.surface, planar);
-  Subject subject{
-      mesh.triangles,
-      mesh.neighbours,
-      {},
-      shapes_of(mesh.triangles, period, [&](std::int32_t site) { return column(points, site); }),
-      inverse_spacings(points, planar, root),
-      {},
-      {}};
-  if (!domain.periodic())
-    subject.inside = triangles_inside(Insides(cells, domain, points.cols()), mesh.triangles);
+  const Connectivity closed = cells.triangulate();
+  const double root = root_integral(points, closed, surface, planar);
+  Subject subject{mesh.triangles,
+                  mesh.neighbours,
+                  {},
+                  shapes_of(mesh.triangles, cells.space(),
+                            [&](std::int32_t site) { return column(points, site); }),
+                  inverse_spacings(points, planar, root),
+                  {},
+                  {}};
+  if (surface.is_bounded())
+    subject.inside = triangles_inside(Insides(cells, surface, points.cols()), mesh.triangles);
   CellMeasures out = unset_measures(points.cols(), mesh.triangles.cols());
   set_angles(subject, out);
   set_fits(subject, out);
   set_sides(voronoi(mesh), out);
-  const Points3 centroids = evaluated(points, closed, domain, planar).centroids;
+  const Points3 centroids = evaluated(points, closed, surface, planar).centroids;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     out.off_centroid[i] =
-        norm(nearest_offset(column(points, i), column(centroids, i), period)) / out.spacing[i];
+        norm(cells.offset(column(points, i), column(centroids, i))) / out.spacing[i];
   return out;
 }
 
 Quality quality_detail::quality_in_plane(const Mesh& mesh, const Density& density) {
-  const PlanarDomain domain = domain_detail::domain_of(mesh.surface);
-  require_mesh(mesh, domain);
-  const Density planar = planar_density(density, domain);
+  require_mesh(mesh);
+  const Surface& surface = mesh.surface;
+  const Density planar = surface_density(density, surface);
   const Points3& points = mesh.points;
-  PlanarCells cells(domain);
+  Cells<Plane> cells(mesh.surface);
   cells.move(points);
-  const Connectivity closed = cells.signs().triangulate();
-  const Evaluation uniform = evaluated(points, closed, domain, Density{}),
-                   of_density =
-                       density.uniform() ? Evaluation{} : evaluated(points, closed, domain, planar);
+  const Connectivity closed = cells.triangulate();
+  const Evaluation uniform = evaluated(points, closed, surface, Density{}),
+                   of_density = density.uniform() ? Evaluation{}
+                                                  : evaluated(points, closed, surface, planar);
   const CvtIteration& measured = (density.uniform() ? uniform : of_density).iteration;
-  const double root = root_integral(points, closed, mesh.surface, planar);
+  const double root = root_integral(points, closed, surface, planar);
   Quality result =
-      measure(cells, closed, domain, points.cols(), inverse_spacings(points, planar, root));
+      measure(cells, closed, surface, points.cols(), inverse_spacings(points, planar, root));
   Tally areas;
   for (const double cell : uniform.mass)
     areas.add(cell);
   result.cell_area = areas.range();
   result.residual = measured.l2 / measured.spacing;
   set_energy(result, measured.energy, root);
-  result.cells_area = areas.sum / mesh.surface.area();
+  result.cells_area = areas.sum / surface.area();
   return result;
 }
 
@@ -264,11 +261,10 @@ Quality quality_detail::measure_open_plane(const Mesh& mesh, bool cells) {
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
                                                  found.failure + "; triangulate the points anew");
-  const Eigen::Vector2d& period = mesh.surface.period();
   const Subject subject{mesh.triangles,
                         mesh.neighbours,
                         {},
-                        shapes_of(mesh.triangles, {period.x(), period.y()},
+                        shapes_of(mesh.triangles, Plane(mesh.surface.period()),
                                   [&](std::int32_t site) { return column(mesh.points, site); }),
                         {},
                         {},
@@ -295,17 +291,16 @@ std::vector<bool> clipped_cells(const Mesh& mesh) {
       "the mesh is one of a region of the sphere, which clips no cells; give one "
       "of the plane or of the whole sphere");
   using namespace quality_detail;
-  const PlanarDomain domain = domain_detail::domain_of(surface);
-  require_domain(domain);
+  require_finite_plane(surface);
   const std::int64_t n = mesh.points.cols();
   std::vector<bool> clipped(static_cast<std::size_t>(n));
-  if (domain.periodic() || n == 0)
+  if (!surface.is_bounded() || n == 0)
     return clipped;
-  PlanarCells cells(domain);
+  Cells<Plane> cells(mesh.surface);
   cells.move(mesh.points);
-  const Connectivity closed = cells.signs().triangulate();
+  const Connectivity closed = cells.triangulate();
   const Array<std::uint8_t> whole =
-      whole_cells(Insides(cells, domain, n), closed,
+      whole_cells(Insides(cells, surface, n), closed,
                   make_vertex_rings(closed.triangles, closed.neighbours, n), n);
   for (std::size_t i = 0; i < clipped.size(); ++i)
     clipped[i] = whole[static_cast<std::int64_t>(i)] == 0;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "domain/periodic_box.h"
+#include "exact/space.h"
 #include "quality/room.h"
 
 #include <array>
@@ -60,9 +60,9 @@ struct Waves {
   static constexpr std::size_t count = 4;
   using Values = std::array<double, count>;
 
-  Vec3 low;             ///< a corner of the box
-  double kx, ky;        ///< wavenumbers
-  Vec3 period{0, 0, 0}; ///< of the plane; 0 for none
+  Vec3 low;      ///< a corner of the box
+  double kx, ky; ///< wavenumbers
+  Plane plane;
 
   Values values(const Vec3& p) const {
     const double x = kx * (p.x - low.x), y = ky * (p.y - low.y);
@@ -81,10 +81,7 @@ struct Waves {
     return {-kx * kx * s[0], -kx * kx * s[1], -ky * ky * s[2], -ky * ky * s[3]};
   }
 
-  Vec3 offset(const Vec3& a, const Vec3& b) const {
-    const Vec2 offset = domain_detail::nearest_offset(a, b, {period.x, period.y});
-    return {offset.x, offset.y, 0};
-  }
+  Vec3 offset(const Vec3& a, const Vec3& b) const { return plane.offset(a, b); }
   static Vec3 up(const Vec3&) { return {0, 0, 1}; }
   Vec3 middle(const Vec3& a, const Vec3& b) const { return a + 0.5 * offset(a, b); }
 };

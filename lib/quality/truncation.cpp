@@ -267,10 +267,10 @@ private:
 Waves waves_of(const Voronoi& of) {
   constexpr double turn = 2 * std::numbers::pi;
   if (of.period.minCoeff() > 0)
-    return {{0, 0, 0}, turn / of.period[0], turn / of.period[1], {of.period[0], of.period[1], 0}};
+    return {{0, 0, 0}, turn / of.period[0], turn / of.period[1], Plane(of.period)};
   const Eigen::Vector3d low = of.vertices.rowwise().minCoeff(),
                         extent = of.vertices.rowwise().maxCoeff() - low;
-  return {{low[0], low[1], 0}, turn / extent[0], turn / extent[1], {0, 0, 0}};
+  return {{low[0], low[1], 0}, turn / extent[0], turn / extent[1], Plane()};
 }
 
 } // namespace

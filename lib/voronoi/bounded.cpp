@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "domain/clipped_cell.h"
 #include "domain/outline.h"
+#include "domain/surface.h"
 #include "mesh/ids.h"
 #include "voronoi/boundary_walk.h"
 #include "voronoi/groups.h"
@@ -345,9 +346,9 @@ Voronoi bounded(const Mesh& mesh, const Outline& outline) {
 } // namespace
 
 Voronoi bounded(const Mesh& mesh) {
-  const Outline outline(mesh.surface);
+  const Outline& outline = *domain_detail::outline_of<exact_detail::Plane>(mesh.surface);
   require_mesh(mesh);
-  require_inside(mesh.points.topRows<2>(), outline);
+  require_inside(mesh.points, mesh.surface);
   return bounded(mesh, outline);
 }
 

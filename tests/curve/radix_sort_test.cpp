@@ -3,6 +3,7 @@
 #include "delaunay/delaunay.h"
 
 #include "curve/traversal.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
-#include "domain/region.h"
 #include "support/planes.h"
 #include "support/starts.h"
 

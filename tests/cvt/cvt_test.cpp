@@ -6,6 +6,7 @@
 #include "delaunay/delaunay.h"
 #include "integrals/moments.h"
 #include "support/densities.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>

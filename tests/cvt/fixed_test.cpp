@@ -5,8 +5,6 @@
 #include <calotte/io.h>
 
 #include "cvt/cvt.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "support/files.h"
 #include "support/planes.h"
 #include "support/starts.h"

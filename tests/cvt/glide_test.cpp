@@ -2,8 +2,6 @@
 #include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "support/planes.h"
 
 #include "cvt/functional.h"
@@ -87,7 +85,7 @@ struct Moved {
 Moved moved(const Points3& points, const CvtOptions& options,
             const std::vector<std::uint8_t>& fixed = {}) {
   Moved result{points, 0, std::nullopt};
-  const auto functional = cvt_detail::make_functional(result.points, options);
+  const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), options);
   functional->hold(fixed);
   result.steps = functional->glide(result.points, cvt_detail::shape_limits);
   result.mesh = functional->take_mesh(result.points);

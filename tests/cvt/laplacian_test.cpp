@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/vector_field.h"
+#include "cvt/cells.h"
 #include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/laplacian.h"
 #include "cvt/multigrid.h"
-#include "cvt/signs.h"
 #include "cvt/state.h"
 #include "support/densities.h"
+#include "support/planes.h"
 #include "support/starts.h"
 
 #include <calotte/cvt.h>
@@ -67,7 +67,9 @@ Points3 solved_by(Multigrid& multigrid, Points3 right) {
 }
 
 Laplacian laplacian_of(const Points3& points, const Density& density) {
-  return graph_laplacian(points, SphereSigns(points).triangulate(), density);
+  Cells<Sphere> cells(Surface::sphere());
+  cells.move(points);
+  return cells.laplacian(cells.triangulate(), density);
 }
 
 /// A tangential field: smooth ones, and noise.
@@ -109,9 +111,11 @@ TEST_CASE("the graph Laplacian is symmetric, and almost zero on a constant") {
 }
 
 TEST_CASE("the graph Laplacian's elements are those of its formula, for triangles of any size") {
-  for (const std::int64_t cells : {642, 40962}) {
-    const Points3 x = near_optimum(Density{}, cells);
-    const Connectivity mesh = SphereSigns(x).triangulate();
+  for (const std::int64_t n : {642, 40962}) {
+    const Points3 x = near_optimum(Density{}, n);
+    Cells<Sphere> cells(Surface::sphere());
+    cells.move(x);
+    const Connectivity mesh = cells.triangulate();
     std::vector<Eigen::Triplet<double>> elements;
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
       for (int v = 0; v < 3; ++v) {
@@ -127,7 +131,7 @@ TEST_CASE("the graph Laplacian's elements are those of its formula, for triangle
       }
     SparseMatrix exact(x.cols(), x.cols());
     exact.setFromTriplets(elements.begin(), elements.end());
-    const SparseMatrix matrix = eigen_matrix(graph_laplacian(x, mesh, Density{}));
+    const SparseMatrix matrix = eigen_matrix(cells.laplacian(mesh, Density{}));
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
       for (SparseMatrix::InnerIterator entry(matrix, i); entry; ++entry)
         if (entry.col() != i)
@@ -140,7 +144,7 @@ TEST_CASE("the graph Laplacian is near the energy's second derivative") {
     const Points3 x = near_optimum(density, 2562);
     CvtOptions options;
     options.density = density;
-    const auto functional = make_functional(x, options);
+    const auto functional = make_functional(x, Surface::sphere(), options);
     const SparseMatrix matrix = eigen_matrix(laplacian_of(x, density));
     for (int kind = 0; kind < 12; kind += 3) {
       const Points3 v = field(x, kind);
@@ -168,7 +172,7 @@ TEST_CASE("the multigrid cycle is symmetric, positive, and contracts for any siz
       Points3 solution = Points3::Zero(3, x.cols());
       double before = 0, after = 0;
       for (int k = 0; k < 12; ++k) {
-        const Points3 residual = difference(b, solution * matrix);
+        const Points3 residual = b - solution * matrix;
         before = after;
         after = std::sqrt(inner(residual, residual));
         solution += solved_by(multigrid, residual);

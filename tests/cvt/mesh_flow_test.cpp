@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
 #include "support/densities.h"
 #include "support/planes.h"
 

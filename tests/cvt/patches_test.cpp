@@ -2,6 +2,7 @@
 #include "cvt/repair.h"
 #include "delaunay/delaunay.h"
 #include "integrals/patches.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -18,6 +19,11 @@ using namespace calotte;
 using namespace calotte::cvt_detail;
 
 namespace {
+
+PlacedSites<Sphere> placed(const Points3& points) {
+  static constexpr Sphere sphere;
+  return {sphere, {&column(points, 0), static_cast<std::size_t>(points.cols())}};
+}
 
 using Triple = std::array<std::int32_t, 3>;
 
@@ -100,7 +106,7 @@ Connectivity connectivity(const Points3& points) {
 Faults all_faults(const Connectivity& mesh, const Points3& points) {
   Faults faults;
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
-    add_faults(mesh, SphereSigns(points), t, faults);
+    add_faults(mesh, placed(points), t, faults);
   return faults;
 }
 
@@ -132,8 +138,7 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
       const Ownership ownership = random_ownership(start.cols(), 5, 6);
       std::vector<Patch> patches = make_patches(mesh.triangles, ownership);
       const Points3 points = moved(start, amount);
-      const std::optional<Repair> repaired =
-          repair(mesh, SphereSigns(points), all_faults(mesh, points));
+      const std::optional<Repair> repaired = repair(mesh, placed(points), all_faults(mesh, points));
       if (!repaired) { // a new triangulation is cheaper
         CHECK(amount >= 0.3);
         continue;
@@ -174,7 +179,7 @@ TEST_CASE("repair turns triangles back where sites have crossed an opposite edge
     overturned += static_cast<std::int64_t>(faults.overturned.size());
     bool done = true;
     for (int pass = 0; pass < 5 && done && !faults.none(); ++pass) {
-      done = repair(mesh, SphereSigns(points), faults).has_value();
+      done = repair(mesh, placed(points), faults).has_value();
       faults = all_faults(mesh, points);
     }
     if (!done)

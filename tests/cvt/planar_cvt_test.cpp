@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cells.h"
 #include "cvt/cvt.h"
-#include "cvt/planar_cells.h"
 #include "delaunay/delaunay.h"
-#include "density/planar_density.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
+#include "density/surface_density.h"
 #include "support/planes.h"
 
 #include "support/random.h"
@@ -88,7 +86,7 @@ Points2 random_start(const PlanarDomain& domain, std::int64_t n, std::uint64_t s
       points.col(i) << random.real(0, domain.period.x()), random.real(0, domain.period.y());
     return points;
   }
-  const Outline outline(domain);
+  const Outline outline(domain.rings);
   for (Eigen::Index i = 0; i < n;) {
     const Vec2 place{random.real(outline.box().low.x, outline.box().high.x),
                      random.real(outline.box().low.y, outline.box().high.y)};
@@ -108,9 +106,9 @@ AllMoments moments_of(const Points2& points, const PlanarDomain& domain, const D
                       int regions = 1, int rule = 6) {
   Points3 x = Points3::Zero(3, points.cols());
   x.topRows<2>() = points;
-  PlanarCells cells(domain);
+  Cells<Plane> cells(domain);
   cells.move(x);
-  const Connectivity mesh = cells.signs().triangulate();
+  const Connectivity mesh = cells.triangulate();
   Array<std::int32_t> owner(cells.places());
   for (std::int64_t i = 0; i < owner.size(); ++i)
     owner[i] = static_cast<std::int32_t>(i % regions);
@@ -219,7 +217,7 @@ TEST_CASE("a cell of one generator has the domain's own moments") {
 
 TEST_CASE("cells agree with brute force by nearest generators") {
   const PlanarDomain domain = lake();
-  const Outline outline(domain);
+  const Outline outline(domain.rings);
   const Points2 points = random_start(domain, 40, 3);
   const AllMoments moments = moments_of(points, domain, {});
   const int side = 1200;
@@ -263,7 +261,7 @@ TEST_CASE("the quadrature is exact for polynomials of its degree") {
 TEST_CASE("moments have the same bits for any partition") {
   Density bump = tanh_bump({0.3, 0.4, 0}, 0.2, 0.1, 0.01);
   for (const PlanarDomain& domain : {lake(), periodic_box({2, 1.5})})
-    for (const Density& density : {Density{}, planar_density(bump, domain)}) {
+    for (const Density& density : {Density{}, surface_density(bump, domain)}) {
       const Points2 points = random_start(domain, 2000, 9);
       const AllMoments one = moments_of(points, domain, density),
                        many = moments_of(points, domain, density, 17);
@@ -359,16 +357,20 @@ TEST_CASE("a generator of a piece around a corner stays inside, and the run conv
 }
 
 TEST_CASE("in a box a triangle whose nearest copies do not close is invalid") {
-  Array<Vec3> places(3);
-  const PlaneSigns signs(places, {1, 1});
-  places[0] = {0.5, 0.5, 0};
-  places[1] = {0.9, 0.4, 0};
-  places[2] = {0.6, 0.8, 0};
-  CHECK(signs.is_counter_clockwise({0, 1, 2}));
-  CHECK_FALSE(signs.is_counter_clockwise({0, 2, 1}));
-  places[2] = {0.1, 0.7, 0}; // nearer to the second's copy to its right
-  CHECK_FALSE(signs.is_counter_clockwise({0, 1, 2}));
-  CHECK_FALSE(signs.is_counter_clockwise({0, 2, 1}));
+  const Plane box(Vec2{1, 1});
+  std::array<Vec3, 3> points{Vec3{0.5, 0.5, 0}, Vec3{0.9, 0.4, 0}, Vec3{0.6, 0.8, 0}};
+  const auto is_valid = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    Connectivity mesh{Triangles(3, 1), Triangles::Constant(3, 1, -1)};
+    mesh.triangles << a, b, c;
+    Faults faults;
+    add_faults(mesh, PlacedSites<Plane>{box, points}, 0, faults);
+    return faults.overturned.empty();
+  };
+  CHECK(is_valid(0, 1, 2));
+  CHECK_FALSE(is_valid(0, 2, 1));
+  points[2] = {0.1, 0.7, 0}; // nearer to the second's copy to its right
+  CHECK_FALSE(is_valid(0, 1, 2));
+  CHECK_FALSE(is_valid(0, 2, 1));
 }
 
 TEST_CASE("bisection: periodic boxes have four times the cells, other domains the edges inside") {
@@ -394,12 +396,15 @@ TEST_CASE(
     const PlanarDomain box = periodic_box(lattice.period);
     test::Random random(5);
     Points2 start = lattice.points;
-    for (Eigen::Index i = 0; i < start.cols(); ++i)
+    const Plane plane(box.period);
+    for (Eigen::Index i = 0; i < start.cols(); ++i) {
+      Eigen::Vector2d at = start.col(i);
       for (int k = 0; k < 2; ++k) // smooth, and rough
-        start(k, i) =
-            wrapped(start(k, i) + 0.02 * std::sin(2 * pi * start(1 - k, i) / box.period[1 - k]) +
-                        0.1 / columns * random.real(-1, 1),
-                    box.period[k]);
+        at[k] = start(k, i) + 0.02 * std::sin(2 * pi * at[1 - k] / box.period[1 - k]) +
+                0.1 / columns * random.real(-1, 1);
+      const Vec3 inside = plane.wrapped({at.x(), at.y(), 0});
+      start.col(i) << inside.x, inside.y;
+    }
     CvtOptions options = with_method(Method::lbfgs_laplacian);
     options.tolerance = 1e-7;
     const PlanarCvt grid = planar_cvt(start, box, options);

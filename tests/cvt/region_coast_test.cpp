@@ -5,7 +5,6 @@
 #include <calotte/ocean.h>
 
 #include "cvt/cvt.h"
-#include "domain/region.h"
 #include "support/files.h"
 #include "support/gshhg.h"
 #include "support/planes.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "cvt/stages.h"
-#include "domain/planar_domain.h"
 #include "support/planes.h"
 
 #include "support/densities.h"

@@ -3,6 +3,7 @@
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"
 #include "support/laws.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "delaunay/plane.h"
-#include "mesh/planar_mesh.h"
+#include "delaunay/plane_chart.h"
 #include "support/plane_laws.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>
@@ -211,7 +211,7 @@ TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
   for (const Points2& points : {sizes, random_box(400, 1, 1e-6, 20), Points2(1e-150 * sizes)}) {
     const delaunay_detail::Sites sites =
         delaunay_detail::make_planar_sites(points, Duplicates::merge, 0);
-    delaunay_detail::Plane plane(sites);
+    delaunay_detail::PlaneChart plane(sites);
     std::mt19937_64 engine(21);
     std::uniform_int_distribution<std::int64_t> any(0, sites.size() - 1), near(0, 40);
     std::int64_t wrong = 0, decided = 0;
@@ -220,7 +220,7 @@ TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
       std::array<std::int64_t, 4> rank{r, 0, 0, 0};
       for (std::size_t i = 1; i < 4; ++i)
         rank[i] = engine() % 4 == 0 ? any(engine) : std::min(r + near(engine), sites.size() - 1);
-      std::array<delaunay_detail::Plane::Place, 4> p;
+      std::array<delaunay_detail::PlaneChart::Place, 4> p;
       std::array<exact_detail::Vec2, 4> x;
       for (std::size_t i = 0; i < 4; ++i) {
         p[i] = plane.place(rank[i]);
@@ -233,8 +233,8 @@ TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
       if (exact == 0) // a tie, or a corner
         continue;
       ++decided;
-      wrong += plane.in_circle(delaunay_detail::Plane::circle(p[0], p[1], p[2]), p[0], p[1], p[2],
-                               p[3]) != exact;
+      wrong += plane.in_circle(delaunay_detail::PlaneChart::circle(p[0], p[1], p[2]), p[0], p[1],
+                               p[2], p[3]) != exact;
     }
     CHECK(wrong == 0);
     CHECK(decided > 50000);

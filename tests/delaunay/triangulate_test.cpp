@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/triangulate.h"
 
-#include "delaunay/sphere.h"
+#include "delaunay/sphere_chart.h"
 
 #include <calotte/generators.h>
 
@@ -17,7 +17,7 @@ using namespace calotte::delaunay_detail;
 
 namespace {
 
-using Cap = delaunay_detail::Triangulation<Sphere>;
+using Cap = delaunay_detail::Triangulation<SphereChart>;
 using Triple = std::array<std::int32_t, 3>;
 
 std::vector<Member> all_members(const Sites& sites) {
@@ -46,7 +46,7 @@ std::set<Triple> faces_of(Cap& cap) {
   return faces;
 }
 
-std::set<Triple> faces_in_order(const Sphere& view, const std::vector<Member>& members) {
+std::set<Triple> faces_in_order(const SphereChart& view, const std::vector<Member>& members) {
   Cap cap{view};
   REQUIRE(cap.build(members));
   CHECK(cap.members().size() == members.size());
@@ -62,7 +62,7 @@ TEST_CASE("any order of insertion gives the same faces, from the centre and from
   for (const Points3& points : sets) {
     const Sites sites = make_sites(points, Duplicates::merge, 0);
     const Vec3 centre = normalised({0.3, -0.2, 0.9});
-    for (const Sphere& view : {Sphere(sites), Sphere(sites, centre, 2)}) {
+    for (const SphereChart& view : {SphereChart(sites), SphereChart(sites, centre, 2)}) {
       std::vector<Member> members = all_members(sites);
       const std::set<Triple> expected = faces_in_order(view, members);
       if (view.view().from_centre)
@@ -80,7 +80,7 @@ TEST_CASE("any order of insertion gives the same faces, from the centre and from
 TEST_CASE("a site inserted later is in the triangulation as if it had been there from the start") {
   const Sites sites = make_sites(cubed_sphere(6), Duplicates::merge, 0);
   const std::vector<Member> members = all_members(sites);
-  const Sphere view(sites);
+  const SphereChart view(sites);
   Cap cap{view};
   REQUIRE(cap.build(std::span(members).first(members.size() / 2)));
   for (std::size_t m = members.size() / 2; m < members.size(); ++m)
@@ -96,10 +96,10 @@ TEST_CASE("sites on one line of the view cannot be triangulated") {
     circle.col(2 * i + 1) = -circle.col(2 * i);
   }
   const Sites sites = make_sites(circle, Duplicates::merge, 0);
-  Cap cap{Sphere(sites)};
+  Cap cap{SphereChart(sites)};
   CHECK(!cap.build(all_members(sites)));
-  Cap from_focus{Sphere(sites, {1, 0, 0}, 2)}; // on the equator: a line of that view too
+  Cap from_focus{SphereChart(sites, {1, 0, 0}, 2)}; // on the equator: a line of that view too
   std::vector<Member> members = all_members(sites);
-  std::erase_if(members, [&](const Member& m) { return !from_focus.space().has_place(m.rank); });
+  std::erase_if(members, [&](const Member& m) { return !from_focus.chart().has_place(m.rank); });
   CHECK(!from_focus.build(members));
 }

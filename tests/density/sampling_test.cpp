@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "domain/planar_domain.h"
 #include "support/planes.h"
 
 #include <calotte/density.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/outline.h"
-#include "domain/planar_domain.h"
 #include "support/planes.h"
 
 #include "support/random.h"
@@ -61,7 +60,7 @@ TEST_CASE("inside, outside and on the boundary, with a hole and an island, in an
     const auto sense = [&](const Points2& ring) { return turn ? reversed(ring) : ring; };
     const PlanarDomain domain{{sense(square(0, 0, 10)), square(2, 2, 6), sense(square(4, 4, 2))},
                               {0, 0}};
-    const Outline outline(domain);
+    const Outline outline(domain.rings);
     CHECK(outline.area() == doctest::Approx(100 - 36 + 4).epsilon(1e-15));
     CHECK(outline.side({1, 5}) == Side::inside);
     CHECK(outline.side({3, 5}) == Side::outside);
@@ -85,7 +84,7 @@ TEST_CASE("inside, outside and on the boundary, with a hole and an island, in an
 
 TEST_CASE("a coastline of some thousand edges: sides and area as without strips") {
   const PlanarDomain domain{{wavy(5000)}, {0, 0}};
-  const Outline outline(domain);
+  const Outline outline(domain.rings);
   double twice_area = 0;
   for (int i = 0; i < 5000; ++i) {
     const auto a = domain.rings[0].col(i), b = domain.rings[0].col((i + 1) % 5000);
@@ -103,7 +102,7 @@ TEST_CASE("a coastline of some thousand edges: sides and area as without strips"
 }
 
 TEST_CASE("each edge near a box is reported exactly once") {
-  const Outline outline(PlanarDomain{{wavy(2000), reversed(square(-0.1, -0.2, 0.3))}, {0, 0}});
+  const Outline outline({wavy(2000), reversed(square(-0.1, -0.2, 0.3))});
   test::Random random(8);
   for (int k = 0; k < 300; ++k) {
     const double x = random.real(-1.5, 1.5), y = random.real(-1.5, 1.5),
@@ -122,7 +121,7 @@ TEST_CASE("each edge near a box is reported exactly once") {
 
 TEST_CASE("domains at the ends of the range") {
   for (const double unit : {1e-29, 1e29}) {
-    const Outline outline(PlanarDomain{{Points2(unit * square(0, 0, 1))}, {0, 0}});
+    const Outline outline({Points2(unit * square(0, 0, 1))});
     CHECK(outline.side({unit / 2, unit / 3}) == Side::inside);
     CHECK(outline.area() == doctest::Approx(unit * unit));
   }

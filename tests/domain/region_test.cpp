@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "base/points.h"
-#include "domain/region.h"
 #include "domain/spherical_outline.h"
 #include "support/planes.h"
 
@@ -160,7 +159,8 @@ TEST_CASE("the side of a place is that of a search over all edges in exact arith
     CAPTURE(shape.name);
     if (shape.name == "archipelago")
       shape.known = base_detail::column(fibonacci_sphere(200), 3);
-    const SphericalOutline outline(shape.region), other(complement(shape.region));
+    const SphericalOutline outline(shape.region.surface_rings()),
+        other(complement(shape.region).surface_rings());
     int boundary = 0;
     for (const Vec3& place : places_for(outline, random)) {
       CAPTURE(place.x);
@@ -179,7 +179,7 @@ TEST_CASE("the side of a place is that of a search over all edges in exact arith
 }
 
 TEST_CASE("places exactly on meridians, on the equator and on diagonals are on the boundary") {
-  const SphericalOutline octant({{ring_of({{0, 0}, {90, 0}, {0, 90}})}});
+  const SphericalOutline octant({ring_of({{0, 0}, {90, 0}, {0, 90}})});
   CHECK(octant.area() == doctest::Approx(pi / 2).epsilon(1e-15));
   test::Random random(2);
   for (int i = 0; i < 1000; ++i) {
@@ -273,7 +273,7 @@ TEST_CASE("a rotation of the axes changes neither sides nor areas") {
     ring.row(1) = old.row(2);
     ring.row(2) = old.row(0);
   }
-  const SphericalOutline a(region), b(rotated);
+  const SphericalOutline a(region.surface_rings()), b(rotated.surface_rings());
   CHECK(a.area() == doctest::Approx(b.area()).epsilon(1e-14));
   test::Random random(4);
   for (int i = 0; i < 20'000; ++i) {
@@ -285,7 +285,7 @@ TEST_CASE("a rotation of the axes changes neither sides nor areas") {
 TEST_CASE("all edges within a distance are reported once, and few others") {
   const Region region{
       {circle({1, 2, 3}, 0.6, 5000).rings()[0], reversed(ring_of({{60, 50}, {70, 50}, {65, 60}}))}};
-  const SphericalOutline outline(region);
+  const SphericalOutline outline(region.surface_rings());
   test::Random random(5);
   for (int i = 0; i < 200; ++i) {
     const Vec3 place =

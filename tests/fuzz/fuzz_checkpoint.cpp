@@ -3,6 +3,7 @@
 #include "cvt/cvt.h"
 #include "io/command.h"
 #include "scratch_file.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/error.h>

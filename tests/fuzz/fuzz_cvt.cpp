@@ -2,6 +2,7 @@
 #include "bytes.h"
 #include "cvt/cvt.h"
 #include "mutation.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>

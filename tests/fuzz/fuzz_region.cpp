@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
-#include "domain/region.h"
 #include "support/planes.h"
 
 #include <calotte/delaunay.h>

@@ -2,6 +2,7 @@
 #include "bytes.h"
 #include "delaunay/delaunay.h"
 #include "mutation.h"
+#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>

@@ -8,6 +8,7 @@
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
 #include "support/gshhg.h"
+#include "support/planes.h"
 
 #include <doctest/doctest.h>
 

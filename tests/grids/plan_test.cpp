@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "support/densities.h"
 #include "support/files.h"
 #include "support/planes.h"

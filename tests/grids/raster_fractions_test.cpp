@@ -6,7 +6,6 @@
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
-#include "domain/region.h"
 #include "support/files.h"
 #include "support/planes.h"
 

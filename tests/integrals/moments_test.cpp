@@ -3,6 +3,7 @@
 #include "integrals/moments.h"
 
 #include "base/points.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

@@ -3,6 +3,7 @@
 #include "delaunay/delaunay.h"
 #include "io/cell_outline.h"
 #include "io/polygons.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>

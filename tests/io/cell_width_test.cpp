@@ -4,8 +4,6 @@
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
 #include "cvt/cvt.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "exact/predicates.h"
 #include "io/netcdf_writer.h"
 #include "support/files.h"

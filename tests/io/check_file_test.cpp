@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/check_file.h>

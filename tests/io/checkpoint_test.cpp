@@ -2,6 +2,7 @@
 #include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "support/files.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/error.h>

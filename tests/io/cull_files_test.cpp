@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
-#include "domain/region.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "support/cut_laws.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "domain/region.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"

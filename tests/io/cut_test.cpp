@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"

@@ -2,6 +2,7 @@
 #include "delaunay/delaunay.h"
 #include "mesh/adjacency.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>

@@ -3,6 +3,7 @@
 #include "io/command.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>

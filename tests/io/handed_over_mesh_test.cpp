@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
 #include "io/formats.h"
 #include "io/model_grid.h"
-#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"

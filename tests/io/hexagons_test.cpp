@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/planes.h"
 
@@ -70,7 +68,7 @@ TEST_CASE("hexagons of a box lie where planar_hex puts them, moved into the peri
   const double d = 1234.5;
   const MeshFile file = planar_hexagons(6, 8, d);
   REQUIRE(file.plane());
-  const PlanarMesh mesh = mesh_detail::planar(*file.plane());
+  const PlanarMesh mesh = PlanarMesh(*file.plane());
   CHECK(mesh.period.x() == 6 * d);
   CHECK(mesh.period.y() == doctest::Approx(8 * d * root3 / 2).epsilon(1e-15));
   CHECK(check(mesh).failure == "");
@@ -163,7 +161,7 @@ TEST_CASE("hexagons out of range are refused") {
 TEST_CASE("between walls stay the cells whose sites are there, with corners beside them") {
   const PlanarDomain box = periodic_box({10, 8});
   const PlanarMesh mesh = periodic_delaunay(random_places(400, box, 3), box.period);
-  const Mesh spatial = mesh_detail::spatial(PlanarMesh(mesh), box);
+  const Mesh spatial = mesh.in(box);
   const Voronoi cells = voronoi(mesh);
   const MeshFile file = walled(spatial, {10, 6}, {.y = true});
   REQUIRE(file.polygons);

@@ -13,6 +13,7 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "io/polygons.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "domain/region.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/cull.h>

@@ -6,7 +6,6 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "mesh/adjacency.h"
-#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/planes.h"
 
@@ -718,7 +717,7 @@ TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file
     };
     write("a.nc", mesh);
     const PlanarMesh back =
-        mesh_detail::planar(*io_detail::read_planar_mpas(NetcdfReader(scratch / "a.nc")).plane());
+        PlanarMesh(*io_detail::read_planar_mpas(NetcdfReader(scratch / "a.nc")).plane());
     CHECK(back.points == mesh.points);
     CHECK(back.triangles == mesh.triangles);
     CHECK(back.neighbours == mesh.neighbours);

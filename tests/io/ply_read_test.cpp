@@ -2,6 +2,7 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/planes.h"
 #include "support/polyhedra.h"
 
 #include <calotte/mesh_file.h>

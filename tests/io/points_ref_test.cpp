@@ -2,8 +2,6 @@
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/planes.h"
 
@@ -138,9 +136,17 @@ TEST_CASE("points of another number of rows are refused, not read past their end
       for (const Call& call : calls_on_sphere())
         check_refused(call, rows, columns);
   for (const Eigen::Index columns : {1, 50})
-    for (const Eigen::Index rows : {1, 3, 4})
+    for (const Eigen::Index rows : {1, 4})
       for (const Call& call : calls_in_plane())
         check_refused(call, rows, columns);
+}
+
+TEST_CASE("in the plane a third row that is not 0 is refused") {
+  const Eigen::MatrixXd above = Eigen::MatrixXd::Constant(3, 9, 0.5);
+  for (const Call& call : calls_in_plane()) {
+    CAPTURE(call.name);
+    CHECK(error_of([&] { call.call(above); }).code() == ErrorCode::invalid_argument);
+  }
 }
 
 TEST_CASE("a matrix of another number of rows that is handed over is refused, too") {
@@ -148,23 +154,26 @@ TEST_CASE("a matrix of another number of rows that is handed over is refused, to
   CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { spherical_delaunay(Points2(2, 1000)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { spherical_cvt(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { planar_delaunay(Eigen::MatrixXd(3, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { planar_delaunay(Points3(3, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { planar_cvt(Points3(3, 1000), unit_square()); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { planar_delaunay(Eigen::MatrixXd::Ones(3, 1000)); }) ==
+        ErrorCode::invalid_argument);
+  CHECK(code([] { planar_delaunay(Points3::Ones(3, 1000)); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { planar_cvt(Points3::Ones(3, 1000), unit_square()); }) ==
+        ErrorCode::invalid_argument);
 }
 
 TEST_CASE("the message names the rows and the remedy") {
-  const Eigen::MatrixXd two(2, 9), three(3, 9), none;
+  const Eigen::MatrixXd two(2, 9), three = Eigen::MatrixXd::Constant(3, 9, 0.5), none;
   CHECK(message_of([&] { spherical_delaunay(two); }) ==
-        "the points have 2 rows; give 3 x n columns x y z, or call planar_delaunay()");
+        "the points have 2 rows; give 3 x n columns x y z, or call triangulate() with a surface of "
+        "the plane");
   CHECK(message_of([&] { spherical_delaunay(none); }) ==
         "the points have 0 rows; give 3 x n columns x y z");
   CHECK(message_of([&] { spherical_cvt(two); }) ==
-        "the points have 2 rows; give 3 x n columns x y z, or call planar_cvt()");
+        "the points have 2 rows; give 3 x n columns x y z, or a surface of the plane");
   CHECK(message_of([&] { planar_delaunay(three); }) ==
-        "the points have 3 rows; give 2 x n columns x y, or call spherical_delaunay()");
+        "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
   CHECK(message_of([&] { planar_cvt(three, unit_square()); }) ==
-        "the points have 3 rows; give 2 x n columns x y, or call spherical_cvt()");
+        "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
 }
 
 TEST_CASE("empty matrices are refused, or give nothing") {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Progress and cancellation of triangulation, check and write.
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
 #include "support/files.h"
 #include "support/planes.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
-#include "domain/region.h"
 #include "support/planes.h"
 
 #include "support/files.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One header brings all of the library.
 #include "delaunay/delaunay.h"
+#include "support/planes.h"
 
 #include <calotte/calotte.h>
 

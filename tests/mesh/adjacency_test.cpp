@@ -5,6 +5,7 @@
 #include "mesh/vertex_rings.h"
 #include "support/clouds.h"
 #include "support/laws.h"
+#include "support/planes.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 

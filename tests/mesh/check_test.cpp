@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/traversal.h"
 #include "delaunay/delaunay.h"
-#include "mesh/planar_mesh.h"
 #include "mesh/renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"

@@ -5,11 +5,9 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
 #include "mesh/convex_boundary.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/planes.h"
 

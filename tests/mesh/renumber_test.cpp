@@ -3,6 +3,7 @@
 #include "mesh/renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"
+#include "support/planes.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 

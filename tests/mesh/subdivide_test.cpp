@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "mesh/adjacency.h"
-#include "mesh/planar_mesh.h"
 #include "mesh/subdivide.h"
 #include "support/planes.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Functions take all surfaces, and their errors say what to do.
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "domain/region.h"
-#include "mesh/planar_mesh.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -18,7 +15,6 @@
 #include <vector>
 
 using namespace calotte;
-using calotte::mesh_detail::planar;
 using calotte::test::equal_bits;
 using calotte::test::error_of;
 
@@ -97,7 +93,7 @@ TEST_CASE("points of a sphere are read in place, evaluated or taken over") {
 TEST_CASE("meshes of the plane have the triangles of the plane's own functions, and z = 0") {
   for (const Case& plane : planes()) {
     const Mesh mesh = plane.mesh();
-    check_same(planar(mesh), plane.old);
+    check_same(PlanarMesh(mesh), plane.old);
     CHECK(mesh.surface == Surface(plane.domain));
     CHECK(mesh.closed() == plane.domain.periodic());
     check_same(delaunay(mesh.points, plane.domain), mesh); // 3 rows

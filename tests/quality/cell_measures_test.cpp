@@ -2,10 +2,9 @@
 #include <calotte/quality.h>
 
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/densities.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>

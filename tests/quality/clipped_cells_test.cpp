@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/planes.h"
 

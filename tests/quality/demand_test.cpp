@@ -2,8 +2,6 @@
 #include <calotte/quality.h>
 
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/densities.h"
 #include "support/laws.h"
 #include "support/planes.h"

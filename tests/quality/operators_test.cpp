@@ -3,8 +3,6 @@
 
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/densities.h"
 #include "support/meshes.h"

@@ -5,6 +5,7 @@
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/laws.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>

@@ -3,6 +3,7 @@
 
 #include "delaunay/delaunay.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>

@@ -4,6 +4,7 @@
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/oracle.h"
+#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>

@@ -4,6 +4,7 @@
 #include "base/points.h"
 #include "delaunay/delaunay.h"
 #include "support/files.h"
+#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "mesh/planar_mesh.h"
+#include "support/planes.h"
 
 #include <calotte/types.h>
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "base/points.h"
-#include "cvt/region_cells.h"
-#include "domain/region.h"
+#include "cvt/cells.h"
 #include "domain/spherical_outline.h"
 #include "integrals/region_moments.h"
+#include "support/planes.h"
 
 #include <calotte/cvt.h>
 
@@ -27,11 +27,11 @@ inline Eigen::Vector3d at(double lon, double lat) {
 /// The sum of the areas of the cells, as a run has them, clipped by the region.
 inline double sum_of_cells(const Region& region, const Points3& points,
                            const Density& density = {}) {
-  const auto shared = std::make_shared<const domain_detail::SphericalOutline>(region);
-  const domain_detail::SphericalOutline& outline = *shared;
-  cvt_detail::RegionCells cells(shared, Boundary::clip, density, points);
+  const Surface surface = region;
+  const auto& outline = *domain_detail::outline_of<exact_detail::Sphere>(surface);
+  cvt_detail::Cells<exact_detail::Sphere> cells(surface, Boundary::clip, density, points);
   cells.move(points);
-  const mesh_detail::Connectivity mesh = cells.signs().triangulate();
+  const mesh_detail::Connectivity mesh = cells.triangulate();
   std::vector<std::vector<base_detail::Vec3>> around(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)

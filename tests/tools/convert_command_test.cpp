@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/planar_mesh.h"
 #include "support/command.h"
 #include "support/files.h"
 #include "support/planes.h"

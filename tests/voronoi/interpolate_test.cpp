@@ -5,8 +5,6 @@
 #include <calotte/voronoi.h>
 
 #include "delaunay/delaunay.h"
-#include "domain/planar_domain.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/planes.h"
 

@@ -4,7 +4,6 @@
 #include "delaunay/delaunay.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
-#include "mesh/planar_mesh.h"
 #include "support/clouds.h"
 #include "support/planes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "delaunay/plane.h"
+#include "delaunay/plane_chart.h"
 
 #include <algorithm>
 
@@ -27,7 +27,7 @@ double largest(const Frame& frame) {
 /// An image's coordinate errs by e = u times the largest, a difference by 2e: the orientation by
 /// another 8e D, the in-circle determinant, whose derivative with respect to a coordinate of one of
 /// the four places is below 6 D^3, by 48e D^3.
-void Plane::widen(double reach) {
+void PlaneChart::widen(double reach) {
   reach_ = reach;
   // Frame coordinates err by 3 roundoffs: places may be that much further apart than they say.
   const double d = 2.01 * (reach + 64 * roundoff) * sites_->frame->half;
@@ -36,7 +36,7 @@ void Plane::widen(double reach) {
   in_circle_error_ = (80 * roundoff * d + 50 * image_error_) * d * d * d + least_error;
 }
 
-Plane::Place Plane::place(std::int64_t rank) {
+PlaneChart::Place PlaneChart::place(std::int64_t rank) {
   const Vec3& unit = sites_->unit[rank];
   const std::int32_t site = sites_->id[rank];
   const Vec3& given = sites_->given(site);
@@ -46,7 +46,7 @@ Plane::Place Plane::place(std::int64_t rank) {
   return {unit, scale * given.x, scale * given.y, site};
 }
 
-int Plane::orientation_beyond_static(const Place& a, const Place& b, const Place& c) {
+int PlaneChart::orientation_beyond_static(const Place& a, const Place& b, const Place& c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
   const double extent =
       std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(c.x - a.x) + std::abs(c.y - a.y);
@@ -59,7 +59,8 @@ int Plane::orientation_beyond_static(const Place& a, const Place& b, const Place
   return exact_detail::orientation(sites_->frame->period, image(a), image(b), image(c));
 }
 
-int Plane::in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d) {
+int PlaneChart::in_circle_beyond_local(const Place& a, const Place& b, const Place& c,
+                                       const Place& d) {
   ++counts_.filtered;
   const Vec2& period = sites_->frame->period;
   const Image p = image(a), q = image(b), r = image(c), s = image(d);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "delaunay/sphere.h"
+#include "delaunay/sphere_chart.h"
 
 namespace calotte::delaunay_detail {
 namespace {
@@ -10,7 +10,7 @@ constexpr double farthest_projected = 1.7320508;
 
 } // namespace
 
-Sphere::Sphere(const Sites& sites, const Vec3& centre, double reach)
+SphereChart::SphereChart(const Sites& sites, const Vec3& centre, double reach)
     : sites_(&sites), view_{false, -centre}, centre_(centre), projected_(true) {
   const Vec3 axis = std::abs(centre.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   east_ = normalised(cross(axis, centre));
@@ -31,7 +31,7 @@ Sphere::Sphere(const Sites& sites, const Vec3& centre, double reach)
 /// most D = 2 P long, P the largest projected norm, then errs by f = 2e + uD in each coordinate,
 /// and the determinant by 2 sqrt(2) D f + 2 f^2 + 3u D^2 for its evaluation. Nothing is decided
 /// unless D > 1000u, where that is below 800 u D.
-void Sphere::widen(double reach) {
+void SphereChart::widen(double reach) {
   reach_ = reach;
   const double apart = std::min(2 * reach, 2.0);
   in_circle_error_ = in_circle_error(apart) + 8 * roundoff * apart * apart;
@@ -44,13 +44,13 @@ void Sphere::widen(double reach) {
   orientation_error_ = 1000 * roundoff * span;
 }
 
-bool Sphere::has_place(std::int64_t rank) const {
+bool SphereChart::has_place(std::int64_t rank) const {
   if (view_.from_centre || dot(sites_->unit[rank], view_.focus) < 0.5)
     return true;
   return !same_direction(sites_->given(sites_->id[rank]), view_.focus);
 }
 
-Sphere::Place Sphere::place(std::int64_t rank) {
+SphereChart::Place SphereChart::place(std::int64_t rank) {
   const Vec3& unit = sites_->unit[rank];
   Place p{unit, 0, 0, sites_->id[rank]};
   if (view_.from_centre)
@@ -66,7 +66,7 @@ Sphere::Place Sphere::place(std::int64_t rank) {
   return p;
 }
 
-int Sphere::orientation_beyond_filter(const Place& a, const Place& b, const Place& c) {
+int SphereChart::orientation_beyond_filter(const Place& a, const Place& b, const Place& c) {
   const int sign = view_.from_centre ? orientation_filter(a.unit, b.unit, c.unit)
                                      : -in_circle_filter(a.unit, b.unit, c.unit, view_.focus);
   if (sign != 0)
@@ -74,8 +74,8 @@ int Sphere::orientation_beyond_filter(const Place& a, const Place& b, const Plac
   return exact_detail::orientation(view_, given(a), given(b), given(c));
 }
 
-int Sphere::in_circle_beyond_static(const Place& a, const Place& b, const Place& c,
-                                    const Place& d) {
+int SphereChart::in_circle_beyond_static(const Place& a, const Place& b, const Place& c,
+                                         const Place& d) {
   if (const int sign = in_circle_filter(a.unit, b.unit, c.unit, d.unit))
     return sign;
   const int sign = in_circle_beyond_filter(given(a), given(b), given(c), given(d), counts_);

@@ -11,10 +11,10 @@
 
 namespace calotte::delaunay_detail {
 
-/// The plane, the second model of a Space (see sphere.h). The projection is the identity. The
-/// doubles of a place filter both signs; the exact predicates on the given coordinates decide the
-/// rest.
-class Plane {
+/// The plane as a region sees it, the second model of a Chart (see sphere_chart.h). The projection
+/// is the identity. The doubles of a place filter both signs; the exact predicates on the given
+/// coordinates decide the rest.
+class PlaneChart {
 public:
   struct Place {
     Vec3 unit;   ///< in the sites' frame, z = 0; rounded
@@ -33,10 +33,11 @@ public:
   static constexpr double diameter = 2.83;
 
   /// Views all sites.
-  explicit Plane(const Sites& sites) : Plane(sites, {0, 0, 0}, diameter) {}
+  explicit PlaneChart(const Sites& sites) : PlaneChart(sites, {0, 0, 0}, diameter) {}
 
   /// `reach` bounds the distance from the centre to the sites of a region, in the sites' frame.
-  Plane(const Sites& sites, const Vec3& centre, double reach) : sites_(&sites), centre_(centre) {
+  PlaneChart(const Sites& sites, const Vec3& centre, double reach)
+      : sites_(&sites), centre_(centre) {
     widen(reach);
   }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "density/planar_density.h"
+#include "density/surface_density.h"
 
 #include "base/points.h"
 #include "base/require.h"
 #include "density/density_evaluator.h"
-#include "domain/periodic_box.h"
-#include "domain/planar_domain.h"
+#include "exact/space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,21 +34,21 @@ std::vector<Profile> profiles_of(const Density& density) {
   return profiles;
 }
 
-double distance_from(const Profile& bump, const Vec3& x, const Vec2& period) {
-  const Vec2 apart = nearest_offset(bump.centre, x, period);
+double distance_from(const Profile& bump, const Vec3& x, const Plane& plane) {
+  const Vec3 apart = plane.offset(bump.centre, x);
   const double squeeze = bump.shrink * (apart.x * bump.major.x + apart.y * bump.major.y);
   const Vec2 reduced{apart.x - squeeze * bump.major.x, apart.y - squeeze * bump.major.y};
   return std::sqrt(reduced.x * reduced.x + reduced.y * reduced.y);
 }
 
-Density::Callable bump_values(const Density& density, const Vec2& period) {
-  return [profiles = profiles_of(density), period, sum = density.kind == Density::Kind::sum](
+Density::Callable bump_values(const Density& density, const Plane& plane) {
+  return [profiles = profiles_of(density), plane, sum = density.kind == Density::Kind::sum](
              const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       const Vec3 place{x(0, i), x(1, i), 0};
       double value = 0;
       for (const Profile& bump : profiles) {
-        const double here = value_at(bump, distance_from(bump, place, period));
+        const double here = value_at(bump, distance_from(bump, place, plane));
         value = sum ? value + here : std::max(value, here);
       }
       rho[i] = value;
@@ -58,32 +57,31 @@ Density::Callable bump_values(const Density& density, const Vec2& period) {
 }
 
 /// Evaluates a callable at copies of places inside the box.
-Density::Callable in_box(Density::Callable callable, const Eigen::Vector2d& period) {
-  return [callable = std::move(callable), period](const Eigen::Ref<const Points3>& x,
-                                                  Eigen::Ref<Eigen::VectorXd> rho) {
+Density::Callable in_box(Density::Callable callable, const Plane& plane) {
+  return [callable = std::move(callable), plane](const Eigen::Ref<const Points3>& x,
+                                                 Eigen::Ref<Eigen::VectorXd> rho) {
     Points3 inside = x;
     for (Eigen::Index i = 0; i < inside.cols(); ++i)
-      for (int k = 0; k < 2; ++k)
-        inside(k, i) = wrapped(inside(k, i), period[k]);
+      set_column(inside, i, plane.wrapped(column(inside, i)));
     callable(inside, rho);
   };
 }
 
 } // namespace
 
-Density planar_density(const Density& density, const PlanarDomain& domain) {
-  const Vec2 period = domain.periodic() ? Vec2{domain.period.x(), domain.period.y()} : Vec2{0, 0};
+Density surface_density(const Density& density, const Surface& surface) {
+  if (surface.is_sphere() || density.uniform())
+    return density;
   Density planar;
-  if (density.uniform())
-    return planar;
   planar.kind = Density::Kind::callable;
   if (density.kind != Density::Kind::callable)
-    planar.callable = bump_values(density, period);
+    planar.callable = bump_values(density, Plane(surface.period()));
   else if (!density.callable) // rejected at its use
     return density;
   else
-    planar.callable =
-        domain.periodic() ? in_box(density.callable, domain.period) : density.callable;
+    planar.callable = surface.period().isZero(0)
+                          ? density.callable
+                          : in_box(density.callable, Plane(surface.period()));
   return planar;
 }
 

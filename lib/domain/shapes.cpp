@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "domain/region.h"
-
 #include "base/circle.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/spherical_outline.h"
+#include "domain/surface.h"
 #include "domain/written_rings.h"
 
 #include <algorithm>
@@ -84,15 +83,26 @@ Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
 
 } // namespace
 
+Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
+  base_detail::require(
+      (lower.array() < upper.array()).all(),
+      "the rectangle's lower corner is not below and left of the upper one; give the "
+      "lesser coordinates first");
+  Points2 ring(2, 4);
+  ring << lower.x(), upper.x(), upper.x(), lower.x(), lower.y(), lower.y(), upper.y(), upper.y();
+  return Surface::plane().within({ring});
+}
+
 Surface circle(const Eigen::Vector3d& centre, double radius, int corners) {
   const auto [up, east, north] = compass_at(centre, "circle");
   require(radius >= least_angle && radius <= half_turn - least_angle,
           "the circle's radius is " + in_words(radius) + "; give 1e-6 to pi - 1e-6 radians");
   require_corners(corners);
   const CosSin away = cos_sin(radius);
-  return Region({ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
-    return away.cos * up + away.sin * (turn.cos * north - turn.sin * east);
-  })});
+  return UncheckedSurface::of_sphere(
+      {ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
+        return away.cos * up + away.sin * (turn.cos * north - turn.sin * east);
+      })});
 }
 
 // A plane that touches the sphere at the centre shows the ellipse as an ellipse of the semi-axes
@@ -112,7 +122,7 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
   const CosSin a = cos_sin(semi_major), b = cos_sin(semi_minor);
   const Vec3 major = (a.sin / a.cos) * (along.cos * north + along.sin * east),
              minor = (b.sin / b.cos) * (along.sin * north - along.cos * east);
-  return Region({ring_of(corners, [&, up = up](const CosSin& turn) {
+  return UncheckedSurface::of_sphere({ring_of(corners, [&, up = up](const CosSin& turn) {
     return up + turn.cos * major + turn.sin * minor;
   })});
 }
@@ -130,12 +140,12 @@ Surface channel(double lower, double upper, int corners) {
   require(!is_pole(lower) || !is_pole(upper),
           "the channel from pole to pole is the whole sphere; give no region");
   require_corners(corners);
-  Region region;
+  Surface::Rings rings;
   if (!is_pole(lower))
-    region.rings.push_back(parallel(lower, corners));
+    rings.push_back(parallel(lower, corners));
   if (!is_pole(upper))
-    region.rings.push_back(reversed(parallel(upper, corners)));
-  return region;
+    rings.push_back(reversed(parallel(upper, corners)));
+  return UncheckedSurface::of_sphere(std::move(rings));
 }
 
 Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place) {
@@ -143,12 +153,13 @@ Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& 
   require(place.allFinite() && !place.isZero(0),
           "the place inside the region is no direction; give three finite numbers that are not "
           "all 0");
-  return Region(corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()}))));
+  return UncheckedSurface::of_sphere(
+      corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()}))));
 }
 
 Surface enclosed_region(const std::vector<Points3>& rings) {
   require(!rings.empty(), "the region has no rings; give one at least");
-  return Region(corners_of(enclosed(written(rings))));
+  return UncheckedSurface::of_sphere(corners_of(enclosed(written(rings))));
 }
 
 } // namespace calotte

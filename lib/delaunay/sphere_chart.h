@@ -10,9 +10,9 @@
 
 namespace calotte::delaunay_detail {
 
-/// The sphere, the first model of a Space.
+/// The sphere as a region sees it, the first model of a Chart.
 ///
-/// A Space views its domain from one region. It provides `Place`, the coordinates that the
+/// A Chart views its domain from one region. It provides `Place`, the coordinates that the
 /// triangulation stores in a vertex; `place`, which makes one from a site that `has_place`;
 /// `expect`, which prefetches the data that `place` reads; `circle`, the values that the in-circle
 /// tests of a triangle share; and the signs `orientation`, `between` and `in_circle` of three or
@@ -23,7 +23,7 @@ namespace calotte::delaunay_detail {
 /// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a place filter
 /// orientations only; the unit vector filters in-circle signs. The exact predicates on the given
 /// directions decide the rest.
-class Sphere {
+class SphereChart {
 public:
   struct Place {
     Vec3 unit;
@@ -42,11 +42,11 @@ public:
   static constexpr double diameter = 2;
 
   /// The whole sphere from its centre.
-  explicit Sphere(const Sites& sites) : sites_(&sites) { widen(2); }
+  explicit SphereChart(const Sites& sites) : sites_(&sites) { widen(2); }
 
   /// A cap from the focus -centre; `reach` bounds the chord from the centre (a unit vector) to its
   /// sites.
-  Sphere(const Sites& sites, const Vec3& centre, double reach);
+  SphereChart(const Sites& sites, const Vec3& centre, double reach);
 
   /// True if a site has a place: all sites do except one at the focus itself.
   bool has_place(std::int64_t rank) const;

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/cells.h"
+
+#include "base/points.h"
+#include "base/triangle.h"
+#include "base/vector_field.h"
+#include "cvt/hull.h"
+#include "delaunay/delaunay.h"
+#include "domain/clipped_cell.h"
+#include "domain/tangent_outline.h"
+#include "integrals/planar_moments.h"
+#include "integrals/region_moments.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace calotte::cvt_detail {
+namespace {
+
+/// The surface without its boundary.
+Surface unbounded(const Surface& surface) {
+  if (!surface.is_bounded())
+    return surface;
+  return surface.is_sphere() ? Surface::sphere() : Surface::plane();
+}
+
+/// The connectivity of a mesh of n places.
+template <Space S> Connectivity connectivity_of(Mesh&& mesh, std::int64_t n) {
+  if (mesh.points.cols() != n || (S::on_sphere && !mesh.closed()))
+    throw Error(ErrorCode::too_few_sites,
+                S::on_sphere
+                    ? "the generators lie within a hemisphere, or two of them have met: spread the "
+                      "start over the sphere, or take a smoother density"
+                    : "two generators have met: spread the start over the domain, or take a "
+                      "smoother density");
+  return {std::move(mesh.triangles), std::move(mesh.neighbours)};
+}
+
+Eigen::Map<const Points3> columns(std::span<const Vec3> points) {
+  return {&points.front().x, 3, std::ssize(points)};
+}
+
+} // namespace
+
+template <Space S>
+Cells<S>::Cells(const Surface& surface, Boundary boundary)
+    : surface_(surface), space_(in_space<S>(surface)), outline_(outline_of<S>(surface_)),
+      boundary_(boundary), hull_(3, 0) {
+  if (outline_ != nullptr)
+    hull_ = far_hull(*outline_);
+}
+
+template <Space S>
+Cells<S>::Cells(const Surface& surface, Boundary boundary, const Density& density,
+                const Points3& start)
+    : Cells(surface, boundary) {
+  if constexpr (S::on_sphere) {
+    if (outline_ == nullptr)
+      return;
+    hull_ = hull_of(surface, density, start.cols());
+    do
+      move(start);
+    while (drop_intruders());
+  }
+}
+
+/// Removes the points of rows whose cells meet the region. False if there are none.
+template <Space S> bool Cells<S>::drop_intruders() {
+  if constexpr (S::on_sphere) {
+    const Connectivity mesh = triangulate();
+    std::vector<std::vector<Vec3>> neighbours(static_cast<std::size_t>(hull_.cols()));
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      for (int v = 0; v < 3; ++v)
+        if (const std::int64_t k = mesh.triangles(v, t) - generators_; k >= 0)
+          neighbours[static_cast<std::size_t>(k)].push_back(
+              place(mesh.triangles(next_vertex(v), t)));
+    const std::int64_t directions = far_hull(*outline_).cols();
+    std::vector<std::uint8_t> stays(neighbours.size(), 1);
+    for_each_block(hull_.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = std::max(begin, directions); k < end; ++k)
+        stays[static_cast<std::size_t>(k)] =
+            clipped_area(*outline_, column(hull_, k), neighbours[static_cast<std::size_t>(k)]) == 0;
+    });
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k < hull_.cols(); ++k)
+      if (stays[static_cast<std::size_t>(k)] != 0)
+        kept.push_back(k);
+    if (std::ssize(kept) == hull_.cols())
+      return false;
+    hull_ = Points3(hull_(Eigen::all, kept));
+    return true;
+  }
+  return false;
+}
+
+template <Space S> void Cells<S>::move(const Points3& points) {
+  generators_ = points.cols();
+  if (S::on_sphere && outline_ == nullptr) {
+    sites_ = {&column(points, 0), static_cast<std::size_t>(generators_)};
+    return;
+  }
+  copies_ = Array<Vec3>(generators_ + hull_.cols());
+  for_each_block(generators_, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      copies_[i] = space_.wrapped(column(points, i));
+  });
+  for (Eigen::Index k = 0; k < hull_.cols(); ++k)
+    copies_[generators_ + k] = column(hull_, k);
+  sites_ = {copies_.begin(), static_cast<std::size_t>(copies_.size())};
+}
+
+template <Space S> Sites Cells<S>::sites() const {
+  const auto points = columns(sites_.first(static_cast<std::size_t>(generators_)));
+  if constexpr (S::on_sphere)
+    return make_sites(Points3Ref(points), Duplicates::merge, 0);
+  else
+    return make_planar_sites(points.template topRows<2>(), Duplicates::merge, 0);
+}
+
+template <Space S> Connectivity Cells<S>::triangulate() const {
+  return connectivity_of<S>(delaunay(columns(sites_), unbounded(surface_)), places());
+}
+
+template <Space S> Connectivity Cells<S>::triangulate(Sites&& sites, Regions&& regions) const {
+  if (S::on_sphere && outline_ == nullptr)
+    return connectivity_of<S>(delaunay_detail::spherical_mesh(std::move(sites), std::move(regions)),
+                              places());
+  return triangulate();
+}
+
+template <Space S> double Cells<S>::spacing() const {
+  return std::sqrt(surface_.area() / static_cast<double>(generators_));
+}
+
+template <Space S> bool Cells<S>::has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  if (outline_ == nullptr)
+    return true;
+  if constexpr (S::on_sphere) {
+    const Vec3 centre = boundary_ == Boundary::clip
+                            ? cross(place(b) - place(a), place(c) - place(a))
+                            : place(a) + place(b) + place(c);
+    return outline_->side(centre) != Side::outside;
+  } else {
+    const Vec3 u = offset(place(a), place(b)), v = offset(place(a), place(c));
+    const Vec2 centre = circumcentre({u.x, u.y}, {v.x, v.y});
+    return outline_->side({place(a).x + centre.x, place(a).y + centre.y}) != Side::outside;
+  }
+}
+
+template <Space S>
+void Cells<S>::integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+                         Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const {
+  using integrals_detail::integrate;
+  if constexpr (!S::on_sphere)
+    integrate(integrand, {outline_, space_, generators_}, patch, x, moments, suspects);
+  else if (outline_ != nullptr)
+    integrate(integrand, {outline_, generators_}, patch, x, moments, suspects);
+  else
+    integrate(integrand, patch, x, moments, nullptr, suspects);
+}
+
+template <Space S>
+void Cells<S>::find_suspects(const Patch& patch, const Array<Vec3>& x,
+                             std::vector<std::int32_t>& suspects) const {
+  if constexpr (S::on_sphere)
+    integrals_detail::find_suspects(patch, x, suspects);
+  else
+    integrals_detail::find_suspects({outline_, space_, generators_}, patch, x, suspects);
+}
+
+/// On the sphere M = (M.x) x - gradient/2, with |M.x| = sqrt(|M|^2 - |gradient/2|^2).
+template <Space S> Vec3 Cells<S>::centroid(const Vec3& x, const Vec3& gradient, double mass) {
+  if constexpr (S::on_sphere) {
+    const double square = mass * mass - dot(gradient, gradient) / 4;
+    const Vec3 first = std::copysign(std::sqrt(std::max(square, 0.0)), mass) * x - 0.5 * gradient;
+    return (1 / norm(first)) * first;
+  } else {
+    return x - (0.5 / mass) * gradient;
+  }
+}
+
+template <Space S>
+void Cells<S>::retract(const Points3& x, double step, const Points3& d, Points3& to) const {
+  if constexpr (S::on_sphere) {
+    base_detail::retract(x, step, d, to);
+  } else {
+    to.resize(3, x.cols());
+    for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i != end; ++i)
+        set_column(to, i, column(x, i) + step * column(d, i));
+    });
+  }
+  if (outline_ != nullptr)
+    enter(x, to);
+}
+
+/// Moves generators that have left x for outside to the nearest point inside.
+template <Space S> void Cells<S>::enter(const Points3& x, Points3& to) const {
+  for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 &from = column(x, i), &there = column(to, i);
+      if constexpr (S::on_sphere) {
+        if (outline_->side(there) == Side::inside)
+          continue;
+        const TangentPlane plane(from);
+        const Vec3 inside = plane.lifted(
+            nearest_inside(TangentOutline(*outline_, plane), Vec2{0, 0}, plane.projected(there))
+                .value_or(Vec2{0, 0}));
+        set_column(to, i, (1 / norm(inside)) * inside);
+      } else {
+        if (outline_->side({there.x, there.y}) != Side::outside)
+          continue;
+        const Vec2 inside =
+            nearest_inside(*outline_, {from.x, from.y}, {there.x - from.x, there.y - from.y})
+                .value_or(Vec2{0, 0});
+        set_column(to, i, from + Vec3{inside.x, inside.y, 0});
+      }
+    }
+  });
+}
+
+template <Space S>
+void Cells<S>::make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) {
+  if constexpr (S::on_sphere) // in the plane all motions are
+    base_detail::make_tangential(vectors, x, part);
+}
+
+template <Space S>
+Laplacian Cells<S>::laplacian(const Connectivity& mesh, const Density& density) const {
+  return graph_laplacian(ClippedSites<S>{placed(), generators_, outline_, surface_.area()}, mesh,
+                         density);
+}
+
+template class Cells<Sphere>;
+template class Cells<Plane>;
+
+} // namespace calotte::cvt_detail

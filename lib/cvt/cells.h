@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/vec3.h"
+#include "cvt/laplacian.h"
+#include "cvt/repair.h"
+#include "cvt/room.h"
+#include "delaunay/regions.h"
+#include "delaunay/sites.h"
+#include "domain/surface.h"
+#include "integrals/integrand.h"
+#include "integrals/moments.h"
+#include "integrals/patches.h"
+
+#include <calotte/cvt.h>
+#include <calotte/density.h>
+#include <calotte/options.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace calotte::cvt_detail {
+
+/// The effect of a cell on its generator x: Lloyd's map M/|M| and dE/dx = -2 (M - (M.x) x) on the
+/// sphere, with M the first moment; M/m and -2 M in the plane, with M about the generator.
+struct Pull {
+  Vec3 centroid; ///< where Lloyd's step leads
+  Vec3 gradient; ///< of the energy; a motion that the generator can make
+  double mass;   ///< of the cell; on the sphere |M|, the cell's up to a factor 1 + O(h^2), negative
+                 ///< if M.x is. NaN for a cell without mass
+};
+
+/// The Voronoi cells of generators that move on a surface.
+///
+/// Generators are unit columns on the sphere, and columns with z = 0 in the plane. In a periodic
+/// box they may leave the box; their places in the mesh are the copies inside. On a bounded surface
+/// the hull's points follow the generators in the mesh, see hull.h. They lie outside and do not
+/// move, so that all generators have closed stars, and the boundary clips their cells.
+template <Space S> class Cells {
+public:
+  /// Whether the place of a generator in the mesh may be a copy of it.
+  static constexpr bool places_wrap = !S::on_sphere;
+
+  /// With the far hull, for any generators.
+  /// \throws Error as outline_of().
+  explicit Cells(const Surface& surface, Boundary boundary = Boundary::clip);
+  /// For a run that starts from some generators: with the rows of hull_of() in a region of the
+  /// sphere, without those points whose cells meet the region, such as beside an island that no
+  /// generator is near.
+  Cells(const Surface& surface, Boundary boundary, const Density& density, const Points3& start);
+
+  /// Sets the generators, which must stay there until the next call.
+  void move(const Points3& points);
+
+  const S& space() const { return space_; }
+  std::int64_t places() const { return std::ssize(sites_); } ///< of the mesh: generators come first
+  const Vec3& place(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
+  PlacedSites<S> placed() const { return {space_, sites_}; }
+  Vec3 offset(const Vec3& from, const Vec3& to) const { return space_.offset(from, to); }
+  bool has_hull() const { return outline_ != nullptr; } ///< places of the mesh without a generator
+  /// Whether the surface has the circumcentre of a triangle of generators; in a region of the
+  /// sphere with generators on the boundary, its centre of mass.
+  bool has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const;
+
+  Sites sites() const; ///< of the generators; equal ones merged
+  /// The mesh of all places.
+  /// \throws Error too_few_sites if two places coincide, or leave a hemisphere empty; as
+  ///         delaunay().
+  Connectivity triangulate() const;
+  /// The same from the sites of the generators, which it consumes.
+  Connectivity triangulate(Sites&& sites, Regions&& regions) const;
+  double spacing() const; ///< the square root of the area for each generator
+
+  /// See moments.h, region_moments.h and planar_moments.h.
+  void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
+                 Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const;
+  void find_suspects(const Patch& patch, const Array<Vec3>& x,
+                     std::vector<std::int32_t>& suspects) const;
+
+  static Pull pull(const Vec3& x, const CellMoments& cell) {
+    if constexpr (S::on_sphere) {
+      const double length = norm(cell.first), along = dot(cell.first, x);
+      const Vec3 tangent = cell.first - along * x;
+      return {(1 / length) * cell.first, -2 * tangent, std::copysign(length, along)};
+    } else {
+      const double mass = cell.first.z;
+      return {x + Vec3{cell.first.x / mass, cell.first.y / mass, 0},
+              {-2 * cell.first.x, -2 * cell.first.y, 0},
+              mass > 0 ? mass : std::nan("")};
+    }
+  }
+  /// The pull's centroid again.
+  static Vec3 centroid(const Vec3& x, const Vec3& gradient, double mass);
+
+  // ---- How generators move
+
+  /// Sets `to` to x + step d, projected back to the surface: generators that would leave it move to
+  /// the nearest point inside.
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
+  /// Removes what is no motion of a generator.
+  static void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part);
+  Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
+
+private:
+  bool drop_intruders();
+  void enter(const Points3& x, Points3& to) const;
+
+  Surface surface_;
+  S space_;
+  const OutlineOf<S>* outline_; ///< of the surface; null without a boundary
+  Boundary boundary_;
+  Points3 hull_;
+  std::int64_t generators_ = 0;
+  std::span<const Vec3> sites_; ///< the mesh's places: the generators themselves, or `copies_`
+  Array<Vec3> copies_;
+};
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+
+#include <calotte/cvt.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+/// The triangles of a mesh that belong to a bounded part of the sphere.
+namespace calotte::cvt_detail {
+
+/// The mesh of the triangles between generators only, which come first in a mesh with a hull.
+Mesh without_hull(Points3&& generators, const Triangles& triangles, const Surface& surface);
+
+/// The part of a mesh that a bounded part of the sphere contains, see Boundary: without triangles
+/// that touch the others at a site in a vertex only. All of another mesh.
+Mesh inner_mesh(Mesh&& mesh, Boundary boundary);
+
+} // namespace calotte::cvt_detail

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/levels.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/split_mix.h"
+#include "curve/hilbert.h"
+#include "curve/radix_sort.h"
+#include "cvt/cells.h"
+#include "cvt/inner_mesh.h"
+#include "delaunay/delaunay.h"
+#include "delaunay/sites.h"
+#include "density/surface_density.h"
+#include "domain/arcs.h"
+#include "domain/surface.h"
+#include "exact/space.h"
+#include "mesh/canonical_order.h"
+#include "mesh/edges.h"
+#include "mesh/subdivide.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte::cvt_detail {
+namespace {
+
+// ---- Distinct generators
+
+/// The same for equal directions, which have the same bits on the cube.
+std::uint64_t hash_of(const Vec3& direction) {
+  const curve_detail::CubePoint on_cube = curve_detail::to_cube(direction);
+  auto hash = static_cast<std::uint64_t>(on_cube.face);
+  for (const double x : {on_cube.u, on_cube.v})
+    hash = hash_with(hash, std::bit_cast<std::uint64_t>(x + 0.0)); // -0 as 0
+  return hash >> (64 - curve_detail::key_bits);
+}
+
+/// Whether two of n directions are equal. Equal ones need not follow each other along a curve.
+template <class At> bool have_equal(std::int64_t n, const At& at) {
+  Array<std::uint64_t> keys(n);
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      keys[i] = hash_of(at(i));
+  });
+  const curve_detail::Order order = curve_detail::order_by_key(std::move(keys));
+  for (std::int64_t i = 1; i < n; ++i)
+    for (std::int64_t k = i; k > 0 && order.keys[k - 1] == order.keys[i]; --k)
+      if (exact_detail::same_direction(at(order.items[k - 1]), at(order.items[i])))
+        return true;
+  return false;
+}
+
+/// The sites of a start, distinct as unit columns: directions that differ by less than rounding are
+/// duplicates, too. \throws Error as make_sites().
+Sites distinct_units(Sites&& sites, const CvtOptions& options) {
+  const auto unit = [&](std::int64_t rank) {
+    const std::int32_t id = sites.id[rank];
+    return id < options.fixed ? as_unit(sites.given(id)) : sites.unit[rank];
+  };
+  if (!have_equal(sites.size(), unit))
+    return std::move(sites);
+  Points3 units(3, sites.size());
+  for (std::int64_t r = 0; r < sites.size(); ++r)
+    set_column(units, sites.id[r], unit(r));
+  std::vector<std::int32_t> before = std::move(sites.site_of_input);
+  Sites merged = make_sites(std::move(units), options.duplicates, options.merge_within);
+  for (std::int32_t& site : before)
+    site = merged.site_of_input[static_cast<std::size_t>(site)];
+  merged.site_of_input = std::move(before);
+  // Once more normalised, others of them might be equal.
+  for (std::int64_t r = 0; r < merged.size(); ++r)
+    merged.unit[r] = merged.given(merged.id[r]);
+  merged.boxes = delaunay_detail::SiteBoxes(merged.unit);
+  return merged;
+}
+
+/// See begin().
+void require_fixed(const Sites& sites, std::int64_t fixed) {
+  const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
+  if (fixed < 0 || fixed > std::ssize(site_of_input))
+    throw Error(ErrorCode::invalid_argument, "fixed is " + std::to_string(fixed) + "; give 0 to " +
+                                                 std::to_string(site_of_input.size()) +
+                                                 ", the number of generators of the start");
+  for (std::int64_t i = 0; i < fixed; ++i)
+    if (const std::int32_t site = site_of_input[static_cast<std::size_t>(i)]; site != i)
+      throw Error(ErrorCode::duplicate,
+                  "fixed generator " + std::to_string(i) + " merges with fixed generator " +
+                      std::to_string(site) + ": give it once",
+                  i);
+}
+
+/// Cells of generators on one line exist, but a mesh of them does not.
+void require_triangle(const Sites& sites) {
+  const auto given = [&](std::int32_t id) { return Vec2{sites.given(id).x, sites.given(id).y}; };
+  for (std::int32_t id = 2; id < sites.size(); ++id)
+    if (orientation(given(0), given(1), given(id)) != 0)
+      return;
+  throw Error(ErrorCode::degenerate,
+              "all generators lie on one line: add one off it, they span no triangle");
+}
+
+void require_enough(const Sites& sites, const Surface& surface) {
+  const std::int64_t fewest = fewest_generators(surface);
+  if (sites.size() < fewest)
+    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
+                                              " distinct generators: give at least " +
+                                              std::to_string(fewest));
+}
+
+// ---- The state of sites
+
+/// Sets the generators of a state, in the order of the sites. On the sphere a fixed one keeps the
+/// bits that it has by id, if it is a unit vector there up to round-off.
+void set_points(State& state, const Sites& sites) {
+  const std::int64_t n = sites.size();
+  state.points.resize(3, n);
+  state.id.resize(static_cast<std::size_t>(n));
+  for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r) {
+      const std::int32_t id = sites.id[r];
+      set_column(state.points, r,
+                 sites.frame        ? sites.given(id)
+                 : id < state.fixed ? as_unit(sites.given(id))
+                                    : sites.unit[r]);
+      state.id[static_cast<std::size_t>(r)] = id;
+    }
+  });
+}
+
+State state_of(Sites& sites, const CvtOptions& options) {
+  require_fixed(sites, options.fixed);
+  State state;
+  state.fixed = options.fixed;
+  set_points(state, sites);
+  state.site_of_input = std::move(sites.site_of_input);
+  state.bisections_left = options.bisections;
+  return state;
+}
+
+/// The sites by rank alone, as the state has them.
+Sites by_rank(Sites&& sites) {
+  sites.site_of_input = {};
+  std::iota(sites.id.begin(), sites.id.end(), 0);
+  return std::move(sites);
+}
+
+/// A bisection's triangles, renamed from ids to ranks.
+Connectivity bisected_mesh(const Triangles& triangles, const Triangles& neighbours,
+                           std::int64_t points, const Sites& sites) {
+  Connectivity mesh = subdivided(triangles, neighbours, points);
+  std::vector<std::int32_t> rank(static_cast<std::size_t>(sites.size()));
+  for_each_block(sites.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r != end; ++r)
+      rank[static_cast<std::size_t>(sites.id[r])] = static_cast<std::int32_t>(r);
+  });
+  make_canonical(mesh.triangles, mesh.neighbours, rank);
+  return mesh;
+}
+
+/// A run on the whole sphere, whose sort of the sites serves the first level.
+Begun begun_at(Sites&& sites, const CvtOptions& options) {
+  require_enough(sites, Surface::sphere());
+  State state = state_of(sites, options);
+  sites.points = state.points;
+  return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
+}
+
+Sites sites_of(const Points3& points, const Surface& surface) {
+  return surface.is_sphere() ? make_sites(points, Duplicates::refuse, 0)
+                             : make_planar_sites(points.topRows<2>(), Duplicates::refuse, 0);
+}
+
+/// The points of a mesh and the midpoints that a bisection adds; none between two fixed points
+/// along the boundary of a part of the sphere.
+Points3 bisected_points(const State& state, const Mesh& coarse) {
+  if (!coarse.surface.is_sphere() || !coarse.surface.is_bounded())
+    return bisect(coarse);
+  const SphericalOutline& outline = *outline_of<Sphere>(coarse.surface);
+  std::vector<Vec3> inside;
+  mesh_detail::for_each_edge(coarse, [&](std::int32_t a, std::int32_t b) {
+    const Vec3 &from = column(coarse.points, a), &to = column(coarse.points, b);
+    const bool fixed = std::max(a, b) < state.fixed && lies_along(outline, from, to);
+    const Vec3 middle = Sphere::midpoint(from, to);
+    if (!fixed && outline.side(middle) == Side::inside)
+      inside.push_back(middle);
+  });
+  Points3 points(3, coarse.points.cols() + std::ssize(inside));
+  points.leftCols(coarse.points.cols()) = coarse.points;
+  for (std::size_t k = 0; k < inside.size(); ++k)
+    set_column(points, coarse.points.cols() + static_cast<Eigen::Index>(k), inside[k]);
+  return points;
+}
+
+/// The generators inside a periodic box.
+Points3 wrapped(Points3&& points, const Surface& surface) {
+  if (!surface.period().isZero(0)) {
+    const Plane plane(surface.period());
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      set_column(points, i, plane.wrapped(column(points, i)));
+  }
+  return std::move(points);
+}
+
+/// Of a bounded part of the sphere: triangulated with the hull, which gives the triangles between
+/// generators only.
+Mesh mesh_in_region(Points3&& points, const Surface& surface) {
+  Cells<Sphere> cells(surface);
+  cells.move(points);
+  return without_hull(std::move(points), cells.triangulate().triangles, surface);
+}
+
+} // namespace
+
+std::int64_t fewest_generators(const Surface& surface) {
+  return !surface.is_sphere() ? 3 : surface.is_bounded() ? 4 : 12;
+}
+
+std::int64_t bisected(const Surface& surface, std::int64_t n) {
+  return surface.is_whole_sphere() ? 4 * n - 6 : 4 * n;
+}
+
+std::int64_t halved(const Surface& surface, std::int64_t n) {
+  return surface.is_whole_sphere() ? (n + 8) / 4 : (n + 2) / 4;
+}
+
+Density density_of_run(const Density& density, const Surface& surface) {
+  Density of_surface = density_detail::surface_density(density, surface);
+  Eigen::Vector3d some = Eigen::Vector3d::UnitZ();
+  if (!surface.is_sphere()) {
+    some.setZero();
+    if (surface.is_bounded())
+      some.head<2>() = surface.rings()[0].col(0);
+  }
+  evaluate(of_surface, Points3(some)); // throws if the density is ill-formed
+  return of_surface;
+}
+
+Begun begin(const PointsRef& start, const Surface& surface, const CvtOptions& options) {
+  if (surface.is_whole_sphere())
+    return begun_at(
+        distinct_units(make_sites(base_detail::directions_of(start, "a surface of the plane"),
+                                  options.duplicates, options.merge_within),
+                       options),
+        options);
+  Sites sites;
+  if (surface.is_sphere()) {
+    sites = distinct_units(make_sites(base_detail::directions_of(start, "a surface of the plane"),
+                                      options.duplicates, options.merge_within),
+                           options);
+    require_inside(start, surface, options.fixed);
+    require_enough(sites, surface);
+  } else {
+    const Points2Ref points = base_detail::plane_points_of(start);
+    require_inside(base_detail::with_z(points), surface);
+    sites = make_planar_sites(points, options.duplicates, options.merge_within);
+    require_triangle(sites);
+  }
+  return {state_of(sites, options), {}};
+}
+
+Begun begin(Points3&& start, const CvtOptions& options) {
+  return begun_at(
+      distinct_units(make_sites(std::move(start), options.duplicates, options.merge_within),
+                     options),
+      options);
+}
+
+void refuse_state() {
+  throw Error(
+      ErrorCode::invalid_argument,
+      "the state is not one that a run has left: its points must be unit vectors, or places "
+      "in the domain, and its ids a permutation");
+}
+
+void require_points(const State& state, const Surface& surface) {
+  const Points3& points = state.points;
+  const auto good = [&] {
+    if (points.cols() < fewest_generators(surface) || !points.allFinite())
+      return false;
+    return surface.is_sphere() ? ((points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all()
+                               : points.row(2).isZero(0);
+  };
+  if (!good())
+    refuse_state();
+  if (!surface.is_bounded())
+    return; // generators may leave a periodic box
+  try {
+    require_inside(points, surface);
+  } catch (const Error&) {
+    refuse_state();
+  }
+}
+
+Mesh mesh_of_run(const State& state, const Surface& surface,
+                 std::optional<Connectivity>&& connectivity) {
+  Points3 points = wrapped(in_order(state), surface);
+  if (surface.is_sphere() && surface.is_bounded())
+    return mesh_in_region(std::move(points), surface);
+  if (!connectivity)
+    return delaunay(std::move(points), surface);
+  make_canonical(connectivity->triangles, connectivity->neighbours, state.id);
+  std::vector<std::int32_t> sites = themselves(points.cols());
+  return {std::move(points), std::move(connectivity->triangles),
+          std::move(connectivity->neighbours), std::move(sites), surface};
+}
+
+Level set_bisected(State& state, const Mesh& coarse) {
+  Sites sites = sites_of(bisected_points(state, coarse), coarse.surface);
+  set_points(state, sites);
+  if (coarse.surface.is_bounded()) // a part of the midpoints
+    return {};
+  Connectivity mesh =
+      bisected_mesh(coarse.triangles, coarse.neighbours, coarse.points.cols(), sites);
+  if (!coarse.surface.is_sphere())
+    return {std::nullopt, std::move(mesh)};
+  sites.points = {}; // with the mesh they have served
+  return {by_rank(std::move(sites)), std::move(mesh)};
+}
+
+Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
+                              const EdgeChanges& changes) {
+  Sites sites = sites_of(split_and_collapsed(mesh, density, changes), mesh.surface);
+  set_points(state, sites);
+  if (!mesh.surface.is_whole_sphere() ||
+      have_equal(sites.size(), [&](std::int64_t rank) { return column(state.points, rank); }))
+    return {}; // the tessellation of equal ones refuses them
+  sites.points = state.points;
+  return {by_rank(std::move(sites)), std::nullopt};
+}
+
+} // namespace calotte::cvt_detail

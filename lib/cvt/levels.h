@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/cvt.h"
+#include "cvt/insertion.h"
+#include "cvt/room.h"
+#include "cvt/state.h"
+#include "cvt/tessellation.h"
+#include "mesh/connectivity.h"
+
+#include <calotte/cvt.h>
+#include <calotte/density.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <optional>
+
+/// What a run does on its surface before, between and after the descents.
+namespace calotte::cvt_detail {
+
+/// The least number of generators of a run.
+std::int64_t fewest_generators(const Surface& surface);
+/// The largest number of generators after a bisection of n: on the whole sphere its number; else
+/// some midpoints may be outside.
+std::int64_t bisected(const Surface& surface, std::int64_t n);
+/// The number whose bisection is nearest to n.
+std::int64_t halved(const Surface& surface, std::int64_t n);
+
+/// The density in the form that the functional takes.
+/// \throws Error invalid_argument if it is ill-formed.
+Density density_of_run(const Density& density, const Surface& surface);
+
+/// The start of a run.
+struct Begun {
+  State state;
+  Level level;
+};
+
+/// \throws Error as make_sites(); too_few_sites; degenerate for generators of the plane on one
+/// line;
+///         invalid_argument with the index of the first point outside the surface, or for a number
+///         of fixed generators out of range; duplicate, with the index of a fixed generator that
+///         merges with an earlier one.
+Begun begin(const PointsRef& start, const Surface& surface, const CvtOptions& options);
+/// The same for directions handed over. \pre the whole sphere.
+Begun begin(Points3&& start, const CvtOptions& options);
+
+/// \throws Error invalid_argument: the state is not one that a run has left.
+[[noreturn]] void refuse_state();
+/// Throws for a state whose points are not on the surface, or too few.
+void require_points(const State& state, const Surface& surface);
+
+/// The Delaunay triangulation of a state's generators in the order of the start; on a bounded part
+/// of the sphere also the triangles that it does not contain.
+/// \param connectivity of the generators, if it is known.
+Mesh mesh_of_run(const State& state, const Surface& surface,
+                 std::optional<Connectivity>&& connectivity);
+
+/// Sets the generators of a state to those of a bisected mesh, in curve order; returns the start of
+/// the next level.
+Level set_bisected(State& state, const Mesh& coarse);
+/// The same after insertion and contraction of edges.
+/// \param density as density_of_run() gives it.
+Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
+                              const EdgeChanges& changes);
+
+} // namespace calotte::cvt_detail
