@@ -10,7 +10,7 @@
 #include "base/vec3.h"
 #include "integrals/rows.h"
 #include "voronoi/connectivity.h"
-#include "voronoi/dual_spaces.h"
+#include "voronoi/dual_measures.h"
 
 #include <algorithm>
 #include <array>
@@ -38,8 +38,9 @@ CALOTTE_INLINE void put_half(const HalfKite& half, std::size_t across, std::size
   batch.area[across][lane] = half.area;
 }
 
-template <class Space>
-CALOTTE_INLINE void measure_triangle(const Space& space, TriangleBatch& batch, std::size_t lane) {
+template <class Measures>
+CALOTTE_INLINE void measure_triangle(const Measures& measures, TriangleBatch& batch,
+                                     std::size_t lane) {
   const Vec3 a = at(batch.corner[0], lane), b = at(batch.corner[1], lane),
              c = at(batch.corner[2], lane);
   const Vec3 bc = at(batch.side[0], lane), ca = at(batch.side[1], lane),
@@ -54,29 +55,29 @@ CALOTTE_INLINE void measure_triangle(const Space& space, TriangleBatch& batch, s
   const bool thin = !(squared > 1e-200);
   const Vec3 middle = choose(thin, 0.5 * choose(nn > bb, next, before),
                              (0.5 / (thin ? 1 : squared)) * cross(nn * before - bb * next, normal));
-  put(space.circumcentre(choose(thin, {0, 0, 0}, normal), p, middle), batch.centre, lane);
-  const double height = space.height(normal, p);
-  put_half(space.half_kite(b, bc, thin ? 0 : -dot(ca, ab), height), 0, lane, batch);
-  put_half(space.half_kite(c, ca, thin ? 0 : -dot(ab, bc), height), 1, lane, batch);
-  put_half(space.half_kite(a, ab, thin ? 0 : -dot(bc, ca), height), 2, lane, batch);
+  put(measures.circumcentre(choose(thin, {0, 0, 0}, normal), p, middle), batch.centre, lane);
+  const double height = measures.height(normal, p);
+  put_half(measures.half_kite(b, bc, thin ? 0 : -dot(ca, ab), height), 0, lane, batch);
+  put_half(measures.half_kite(c, ca, thin ? 0 : -dot(ab, bc), height), 1, lane, batch);
+  put_half(measures.half_kite(a, ab, thin ? 0 : -dot(bc, ca), height), 2, lane, batch);
 }
 
 CALOTTE_VECTOR_WIDTHS
-void measure_triangles(const Sphere& space, TriangleBatch& batch) {
+void measure_triangles(const SphereMeasures& measures, TriangleBatch& batch) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
-    measure_triangle(space, batch, lane);
+    measure_triangle(measures, batch, lane);
 }
 
 CALOTTE_VECTOR_WIDTHS
-void measure_triangles(const Plane& space, TriangleBatch& batch) {
+void measure_triangles(const PlaneMeasures& measures, TriangleBatch& batch) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
-    measure_triangle(space, batch, lane);
+    measure_triangle(measures, batch, lane);
 }
 
-template <class Space>
-void gather_triangles(const Space& space, const Voronoi& of, std::int64_t t, std::int64_t end,
+template <class Measures>
+void gather_triangles(const Measures& measures, const Voronoi& of, std::int64_t t, std::int64_t end,
                       TriangleBatch& batch) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::int32_t a = of.cells_on_vertex(0, t), b = of.cells_on_vertex(1, t),
@@ -84,9 +85,9 @@ void gather_triangles(const Space& space, const Voronoi& of, std::int64_t t, std
     put(column(of.cells, a), batch.corner[0], lane);
     put(column(of.cells, b), batch.corner[1], lane);
     put(column(of.cells, c), batch.corner[2], lane);
-    put(space.difference(of.cells, b, c), batch.side[0], lane);
-    put(space.difference(of.cells, c, a), batch.side[1], lane);
-    put(space.difference(of.cells, a, b), batch.side[2], lane);
+    put(measures.difference(of.cells, b, c), batch.side[0], lane);
+    put(measures.difference(of.cells, c, a), batch.side[1], lane);
+    put(measures.difference(of.cells, a, b), batch.side[2], lane);
     t = std::min(t + 1, end - 1);
   }
 }
@@ -104,13 +105,13 @@ void scatter_triangle(const TriangleBatch& batch, std::size_t lane, std::int64_t
   }
 }
 
-template <class Space>
-void set_vertices(const Space& space, std::int64_t begin, std::int64_t end, Voronoi& out,
+template <class Measures>
+void set_vertices(const Measures& measures, std::int64_t begin, std::int64_t end, Voronoi& out,
                   Vec3* places) {
   TriangleBatch batch;
   for (std::int64_t first = begin; first < end; first += lanes) {
-    gather_triangles(space, out, first, end, batch);
-    measure_triangles(space, batch);
+    gather_triangles(measures, out, first, end, batch);
+    measure_triangles(measures, batch);
     const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
     for (std::int64_t t = first; t < last; ++t) {
       const auto lane = static_cast<std::size_t>(t - first);
@@ -120,11 +121,11 @@ void set_vertices(const Space& space, std::int64_t begin, std::int64_t end, Voro
   }
 }
 
-template <class Space>
-Vec3 circumcentre(const Space& space, const Voronoi& of, std::int64_t triangle) {
+template <class Measures>
+Vec3 circumcentre(const Measures& measures, const Voronoi& of, std::int64_t triangle) {
   TriangleBatch batch;
-  gather_triangles(space, of, triangle, triangle + 1, batch);
-  measure_triangles(space, batch);
+  gather_triangles(measures, of, triangle, triangle + 1, batch);
+  measure_triangles(measures, batch);
   return at(batch.centre, 0);
 }
 
@@ -138,29 +139,29 @@ struct alignas(64) EdgeBatch {
   Row dc, dv, angle;
 };
 
-template <class Space>
-CALOTTE_INLINE void measure_edge(const Space& space, EdgeBatch& batch, std::size_t lane) {
+template <class Measures>
+CALOTTE_INLINE void measure_edge(const Measures& measures, EdgeBatch& batch, std::size_t lane) {
   const Vec3 a = at(batch.cell, lane), normal = at(batch.normal, lane);
-  const Vec3 middle = space.midpoint(a, normal, at(batch.centre, lane));
+  const Vec3 middle = measures.midpoint(a, normal, at(batch.centre, lane));
   put(middle, batch.middle, lane);
-  batch.dc[lane] = space.distance(a, normal);
-  batch.angle[lane] = space.angle(middle, normal);
+  batch.dc[lane] = measures.distance(a, normal);
+  batch.angle[lane] = measures.angle(middle, normal);
   const double arc = batch.left[lane] + batch.right[lane];
   batch.dv[lane] = arc > 0 ? arc : 0;
 }
 
 CALOTTE_VECTOR_WIDTHS
-void measure_edges(const Sphere& space, EdgeBatch& batch) {
+void measure_edges(const SphereMeasures& measures, EdgeBatch& batch) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
-    measure_edge(space, batch, lane);
+    measure_edge(measures, batch, lane);
 }
 
 CALOTTE_VECTOR_WIDTHS
-void measure_edges(const Plane& space, EdgeBatch& batch) {
+void measure_edges(const PlaneMeasures& measures, EdgeBatch& batch) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane)
-    measure_edge(space, batch, lane);
+    measure_edge(measures, batch, lane);
 }
 
 /// The vertex to the left of an edge's normal.
@@ -172,30 +173,30 @@ std::int32_t left_vertex(const Voronoi& of, std::int64_t edge) {
   return of.vertices_on_cell[cell][place];
 }
 
-template <class Space>
-void gather_edges(const Space& space, const Voronoi& of, std::int64_t e, std::int64_t end,
+template <class Measures>
+void gather_edges(const Measures& measures, const Voronoi& of, std::int64_t e, std::int64_t end,
                   EdgeBatch& batch) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::int32_t a = of.cells_on_edge(0, e);
     const Vec3 cell = column(of.cells, a);
-    const Vec3 normal = space.difference(of.cells, a, of.cells_on_edge(1, e));
+    const Vec3 normal = measures.difference(of.cells, a, of.cells_on_edge(1, e));
     const bool opposite = !(square((cell + cell) + normal) > 1e-290);
     put(cell, batch.cell, lane);
     put(normal, batch.normal, lane);
-    put(opposite ? circumcentre(space, of, left_vertex(of, e)) : cell, batch.centre, lane);
+    put(opposite ? circumcentre(measures, of, left_vertex(of, e)) : cell, batch.centre, lane);
     batch.left[lane] = of.dv[e];
     batch.right[lane] = of.dc[e];
     e = std::min(e + 1, end - 1);
   }
 }
 
-template <class Space>
-void set_edges(const Space& space, std::int64_t begin, std::int64_t end, Voronoi& out, Vec3* places,
-               double* angles) {
+template <class Measures>
+void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, Voronoi& out,
+               Vec3* places, double* angles) {
   EdgeBatch batch;
   for (std::int64_t first = begin; first < end; first += lanes) {
-    gather_edges(space, out, first, end, batch);
-    measure_edges(space, batch);
+    gather_edges(measures, out, first, end, batch);
+    measure_edges(measures, batch);
     const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
     for (std::int64_t e = first; e < last; ++e) {
       const auto lane = static_cast<std::size_t>(e - first);
@@ -207,13 +208,13 @@ void set_edges(const Space& space, std::int64_t begin, std::int64_t end, Voronoi
   }
 }
 
-/// body(space) of the tessellation's.
+/// body(measures) of the tessellation's.
 template <class Body>
-void in_space(const Voronoi& of, const Array<double>& surplus, const Body& body) {
+void with_measures(const Voronoi& of, const Array<double>& surplus, const Body& body) {
   if (of.on_sphere)
-    body(Sphere{surplus});
+    body(SphereMeasures{surplus});
   else
-    body(Plane{of.period[0], of.period[1]});
+    body(PlaneMeasures{of.period[0], of.period[1]});
 }
 
 /// The columns of points from `first` on.
@@ -256,13 +257,15 @@ Array<double> begin_measures(Voronoi& out) {
 
 void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
                       Voronoi& out, Vec3* places) {
-  in_space(out, surplus, [&](const auto& space) { set_vertices(space, begin, end, out, places); });
+  with_measures(out, surplus,
+                [&](const auto& measures) { set_vertices(measures, begin, end, out, places); });
 }
 
 void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
                    Vec3* places, double* angles) {
-  in_space(out, surplus,
-           [&](const auto& space) { set_edges(space, begin, end, out, places, angles); });
+  with_measures(out, surplus, [&](const auto& measures) {
+    set_edges(measures, begin, end, out, places, angles);
+  });
 }
 
 void measure(Voronoi& out) {

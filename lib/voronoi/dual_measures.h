@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <numbers>
 
-/// The spaces in which geometry.cpp measures: the unit sphere and a periodic plane.
+/// What geometry.cpp measures in vector code on the unit sphere and in a periodic plane.
 ///
 /// Operations per lane have no branches, so that the loops over lanes become vector code.
 namespace calotte::voronoi_detail::dual {
@@ -43,7 +43,7 @@ CALOTTE_INLINE Vec3 direction_or(const Vec3& a, const Vec3& other) {
   return choose(some, (1 / std::sqrt(some ? s : 1)) * a, other);
 }
 
-// ---- The two spaces
+// ---- Measures on the sphere and in a periodic plane
 
 /// The half kites at an edge of a triangle: those at its two ends are mirror images.
 struct HalfKite {
@@ -52,7 +52,7 @@ struct HalfKite {
 };
 
 /// The unit sphere; places are unit vectors.
-struct Sphere {
+struct SphereMeasures {
   const Array<double>& surplus; ///< by cell: by how much its norm exceeds 1
 
   /// Computed as if both points were exactly on the sphere: for a short edge, the rounding of norms
@@ -102,7 +102,7 @@ struct Sphere {
 };
 
 /// A periodic plane; places are in its box.
-struct Plane {
+struct PlaneMeasures {
   double width, depth;
 
   static CALOTTE_INLINE double nearest(double difference, double period) {
