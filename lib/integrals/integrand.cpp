@@ -34,11 +34,4 @@ Integrand make_integrand(const Density& density, int rule, int divisions) {
   return {DensityEvaluator(density), false, at_sites, composite(nodes, divisions)};
 }
 
-std::span<const QuadratureRule::Node> uniform_nodes() {
-  constexpr int points = 6, divisions = 3;
-  static const std::vector<QuadratureRule::Node> nodes =
-      composite(quadrature_rule(points), divisions);
-  return nodes;
-}
-
 } // namespace calotte::integrals_detail

@@ -7,7 +7,6 @@
 
 #include <calotte/density.h>
 
-#include <span>
 #include <vector>
 
 namespace calotte::integrals_detail {
@@ -30,9 +29,5 @@ inline constexpr int rule_at_sites = -1;
 /// \param divisions >= 1. Neither has an effect for uniform density.
 /// \throws Error invalid_argument for an ill-formed density.
 Integrand make_integrand(const Density& density, int rule, int divisions);
-
-/// Nodes for energies of uniform density that have no closed form: of cells at the boundary of a
-/// region.
-std::span<const QuadratureRule::Node> uniform_nodes();
 
 } // namespace calotte::integrals_detail

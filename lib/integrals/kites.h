@@ -1,15 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
+#include "base/vec3.h"
 #include "integrals/integrand.h"
 #include "integrals/room.h"
 #include "integrals/rows.h"
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 namespace calotte::integrals_detail {
 
-/// Terms for any density: the integral over half kites by the integrand's nodes.
-/// \param with_mass otherwise the masses are not set.
-void kite_terms(const Batch& batch, const TriangleRows& rows, const Integrand& integrand,
-                bool with_mass, TriangleTerms& terms);
+/// Moments of the Voronoi cell of a site x_i.
+struct CellMoments {
+  Vec3 first;    ///< integral of rho x; in the plane those of rho (x - x_i), rho (y - y_i) and rho
+  double energy; ///< integral of rho |x - x_i|^2
+};
+
+/// Where the sums over triangles go, by local number of a site.
+struct CellSums {
+  Array<CellMoments>& moments;
+  Array<double>* mass = nullptr; ///< integral of rho, if not null; on the sphere alone
+};
+
+/// Sums the kites of triangles over their sites, in the order of the triangles.
+///
+/// Uniform density: half a kite is a right triangle, see half_edge.h, from a site a to the midpoint
+/// of an edge ab, an arc theta/2, and on to the circumcentre, a signed arc delta with sin(delta) =
+/// |a-b|/|a+b| cot(C), C the angle across. Its first moment's part that does not cancel is delta/2
+/// (a-b)/|a-b|, its area 2 atan(tan(theta/4) tan(delta/2)), its energy twice that less delta
+/// sin(theta/2). Obtuse triangles contribute signed arcs. Triangles that the stored corners do not
+/// resolve are integrated from their directions without rounding, see slivers.h.
+///
+/// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
+/// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
+/// over the half kite, which central projection makes exact but for the rule: good where cells are
+/// small beside the density's changes and their circumcaps beside a hemisphere.
+///
+/// In the plane the same without curvature.
+/// \param suspects triangles, by their position, that are not clearly acute and counter-clockwise
+///        are added.
+void sum_kites(const SphericalTriangles& sphere, const Integrand& integrand,
+               std::span<const Triple> triangles, const Array<Vec3>& x, const CellSums& sums,
+               std::vector<std::int32_t>& suspects);
+void sum_kites(const FlatTriangles& plane, const Integrand& integrand,
+               std::span<const Triple> triangles, const Array<Vec3>& x, const CellSums& sums,
+               std::vector<std::int32_t>& suspects);
+
+/// Finds the suspects only.
+void find_suspects(const SphericalTriangles& sphere, std::span<const Triple> triangles,
+                   const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
+void find_suspects(const FlatTriangles& plane, std::span<const Triple> triangles,
+                   const Array<Vec3>& x, std::vector<std::int32_t>& suspects);
 
 } // namespace calotte::integrals_detail

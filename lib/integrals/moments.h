@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/vec3.h"
 #include "integrals/integrand.h"
+#include "integrals/kites.h"
 #include "integrals/patches.h"
 #include "integrals/room.h"
 
@@ -15,26 +16,9 @@
 
 namespace calotte::integrals_detail {
 
-/// Moments of the Voronoi cell of a site x_i.
-struct CellMoments {
-  Vec3 first;    ///< integral of rho x
-  double energy; ///< integral of rho |x - x_i|^2
-};
-
 /// Moments of the cells of a patch's sites, by local number; those of its halo are not whole. Each
-/// is summed over the site's triangles in the patch's order: the same bits for any partition.
-///
-/// Uniform density: half a kite is a right spherical triangle, from a site a to the midpoint of an
-/// edge ab, an arc theta/2, and on to the circumcentre, a signed arc delta with sin(delta) =
-/// |a-b|/|a+b| cot(C), C the angle across. Its first moment's part that does not cancel is delta/2
-/// (a-b)/|a-b|, its area 2 atan(tan(theta/4) tan(delta/2)), its energy twice that less delta
-/// sin(theta/2). Obtuse triangles contribute signed arcs. Triangles that the stored corners do not
-/// resolve are integrated from their directions without rounding, see slivers.h.
-///
-/// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
-/// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
-/// over the half kite, which central projection makes exact but for the rule: good where cells are
-/// small beside the density's changes and their circumcaps beside a hemisphere.
+/// is summed over the site's triangles in the patch's order: the same bits for any partition. See
+/// sum_kites().
 ///
 /// \param x by local number: unit vectors.
 /// \param mass if not null, by local number: set to the integral of rho.

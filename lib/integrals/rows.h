@@ -3,13 +3,14 @@
 
 #include "base/memory.h"
 #include "base/vec3.h"
-#include "integrals/patches.h"
+#include "exact/space.h"
 #include "integrals/quads.h"
 #include "integrals/room.h"
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <span>
 
 namespace calotte::integrals_detail {
 
@@ -48,12 +49,23 @@ CALOTTE_INLINE void put_columns(const FourColumns& columns, std::size_t lane, Ro
   last = d;
 }
 
-/// Up to `lanes` consecutive triangles of a patch; the last fills the lanes that are left.
+using Triple = std::array<std::int32_t, 3>; ///< local numbers of a triangle's corners
+
+/// Triangles of unit vectors.
+struct SphericalTriangles {};
+
+/// Triangles of positions with z = 0, in a periodic box or without one.
+struct FlatTriangles {
+  Plane space;
+  double largest; ///< coordinate, or period
+};
+
+/// Up to `lanes` consecutive triangles; the last fills the lanes that are left.
 struct alignas(64) Batch {
-  std::array<Rows3, 3> corner; ///< [vertex][x, y, z]
+  std::array<Rows3, 3> corner; ///< [vertex][x, y, z]; in the plane relative to the first one
   Rows3 rho;                   ///< [vertex]: the density there; set by gather_density()
   std::size_t count;
-  const std::array<std::int32_t, 3>* locals; ///< of the first: local numbers of its corners
+  const Triple* locals; ///< of the first
 };
 
 /// Corners a and b are nearly antipodal if 1 - |a-b|^2/4 is below this: an edge between them hardly
@@ -66,75 +78,22 @@ struct alignas(64) TriangleRows {
   Rows3 cotangent; ///< of the flat triangle's angle
   Rows3 normal;    ///< (b - a) x (c - a), [x, y, z]
   Row scale;       ///< 1/|normal|
-  Row height;      ///< normal times a: positive when counter-clockwise
+  Row height;      ///< positive when counter-clockwise: the normal times a, in the plane its z
   /// Positive only if the triangle is certainly acute and counter-clockwise, and no two corners are
-  /// nearly antipodal.
+  /// nearly antipodal; in a periodic box, if its circumcircle is also small beside the box.
   Row clearance;
 };
 
-/// An edge's half, from its end to its middle, and the signed arc from there to the circumcentre.
-struct HalfEdge {
-  double sine, cosine; ///< of half of the edge's arc
-  double arc, tangent; ///< the signed arc, and the tangent of half of it
-};
-
-/// A triangle whose circumcentre follows from digits that its corners as stored do not have; see
-/// slivers.h.
-struct Sliver {
-  std::size_t lane;
-  std::array<Vec3, 3> side; ///< unit vectors along b - c, c - a and a - b
-  std::array<HalfEdge, 3> half;
-};
-
-/// The contribution of each edge, named by the vertex across, to both of its ends, for rho = 1.
-struct alignas(64) EdgeRows {
-  Rows3 pull; ///< delta / (2 |a-b|): the first moment's part is that times (a - b) for a
-  Rows3 energy, area;
-};
-
-/// The coordinates of what edges add to the first moments of a triangle's corners, each of them x,
-/// y or z. \param Value a double, or several lanes.
-template <class Value>
-CALOTTE_INLINE std::array<Value, 3> pulled(const std::array<Value, 3>& corner,
-                                           const std::array<Value, 3>& pull) {
-  const Value of_a = pull[0] * (corner[1] - corner[2]), of_b = pull[1] * (corner[2] - corner[0]),
-              of_c = pull[2] * (corner[0] - corner[1]);
-  return {of_c - of_b, of_a - of_c, of_b - of_a};
-}
-
-/// A vertex is an end of the two edges that are named by the others.
-template <class Value>
-CALOTTE_INLINE std::array<Value, 3> sums_at_ends(const std::array<Value, 3>& of_edges) {
-  return {of_edges[1] + of_edges[2], of_edges[2] + of_edges[0], of_edges[0] + of_edges[1]};
-}
-
-/// What triangles add to the moments of one of their corners.
-struct alignas(64) VertexTerms {
-  Rows3 first;
-  Row energy, mass;
-};
-using TriangleTerms = std::array<VertexTerms, 3>;
-
-Batch gather(const Patch& patch, const Array<Vec3>& x, std::size_t first);
+Batch gather(const SphericalTriangles&, std::span<const Triple> triangles, const Array<Vec3>& x,
+             std::size_t first);
+Batch gather(const FlatTriangles& plane, std::span<const Triple> triangles, const Array<Vec3>& x,
+             std::size_t first);
 
 /// Sets the density at the corners. \param rho by local number.
 void gather_density(const Array<double>& rho, Batch& batch);
 
 /// True if the clearance of all lanes is positive.
-bool triangle_rows(const Batch& batch, TriangleRows& out);
-
-/// As triangle_rows() and edge_rows() without the areas, in less time. True if the rows are set:
-/// the clearance of all lanes is positive, and no edge is long.
-/// \param rows for intermediate results.
-bool small_edge_rows(const Batch& batch, TriangleRows& rows, EdgeRows& edges);
-
-/// \param with_area otherwise edges.area is not set.
-void edge_rows(const TriangleRows& rows, bool with_area, EdgeRows& edges);
-
-/// Terms for rho = 1.
-/// \param slivers of the batch: their sides and halves take the place of the rows.
-/// \param with_mass otherwise the masses are not set.
-void uniform_terms(const Batch& batch, EdgeRows& edges, const std::vector<Sliver>& slivers,
-                   bool with_mass, TriangleTerms& terms);
+bool triangle_rows(const SphericalTriangles&, const Batch& batch, TriangleRows& out);
+bool triangle_rows(const FlatTriangles& plane, const Batch& batch, TriangleRows& out);
 
 } // namespace calotte::integrals_detail

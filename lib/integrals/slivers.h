@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vec3.h"
+#include "integrals/half_edge.h"
 #include "integrals/room.h"
 #include "integrals/rows.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace calotte::integrals_detail {
+
+/// A triangle whose circumcentre follows from digits that its corners as stored do not have.
+struct Sliver {
+  std::size_t lane;
+  std::array<Vec3, 3> side; ///< unit vectors along b - c, c - a and a - b
+  std::array<HalfEdge, 3> half;
+};
 
 /// Computes the rows of slivers again, from the directions of their corners without rounding:
 /// triangles of three sites close together, of two beside each other and one far away, or of two

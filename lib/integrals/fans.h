@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/triangle.h"
+#include "domain/clipped_cell.h"
+#include "domain/tangent_outline.h"
+#include "integrals/half_edge.h"
+#include "integrals/integrand.h"
+#include "integrals/kites.h"
+#include "integrals/patches.h"
+#include "integrals/room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+/// Moments of cells that a boundary may clip. A plane shows the part of such a cell inside as a
+/// polygon, with the site at 0: the fan of triangles with a corner there, one on each side, signed
+/// by their orientation.
+namespace calotte::integrals_detail {
+
+/// Integrals over a fan.
+struct FanSums {
+  Vec2 along{0, 0};  ///< the first moment, in the coordinates u of the plane
+  double height = 0; ///< on the sphere along the site, in the plane the mass
+  double energy = 0;
+
+  FanSums& operator+=(const FanSums& other) {
+    along = along + other.along;
+    height += other.height;
+    energy += other.energy;
+    return *this;
+  }
+  friend FanSums operator*(double s, const FanSums& a) {
+    return {s * a.along, s * a.height, s * a.energy};
+  }
+};
+
+/// For cells in the plane itself.
+class FlatLift {
+public:
+  explicit FlatLift(const Vec2& site) : site_(site) {}
+
+  /// Where the density is asked for.
+  Vec3 position(const Vec2& u) const { return {site_.x + u.x, site_.y + u.y, 0}; }
+  /// The integrands at u, for rho = 1.
+  static FanSums at(const Vec2& u) { return {u, 1, dot(u, u)}; }
+  /// The integrals over the triangle at a side, for rho = 1.
+  static FanSums over(const CellSide& side) {
+    const double area = cross(side.p, side.q) / 2;
+    return {(area / 3) * (side.p + side.q), area,
+            area / 6 * (dot(side.p, side.p) + dot(side.p, side.q) + dot(side.q, side.q))};
+  }
+  static CellMoments moments(const FanSums& sums) {
+    return {{sums.along.x, sums.along.y, sums.height}, sums.energy};
+  }
+
+private:
+  Vec2 site_;
+};
+
+/// For cells on the sphere, in the plane that touches it at the site: y = (x_i + u) / sqrt(1 +
+/// u^2). Bisectors and boundary are straight lines there.
+class TangentLift {
+public:
+  explicit TangentLift(const TangentPlane& plane) : plane_(&plane) {}
+
+  Vec3 position(const Vec2& u) const {
+    const Vec3 there = plane_->lifted(u);
+    return (1 / norm(there)) * there;
+  }
+  /// An area of the plane is (1 + u^2)^(3/2) times that on the sphere.
+  static FanSums at(const Vec2& u) {
+    const double square = dot(u, u), root = std::sqrt(1 + square);
+    return (1 / ((1 + square) * (1 + square))) *
+           FanSums{u, 1, 2 * square / (root + 1)}; // |y - x|^2 = 2 (1 - 1/root)
+  }
+  /// The first moment is half of the side's arc times its normal.
+  static FanSums over(const CellSide& side) {
+    const Halves halves(side);
+    return {(0.5 * halves.arc() * halves.to.cosine) * halves.across,
+            0.5 * halves.arc() * halves.to.sine, half_energy(halves.to) - half_energy(halves.from)};
+  }
+  static double area(const CellSide& side) {
+    const Halves halves(side);
+    return half_area(halves.to) - half_area(halves.from);
+  }
+  CellMoments moments(const FanSums& sums) const {
+    return {sums.height * plane_->at() + plane_->tangent(sums.along), sums.energy};
+  }
+
+private:
+  /// The triangle at a side is the difference of two right ones, from the site to the nearest point
+  /// of the side's line and on to the side's ends.
+  struct Halves {
+    explicit Halves(const CellSide& side) {
+      const Vec2 way = side.q - side.p;
+      const double length = norm(way);
+      if (!(length > 0))
+        return;
+      const Vec2 along = (1 / length) * way;
+      const double distance = cross(side.p, along), root = std::sqrt(1 + distance * distance);
+      const auto half = [&](const Vec2& end) {
+        const double t = dot(end, along) / root, tangent = t / (1 + std::sqrt(1 + t * t));
+        return HalfEdge{distance / root, 1 / root, 2 * arc_tangent(tangent), tangent};
+      };
+      across = {-along.y, along.x};
+      from = half(side.p);
+      to = half(side.q);
+    }
+    double arc() const { return to.arc - from.arc; }
+
+    Vec2 across{0, 0}; ///< the side's direction, turned to the left
+    HalfEdge from{0, 1, 0, 0}, to = from;
+  };
+
+  const TangentPlane* plane_;
+};
+
+/// Uniform density in closed form, others by the integrand's rule on each triangle.
+template <class Lift>
+FanSums sum_fan(const Integrand& integrand, const Lift& lift, const std::vector<CellSide>& sides) {
+  FanSums sums;
+  if (integrand.uniform) {
+    for (const CellSide& side : sides)
+      sums += lift.over(side);
+    return sums;
+  }
+  const auto offset = [](const CellSide& side, const QuadratureRule::Node& node) {
+    return node.b * side.p + node.c * side.q;
+  };
+  std::vector<double> x, y, z;
+  for (const CellSide& side : sides)
+    for (const QuadratureRule::Node& node : integrand.nodes) {
+      const Vec3 there = lift.position(offset(side, node));
+      x.push_back(there.x);
+      y.push_back(there.y);
+      z.push_back(there.z);
+    }
+  std::vector<double> rho(x.size());
+  integrand.density(x, y, z, rho);
+  auto next = rho.begin();
+  for (const CellSide& side : sides) {
+    const double area = cross(side.p, side.q) / 2;
+    for (const QuadratureRule::Node& node : integrand.nodes)
+      sums += (area * node.weight * *next++) * lift.at(offset(side, node));
+  }
+  return sums;
+}
+
+/// The Voronoi cell of the site 0, cut to a box. \param beyond its neighbours.
+inline std::vector<CellCorner> voronoi_cell(const Box2& box, const std::vector<Vec2>& beyond) {
+  std::vector<CellCorner> cell{
+      {box.low, {}}, {{box.high.x, box.low.y}, {}}, {box.high, {}}, {{box.low.x, box.high.y}, {}}};
+  for (const Vec2& neighbour : beyond)
+    cell = cut_by_bisector(cell, neighbour);
+  return cell;
+}
+
+/// Moves the centroid of a cell that lies outside to the nearest point of the boundary within the
+/// cell.
+template <class AnyOutline>
+void keep_inside(const AnyOutline& outline, const Vec2& site, const std::vector<CellSide>& sides,
+                 FanSums& sums) {
+  const Vec2 centroid = (1 / sums.height) * sums.along;
+  if (!(sums.height > 0) || outline.side(site + centroid) == Side::inside)
+    return;
+  sums.along = sums.height * nearest_inside(outline, site, sides, centroid).value_or(Vec2{0, 0});
+}
+
+/// The sites of a patch whose cells are within a boundary or cut by it; its other sites are halo,
+/// or have no cells.
+struct CellsByBoundary {
+  std::vector<std::uint8_t> whole; ///< by local number: 1 inside the boundary
+  std::vector<std::int32_t> clipped;
+};
+
+/// A cell is clipped where the boundary comes within the radii of the circles around it.
+template <class Field>
+CellsByBoundary by_boundary(const Field& field, const Patch& patch, const Array<Vec3>& x) {
+  std::vector<double> reach2(static_cast<std::size_t>(x.size()), 0);
+  for (const Triple& t : patch.corners) {
+    const double square = field.reach2(x[t[0]], x[t[1]], x[t[2]]);
+    for (const std::int32_t site : t) {
+      double& reach = reach2[static_cast<std::size_t>(site)];
+      reach = std::max(reach, square);
+    }
+  }
+  CellsByBoundary cells{std::vector<std::uint8_t>(reach2.size(), 0), {}};
+  for (std::int32_t i = 0; i < patch.owned; ++i) {
+    const auto own = static_cast<std::size_t>(i);
+    if (patch.sites[own] >= field.generators)
+      continue;
+    if (field.near_boundary(x[i], reach2[own]))
+      cells.clipped.push_back(i);
+    else
+      cells.whole[own] = 1;
+  }
+  return cells;
+}
+
+/// The triangles of whole cells: no density is asked for elsewhere.
+inline std::vector<Triple> triangles_of(const CellsByBoundary& cells, const Patch& patch) {
+  std::vector<Triple> triangles;
+  for (const Triple& t : patch.corners)
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t site) {
+          return cells.whole[static_cast<std::size_t>(site)] != 0;
+        }))
+      triangles.push_back(t);
+  return triangles;
+}
+
+/// The neighbours of some sites of a patch, each once, in the order of the patch's triangles.
+inline std::vector<std::vector<Vec3>> neighbours_of(const std::vector<std::int32_t>& sites,
+                                                    const Patch& patch, const Array<Vec3>& x) {
+  std::vector<std::int32_t> position(static_cast<std::size_t>(x.size()), -1);
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    position[static_cast<std::size_t>(sites[k])] = static_cast<std::int32_t>(k);
+  std::vector<std::vector<Vec3>> neighbours(sites.size());
+  for (const Triple& t : patch.corners)
+    for (int v = 0; v < 3; ++v)
+      if (const std::int32_t k = position[static_cast<std::size_t>(t[static_cast<std::size_t>(v)])];
+          k >= 0) // each neighbour is once the next corner
+        neighbours[static_cast<std::size_t>(k)].push_back(
+            x[t[static_cast<std::size_t>(next_vertex(v))]]);
+  return neighbours;
+}
+
+/// The moments of a patch's own cells within a boundary.
+/// \param field with the members `generators`, reach2(), near_boundary() and clipped_moments().
+template <class Field, class Surface>
+void integrate_within(const Field& field, const Surface& surface, const Integrand& integrand,
+                      const Patch& patch, const Array<Vec3>& x, Array<CellMoments>& moments,
+                      std::vector<std::int32_t>& suspects) {
+  find_suspects(surface, patch.corners, x, suspects);
+  const CellsByBoundary cells = by_boundary(field, patch, x);
+  std::vector<std::int32_t> found; // again
+  sum_kites(surface, integrand, triangles_of(cells, patch), x, {moments}, found);
+  const std::vector<std::vector<Vec3>> neighbours = neighbours_of(cells.clipped, patch, x);
+  for (std::size_t k = 0; k < cells.clipped.size(); ++k) {
+    const std::int32_t i = cells.clipped[k];
+    moments[i] = field.clipped_moments(integrand, x[i], neighbours[k]);
+  }
+}
+
+} // namespace calotte::integrals_detail
