@@ -104,7 +104,8 @@ template <Space S> void Cells<S>::move(const Points3& points) {
     sites_ = {&column(points, 0), static_cast<std::size_t>(generators_)};
     return;
   }
-  copies_ = Array<Vec3>(generators_ + hull_.cols());
+  if (copies_.size() != generators_ + hull_.cols())
+    copies_ = Array<Vec3>(generators_ + hull_.cols());
   for_each_block(generators_, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       copies_[i] = space_.wrapped(column(points, i));

@@ -104,11 +104,11 @@ struct CvtOptions {
 /// \param callback called after each accepted iteration, see CvtCallback; default none.
 /// \return the mesh in the order of the start; after bisections, the midpoints follow.
 ///
-/// \throws Error as triangulate() and Surface::within(); too_few_sites for fewer generators, or
-/// when
-///         they leave a hemisphere empty or meet; invalid_argument for an option out of range, with
-///         the index of a generator outside the surface, or for a density that is ill-formed,
-///         negative or NaN somewhere, or zero over a whole cell.
+/// \throws Error as triangulate() and Surface::within(); too_few_sites for fewer generators on the
+///         sphere, or when they leave a hemisphere empty or meet; degenerate for fewer in the
+///         plane; invalid_argument for an option out of range, with the index of a generator
+///         outside the surface, or for a density that is ill-formed, negative or NaN somewhere, or
+///         zero over a whole cell.
 Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options = {},
         const CvtCallback& callback = {});
 

@@ -19,7 +19,7 @@
 /// What a run does on its surface before, between and after the descents.
 namespace calotte::cvt_detail {
 
-/// The least number of generators of a run.
+/// The minimum number of generators of a run.
 std::int64_t fewest_generators(const Surface& surface);
 /// The largest number of generators after a bisection of n: on the whole sphere its number; else
 /// some midpoints may be outside.
@@ -37,8 +37,7 @@ struct Begun {
   Level level;
 };
 
-/// \throws Error as make_sites(); too_few_sites; degenerate for generators of the plane on one
-/// line;
+/// \throws Error as make_sites(); too_few_sites; degenerate for points of the plane on one line;
 ///         invalid_argument with the index of the first point outside the surface, or for a number
 ///         of fixed generators out of range; duplicate, with the index of a fixed generator that
 ///         merges with an earlier one.

@@ -128,6 +128,7 @@ void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int3
   const Corners corners = corners_of(mesh, triangle);
   if (!is_counter_clockwise(sites, corners))
     faults.overturned.push_back(triangle);
+  // Of a triangle with a long side other copies may be nearer, but it is overturned anyway.
   const auto at = positions_of(sites, corners);
   for (int v = 0; v < 3; ++v)
     if (!sites.space.is_clearly_acute(at[static_cast<std::size_t>(v)],

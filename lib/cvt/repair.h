@@ -31,7 +31,7 @@ struct Faults {
 
 /// A mesh's points in their space, by site.
 template <Space S> struct PlacedSites {
-  const S& space;
+  S space;
   std::span<const Vec3> points; ///< as the space has them; of a periodic plane in the box
 };
 

@@ -74,7 +74,7 @@ private:
 };
 
 /// f(x) = n.(x - a) - q |x - a|^2 is positive inside the circle, n and q the lifted triangle's
-/// normal (see plane.h); beyond a hull's edge, an infinite circle, q = 0.
+/// normal (see plane_chart.h); beyond a hull's edge, an infinite circle, q = 0.
 template <> class Zone<PlaneChart> {
 public:
   Zone(FaceOf<PlaneChart> face, const PlaneChart&) {

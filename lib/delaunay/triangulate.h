@@ -56,7 +56,7 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   Circle circle;             ///< of a finite face
 };
 
-/// The Delaunay triangulation of places of a Chart (see sphere.h), by incremental insertion,
+/// The Delaunay triangulation of places of a Chart (see sphere_chart.h), by incremental insertion,
 /// completed by one vertex at infinity that is joined to the hull.
 ///
 /// CGAL's Triangulation_data_structure_2 stores vertices and faces. The insertion over it is that

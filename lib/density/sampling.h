@@ -2,9 +2,9 @@
 #pragma once
 
 #include "density/room.h"
-#include "domain/spherical_outline.h"
 
 #include <calotte/density.h>
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <cstdint>

@@ -136,7 +136,8 @@ void require_in_box(const Points3Ref& points, const Eigen::Vector2d& period) {
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       for (int k = 0; k < 2; ++k)
-        if (period[k] > 0 && (points(k, i) < 0 || points(k, i) >= period[k]))
+        if (period[k] > 0 && points.col(i).allFinite() &&
+            (points(k, i) < 0 || points(k, i) >= period[k]))
           outside.at(i);
   });
   outside.refuse("point",
@@ -165,10 +166,11 @@ void require_inside(const Points3Ref& points, const Surface& surface, std::int64
 
 void require_finite_plane(const Surface& surface) {
   const Eigen::Vector2d& period = surface.period();
-  require(surface.is_bounded() || surface.is_box(),
-          "the domain: it has no rings, and the periodic box is " + std::to_string(period.x()) +
-              " x " + std::to_string(period.y()) +
-              "; give rings, or two lengths from 1e-30 to 1e30");
+  const bool good = (period.array() >= 1e-30).all() && (period.array() <= 1e30).all();
+  require(surface.is_bounded() || good, "the domain: it has no rings, and the periodic box is " +
+                                            std::to_string(period.x()) + " x " +
+                                            std::to_string(period.y()) +
+                                            "; give rings, or two lengths from 1e-30 to 1e30");
 }
 
 void require_sphere(const Surface& surface, const std::string& what) {

@@ -276,7 +276,8 @@ void require_free(const Recipe& recipe) {
                 "fixed point " + std::to_string(recipe.cells - 1) + " leaves no free one of the " +
                     std::to_string(recipe.cells) + " cells; give more cells or fewer fixed points",
                 recipe.cells - 1);
-  base_detail::require_count(recipe.cells, least_cells(recipe.surface), "the number of cells");
+  base_detail::require_count(recipe.cells, fewest_generators(recipe.surface),
+                             "the number of cells");
 }
 
 // ---- The descents

@@ -203,8 +203,6 @@ Points3 free_generators(const Schedule& schedule) {
   }
 }
 
-std::int64_t least_cells(const Surface& surface) { return fewest_generators(surface); }
-
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Surface& surface) {
   return cells_beside_fixed(fixed, cells, surface, site_density(density, surface));

@@ -38,9 +38,6 @@ FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
 /// \throws Error as random_sphere() and the like.
 Points3 free_generators(const Schedule& schedule);
 
-/// The least number of generators on a surface.
-std::int64_t least_cells(const Surface& surface);
-
 /// The number of cells of a grid with fixed generators: theirs, and as many of those that a density
 /// demands as the fixed ones leave unmet. An estimate from random places.
 /// \param cells number that the density demands without fixed generators.

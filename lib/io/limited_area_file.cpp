@@ -38,7 +38,7 @@ private:
   bool removed_ = false;
 };
 
-/// The generators, and places far from their region, so that no hemisphere is empty.
+/// The generators, and points far from their region, so that no hemisphere is empty.
 Points3 spanning(const Points3& generators, const Surface& meshed, const Density& density) {
   if (!meshed.is_bounded())
     return generators;

@@ -489,6 +489,13 @@ TEST_CASE("sparse periodic boxes and points outside are refused") {
   CHECK(code_of(random_box(50, 1, 1, 38), {0.5, 1}) == ErrorCode::invalid_argument);
   CHECK(code_of(random_box(50, 1, 1, 38), {1, -1}) == ErrorCode::invalid_argument);
   CHECK(code_of(lattice(50, 1, {0.01, 0.01}, {0, 0}), {1, 1}) == ErrorCode::too_few_sites);
+  for (const double bad : std::initializer_list<double>{INFINITY, -INFINITY, std::nan("")}) {
+    Points2 points = random_box(50, 1, 1, 38);
+    points(0, 7) = bad;
+    CHECK(code_of(points, {1, 1}) == ErrorCode::not_finite);
+    points(1, 7) = 3;
+    CHECK(code_of(points, {1, 1}) == ErrorCode::not_finite);
+  }
   Points2 line(2, 4); // copies, whose rounded places are the same, on the hull
   line << 0.3, 0.1, 0, 0.5, 0, 0, 0, 0;
   for (const double width : {1e3, 1e16, 1e150, 1e300})
