@@ -423,6 +423,15 @@ void uniform_terms(const FlatTriangles& surface, const Batch& batch, const Trian
 /// Four lanes of the terms of each corner: x, y and z of the first moment, and the energy.
 using CornerQuads = std::array<std::array<Quad, 4>, 3>;
 
+/// Adds the terms of up to four triangles to their sites.
+/// \param columns of each triangle, for each corner.
+CALOTTE_INLINE void add_columns(const CornerQuads& columns, const Triple* locals, std::size_t count,
+                                CellMoments* moments) {
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t v = 0; v < 3; ++v)
+      quad_at(moments + locals[k][v]).value += columns[v][k];
+}
+
 /// Adds the terms of triangles to their sites, in the order of the triangles.
 CALOTTE_VECTOR_WIDTHS
 void scatter(const Batch& batch, const TriangleTerms& terms, CellMoments* moments) {
@@ -437,9 +446,10 @@ void scatter(const Batch& batch, const TriangleTerms& terms, CellMoments* moment
       energy = quad_at(terms[v].energy.data() + first).value;
       transpose(x, y, z, energy);
     }
-    for (std::size_t k = 0; k < 4 && first + k < batch.count; ++k)
-      for (std::size_t v = 0; v < 3; ++v)
-        quad_at(moments + batch.locals[first + k][v]).value += columns[v][k];
+    if (batch.count - first >= 4) // the loop has no conditions then
+      add_columns(columns, batch.locals + first, 4, moments);
+    else
+      add_columns(columns, batch.locals + first, batch.count - first, moments);
   }
 }
 
