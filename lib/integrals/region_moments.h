@@ -22,11 +22,10 @@ struct RegionField {
 /// halo are not whole. Cells that the boundary does not reach are those of moments.h.
 ///
 /// A clipped cell is computed in the plane that touches the sphere at its site, where bisectors and
-/// boundary are straight lines: y = (x_i + u) / sqrt(1 + u^2). Its sides are the parts of its
-/// Voronoi edges inside the region and the parts of the boundary inside the cell. For uniform
-/// density the first moment is that of arcs, half the sum of their lengths times their normals;
-/// other moments and densities are integrated by a rule over triangles with a corner in the site,
-/// signed by their orientation.
+/// boundary are straight lines, see TangentLift in fans.h. Its sides are the parts of its Voronoi
+/// edges inside the region and the parts of the boundary inside the cell. Uniform density is
+/// integrated in closed form, other densities by the integrand's rule over triangles with a corner
+/// in the site, signed by their orientation.
 ///
 /// Where the centroid of a clipped cell lies outside the region, `first` is that of a cell whose
 /// centroid is the nearest place of the boundary within the cell, see planar_moments.h.
