@@ -18,7 +18,7 @@ struct Integrand {
   bool uniform = true;
   /// The density is evaluated at the sites only, and linear on each triangle; not in a plane.
   bool at_sites = false;
-  /// The nodes on all parts of a half kite; weights sum to 1. Empty for uniform density.
+  /// The nodes on all parts of a half kite, in threes; weights sum to 1. Empty for uniform density.
   std::vector<QuadratureRule::Node> nodes;
 };
 

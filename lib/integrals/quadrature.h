@@ -13,8 +13,8 @@ struct QuadratureRule {
     double a, b, c; ///< sum to 1
     double weight;
   };
-  std::span<const Node> nodes;
-  int degree; ///< polynomials up to this degree are integrated exactly
+  std::span<const Node> nodes; ///< orbits of three
+  int degree;                  ///< polynomials up to this degree are integrated exactly
 };
 
 /// The rule of 3 or 6 interior points: degrees 2 and 4 (Strang and Fix, 1973; Dunavant, Int. J.

@@ -152,6 +152,28 @@ CALOTTE_VECTOR_WIDTHS bool compute_rows(const Clearance& given, const Batch& bat
   return unclear == 0;
 }
 
+CALOTTE_VECTOR_WIDTHS
+void spherical_centres(const TriangleRows& rows, CentreRows& out) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double scale = rows.scale[lane], distance = rows.height[lane] * scale;
+    out.distance[lane] = distance;
+    put((distance * scale) * at(rows.normal, lane), out.centre, lane);
+  }
+}
+
+/// From the middle of the first edge, at right angles to it.
+CALOTTE_VECTOR_WIDTHS
+void flat_centres(const Batch& batch, const TriangleRows& rows, CentreRows& out) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const Vec3 b = at(batch.corner[1], lane); // the first corner is 0
+    const double cot = rows.cotangent[2][lane];
+    out.distance[lane] = 0;
+    put({0.5 * (b.x - cot * b.y), 0.5 * (b.y + cot * b.x), 0}, out.centre, lane);
+  }
+}
+
 } // namespace
 
 // A function with versions for several vector widths would be exported, whatever its visibility.
@@ -163,6 +185,18 @@ bool triangle_rows(const FlatTriangles& plane, const Batch& batch, TriangleRows&
   const double half = std::min(plane.space.period().x, plane.space.period().y) / 2;
   const double radius2 = half > 0 ? half * half / 4 : std::numeric_limits<double>::infinity();
   return compute_rows(FlatClearance{plane.largest, radius2}, batch, out);
+}
+
+CentreRows centre_rows(const SphericalTriangles&, const Batch&, const TriangleRows& rows) {
+  CentreRows out;
+  spherical_centres(rows, out);
+  return out;
+}
+
+CentreRows centre_rows(const FlatTriangles&, const Batch& batch, const TriangleRows& rows) {
+  CentreRows out;
+  flat_centres(batch, rows, out);
+  return out;
 }
 
 } // namespace calotte::integrals_detail

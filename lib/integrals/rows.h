@@ -96,4 +96,13 @@ void gather_density(const Array<double>& rho, Batch& batch);
 bool triangle_rows(const SphericalTriangles&, const Batch& batch, TriangleRows& out);
 bool triangle_rows(const FlatTriangles& plane, const Batch& batch, TriangleRows& out);
 
+/// The flat triangles' circumcentres, in the plane from the first corner on.
+struct alignas(64) CentreRows {
+  Rows3 centre;
+  Row distance; ///< of the triangle's plane from the sphere's centre; 0 in the plane
+};
+
+CentreRows centre_rows(const SphericalTriangles&, const Batch& batch, const TriangleRows& rows);
+CentreRows centre_rows(const FlatTriangles&, const Batch& batch, const TriangleRows& rows);
+
 } // namespace calotte::integrals_detail
