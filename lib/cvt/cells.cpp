@@ -6,10 +6,10 @@
 #include "base/vector_field.h"
 #include "cvt/hull.h"
 #include "delaunay/delaunay.h"
+#include "delaunay/far_hull.h"
 #include "domain/clipped_cell.h"
 #include "domain/tangent_outline.h"
-#include "integrals/planar_moments.h"
-#include "integrals/region_moments.h"
+#include "integrals/clipped_moments.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -21,13 +21,6 @@
 
 namespace calotte::cvt_detail {
 namespace {
-
-/// The surface without its boundary.
-Surface unbounded(const Surface& surface) {
-  if (!surface.is_bounded())
-    return surface;
-  return surface.is_sphere() ? Surface::sphere() : Surface::plane();
-}
 
 /// The connectivity of a mesh of n places.
 template <Space S> Connectivity connectivity_of(Mesh&& mesh, std::int64_t n) {
@@ -156,22 +149,13 @@ template <Space S> bool Cells<S>::has_centre(std::int32_t a, std::int32_t b, std
 template <Space S>
 void Cells<S>::integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
                          Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const {
-  using integrals_detail::integrate;
-  if constexpr (!S::on_sphere)
-    integrate(integrand, {outline_, space_, generators_}, patch, x, moments, suspects);
-  else if (outline_ != nullptr)
-    integrate(integrand, {outline_, generators_}, patch, x, moments, suspects);
-  else
-    integrate(integrand, patch, x, moments, nullptr, suspects);
+  integrals_detail::integrate(integrand, generators(), patch, x, {moments}, suspects);
 }
 
 template <Space S>
 void Cells<S>::find_suspects(const Patch& patch, const Array<Vec3>& x,
                              std::vector<std::int32_t>& suspects) const {
-  if constexpr (S::on_sphere)
-    integrals_detail::find_suspects(patch, x, suspects);
-  else
-    integrals_detail::find_suspects({outline_, space_, generators_}, patch, x, suspects);
+  integrals_detail::find_suspects(generators(), patch, x, suspects);
 }
 
 /// On the sphere M = (M.x) x - gradient/2, with |M.x| = sqrt(|M|^2 - |gradient/2|^2).

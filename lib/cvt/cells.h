@@ -77,22 +77,21 @@ public:
   Connectivity triangulate(Sites&& sites, Regions&& regions) const;
   double spacing() const; ///< the square root of the area for each generator
 
-  /// See moments.h, region_moments.h and planar_moments.h.
+  /// See moments.h.
   void integrate(const Integrand& integrand, const Patch& patch, const Array<Vec3>& x,
                  Array<CellMoments>& moments, std::vector<std::int32_t>& suspects) const;
   void find_suspects(const Patch& patch, const Array<Vec3>& x,
                      std::vector<std::int32_t>& suspects) const;
 
   static Pull pull(const Vec3& x, const CellMoments& cell) {
+    const Vec3 centroid = integrals_detail::centroid_of<S>(x, cell.first);
     if constexpr (S::on_sphere) {
-      const double length = norm(cell.first), along = dot(cell.first, x);
+      const double along = dot(cell.first, x);
       const Vec3 tangent = cell.first - along * x;
-      return {(1 / length) * cell.first, -2 * tangent, std::copysign(length, along)};
+      return {centroid, -2 * tangent, std::copysign(norm(cell.first), along)};
     } else {
       const double mass = cell.first.z;
-      return {x + Vec3{cell.first.x / mass, cell.first.y / mass, 0},
-              {-2 * cell.first.x, -2 * cell.first.y, 0},
-              mass > 0 ? mass : std::nan("")};
+      return {centroid, {-2 * cell.first.x, -2 * cell.first.y, 0}, mass > 0 ? mass : std::nan("")};
     }
   }
   /// The pull's centroid again.
@@ -108,6 +107,7 @@ public:
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 
 private:
+  Generators<S> generators() const { return {space_, outline_, generators_}; }
   bool drop_intruders();
   void enter(const Points3& x, Points3& to) const;
 

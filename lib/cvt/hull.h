@@ -13,13 +13,6 @@
 /// and the boundary clips their cells.
 namespace calotte::cvt_detail {
 
-/// Directions that are not near the boundary of a region.
-Points3 far_hull(const SphericalOutline& outline);
-
-/// Three points far outside the box of a domain of the plane. No point inside the box is nearer to
-/// one of them than to any other point inside.
-Points3 far_hull(const Outline& outline);
-
 /// The far hull, and rows along the boundary at 4, 8, 16, ... times the spacing that a density
 /// demands of so many generators there. Together with generators that are spread over the region,
 /// they leave no hemisphere empty. All have few neighbours: with the far hull only, generators

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/triangle.h"
 #include "domain/clipped_cell.h"
 #include "domain/tangent_outline.h"
 #include "integrals/half_edge.h"
 #include "integrals/integrand.h"
 #include "integrals/kites.h"
-#include "integrals/patches.h"
 #include "integrals/room.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 /// Moments of cells that a boundary may clip. A plane shows the part of such a cell inside as a
@@ -148,101 +143,6 @@ FanSums sum_fan(const Integrand& integrand, const Lift& lift, const std::vector<
       sums += (area * node.weight * *next++) * lift.at(offset(side, node));
   }
   return sums;
-}
-
-/// The Voronoi cell of the site 0, cut to a box. \param beyond its neighbours.
-inline std::vector<CellCorner> voronoi_cell(const Box2& box, const std::vector<Vec2>& beyond) {
-  std::vector<CellCorner> cell{
-      {box.low, {}}, {{box.high.x, box.low.y}, {}}, {box.high, {}}, {{box.low.x, box.high.y}, {}}};
-  for (const Vec2& neighbour : beyond)
-    cell = cut_by_bisector(cell, neighbour);
-  return cell;
-}
-
-/// Moves the centroid of a cell that lies outside to the nearest point of the boundary within the
-/// cell.
-template <class AnyOutline>
-void keep_inside(const AnyOutline& outline, const Vec2& site, const std::vector<CellSide>& sides,
-                 FanSums& sums) {
-  const Vec2 centroid = (1 / sums.height) * sums.along;
-  if (!(sums.height > 0) || outline.side(site + centroid) == Side::inside)
-    return;
-  sums.along = sums.height * nearest_inside(outline, site, sides, centroid).value_or(Vec2{0, 0});
-}
-
-/// The sites of a patch whose cells are within a boundary or cut by it; its other sites are halo,
-/// or have no cells.
-struct CellsByBoundary {
-  std::vector<std::uint8_t> whole; ///< by local number: 1 inside the boundary
-  std::vector<std::int32_t> clipped;
-};
-
-/// A cell is clipped where the boundary comes within the radii of the circles around it.
-template <class Field>
-CellsByBoundary by_boundary(const Field& field, const Patch& patch, const Array<Vec3>& x) {
-  std::vector<double> reach2(static_cast<std::size_t>(x.size()), 0);
-  for (const Triple& t : patch.corners) {
-    const double square = field.reach2(x[t[0]], x[t[1]], x[t[2]]);
-    for (const std::int32_t site : t) {
-      double& reach = reach2[static_cast<std::size_t>(site)];
-      reach = std::max(reach, square);
-    }
-  }
-  CellsByBoundary cells{std::vector<std::uint8_t>(reach2.size(), 0), {}};
-  for (std::int32_t i = 0; i < patch.owned; ++i) {
-    const auto own = static_cast<std::size_t>(i);
-    if (patch.sites[own] >= field.generators)
-      continue;
-    if (field.near_boundary(x[i], reach2[own]))
-      cells.clipped.push_back(i);
-    else
-      cells.whole[own] = 1;
-  }
-  return cells;
-}
-
-/// The triangles of whole cells: no density is asked for elsewhere.
-inline std::vector<Triple> triangles_of(const CellsByBoundary& cells, const Patch& patch) {
-  std::vector<Triple> triangles;
-  for (const Triple& t : patch.corners)
-    if (std::any_of(t.begin(), t.end(), [&](std::int32_t site) {
-          return cells.whole[static_cast<std::size_t>(site)] != 0;
-        }))
-      triangles.push_back(t);
-  return triangles;
-}
-
-/// The neighbours of some sites of a patch, each once, in the order of the patch's triangles.
-inline std::vector<std::vector<Vec3>> neighbours_of(const std::vector<std::int32_t>& sites,
-                                                    const Patch& patch, const Array<Vec3>& x) {
-  std::vector<std::int32_t> position(static_cast<std::size_t>(x.size()), -1);
-  for (std::size_t k = 0; k < sites.size(); ++k)
-    position[static_cast<std::size_t>(sites[k])] = static_cast<std::int32_t>(k);
-  std::vector<std::vector<Vec3>> neighbours(sites.size());
-  for (const Triple& t : patch.corners)
-    for (int v = 0; v < 3; ++v)
-      if (const std::int32_t k = position[static_cast<std::size_t>(t[static_cast<std::size_t>(v)])];
-          k >= 0) // each neighbour is once the next corner
-        neighbours[static_cast<std::size_t>(k)].push_back(
-            x[t[static_cast<std::size_t>(next_vertex(v))]]);
-  return neighbours;
-}
-
-/// The moments of a patch's own cells within a boundary.
-/// \param field with the members `generators`, reach2(), near_boundary() and clipped_moments().
-template <class Field, class Surface>
-void integrate_within(const Field& field, const Surface& surface, const Integrand& integrand,
-                      const Patch& patch, const Array<Vec3>& x, Array<CellMoments>& moments,
-                      std::vector<std::int32_t>& suspects) {
-  find_suspects(surface, patch.corners, x, suspects);
-  const CellsByBoundary cells = by_boundary(field, patch, x);
-  std::vector<std::int32_t> found; // again
-  sum_kites(surface, integrand, triangles_of(cells, patch), x, {moments}, found);
-  const std::vector<std::vector<Vec3>> neighbours = neighbours_of(cells.clipped, patch, x);
-  for (std::size_t k = 0; k < cells.clipped.size(); ++k) {
-    const std::int32_t i = cells.clipped[k];
-    moments[i] = field.clipped_moments(integrand, x[i], neighbours[k]);
-  }
 }
 
 } // namespace calotte::integrals_detail

@@ -99,8 +99,8 @@ Integrals integrals(const Mesh& mesh, const Density& density, bool with_mass) {
     x[i] = base_detail::column(mesh.points, patches[0].sites[static_cast<std::size_t>(i)]);
   Integrals out{Array<CellMoments>(n), {}};
   Array<double> mass(n);
-  integrate(make_integrand(density, 3, 1), patches[0], x, out.moments, with_mass ? &mass : nullptr,
-            out.suspects);
+  integrate(make_integrand(density, 3, 1), Generators<Sphere>{{}, nullptr, n}, patches[0], x,
+            {out.moments, with_mass ? &mass : nullptr}, out.suspects);
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include "base/points.h"
 #include "cvt/cells.h"
 #include "domain/spherical_outline.h"
-#include "integrals/region_moments.h"
+#include "integrals/clipped_moments.h"
 #include "support/planes.h"
 
 #include <calotte/cvt.h>
