@@ -1,34 +1,120 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/quality.h>
-
 #include "base/points.h"
-#include "integrals/moments.h"
-#include "quality/cell_measures.h"
+#include "density/surface_density.h"
+#include "domain/surface.h"
+#include "exact/space.h"
+#include "quality/closed_mesh.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
-#include "quality/planar_quality.h"
 #include "quality/sides.h"
+#include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
+#include <calotte/quality.h>
+#include <calotte/voronoi.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace quality_detail {
 namespace {
 
-/// Distance from the constrained centroid over spacing.
-void set_centroids(const Mesh& mesh, const Density& density, CellMeasures& out) {
-  const Moments moments = mesh_moments(mesh, density);
-  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
-    const Vec3 first = moments.first[i];
-    out.off_centroid[i] = norm((1 / norm(first)) * first - column(mesh.points, i)) / out.spacing[i];
+/// Measures of n cells and m triangles, none of them set but the degrees, which are 0.
+CellMeasures unset_measures(Eigen::Index n, Eigen::Index m) {
+  CellMeasures out;
+  out.spacing = DoubleVector::Constant(n, no_value);
+  out.area = out.sigma = out.quality = out.largest_angle = out.off_centroid = out.spacing;
+  out.degree = DoubleVector::Zero(n);
+  out.triangle_angle = out.triangle_quality = DoubleVector::Constant(m, no_value);
+  return out;
+}
+
+/// Sets what follows from the triangles: their angles and quality, and by site the number of
+/// triangles and their largest angle.
+void set_angles(const Subject& subject, CellMeasures& out) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  for (std::int64_t t = 0; t < subject.shapes.size(); ++t) {
+    if (!subject.has(t))
+      continue;
+    TrianglePart part;
+    add_triangle(part, subject.shapes[t]);
+    out.triangle_angle[t] = degrees * part.angles.max;
+    out.triangle_quality[t] = part.quality.max;
+    for (const std::int32_t site : subject.triangles.col(t)) {
+      ++out.degree[site];
+      out.largest_angle[site] = std::fmax(out.largest_angle[site], out.triangle_angle[t]);
+    }
   }
+}
+
+/// Sets the spacings that the density prescribes, and the least and the greatest dc/h at each site.
+void set_fits(const Subject& subject, CellMeasures& out) {
+  out.prescribed = subject.inverse_spacing.cwiseInverse();
+  out.min_dc_over_h = DoubleVector::Constant(out.prescribed.size(), no_value);
+  out.max_dc_over_h = out.min_dc_over_h;
+  for (std::int64_t t = 0; t < subject.shapes.size(); ++t)
+    for (int v = 0; v < 3 && subject.has(t); ++v) {
+      const double fit = subject.fit(t, v);
+      for (const int end : {next_vertex(v), previous_vertex(v)}) {
+        const std::int32_t site = subject.triangles(end, t);
+        out.min_dc_over_h[site] = std::fmin(out.min_dc_over_h[site], fit);
+        out.max_dc_over_h[site] = std::fmax(out.max_dc_over_h[site], fit);
+      }
+    }
+}
+
+/// The cells that triangles surround.
+/// \param delaunay whether all edges are.
+void set_surrounded(const std::vector<Sides>& cells, bool delaunay, CellMeasures& out) {
+  for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
+    const Sides& cell = cells[static_cast<std::size_t>(i)];
+    out.spacing[i] = cell.arcs.sum / static_cast<double>(cell.arcs.count);
+    if (!cell.whole())
+      out.degree[i] = no_value;
+    if (!cell.whole() || !delaunay)
+      continue;
+    out.sigma[i] = cell.arcs.min / cell.arcs.max;
+    out.quality[i] = cell.voronoi.min / cell.voronoi.max;
+    out.area[i] = cell.area;
+  }
+}
+
+/// Cells of the plane, which a boundary may clip.
+void set_clipped(const Voronoi& cells, CellMeasures& out) {
+  for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
+    Tally arcs, voronoi;
+    bool whole = true;
+    for (const std::int32_t edge : cells.edges_on_cell[i]) {
+      if (cells.cells_on_edge(1, edge) < 0) {
+        whole = false;
+        continue;
+      }
+      arcs.add(cells.dc[edge]);
+      voronoi.add(cells.dv[edge]);
+    }
+    out.area[i] = cells.cell_area[i];
+    out.spacing[i] = arcs.range().mean;
+    out.degree[i] = whole ? static_cast<double>(arcs.count) : no_value;
+    out.sigma[i] = whole ? arcs.min / arcs.max : no_value;
+    out.quality[i] = whole ? voronoi.min / voronoi.max : no_value;
+  }
+}
+
+/// What the density demands, and how far generators are from the centroids of their cells.
+void set_demand(const ClosedMesh& closed, const Density& density, Subject& subject,
+                CellMeasures& out) {
+  const Points3& points = closed.mesh.points;
+  subject.inverse_spacing =
+      inverse_spacings(points.leftCols(closed.generators), density, root_integral(closed, density));
+  set_fits(subject, out);
+  const Moments moments = moments_of(closed, density);
+  for (std::int64_t i = 0; i < closed.generators; ++i)
+    out.off_centroid[i] =
+        norm(centroid_of(closed, moments, i) - column(points, i)) / out.spacing[i];
 }
 
 /// Values by triangle of a part of a mesh, for all of its triangles.
@@ -40,28 +126,33 @@ DoubleVector of_all(const DoubleVector& values, const std::vector<std::int32_t>&
 }
 
 /// \param mesh without flat triangles along its boundary.
-CellMeasures measure_cells(const Mesh& mesh, const Density& density) {
+CellMeasures measure_on_sphere(const Mesh& mesh, const Density& density) {
   Subject subject{mesh.triangles, mesh.neighbours, {}, make_shapes(mesh), {}, {}, {}};
   CellMeasures out = unset_measures(mesh.points.cols(), mesh.triangles.cols());
   set_angles(subject, out);
   const EdgeCounts edges = count_edges(mesh);
-  const std::vector<Sides> cells = sides_of_cells(mesh, subject.shapes);
-  for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
-    const Sides& cell = cells[static_cast<std::size_t>(i)];
-    out.spacing[i] = cell.arcs.sum / static_cast<double>(cell.arcs.count);
-    if (!cell.whole())
-      out.degree[i] = no_value;
-    if (!cell.whole() || edges.not_delaunay > 0)
-      continue;
-    out.sigma[i] = cell.arcs.min / cell.arcs.max;
-    out.quality[i] = cell.voronoi.min / cell.voronoi.max;
-    out.area[i] = cell.area;
-  }
-  if (edges.boundary > 0 || edges.not_delaunay > 0)
-    return out;
-  subject.inverse_spacing = inverse_spacings(mesh.points, density, root_integral(mesh, density));
-  set_fits(subject, out);
-  set_centroids(mesh, density, out);
+  set_surrounded(sides_of_cells(mesh, subject.shapes), edges.not_delaunay == 0, out);
+  if (edges.boundary == 0 && edges.not_delaunay == 0)
+    set_demand(closed_mesh(mesh), density, subject, out);
+  return out;
+}
+
+CellMeasures measure_in_plane(const Mesh& mesh, const Density& density) {
+  require_finite_plane(mesh.surface);
+  require_voronoi_mesh(mesh);
+  require_inside(mesh.points, mesh.surface);
+  const ClosedMesh closed = closed_mesh(mesh);
+  Subject subject{mesh.triangles,
+                  mesh.neighbours,
+                  {},
+                  make_shapes(mesh),
+                  {},
+                  triangles_inside(closed, mesh.triangles),
+                  {}};
+  CellMeasures out = unset_measures(mesh.points.cols(), mesh.triangles.cols());
+  set_angles(subject, out);
+  set_clipped(voronoi(mesh), out);
+  set_demand(closed, density, subject, out);
   return out;
 }
 
@@ -69,15 +160,15 @@ CellMeasures measure_cells(const Mesh& mesh, const Density& density) {
 } // namespace quality_detail
 
 CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
+  using namespace quality_detail;
+  const Density on_surface = surface_density(density, mesh.surface);
   if (!mesh.surface.is_sphere())
-    return quality_detail::cell_measures_in_plane(mesh, density);
-  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
+    return measure_in_plane(mesh, on_surface);
   if (const Check found = check_surface(mesh); !found.passed())
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
                                                  found.failure + "; triangulate the points anew");
-  using namespace quality_detail;
   const WithoutFlatHull part = without_flat_hull(with_unit_columns(mesh));
-  CellMeasures measures = measure_cells(part.mesh, density);
+  CellMeasures measures = measure_on_sphere(part.mesh, on_surface);
   if (part.mesh.triangles.cols() < mesh.triangles.cols())
     for (DoubleVector* values : {&measures.triangle_angle, &measures.triangle_quality})
       *values = of_all(*values, part.triangle, mesh.triangles.cols());

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -69,11 +68,7 @@ int divisions_for(std::int64_t triangles) {
       std::clamp(std::ceil(std::sqrt(enough / static_cast<double>(triangles))), 1.0, most));
 }
 
-} // namespace
-
-double root_integral(const Mesh& mesh, const Density& density) {
-  if (density.uniform())
-    return 4 * std::numbers::pi;
+double over_triangles(const Mesh& mesh, const Density& density) {
   constexpr int rule = 6;
   const std::int64_t m = mesh.triangles.cols();
   const Integrand integrand = make_integrand(density, rule, divisions_for(m));
@@ -94,13 +89,32 @@ double root_integral(const Mesh& mesh, const Density& density) {
   return sum;
 }
 
+double over_cells(const ClosedMesh& closed, const Density& density) {
+  constexpr std::int64_t many = 10000;
+  const bool few = closed.generators < many;
+  double sum = 0;
+  for (const double mass : moments_of(closed, site_density(density), few ? 6 : 3, few ? 2 : 1).mass)
+    sum += mass;
+  return sum;
+}
+
+} // namespace
+
+double root_integral(const ClosedMesh& closed, const Density& density) {
+  if (density.uniform())
+    return closed.surface.area();
+  return closed.surface.is_sphere() ? over_triangles(closed.mesh, density)
+                                    : over_cells(closed, density);
+}
+
 void set_energy(Quality& quality, double energy, double root_integral) {
   quality.energy = energy;
   quality.limit = hexagon_energy * root_integral * root_integral;
   quality.excess = energy * static_cast<double>(quality.cells) / quality.limit - 1;
 }
 
-DoubleVector inverse_spacings(const Points3& points, const Density& density, double root_integral) {
+DoubleVector inverse_spacings(const Points3Ref& points, const Density& density,
+                              double root_integral) {
   const double h = hexagon_width(root_integral / static_cast<double>(points.cols())); // at rho = 1
   return evaluate(density, points).cwiseSqrt().cwiseSqrt() / h;
 }

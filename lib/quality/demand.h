@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "quality/closed_mesh.h"
 #include "quality/room.h"
 
 #include <calotte/density.h>
@@ -12,11 +13,12 @@
 /// What a density demands of n cells: the spacing at each site, and the least energy.
 namespace calotte::quality_detail {
 
-/// The integral of rho^(1/2) over the sphere: the 6-point rule on each triangle of the mesh, and on
-/// parts of it where the mesh is coarse.
-/// \param mesh closed, of unit columns.
+/// The integral of rho^(1/2) over the surface. On the sphere the 6-point rule on each triangle of
+/// the mesh, and on parts of it where the mesh is coarse. In the plane over the cells: errors of
+/// 1e-6 remain with few points a cell, if there are many cells, as in the sum most of them cancel.
+/// \param density as surface_density() gives it.
 /// \throws Error invalid_argument as DensityEvaluator.
-double root_integral(const Mesh& mesh, const Density& density);
+double root_integral(const ClosedMesh& closed, const Density& density);
 
 /// Sets the energy, its limit and the excess over it.
 /// \param root_integral of rho^(1/2) over the domain.
@@ -27,6 +29,7 @@ void set_energy(Quality& quality, double energy, double root_integral);
 /// \param points 3 x n, as the density takes them.
 /// \param root_integral r, of rho^(1/2) over the domain.
 /// \throws Error invalid_argument as DensityEvaluator.
-DoubleVector inverse_spacings(const Points3& points, const Density& density, double root_integral);
+DoubleVector inverse_spacings(const Points3Ref& points, const Density& density,
+                              double root_integral);
 
 } // namespace calotte::quality_detail

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "quality/cell_measures.h"
 #include "quality/parts.h"
 #include "quality/room.h"
 

@@ -25,6 +25,9 @@
 /// plane.
 namespace calotte::quality_detail {
 
+/// Of what is not measured.
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
 /// Tolerance for angles that are exactly 0 or 90 degrees in lattices.
 inline constexpr double rounding_of_lattices = 1e-9;
 

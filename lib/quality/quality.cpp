@@ -2,93 +2,110 @@
 #include <calotte/quality.h>
 
 #include "base/points.h"
-#include "integrals/moments.h"
+#include "density/surface_density.h"
+#include "domain/surface.h"
+#include "quality/closed_mesh.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
-#include "quality/planar_quality.h"
 #include "quality/sides.h"
 #include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 
 namespace calotte {
 namespace quality_detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-// ---- Moments
-
-struct MomentPart {
-  Tally area;
-  double energy = 0, squares = 0;
-  std::int64_t without_centroid = -1; ///< the first such site
-
-  void join(const MomentPart& other) {
-    area.join(other.area);
-    energy += other.energy;
-    squares += other.squares;
-    if (without_centroid < 0)
-      without_centroid = other.without_centroid;
-  }
-};
-
-MomentPart add_moments(const Mesh& mesh, const Density& density) {
-  const Moments uniform = mesh_moments(mesh, Density{});
-  Moments of_density;
-  if (!density.uniform())
-    of_density = mesh_moments(mesh, density);
-  const Moments& moments = density.uniform() ? uniform : of_density;
-  return join_blocks<MomentPart>(mesh.points.cols(), [&](MomentPart& part, std::int64_t i) {
-    const double length = norm(moments.first[i]);
-    if (part.without_centroid < 0 && !(length > 0 && std::isfinite(length)))
-      part.without_centroid = i;
-    const Vec3 apart = (1 / length) * moments.first[i] - column(mesh.points, i);
-    part.area.add(uniform.mass[i]);
-    part.energy += moments.energy[i];
-    part.squares += dot(apart, apart);
-  });
-}
-
-// ---- Input validation
+constexpr double sphere_area = 4 * std::numbers::pi;
 
 /// \returns the sum of the triangles' areas.
-double require_closed_delaunay(const Mesh& mesh) {
+double require_cells(const Mesh& mesh) {
+  if (!mesh.surface.is_sphere())
+    require_finite_plane(mesh.surface);
   const Check found = require_voronoi_mesh(mesh);
-  if (found.boundary_edges > 0)
+  if (!mesh.surface.is_sphere())
+    require_inside(mesh.points, mesh.surface);
+  else if (found.boundary_edges > 0)
     throw Error(ErrorCode::invalid_argument,
                 "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
                 "not tessellate the sphere: give sites all around");
   return found.area;
 }
 
-Quality measure(const Mesh& mesh, const Density& density) {
-  const MomentPart moments = add_moments(mesh, density);
-  if (const std::int64_t i = moments.without_centroid; i >= 0)
-    throw Error(ErrorCode::invalid_argument,
-                "the density is zero over the whole cell of site " + std::to_string(i) +
-                    ": make it positive everywhere",
-                i);
-  const double root = root_integral(mesh, density);
-  Quality result = measure_shapes({mesh.triangles,
-                                   mesh.neighbours,
-                                   make_vertex_rings(mesh),
-                                   make_shapes(mesh),
-                                   inverse_spacings(mesh.points, density, root),
-                                   {},
-                                   {}},
-                                  mesh.points.cols());
+// ---- Moments
+
+struct MomentPart {
+  Tally area;
+  double energy = 0, squares = 0;
+
+  void join(const MomentPart& other) {
+    area.join(other.area);
+    energy += other.energy;
+    squares += other.squares;
+  }
+};
+
+MomentPart add_moments(const ClosedMesh& closed, const Density& density) {
+  const Moments uniform = moments_of(closed, Density{});
+  Moments of_density;
+  if (!density.uniform())
+    of_density = moments_of(closed, density);
+  const Moments& moments = density.uniform() ? uniform : of_density;
+  return join_blocks<MomentPart>(closed.generators, [&](MomentPart& part, std::int64_t i) {
+    const Vec3 apart = centroid_of(closed, moments, i) - column(closed.mesh.points, i);
+    part.area.add(uniform.mass[i]);
+    part.energy += moments.energy[i];
+    part.squares += dot(apart, apart);
+  });
+}
+
+Quality measure(const ClosedMesh& closed, const Density& density) {
+  const MomentPart moments = add_moments(closed, density);
+  const double root = root_integral(closed, density), area = closed.surface.area();
+  const Mesh& mesh = closed.mesh;
+  Subject subject{mesh.triangles,
+                  mesh.neighbours,
+                  make_vertex_rings(mesh.triangles, mesh.neighbours, closed.generators),
+                  make_shapes(mesh),
+                  inverse_spacings(mesh.points.leftCols(closed.generators), density, root),
+                  triangles_inside(closed, mesh.triangles),
+                  {}};
+  subject.whole = whole_cells(closed, subject.rings);
+  Quality result = measure_shapes(subject, closed.generators);
   result.cell_area = moments.area.range();
-  result.residual = std::sqrt(moments.squares / (4 * pi)); // sqrt(squares/n) over sqrt(4 pi/n)
+  result.residual = std::sqrt(moments.squares / area); // sqrt(squares/n) over sqrt(area/n)
   set_energy(result, moments.energy, root);
-  result.cells_area = moments.area.sum / (4 * pi);
+  result.cells_area = moments.area.sum / area;
+  return result;
+}
+
+/// \param cells whether the Voronoi cells are measured, too.
+Quality measure_open(const Mesh& mesh, bool cells) {
+  const Check found = check_surface(mesh);
+  if (!found.passed())
+    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
+                                                 found.failure + "; triangulate the points anew");
+  const bool on_sphere = mesh.surface.is_sphere();
+  const Mesh part = on_sphere ? without_flat_hull(with_unit_columns(mesh)).mesh : mesh;
+  const Subject subject{part.triangles, part.neighbours, {}, make_shapes(part), {}, {}, {}};
+  Quality result = measure_shapes(subject, 0);
+  const std::vector<Sides> sides = sides_of_cells(part, subject.shapes);
+  if (cells) {
+    const double area = set_whole_cells(sides, result);
+    result.cells_area = on_sphere ? area / sphere_area : 0;
+  } else {
+    result.off_centring = result.dv_over_dc = {};
+    result.short_edges = 0;
+  }
+  result.cells = mesh.points.cols();
+  result.flat = mesh.triangles.cols() - part.triangles.cols();
+  result.degrees = inner_degrees(sides);
+  result.triangles_area = on_sphere ? found.area / sphere_area : 0;
   return result;
 }
 
@@ -96,45 +113,13 @@ Quality measure(const Mesh& mesh, const Density& density) {
 } // namespace quality_detail
 
 Quality quality(const Mesh& mesh, const Density& density) {
-  if (!mesh.surface.is_sphere())
-    return quality_detail::quality_in_plane(mesh, density);
-  evaluate(density, Points3(Eigen::Vector3d::UnitZ())); // throws if the density is ill-formed
-  const double triangles_area = quality_detail::require_closed_delaunay(mesh);
-  Quality result = quality_detail::measure(quality_detail::with_unit_columns(mesh), density);
-  result.triangles_area = triangles_area / (4 * std::numbers::pi);
+  using namespace quality_detail;
+  const Density on_surface = surface_density(density, mesh.surface);
+  const double triangles_area = require_cells(mesh);
+  Quality result = measure(closed_mesh(mesh), on_surface);
+  result.triangles_area = mesh.surface.is_sphere() ? triangles_area / sphere_area : 0;
   return result;
 }
-
-namespace quality_detail {
-namespace {
-
-/// \param cells whether the Voronoi cells are measured, too.
-Quality measure_open(const Mesh& mesh, bool cells) {
-  if (!mesh.surface.is_sphere())
-    return measure_open_plane(mesh, cells);
-  const Check found = check_surface(mesh);
-  if (!found.passed())
-    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
-                                                 found.failure + "; triangulate the points anew");
-  const Mesh unit = without_flat_hull(with_unit_columns(mesh)).mesh;
-  const Subject subject{unit.triangles, unit.neighbours, {}, make_shapes(unit), {}, {}, {}};
-  Quality result = measure_shapes(subject, 0);
-  const std::vector<Sides> sides = sides_of_cells(unit, subject.shapes);
-  if (cells) {
-    result.cells_area = set_whole_cells(sides, result) / (4 * pi);
-  } else {
-    result.off_centring = result.dv_over_dc = {};
-    result.short_edges = 0;
-  }
-  result.cells = mesh.points.cols();
-  result.flat = mesh.triangles.cols() - unit.triangles.cols();
-  result.degrees = inner_degrees(sides);
-  result.triangles_area = found.area / (4 * pi);
-  return result;
-}
-
-} // namespace
-} // namespace quality_detail
 
 Quality triangle_quality(const Mesh& mesh) { return quality_detail::measure_open(mesh, false); }
 

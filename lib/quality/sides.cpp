@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "exact/predicates.h"
+#include "exact/space.h"
 #include "mesh/connectivity.h"
 
 #include <algorithm>
@@ -13,8 +14,8 @@
 namespace calotte::quality_detail {
 namespace {
 
-/// sin(delta) = |a-b|/|a+b| cot(C), as in moments.h.
-Shape shape_of(const std::array<Vec3, 3>& p) {
+/// sin(delta) = |a-b|/|a+b| cot(C), see kites.h.
+Shape shape_of(const Sphere&, const std::array<Vec3, 3>& p) {
   const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
   Shape shape{};
   for (std::size_t v = 0; v < 3; ++v) {
@@ -24,6 +25,19 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
     shape.angle[v] = std::atan2(twice_area, product);
     shape.side[v] = 2 * std::atan2(difference, sum);
     shape.delta[v] = std::asin(std::clamp(sine, -1.0, 1.0)); // rounding can exceed a hemisphere
+  }
+  return shape;
+}
+
+/// Of lengths from each corner, in a box to the nearest copies.
+Shape shape_of(const Plane& plane, const std::array<Vec3, 3>& p) {
+  Shape shape{};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const Vec3 a = plane.offset(p[v], p[(v + 1) % 3]), b = plane.offset(p[v], p[(v + 2) % 3]);
+    const double twice_area = cross(a, b).z, product = a.x * b.x + a.y * b.y;
+    shape.angle[v] = std::atan2(twice_area, product);
+    shape.side[v] = norm(a - b);
+    shape.delta[v] = shape.side[v] / 2 * (product / twice_area);
   }
   return shape;
 }
@@ -73,11 +87,13 @@ Mesh with_unit_columns(Mesh mesh) {
 
 Shapes make_shapes(const Mesh& mesh) {
   Shapes shapes(mesh.triangles.cols());
-  for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t)
-      shapes[t] = shape_of({column(mesh.points, mesh.triangles(0, t)),
-                            column(mesh.points, mesh.triangles(1, t)),
-                            column(mesh.points, mesh.triangles(2, t))});
+  in_space_of(mesh.surface, [&](const Space auto& space) {
+    for_each_block(shapes.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t t = begin; t != end; ++t)
+        shapes[t] = shape_of(space, {column(mesh.points, mesh.triangles(0, t)),
+                                     column(mesh.points, mesh.triangles(1, t)),
+                                     column(mesh.points, mesh.triangles(2, t))});
+    });
   });
   return shapes;
 }

@@ -15,7 +15,7 @@ namespace calotte::quality_detail {
 /// The mesh with all columns of norm 1.
 Mesh with_unit_columns(Mesh mesh);
 
-/// \param mesh of unit columns.
+/// \param mesh of unit columns, or of the plane.
 Shapes make_shapes(const Mesh& mesh);
 
 /// The sides of a cell, as far as triangles surround it.

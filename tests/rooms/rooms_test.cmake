@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # The rooms, and those that each may use besides itself: an acyclic graph, since all stand before it.
-set(rooms base exact curve mesh domain density generators integrals delaunay voronoi cvt grids quality io c)
+set(rooms base exact curve mesh domain density generators integrals delaunay voronoi quality cvt grids io c)
 set(uses_base "")
 set(uses_exact base)
 set(uses_curve base exact)
@@ -18,7 +18,7 @@ set(uses_delaunay base exact curve mesh domain generators integrals)
 set(uses_voronoi base exact mesh domain density integrals delaunay)
 set(uses_cvt base exact curve mesh domain density generators integrals delaunay voronoi)
 set(uses_grids base exact curve mesh domain density generators delaunay voronoi cvt)
-set(uses_quality base exact mesh domain density integrals voronoi cvt)
+set(uses_quality base exact mesh domain density integrals delaunay voronoi)
 set(uses_io base exact mesh domain density generators delaunay voronoi cvt grids quality)
 set(uses_c base mesh delaunay voronoi grids io)
 foreach(room ${rooms})
