@@ -303,17 +303,15 @@ FirstLevel first_level(const Recipe& recipe) {
                        fixed);
 }
 
-} // namespace
-
-CvtOptions options_of(const Schedule& schedule) {
-  const Recipe& recipe = schedule.recipe;
+/// \param recipe with all choices made.
+CvtOptions options_of(const Recipe& recipe, int bisections) {
   CvtOptions options;
   options.density = recipe.density;
   options.method = recipe.method;
   options.norm = recipe.stop.iterations ? Norm::none : recipe.stop.norm;
   options.tolerance = *recipe.stop.tolerance;
   options.max_iterations = recipe.stop.iterations.value_or(recipe.stop.max_iterations);
-  options.bisections = static_cast<int>(schedule.levels.size()) - 1;
+  options.bisections = bisections;
   if (recipe.start.kind == Start::Kind::multilevel) {
     options.insertion_rounds = *recipe.start.insertion_rounds;
     options.cells = recipe.cells;
@@ -326,6 +324,12 @@ CvtOptions options_of(const Schedule& schedule) {
   options.fixed = recipe.fixed.cols();
   options.boundary = recipe.boundary;
   return options;
+}
+
+} // namespace
+
+CvtOptions options_of(const Schedule& schedule) {
+  return options_of(schedule.recipe, static_cast<int>(schedule.levels.size()) - 1);
 }
 
 } // namespace grids_detail
@@ -356,9 +360,9 @@ Schedule plan(Recipe recipe) {
   all.planar_widths = {};
   const FirstLevel first = first_level(all);
   schedule.first = first.kind;
-  schedule.levels.resize(static_cast<std::size_t>(first.bisections) + 1); // for their number
-  schedule.levels = levels_of(all.surface, first.cells, first.bisections, options_of(schedule));
-  cvt_detail::require_options(options_of(schedule));
+  const CvtOptions options = options_of(all, first.bisections);
+  schedule.levels = levels_of(all.surface, first.cells, first.bisections, options);
+  cvt_detail::require_options(options);
   return schedule;
 }
 
