@@ -55,15 +55,19 @@ Cells<S>::Cells(const Surface& surface, Boundary boundary, const Density& densit
   if constexpr (S::on_sphere) {
     if (outline_ == nullptr)
       return;
-    hull_ = hull_of(surface, density, start.cols());
+    const Eigen::Index far = hull_.cols();
+    const Points3 rows = hull_rows(surface, density, start.cols());
+    hull_.conservativeResize(3, far + rows.cols());
+    hull_.rightCols(rows.cols()) = rows;
     do
       move(start);
-    while (drop_intruders());
+    while (drop_intruders(far));
   }
 }
 
-/// Removes the points of rows whose cells meet the region. False if there are none.
-template <Space S> bool Cells<S>::drop_intruders() {
+/// Removes those points of the hull, from one on, whose cells meet the region. False if there are
+/// none.
+template <Space S> bool Cells<S>::drop_intruders([[maybe_unused]] Eigen::Index far) {
   if constexpr (S::on_sphere) {
     const Connectivity mesh = triangulate();
     std::vector<std::vector<Vec3>> neighbours(static_cast<std::size_t>(hull_.cols()));
@@ -72,10 +76,9 @@ template <Space S> bool Cells<S>::drop_intruders() {
         if (const std::int64_t k = mesh.triangles(v, t) - generators_; k >= 0)
           neighbours[static_cast<std::size_t>(k)].push_back(
               place(mesh.triangles(next_vertex(v), t)));
-    const std::int64_t directions = far_hull(*outline_).cols();
     std::vector<std::uint8_t> stays(neighbours.size(), 1);
     for_each_block(hull_.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-      for (std::int64_t k = std::max(begin, directions); k < end; ++k)
+      for (std::int64_t k = std::max<std::int64_t>(begin, far); k < end; ++k)
         stays[static_cast<std::size_t>(k)] =
             clipped_area(*outline_, column(hull_, k), neighbours[static_cast<std::size_t>(k)]) == 0;
     });

@@ -50,7 +50,7 @@ public:
   /// With the far hull, for any generators.
   /// \throws Error as outline_of().
   explicit Cells(const Surface& surface, Boundary boundary = Boundary::clip);
-  /// For a run that starts from some generators: with the rows of hull_of() in a region of the
+  /// For a run that starts from some generators: with hull_rows(), too, in a region of the
   /// sphere, without those points whose cells meet the region, such as beside an island that no
   /// generator is near.
   Cells(const Surface& surface, Boundary boundary, const Density& density, const Points3& start);
@@ -108,7 +108,7 @@ public:
 
 private:
   Generators<S> generators() const { return {space_, outline_, generators_}; }
-  bool drop_intruders();
+  bool drop_intruders(Eigen::Index far);
   void enter(const Points3& x, Points3& to) const;
 
   Surface surface_;

@@ -3,7 +3,6 @@
 
 #include "base/points.h"
 #include "base/vec3.h"
-#include "delaunay/far_hull.h"
 #include "density/demanded_spacing.h"
 
 #include <algorithm>
@@ -85,7 +84,7 @@ private:
 
 } // namespace
 
-Points3 hull_of(const Surface& surface, const Density& density, std::int64_t generators) {
+Points3 hull_rows(const Surface& surface, const Density& density, std::int64_t generators) {
   const SphericalOutline& outline = *outline_of<Sphere>(surface);
   constexpr double nearest = 4; // spacings
   const DemandedSpacing demand(surface, density, static_cast<double>(generators));
@@ -95,12 +94,10 @@ Points3 hull_of(const Surface& surface, const Density& density, std::int64_t gen
     points.insert(points.end(), row.begin(), row.end());
     row = Row(outline, demand, spacings).all();
   }
-  const Points3 far = far_hull(outline);
-  Points3 hull(3, far.cols() + std::ssize(points));
-  hull.leftCols(far.cols()) = far;
+  Points3 rows(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)
-    set_column(hull, far.cols() + static_cast<Eigen::Index>(k), points[k]);
-  return hull;
+    set_column(rows, static_cast<Eigen::Index>(k), points[k]);
+  return rows;
 }
 
 } // namespace calotte::cvt_detail

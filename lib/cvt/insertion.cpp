@@ -112,7 +112,7 @@ void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t cont
 }
 
 /// Whether sites are on the hull of an open mesh, where rings are open.
-std::vector<std::uint8_t> hull_of(const Mesh& mesh) {
+std::vector<std::uint8_t> on_hull(const Mesh& mesh) {
   std::vector<std::uint8_t> hull(static_cast<std::size_t>(mesh.points.cols()), 0);
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
@@ -129,7 +129,7 @@ std::vector<std::int8_t> oddities(const Mesh& mesh) {
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
-  const std::vector<std::uint8_t> hull = hull_of(mesh);
+  const std::vector<std::uint8_t> hull = on_hull(mesh);
   std::vector<std::int8_t> odd(degree.size(), 0);
   for (std::size_t i = 0; i < odd.size(); ++i)
     if (hull[i] == 0)

@@ -277,6 +277,7 @@ Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& repor
 
   monitor.begin("unite", united, 2 * std::ssize(reports->regions));
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports), &monitor);
+  mesh.surface = Chart::surface();
   empty_pools_of_many(mesh.points.cols());
   report.seconds.unite = lap(mark);
   return mesh;
@@ -336,7 +337,6 @@ Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
   Monitor monitor(options.progress);
   Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
   Mesh mesh = triangulate<PlaneChart>(std::move(sites), options.partition, report, monitor);
-  mesh.surface = Surface::plane();
   report.seconds.total = lap(start);
   monitor.finish();
   return mesh;

@@ -32,6 +32,8 @@ public:
   /// The distance that no two places in the frame exceed.
   static constexpr double diameter = 2.83;
 
+  static Surface surface() { return Surface::plane(); } ///< of the mesh; of images, too
+
   /// Views all sites.
   explicit PlaneChart(const Sites& sites) : PlaneChart(sites, {0, 0, 0}, diameter) {}
 

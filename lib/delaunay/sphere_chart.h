@@ -41,6 +41,8 @@ public:
   /// The greatest chord.
   static constexpr double diameter = 2;
 
+  static Surface surface() { return Surface::sphere(); } ///< of the mesh
+
   /// The whole sphere from its centre.
   explicit SphereChart(const Sites& sites) : sites_(&sites) { widen(2); }
 

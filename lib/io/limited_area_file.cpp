@@ -2,8 +2,10 @@
 #include <calotte/cut.h>
 
 #include "cvt/hull.h"
+#include "delaunay/far_hull.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
+#include "exact/space.h"
 #include "io/mpas.h"
 #include "io/mpas_cut.h"
 
@@ -42,9 +44,11 @@ private:
 Points3 spanning(const Points3& generators, const Surface& meshed, const Density& density) {
   if (!meshed.is_bounded())
     return generators;
-  const Points3 hull = cvt_detail::hull_of(meshed, density, generators.cols());
-  Points3 all(3, generators.cols() + hull.cols());
-  all << generators, hull;
+  const Points3 far = delaunay_detail::far_hull(
+                    *domain_detail::outline_of<exact_detail::Sphere>(meshed)),
+                rows = cvt_detail::hull_rows(meshed, density, generators.cols());
+  Points3 all(3, generators.cols() + far.cols() + rows.cols());
+  all << generators, far, rows;
   return all;
 }
 
