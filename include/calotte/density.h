@@ -81,8 +81,9 @@ DoubleVector evaluate(const Density& density, const PointsRef& points, const Sur
 /// a period it is periodic. Outside an open mesh the nearest triangle found holds.
 /// \param mesh the density keeps a copy of what it needs.
 /// \param density n values >= 0, finite, by site.
-/// \throws Error invalid_argument for another number of values, a value out of range, or no
-/// triangle.
+/// \throws Error invalid_argument for another number of values, a value out of range, no triangle,
+/// or
+///         a site more than 2^30 periods from the box.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
 
 } // namespace calotte

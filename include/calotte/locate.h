@@ -35,8 +35,9 @@ struct Locations {
 /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0, in
 ///        the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
 /// \throws Error invalid_argument: another number of rows, a mesh without triangles, and with the
-///         index of the position a z in the plane, or a distance above 2^30 periods; not_finite and
-///         zero_vector (on the sphere), with the index of the position.
+///         index of the position a z in the plane, or a distance above 2^30 periods, which a site
+///         must not have either; not_finite and zero_vector (on the sphere), with the index of the
+///         position.
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
 } // namespace calotte

@@ -291,10 +291,12 @@ void require_points(const State& state, const Surface& surface) {
   };
   if (!good())
     refuse_state();
-  if (!surface.is_bounded())
-    return; // generators may leave a periodic box
   try {
-    require_inside(points, surface);
+    if (surface.is_bounded())
+      require_inside(points, surface);
+    else // they may leave a periodic box
+      in_space_of(surface,
+                  [&](const Space auto& space) { require_positions(space, points, "generator"); });
   } catch (const Error&) {
     refuse_state();
   }

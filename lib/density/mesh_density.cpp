@@ -188,8 +188,10 @@ Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
                              std::to_string(i) + "; give finite numbers that are not negative");
   Density result;
   result.kind = Density::Kind::callable;
-  result.callable = in_space_of(
-      mesh.surface, [&](const Space auto& space) { return interpolation(mesh, space, density); });
+  result.callable = in_space_of(mesh.surface, [&](const Space auto& space) {
+    require_positions(space, mesh.points, "site");
+    return interpolation(mesh, space, density);
+  });
   return result;
 }
 

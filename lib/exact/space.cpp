@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact/space.h"
 
+#include "base/first_fault.h"
+#include "base/parallel.h"
+#include "base/points.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -106,6 +110,16 @@ bool Plane::is_short(const Position& a, const Position& b) const {
     return !(period > 0) || 1.000001 * std::abs(length) < period / 2;
   };
   return is_short(along.x, period_.x) && is_short(along.y, period_.y);
+}
+
+void require_positions(const Plane& plane, const PointsRef& points, const std::string& thing) {
+  FirstFault fault;
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i)
+      if (!plane.has_position(point(points, i)))
+        fault.at(i);
+  });
+  fault.refuse(thing, "is more than 2^30 periods away; give its copy in the box");
 }
 
 } // namespace calotte::exact_detail

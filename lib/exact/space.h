@@ -7,10 +7,11 @@
 #include "exact/room.h"
 
 #include <calotte/surface.h>
+#include <calotte/types.h>
 
 #include <cmath>
 #include <concepts>
-#include <cstdint>
+#include <string>
 
 /// Where points live, for code that is written once: the sphere, or a plane that may be periodic.
 /// A function of a Surface calls in_space_of() once, and what is below it takes a Space.
@@ -27,6 +28,7 @@ public:
 
   // ---- Positions
 
+  static bool has_position(const Vec3&) { return true; }
   static Position position(const Vec3& x) { return x; }
   static Position copy(const Position& p, int) { return p; }
   static Position near(const Vec3& x, const Position&) { return x; }
@@ -81,6 +83,9 @@ public:
 
   // ---- Positions: copies of points
 
+  bool has_position(const Vec3& x) const {
+    return within_reach(x.x, period_.x) && within_reach(x.y, period_.y);
+  }
   Position position(const Vec3& x) const {
     return {{x.x, x.y}, boxes(x.x, period_.x), boxes(x.y, period_.y)};
   }
@@ -90,8 +95,8 @@ public:
   }
   Position near(const Vec3& x, const Position& p) const {
     return {{x.x, x.y},
-            p.i + static_cast<int>(periods_between(p.site.x, x.x, period_.x)),
-            p.j + static_cast<int>(periods_between(p.site.y, x.y, period_.y))};
+            static_cast<int>(p.i + periods_between(p.site.x, x.x, period_.x)),
+            static_cast<int>(p.j + periods_between(p.site.y, x.y, period_.y))};
   }
   Vec3 coordinates(const Position& p) const {
     return {p.site.x + p.i * period_.x, p.site.y + p.j * period_.y, 0};
@@ -144,6 +149,10 @@ private:
     return inside >= 0 && inside < period ? inside : 0;
   }
   static double middle(double a, double b, double period);
+  static bool within_reach(double x, double period) {
+    constexpr double most_periods = 1 << 30; // so that the number of a copy is an int
+    return !(period > 0) || std::abs(x) <= most_periods * period;
+  }
   static int boxes(double x, double period) {
     return period > 0 ? -static_cast<int>(std::floor(x / period)) : 0;
   }
@@ -159,7 +168,9 @@ template <class S>
 concept Space = requires(const S space, const Vec3& x, const typename S::Position& p, int k) {
   { S::on_sphere } -> std::convertible_to<bool>;
   { S::copies } -> std::convertible_to<int>; ///< of a point within one period around it
-  /// A point, or its copy in the half-open period.
+  /// Whether a point has positions: in a periodic direction it is at most 2^30 periods from 0.
+  { space.has_position(x) } -> std::same_as<bool>;
+  /// A point, or its copy in the half-open period. \pre here and for near(), has_position(x).
   { space.position(x) } -> std::same_as<typename S::Position>;
   /// The k-th of the copies around a position; all are the same without periods.
   { space.copy(p, k) } -> std::same_as<typename S::Position>;
@@ -200,6 +211,11 @@ template <class Body> decltype(auto) in_space_of(const Surface& surface, const B
     return body(in_space<Sphere>(surface));
   return body(in_space<Plane>(surface));
 }
+
+/// \param thing what the points are, for the message: "site".
+/// \throws Error invalid_argument with the index of the first point that has no position.
+void require_positions(const Plane& plane, const PointsRef& points, const std::string& thing);
+inline void require_positions(const Sphere&, const PointsRef&, const std::string&) {}
 
 /// The unit vector of a direction of any norm; the same bits for any order of its coordinates.
 Vec3 unit_of_any_norm(const Vec3& a);

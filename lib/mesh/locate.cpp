@@ -302,7 +302,7 @@ void require_finite(const PointsRef& positions) {
       " is not finite; leave it out");
 }
 
-void require_directions(const PointsRef& given) {
+void require_queries(const Sphere&, const PointsRef& given) {
   const base_detail::Points3Ref positions = base_detail::directions_of(given);
   require_finite(positions);
   refuse_positions(
@@ -310,16 +310,9 @@ void require_directions(const PointsRef& given) {
       " is the zero vector, which is no direction; leave it out");
 }
 
-void require_plane_positions(const PointsRef& given, const Eigen::Vector2d& period) {
-  const base_detail::Points2Ref positions = base_detail::plane_points_of(given);
-  require_finite(positions);
-  constexpr double most_periods = 1 << 30;
-  refuse_positions(
-      positions,
-      [&](const auto& p) {
-        return (p.array().abs() > most_periods * period.array() && period.array() > 0).any();
-      },
-      ErrorCode::invalid_argument, " is more than 2^30 periods away; give its copy in the box");
+void require_queries(const Plane& plane, const PointsRef& given) {
+  require_finite(base_detail::plane_points_of(given));
+  require_positions(plane, given, "position");
 }
 
 } // namespace
@@ -328,11 +321,9 @@ void require_plane_positions(const PointsRef& given, const Eigen::Vector2d& peri
 Locations locate(const Mesh& mesh, const PointsRef& positions) {
   using namespace mesh_detail;
   require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
-  if (mesh.surface.is_sphere())
-    require_directions(positions);
-  else
-    require_plane_positions(positions, mesh.surface.period());
   return in_space_of(mesh.surface, [&](const Space auto& space) {
+    require_queries(space, positions);
+    require_positions(space, mesh.points, "site");
     return locate_all(SeenMesh(mesh, space), positions);
   });
 }

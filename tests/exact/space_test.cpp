@@ -2,12 +2,16 @@
 #include "exact/space.h"
 #include "support/random.h"
 
+#include <calotte/error.h>
+#include <calotte/types.h>
+
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 
 using namespace calotte::exact_detail;
+using calotte::Points3;
 using calotte::Surface;
 using calotte::test::Random;
 
@@ -59,6 +63,29 @@ TEST_CASE("the copy next to a position is a nearest one, and offsets lead to it"
       if (plane.is_short(here, next))
         CHECK(same(plane.offset(a, b), -plane.offset(b, a)));
     }
+}
+
+TEST_CASE("points have positions up to 2^30 periods away, and no farther") {
+  const double far = 0x1p30;
+  CHECK(Sphere::has_position({1e300, 0, 0}));
+  CHECK(Plane().has_position({1e300, -1e300, 0}));
+  for (const double side : {-1.0, 1.0}) {
+    const Plane plane(Vec2{0.5, 0});
+    const Vec3 x{side * far * 0.5, 1e300, 0}, opposite = -x;
+    CHECK(plane.has_position(x));
+    CHECK(plane.coordinates(plane.position(x)).x == 0);
+    CHECK(plane.coordinates(plane.near(opposite, plane.position(x))).x == 0);
+    CHECK_FALSE(plane.has_position({x.x * 1.000001, 0, 0}));
+    CHECK_FALSE(plane.has_position({side * std::nan(""), 0, 0}));
+    CHECK_FALSE(Plane(Vec2{1e-30, 0}).has_position({side * 1e300, 0, 0}));
+  }
+  Points3 points = Points3::Zero(3, 5);
+  points(1, 3) = 1e12;
+  CHECK_NOTHROW(require_positions(Sphere(), points, "site"));
+  CHECK_NOTHROW(require_positions(Plane(Vec2{1, 0}), points, "site"));
+  CHECK_THROWS_WITH_AS(require_positions(Plane(Vec2{0, 1}), points, "site"),
+                       "site 3 is more than 2^30 periods away; give its copy in the box",
+                       calotte::Error);
 }
 
 TEST_CASE("midpoints have the same bits in either order, are halfway and in the box") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/delaunay.h>
+#include <calotte/density.h>
 #include <calotte/generators.h>
 #include <calotte/locate.h>
 
@@ -338,4 +339,10 @@ TEST_CASE("bad input of locate is one clear line with the index") {
   CHECK_THROWS_WITH_AS(locate(box, Points2(1e12 * places)),
                        "position 0 is more than 2^30 periods away; give its copy in the box",
                        Error);
+  PlanarMesh far = box;
+  far.points(1, 7) = -1e12;
+  CHECK_THROWS_WITH_AS(locate(far, places),
+                       "site 7 is more than 2^30 periods away; give its copy in the box", Error);
+  CHECK_THROWS_WITH_AS(interpolated_density(far, DoubleVector::Ones(far.points.cols())),
+                       "site 7 is more than 2^30 periods away; give its copy in the box", Error);
 }
