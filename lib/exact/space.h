@@ -93,6 +93,7 @@ public:
     const int i = k % 3 - 1, j = k / 3 - 1;
     return {p.site, p.i + (period_.x > 0 ? i : 0), p.j + (period_.y > 0 ? j : 0)};
   }
+  /// Of two that are equally near, see periods_between().
   Position near(const Vec3& x, const Position& p) const {
     return {{x.x, x.y},
             static_cast<int>(p.i + periods_between(p.site.x, x.x, period_.x)),
@@ -124,7 +125,7 @@ public:
   Vec3 wrapped(const Vec3& x) const {
     return {wrapped(x.x, period_.x), wrapped(x.y, period_.y), x.z};
   }
-  /// To the copy of b nearest to a.
+  /// To the copy of b nearest to a; offset(b, a) is the opposite.
   Vec3 offset(const Vec3& a, const Vec3& b) const {
     return {b.x - a.x + periods_between(a.x, b.x, period_.x) * period_.x,
             b.y - a.y + periods_between(a.y, b.y, period_.y) * period_.y, 0};
@@ -138,7 +139,9 @@ public:
   }
 
 private:
-  /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period.
+  /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period. Of two
+  /// that are equally near it is the one on the other side of a than b: b's own copy half a period
+  /// away is not chosen, and the shift of the copy of a nearest to b is the opposite.
   static double periods_between(double a, double b, double period) {
     return period > 0 ? -std::round((b - a) / period) : 0;
   }

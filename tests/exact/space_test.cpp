@@ -60,9 +60,21 @@ TEST_CASE("the copy next to a position is a nearest one, and offsets lead to it"
         CHECK(distance(plane, next, here) <=
               distance(plane, plane.copy(next, k), here) * (1 + 1e-14) + 1e-15);
       CHECK(norm(plane.offset(a, b) - plane.seen(next, here)) <= 1e-14);
-      if (plane.is_short(here, next))
-        CHECK(same(plane.offset(a, b), -plane.offset(b, a)));
+      CHECK(same(plane.offset(a, b), -plane.offset(b, a)));
     }
+}
+
+TEST_CASE("of two copies that are equally near, it is the one across") {
+  const Plane plane(Vec2{2, 1.5});
+  Random random(5);
+  for (int round = 0; round < 500; ++round) {
+    const Vec3 a = coarse(random);
+    const int periods = random.integer(-3, 3);
+    const Vec3 b{a.x + 1 + 2 * periods, a.y, 0};
+    CHECK(same(plane.offset(a, b), Vec3{b.x > a.x ? -1.0 : 1.0, 0, 0}));
+    const Image here = plane.copy(plane.position(a), random.integer(0, 8));
+    CHECK(same(plane.seen(plane.near(b, here), here), plane.offset(a, b)));
+  }
 }
 
 TEST_CASE("points have positions up to 2^30 periods away, and no farther") {
