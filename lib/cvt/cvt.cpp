@@ -219,18 +219,20 @@ Level begin(const Surface& surface, Stage stage, State& state, const CvtOptions&
 }
 
 /// Throws, before any work, for a surface or options that a run refuses.
-/// \returns the density in the form that the functional takes.
-Density require_run(const Surface& surface, const CvtOptions& options) {
+/// \returns the options with the density in the form that the functional takes.
+CvtOptions options_of_run(const Surface& surface, const CvtOptions& options) {
   require_options(options);
   if (!surface.is_sphere())
     require_finite_plane(surface);
-  return density_of_run(options.density, surface);
+  CvtOptions of_run = options;
+  of_run.density = density_of_run(options.density, surface);
+  return of_run;
 }
 
-Cvt run(const Surface& surface, CvtState whole, Level&& level, CvtOptions options,
+/// \param options as options_of_run() gives them, here and below.
+Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions& options,
         const CvtCallback& callback) {
   State& state = State::of(whole);
-  options.density = require_run(surface, options);
   require_state(state);
   require_points(state, surface);
   require_room(surface, state, options);
@@ -287,8 +289,8 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
 
 Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options,
         const CvtCallback& callback) {
-  cvt_detail::require_run(surface, options);
-  return cvt_detail::run(surface, cvt_detail::begin(start, surface, options), options, callback);
+  const CvtOptions of_run = cvt_detail::options_of_run(surface, options);
+  return cvt_detail::run(surface, cvt_detail::begin(start, surface, of_run), of_run, callback);
 }
 
 template <>
@@ -296,13 +298,14 @@ Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
         const CvtCallback& callback) {
   if (!surface.is_whole_sphere())
     return cvt(PointsRef(start), surface, options, callback);
-  cvt_detail::require_run(surface, options);
-  return cvt_detail::run(surface, cvt_detail::begin(std::move(start), options), options, callback);
+  const CvtOptions of_run = cvt_detail::options_of_run(surface, options);
+  return cvt_detail::run(surface, cvt_detail::begin(std::move(start), of_run), of_run, callback);
 }
 
 Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
         const CvtCallback& callback) {
-  return cvt_detail::run(surface, std::move(state), {}, options, callback);
+  return cvt_detail::run(surface, std::move(state), {},
+                         cvt_detail::options_of_run(surface, options), callback);
 }
 
 } // namespace calotte
