@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cells.h"
 #include "cvt/cvt.h"
+#include "cvt/state.h"
 #include "delaunay/delaunay.h"
 #include "density/surface_density.h"
 #include "support/planes.h"
@@ -336,6 +337,21 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
       for (const CvtState& state : states)
         REQUIRE(planar_cvt(state, domain, options).mesh.points == reference.mesh.points);
     }
+}
+
+TEST_CASE("a state may have generators outside of a periodic box, but not 2^30 periods away") {
+  const PlanarDomain box = periodic_box({1, 1});
+  CvtOptions options = with_method(Method::lloyd, 1);
+  options.max_iterations = 1;
+  CvtState state;
+  planar_cvt(random_start(box, 50, 3), box, options, [&](const CvtProgress& now) {
+    state = now.state;
+    return true;
+  });
+  State::of(state).points(0, 7) += 1;
+  CHECK_NOTHROW(planar_cvt(state, box, options));
+  State::of(state).points(0, 7) = 1e12;
+  CHECK_THROWS_AS(planar_cvt(state, box, options), Error);
 }
 
 TEST_CASE("a generator of a piece around a corner stays inside, and the run converges there") {
