@@ -277,14 +277,20 @@ Begun begin(Points3&& start, const CvtOptions& options) {
 void refuse_state() {
   throw Error(
       ErrorCode::invalid_argument,
-      "the state is not one that a run has left: its points must be unit vectors, or places "
-      "in the domain, and its ids a permutation");
+      "the state is not one that a run has left: its points must be unit vectors, or points "
+      "of the domain, and its ids a permutation");
 }
 
 void require_points(const State& state, const Surface& surface) {
   const Points3& points = state.points;
+  if (points.cols() < fewest_generators(surface))
+    throw Error(ErrorCode::invalid_argument,
+                "the state has " + std::to_string(points.cols()) +
+                    " generators, and a run on the surface has at least " +
+                    std::to_string(fewest_generators(surface)) +
+                    "; give the surface of the run that left it");
   const auto good = [&] {
-    if (points.cols() < fewest_generators(surface) || !points.allFinite())
+    if (!points.allFinite())
       return false;
     return surface.is_sphere() ? ((points.colwise().squaredNorm().array() - 1).abs() < 1e-12).all()
                                : points.row(2).isZero(0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cvt.h>
 
+#include "base/points.h"
 #include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "delaunay/delaunay.h"
@@ -183,6 +184,14 @@ TEST_CASE("a state that no run has left is refused") {
   State::of(bad[4]).site_of_input[0] = 50;
   for (const CvtState& state : bad)
     CHECK_THROWS_AS(spherical_cvt(state, options), Error);
+  CvtState few;
+  State::of(few).points = good.points().leftCols(11);
+  State::of(few).id = base_detail::themselves(11);
+  CHECK_THROWS_WITH_AS(
+      spherical_cvt(few, options),
+      "the state has 11 generators, and a run on the surface has at least 12; give "
+      "the surface of the run that left it",
+      Error);
 }
 
 TEST_CASE("each norm stops the run at its tolerance") {
