@@ -190,9 +190,9 @@ void require_room(const Surface& surface, const State& state, const CvtOptions& 
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(state.bisections_left) + " bisections of " + std::to_string(n) +
                     " generators are too many; give at most " + std::to_string(most));
-  std::int64_t cells = std::max(n, options.insertion_rounds > 0 ? options.cells : 0);
-  for (int k = 0; k < state.bisections_left; ++k)
-    cells = bisected(surface, cells);
+  const std::int64_t cells =
+      bisected(surface, std::max(n, options.insertion_rounds > 0 ? options.cells : 0),
+               state.bisections_left);
   if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
     throw Error(ErrorCode::invalid_argument, std::to_string(cells) +
                                                  " generators are too many for the method "

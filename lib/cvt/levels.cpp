@@ -224,8 +224,10 @@ std::int64_t fewest_generators(const Surface& surface) {
   return !surface.is_sphere() ? 3 : surface.is_bounded() ? 4 : 12;
 }
 
-std::int64_t bisected(const Surface& surface, std::int64_t n) {
-  return surface.is_whole_sphere() ? 4 * n - 6 : 4 * n;
+std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections) {
+  for (int k = 0; k < bisections; ++k)
+    n = surface.is_whole_sphere() ? 4 * n - 6 : 4 * n;
+  return n;
 }
 
 std::int64_t halved(const Surface& surface, std::int64_t n) {

@@ -21,9 +21,9 @@ namespace calotte::cvt_detail {
 
 /// The minimum number of generators of a run.
 std::int64_t fewest_generators(const Surface& surface);
-/// The largest number of generators after a bisection of n: on the whole sphere its number; else
+/// The largest number of generators after bisections of n: on the whole sphere their number; else
 /// some midpoints may be outside.
-std::int64_t bisected(const Surface& surface, std::int64_t n);
+std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections = 1);
 /// The number whose bisection is nearest to n.
 std::int64_t halved(const Surface& surface, std::int64_t n);
 

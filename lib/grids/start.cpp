@@ -20,16 +20,12 @@ namespace {
 
 using base_detail::require;
 using base_detail::with_z;
+using cvt_detail::bisected;
 using cvt_detail::fewest_generators;
 
 /// With fewer, cells of five neighbours are so near to each other that a descent may change the
 /// neighbours of cells.
 constexpr std::int64_t fewest_geodesic = 150;
-
-/// The number of cells after bisections of n on the whole sphere.
-std::int64_t bisected_sphere(std::int64_t n, int bisections) {
-  return ((n - 2) << (2 * bisections)) + 2;
-}
 
 bool is_icosahedral(std::int64_t n) {
   std::int64_t tens = n - 2;
@@ -39,8 +35,9 @@ bool is_icosahedral(std::int64_t n) {
 }
 
 int icosahedral_level(std::int64_t n) {
+  const Surface sphere = Surface::sphere();
   int level = 0;
-  while (bisected_sphere(fewest_generators(Surface::sphere()), level) < n)
+  while (bisected(sphere, fewest_generators(sphere), level) < n)
     ++level;
   return level;
 }
@@ -95,23 +92,25 @@ std::string not_leading(int bisections, std::int64_t cells) {
 }
 
 void require_icosahedral(std::int64_t cells, int bisections) {
-  const std::int64_t fewest = fewest_generators(Surface::sphere());
+  const Surface sphere = Surface::sphere();
+  const std::int64_t fewest = fewest_generators(sphere);
   if (is_icosahedral(cells) && icosahedral_level(cells) >= bisections)
     return;
   const int level = std::max(icosahedral_level(cells), bisections);
   require(false, "the start icosahedron makes 10 x 4^k + 2 cells, not " + std::to_string(cells) +
                      "; " +
-                     nearest(level == bisections ? 0 : bisected_sphere(fewest, level - 1),
-                             bisected_sphere(fewest, level), fewest));
+                     nearest(level == bisections ? 0 : bisected(sphere, fewest, level - 1),
+                             bisected(sphere, fewest, level), fewest));
 }
 
 /// The number of generators from which bisections lead to a number of cells of the whole sphere.
 std::int64_t start_on_sphere(std::int64_t cells, int bisections) {
-  const std::int64_t n = ((cells - 2) >> (2 * bisections)) + 2;
-  require(n >= fewest_generators(Surface::sphere()) && bisected_sphere(n, bisections) == cells,
-          not_leading(bisections, cells) +
-              nearest(bisected_sphere(n, bisections), bisected_sphere(n + 1, bisections),
-                      bisected_sphere(fewest_generators(Surface::sphere()), bisections)));
+  const Surface sphere = Surface::sphere();
+  const std::int64_t n = ((cells - 2) >> (2 * bisections)) + 2, fewest = fewest_generators(sphere);
+  require(n >= fewest && bisected(sphere, n, bisections) == cells,
+          not_leading(bisections, cells) + nearest(bisected(sphere, n, bisections),
+                                                   bisected(sphere, n + 1, bisections),
+                                                   bisected(sphere, fewest, bisections)));
   return n;
 }
 
