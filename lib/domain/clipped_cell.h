@@ -17,12 +17,6 @@ inline double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; 
 inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 inline double norm(const Vec2& a) { return std::sqrt(dot(a, a)); }
 
-/// The circumcentre of 0, u and v; u, v counter-clockwise.
-inline Vec2 circumcentre(const Vec2& u, const Vec2& v) {
-  const double u2 = dot(u, u), v2 = dot(v, v), four_areas = 2 * cross(u, v);
-  return {(v.y * u2 - u.y * v2) / four_areas, (u.x * v2 - v.x * u2) / four_areas};
-}
-
 /// A corner of a Voronoi cell, and the generator across the side from this corner to the next,
 /// counter-clockwise; both relative to the cell's generator.
 struct CellCorner {

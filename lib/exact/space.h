@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/spherical_triangle.h"
 #include "base/vec3.h"
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
@@ -65,7 +66,18 @@ public:
   static double area_term(const Vec3& a, const Vec3& b, const Vec3& c) {
     return dot(a, cross(b - a, c - a));
   }
+  static double area(const Vec3& a, const Vec3& b, const Vec3& c) { return triangle_area(a, b, c); }
+  static Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return normalised(cross(b - a, c - a));
+  }
 };
+
+/// The circumcentre of 0, u and v.
+inline Vec2 circumcentre(const Vec2& u, const Vec2& v) {
+  const double u2 = u.x * u.x + u.y * u.y, v2 = v.x * v.x + v.y * v.y,
+               four_areas = 2 * (u.x * v.y - u.y * v.x);
+  return {(v.y * u2 - u.y * v2) / four_areas, (u.x * v2 - v.x * u2) / four_areas};
+}
 
 /// The plane, or a plane that is periodic in one direction or in both. Points have z = 0.
 class Plane {
@@ -137,6 +149,14 @@ public:
   static double area_term(const Vec3& a, const Vec3& b, const Vec3& c) {
     return cross(b - a, c - a).z;
   }
+  double area(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    return cross(offset(a, b), offset(a, c)).z / 2;
+  }
+  Vec3 circumcentre(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const Vec3 u = offset(a, b), v = offset(a, c);
+    const Vec2 centre = exact_detail::circumcentre({u.x, u.y}, {v.x, v.y});
+    return wrapped(Vec3{a.x + centre.x, a.y + centre.y, 0});
+  }
 
 private:
   /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period. Of two
@@ -196,6 +216,10 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
   { space.offset(x, x) } -> std::same_as<Vec3>;         ///< the chord to the nearest copy
   { space.midpoint(x, x) } -> std::same_as<Vec3>;       ///< the same bits in either order
   { space.area_term(x, x, x) } -> std::same_as<double>; ///< twice the area, or nearly; signed
+  /// Of a triangle, signed; in a periodic plane of the copies that are nearest to the first point.
+  { space.area(x, x, x) } -> std::same_as<double>;
+  /// Of the same triangle, counter-clockwise; on the sphere a unit vector, in a period inside it.
+  { space.circumcentre(x, x, x) } -> std::same_as<Vec3>;
 };
 
 static_assert(Space<Sphere> && Space<Plane>);

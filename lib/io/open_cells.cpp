@@ -2,7 +2,6 @@
 #include "io/open_cells.h"
 
 #include "base/points.h"
-#include "domain/clipped_cell.h"
 #include "exact/space.h"
 #include "io/polygons.h"
 #include "voronoi/open.h"
@@ -72,12 +71,8 @@ Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
   const Vec3 &a = column(cells.cells, cells.cells_on_vertex(0, v)),
              &b = column(cells.cells, cells.cells_on_vertex(1, v)),
              &c = column(cells.cells, cells.cells_on_vertex(2, v));
-  if (cells.on_sphere)
-    return normalised(cross(b - a, c - a));
-  const Plane plane(cells.period);
-  const Vec3 to_b = plane.offset(a, b), to_c = plane.offset(a, c);
-  const Vec2 centre = domain_detail::circumcentre({to_b.x, to_b.y}, {to_c.x, to_c.y});
-  return plane.wrapped(Vec3{a.x + centre.x, a.y + centre.y, 0});
+  return cells.on_sphere ? Sphere::circumcentre(a, b, c)
+                         : Plane(cells.period).circumcentre(a, b, c);
 }
 
 OpenCells open_cells(const Polygons& polygons) {

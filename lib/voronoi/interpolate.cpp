@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "base/spherical_triangle.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/seen_mesh.h"
@@ -31,23 +30,6 @@ struct Weight {
   double value;
 };
 using Row = std::vector<Weight>;
-
-// ---- Circles and areas of points as a position sees them
-
-Vec3 circumcentre(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return exact_detail::normalised(cross(b - a, c - a));
-}
-Vec3 circumcentre(const Plane&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  const double twice = 2 * cross(u, v).z, uu = dot(u, u), vv = dot(v, v);
-  return {a.x + (v.y * uu - u.y * vv) / twice, a.y + (u.x * vv - v.x * uu) / twice, 0};
-}
-double area(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return triangle_area(a, b, c);
-}
-double area(const Plane&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return Plane::area_term(a, b, c) / 2;
-}
 
 // ---- Natural neighbours
 
@@ -103,12 +85,13 @@ private:
   }
 
   Vec3 centre_with(const Position& p, const Side& side) const {
-    return circumcentre(S(), seen_.seen(p), seen_.seen(start_of(side), p),
-                        seen_.seen(end_of(side), p));
+    return frame_.circumcentre(seen_.seen(p), seen_.seen(start_of(side), p),
+                               seen_.seen(end_of(side), p));
   }
   Vec3 centre_of(std::int32_t t, const Position& p) const {
-    return circumcentre(S(), seen_.seen(mesh_.triangles(0, t), p),
-                        seen_.seen(mesh_.triangles(1, t), p), seen_.seen(mesh_.triangles(2, t), p));
+    return frame_.circumcentre(seen_.seen(mesh_.triangles(0, t), p),
+                               seen_.seen(mesh_.triangles(1, t), p),
+                               seen_.seen(mesh_.triangles(2, t), p));
   }
 
   /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
@@ -118,7 +101,7 @@ private:
     Vec3 last = centre_with(p, after);
     double sum = 0;
     const auto add = [&](const Vec3& corner) {
-      sum += area(S(), first, last, corner);
+      sum += frame_.area(first, last, corner);
       last = corner;
     };
     Corner corner{after.triangle, next_vertex(after.across)};
@@ -133,6 +116,7 @@ private:
   const SeenMesh<S>& seen_;
   const Mesh& mesh_;
   Faces faces_;
+  S frame_{}; ///< where a position sees points: a plane without period
 };
 
 // ---- Rows

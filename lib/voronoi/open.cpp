@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/spherical_angles.h"
-#include "base/spherical_triangle.h"
 #include "exact/space.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
@@ -200,13 +199,6 @@ double length(const Sphere&, const Vec3& a, const Vec3& b) {
 }
 double length(const Plane& plane, const Vec3& a, const Vec3& b) { return norm(plane.offset(a, b)); }
 
-double area(const Sphere&, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return triangle_area(a, b, c);
-}
-double area(const Plane& plane, const Vec3& a, const Vec3& b, const Vec3& c) {
-  return cross(plane.offset(a, b), plane.offset(a, c)).z / 2;
-}
-
 Vec3 to_the_right(const Sphere&, const Vec3& way, const Vec3& at) { return cross(way, at); }
 Vec3 to_the_right(const Plane&, const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
 
@@ -268,7 +260,7 @@ template <Space S> void measure_kites(const S& space, std::int64_t v, Voronoi& o
       continue;
     const Vec3 &p = column(out.vertices, v), &c = column(out.cells, cell);
     out.kites(j, v) =
-        area(space, p, column(out.edges, e), c) + area(space, p, c, column(out.edges, next));
+        space.area(p, column(out.edges, e), c) + space.area(p, c, column(out.edges, next));
     out.vertex_area[v] += out.kites(j, v);
   }
 }
@@ -278,8 +270,8 @@ template <Space S> void measure_cell(const S& space, std::int32_t i, Voronoi& ou
   double sum = 0;
   const std::span<const std::int32_t> vertices = out.vertices_on_cell[i];
   for (std::size_t place = 0; place != vertices.size(); ++place)
-    sum += area(space, column(out.cells, i), column(out.vertices, start_of(out, i, place)),
-                column(out.vertices, vertices[place]));
+    sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, place)),
+                      column(out.vertices, vertices[place]));
   out.cell_area[i] = sum;
 }
 

@@ -121,6 +121,33 @@ TEST_CASE("midpoints have the same bits in either order, are halfway and in the 
   }
 }
 
+TEST_CASE("circumcentres are as far from each corner, and areas change sign with orientation") {
+  Random random(6);
+  const auto check = [](const Space auto& space, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double area = space.area(a, b, c);
+    CHECK(area == doctest::Approx(-space.area(a, c, b)).epsilon(1e-12));
+    CHECK(area == doctest::Approx(space.area(b, c, a)).epsilon(1e-12));
+    if (area < 0.01) // clockwise, or its circle may be large
+      return;
+    const Vec3 centre = space.circumcentre(a, b, c);
+    CHECK(same(centre, space.wrapped(centre)));
+    const double radius = norm(space.offset(centre, a));
+    CHECK(std::abs(norm(space.offset(centre, b)) - radius) < 1e-13);
+    CHECK(std::abs(norm(space.offset(centre, c)) - radius) < 1e-13);
+  };
+  for (const Plane& plane : planes)
+    for (int round = 0; round < 500; ++round) {
+      const Vec3 a = fine(random);
+      const auto beside = [&] {
+        return plane.wrapped(a + Vec3{random.real(-0.2, 0.2), random.real(-0.2, 0.2), 0});
+      };
+      check(plane, a, beside(), beside());
+    }
+  for (int round = 0; round < 500; ++round)
+    check(Sphere(), random.direction(), random.direction(), random.direction());
+  CHECK(Sphere::area({1, 0, 0}, {0, 1, 0}, {0, 0, 1}) == doctest::Approx(std::acos(-1) / 2));
+}
+
 TEST_CASE("filters of copies in a box agree with the exact signs") {
   Random random(3);
   int zeros = 0;
