@@ -7,7 +7,6 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/surface_density.h"
-#include "domain/arcs.h"
 #include "domain/outline.h"
 #include "domain/surface.h"
 #include "exact/space.h"

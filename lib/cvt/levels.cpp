@@ -8,7 +8,6 @@
 #include "curve/radix_sort.h"
 #include "cvt/cells.h"
 #include "cvt/inner_mesh.h"
-#include "delaunay/delaunay.h"
 #include "delaunay/sites.h"
 #include "density/surface_density.h"
 #include "domain/arcs.h"
