@@ -69,6 +69,8 @@ struct InPlane : mesh_detail::Faces {
   bool is_box() const { return period.x > 0 && period.y > 0; }
   Vec2 given(std::int32_t site) const { return {mesh.points(0, site), mesh.points(1, site)}; }
 
+  /// Of two copies that are equally near the stored one, unlike Plane::near(): a triangle of points
+  /// in the box that is exactly half as wide is valid as stored.
   static int boxes_to(double from, double to, double length) {
     if (!(length > 0))
       return 0;
