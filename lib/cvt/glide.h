@@ -17,7 +17,7 @@ namespace calotte::cvt_detail {
 /// four generators around the edge are pushed so that it flips, and those within some rings relax
 /// to the centroids of their cells; all others stay. The stress that brought the dislocation to the
 /// brink carries it on: afterwards the energy is lower, as a rule, and the cells around are as
-/// regular as others. A penalty for short edges would instead hold generators away from their
+/// regular as others. A penalty for short edges would instead keep generators away from their
 /// centroids.
 ///
 /// The result has the same bits for any number of threads and regions.

@@ -70,11 +70,11 @@ public:
         clip_cells(mesh, starts);
   }
 
-  const Vec3& place(std::int32_t site) const {
+  const Vec3& position(std::int32_t site) const {
     return sites_.placed.points[static_cast<std::size_t>(site)];
   }
   Vec3 offset(std::int32_t from, std::int32_t to) const {
-    return sites_.placed.space.offset(place(from), place(to));
+    return sites_.placed.space.offset(position(from), position(to));
   }
   Shares shares(const std::array<Vec3, 3>& x) const {
     return shares_of(sites_.placed.space, x,
@@ -94,7 +94,7 @@ public:
   /// far side of an island, contributes a negative term; their sum is at least 0, so that the
   /// matrix stays positive.
   /// \param area of the site.
-  double held(std::int32_t i, double rho, double area) const {
+  double diagonal_terms(std::int32_t i, double rho, double area) const {
     if (S::on_sphere && sites_.outline == nullptr)
       return rho * area * area;
     const bool clipped = is_clipped(i);
@@ -107,7 +107,7 @@ public:
 
 private:
   bool is_clipped(std::int32_t i) const { return clipped_.size() > 0 && clipped_[i] != 0; }
-  Vec2 in_plane(std::int32_t site) const { return {place(site).x, place(site).y}; }
+  Vec2 in_plane(std::int32_t site) const { return {position(site).x, position(site).y}; }
   Vec2 between(std::int32_t from, std::int32_t to) const {
     const Vec3 way = offset(from, to);
     return {way.x, way.y};
@@ -191,8 +191,9 @@ public:
     const auto slot = static_cast<std::size_t>(t) % slots;
     if (triangle_[slot] != t) {
       triangle_[slot] = t;
-      shares_[slot] = edges_.shares({edges_.place(triangles_(0, t)), edges_.place(triangles_(1, t)),
-                                     edges_.place(triangles_(2, t))});
+      shares_[slot] =
+          edges_.shares({edges_.position(triangles_(0, t)), edges_.position(triangles_(1, t)),
+                         edges_.position(triangles_(2, t))});
     }
     return shares_[slot][static_cast<std::size_t>(vertex)];
   }
@@ -237,7 +238,7 @@ void set_row(const Source& source, SharesTable<S>& shares, const Edges<S>& edges
                                      edges.weight(i, j, preceding_site(mesh, corner), d, usual));
   }
   std::sort(row.elements.begin(), row.elements.end());
-  row.diagonal = edges.held(i, source.rho[i], area);
+  row.diagonal = edges.diagonal_terms(i, source.rho[i], area);
   for (const auto& [j, weight] : row.elements)
     row.diagonal += weight;
 }

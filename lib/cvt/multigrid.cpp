@@ -228,10 +228,10 @@ CALOTTE_VECTOR_WIDTHS void prolong(const Rows& w, std::int64_t begin, std::int64
 Multigrid::Multigrid(Laplacian matrix) : scale_(std::move(matrix.scale)) {
   Rows weights = std::move(matrix.weights);
   Array<double> constant(weights.size()); // almost mapped to zero: a constant before the scaling
-  const double least = *std::min_element(scale_.begin(), scale_.end());
+  const double smallest = *std::min_element(scale_.begin(), scale_.end());
   for_each_block(weights.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      constant[i] = least / scale_[i];
+      constant[i] = smallest / scale_[i];
   });
   while (weights.size() > coarsest_rows) {
     const std::int64_t n = weights.size();

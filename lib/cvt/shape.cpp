@@ -73,15 +73,15 @@ struct Part {
   }
 };
 
-/// How far a value is below the least (negative slope) or above the most.
+/// How far a value is below the lower limit (negative slope) or above the upper.
 struct Excess {
   double size, sign;
 };
 
-Excess excess_of(double value, double least, double most) {
-  if (value < least)
-    return {least - value, -1};
-  return {std::max(value - most, 0.0), 1};
+Excess excess_of(double value, double lower, double upper) {
+  if (value < lower)
+    return {lower - value, -1};
+  return {std::max(value - upper, 0.0), 1};
 }
 
 template <Space S> class Penalty {
@@ -188,9 +188,9 @@ bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
   const Vec3 &a = cells.place(ids[0]), &b = cells.place(ids[1]), &c = cells.place(ids[2]);
   const Vec3 ab = cells.offset(a, b), bc = cells.offset(b, c), ca = cells.offset(c, a);
   const Vec3 product = cross(ab, bc);
-  const double least = std::max(limits.least_edge, limits.least_cotangent),
-               most = std::min(limits.most_edge, limits.most_cotangent);
-  const double area = norm(product), low = least * area, high = most * area;
+  const double lower = std::max(limits.least_edge, limits.least_cotangent),
+               upper = std::min(limits.most_edge, limits.most_cotangent);
+  const double area = norm(product), low = lower * area, high = upper * area;
   const double at_a = -dot(ca, ab), at_b = -dot(ab, bc), at_c = -dot(bc, ca);
   if (std::min({at_a, at_b, at_c}) < low || std::max({at_a, at_b, at_c}) > high)
     return true;

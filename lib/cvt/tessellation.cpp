@@ -120,12 +120,12 @@ template <Space S> Array<Vec3> Tessellation<S>::exchange(const Patch& patch) con
   constexpr std::int64_t together = 16;
   Array<Vec3> x(std::ssize(patch.sites));
   for (std::int64_t i = 0; i < x.size();) {
-    const Vec3& place = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
-    if (are_consecutive(patch, i, together)) { // as their places are in memory
-      std::copy_n(&place, together, &x[i]);
+    const Vec3& position = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
+    if (are_consecutive(patch, i, together)) { // as they are in memory
+      std::copy_n(&position, together, &x[i]);
       i += together;
     } else {
-      x[i++] = place;
+      x[i++] = position;
     }
   }
   return x;
