@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
 #include "base/require.h"
+#include "curve/curve_squares.h"
 #include "curve/hilbert.h"
-#include "curve/plane_square.h"
 #include "density/room.h"
 #include "exact/space.h"
 
@@ -25,9 +25,7 @@ template <Space S> class Locator {
 public:
   Locator(const Mesh& mesh, const S& space)
       : space_(space), vertices_(3, mesh.points.cols()), triangles_(mesh.triangles),
-        neighbours_(mesh.neighbours) {
-    if constexpr (!S::on_sphere)
-      square_ = PlaneSquare(mesh.points);
+        neighbours_(mesh.neighbours), squares_(mesh.points) {
     for (Eigen::Index i = 0; i < vertices_.cols(); ++i)
       set_column(vertices_, i, space_.coordinates(space_.position(column(mesh.points, i))));
     while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / faces)
@@ -51,7 +49,7 @@ public:
   const Triangles& triangles() const { return triangles_; }
 
 private:
-  static constexpr int faces = S::on_sphere ? 6 : 1; ///< squares of the curve
+  static constexpr int faces = CurveSquares<S>::count;
 
   Place place_from(std::int32_t t, const Vec3& x) const {
     for (std::int64_t step = 0; step < triangles_.cols(); ++step) {
@@ -88,7 +86,7 @@ private:
           const std::int64_t column = row % 2 == 0 ? k : cells_a_side_ - 1 - k; // to and fro
           std::int32_t& start = start_[bucket(face, row, column)];
           if (start < 0)
-            start = place_from(t, from_square({face, middle(row), middle(column)})).triangle;
+            start = place_from(t, squares_.point({face, middle(row), middle(column)})).triangle;
           t = start;
         }
   }
@@ -103,26 +101,13 @@ private:
   }
 
   std::size_t bucket_of(const Vec3& x) const {
-    const CubePoint place = on_square(x);
+    const CubePoint place = squares_(space_.wrapped(x));
     const auto cell = [&](double u) { // -1 to 1
       const auto scaled =
           static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
       return std::clamp<std::int64_t>(scaled, 0, cells_a_side_ - 1);
     };
     return bucket(place.face, cell(place.u), cell(place.v));
-  }
-
-  CubePoint on_square(const Vec3& x) const {
-    if constexpr (S::on_sphere)
-      return to_cube(x);
-    else
-      return square_(space_.wrapped(x));
-  }
-  Vec3 from_square(const CubePoint& place) const {
-    if constexpr (S::on_sphere)
-      return from_cube(place);
-    else
-      return square_.point(place);
   }
 
   /// For each corner of a triangle the area of x and the edge across from it, up to a factor:
@@ -149,9 +134,9 @@ private:
   }
 
   S space_;
-  PlaneSquare square_; ///< around the sites, in a plane
   Points3 vertices_;
   Triangles triangles_, neighbours_;
+  CurveSquares<S> squares_; ///< around the sites
   std::int64_t cells_a_side_ = 1;
   std::vector<std::int32_t> start_; ///< a triangle near each cell
 };

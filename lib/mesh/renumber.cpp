@@ -5,8 +5,8 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/triangle.h"
+#include "curve/curve_squares.h"
 #include "curve/hilbert.h"
-#include "curve/plane_square.h"
 #include "curve/radix_sort.h"
 #include "mesh/canonical_order.h"
 #include "mesh/ids.h"
@@ -109,22 +109,25 @@ void require_ids(const Mesh& mesh) {
                 "read_mesh() makes it");
 }
 
+template <Space S> Array<std::int32_t> order_along_curve(const Points3& points) {
+  const CurveSquares<S> squares(points);
+  return order_by_key(keys_of(points, [&](std::int64_t i) { return squares(column(points, i)); }))
+      .items;
+}
+
 /// Along the curve in the bounding box of points of the plane.
 Array<std::int32_t> curve_order_in_plane(const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!is_finite(column(points, i)))
       refuse_infinite(i);
-  const PlaneSquare square(points);
-  return order_by_key(keys_of(points, [&](std::int64_t i) { return square(column(points, i)); }))
-      .items;
+  return order_along_curve<Plane>(points);
 }
 
 } // namespace
 
 Array<std::int32_t> curve_order(const Points3& points) {
   require_directions(points);
-  return order_by_key(keys_of(points, [&](std::int64_t i) { return to_cube(column(points, i)); }))
-      .items;
+  return order_along_curve<Sphere>(points);
 }
 
 bool is_in_curve_order(const Mesh& mesh) {

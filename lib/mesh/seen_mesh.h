@@ -4,8 +4,8 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "curve/box_tree.h"
+#include "curve/curve_squares.h"
 #include "curve/hilbert.h"
-#include "curve/plane_square.h"
 #include "exact/space.h"
 #include "mesh/convex_boundary.h"
 #include "mesh/room.h"
@@ -27,10 +27,7 @@ public:
   static constexpr int copies = S::copies;
 
   /// \pre the mesh has triangles.
-  SeenMesh(const Mesh& mesh, const S& space) : mesh_(mesh), space_(space) {
-    if constexpr (!S::on_sphere)
-      square_ = PlaneSquare(mesh.points);
-  }
+  SeenMesh(const Mesh& mesh, const S& space) : mesh_(mesh), space_(space), squares_(mesh.points) {}
 
   const Mesh& mesh() const { return mesh_; }
 
@@ -40,12 +37,7 @@ public:
   Position copy(const Position& p, int k) const { return space_.copy(p, k); }
   Vec3 coordinates(const Position& p) const { return space_.coordinates(p); }
   Vec3 vertex(std::int32_t site) const { return coordinates(position(at(site))); }
-  CubePoint square(const Vec3& coordinates) const {
-    if constexpr (S::on_sphere)
-      return to_cube(coordinates);
-    else
-      return square_(coordinates);
-  }
+  CubePoint square(const Vec3& coordinates) const { return squares_(coordinates); }
   /// Whether a walk that leaves the mesh leaves it for good, and sites at the boundary have all
   /// neighbours that they have anywhere. Beside a part of the sphere there is its far side.
   bool has_convex_boundary() const {
@@ -126,7 +118,7 @@ private:
 
   const Mesh& mesh_;
   S space_;
-  PlaneSquare square_; ///< around the sites, in a plane
+  CurveSquares<S> squares_; ///< around the sites
 };
 
 } // namespace calotte::mesh_detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/vec3.h"
 #include "curve/hilbert.h"
 #include "curve/room.h"
+#include "exact/space.h"
 
 #include <calotte/matrices.h>
 
@@ -12,13 +12,29 @@
 
 namespace calotte::curve_detail {
 
-/// The square around points of the plane, for the curve along them: it begins at their lowest
-/// coordinates and is as wide as the longer side of their bounding box.
-class PlaneSquare {
+/// The squares that the curve fills, around points of a space.
+template <Space S> class CurveSquares;
+
+/// The faces of the cube.
+template <> class CurveSquares<Sphere> {
 public:
-  PlaneSquare() = default;
+  static constexpr int count = 6;
+
+  explicit CurveSquares(const Points3&) {}
+
+  CubePoint operator()(const Vec3& x) const { return to_cube(x); }
+  /// The inverse, up to scale.
+  Vec3 point(const CubePoint& c) const { return from_cube(c); }
+};
+
+/// One square, which begins at the points' lowest coordinates and is as wide as the longer side of
+/// their bounding box.
+template <> class CurveSquares<Plane> {
+public:
+  static constexpr int count = 1;
+
   /// \pre there is a point; all are finite.
-  explicit PlaneSquare(const Points3& points) {
+  explicit CurveSquares(const Points3& points) {
     const Eigen::Vector3d low = points.rowwise().minCoeff();
     low_ = {low.x(), low.y(), 0};
     half_ = std::max((points.rowwise().maxCoeff() - low).maxCoeff() / 2,
@@ -39,8 +55,8 @@ public:
   }
 
 private:
-  Vec3 low_{0, 0, 0};
-  double half_ = 1;
+  Vec3 low_;
+  double half_;
 };
 
 } // namespace calotte::curve_detail
