@@ -92,7 +92,7 @@ Points3 with_hull(const Mesh& mesh, const Plane& plane) {
 
 ClosedMesh closed_mesh(const Mesh& mesh) {
   if (mesh.surface.is_sphere())
-    return {mesh.surface, with_unit_columns(mesh), mesh.points.cols()};
+    return {Surface::sphere(), with_unit_columns(mesh), mesh.points.cols()};
   return {mesh.surface,
           delaunay(with_hull(mesh, in_space<Plane>(mesh.surface)), unbounded(mesh.surface)),
           mesh.points.cols()};

@@ -16,14 +16,14 @@ namespace calotte::quality_detail {
 
 /// The generators of a surface in a mesh in which all of them have closed stars.
 struct ClosedMesh {
-  Surface surface; ///< whose boundary, in the plane, clips the cells
+  Surface surface; ///< the whole sphere, or a plane whose boundary clips the cells
   /// Of the generators, which are unit vectors, or in a periodic box inside it, and after them the
   /// hull of a bounded plane, see far_hull().
   Mesh mesh;
   std::int64_t generators = 0;
 };
 
-/// The mesh itself on the sphere; in the plane a new one of its points.
+/// The mesh itself on the sphere, where rings have no effect; in the plane a new one of its points.
 /// \pre on the sphere a closed mesh; in the plane points inside the surface, which is finite.
 ClosedMesh closed_mesh(const Mesh& mesh);
 

@@ -434,6 +434,19 @@ TEST_CASE(
   check_callable(std::numeric_limits<double>::infinity(), "infinite");
   check_callable(-1, "negative");
   check_callable(std::nan(""), "NaN");
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (x.row(0).array() < 0.5).cast<double>().matrix().transpose();
+  };
+  for (const Surface& plane : {Surface::periodic({1, 1}), rectangle({0, 0}, {1, 1})})
+    check_refused(delaunay(random_points(200, plane), plane), density,
+                  "over the whole cell of site ");
+}
+
+TEST_CASE("rings of the sphere have no effect on a closed mesh") {
+  Mesh mesh = spherical_delaunay(random_sphere(200, 2));
+  const std::vector<double> whole = measures(quality(mesh));
+  mesh.surface = circle({0, 0, 1}, 0.5);
+  CHECK(measures(quality(mesh)) == whole);
 }
 
 TEST_CASE("uniform grids by continuation from the icosahedron have the known quality [slow]") {
