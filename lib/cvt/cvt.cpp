@@ -12,6 +12,7 @@
 #include "cvt/levels.h"
 #include "cvt/stages.h"
 #include "cvt/state.h"
+#include "density/surface_density.h"
 #include "domain/surface.h"
 
 #include <calotte/error.h>
@@ -225,7 +226,7 @@ CvtOptions options_of_run(const Surface& surface, const CvtOptions& options) {
   if (!surface.is_sphere())
     require_finite_plane(surface);
   CvtOptions of_run = options;
-  of_run.density = density_of_run(options.density, surface);
+  of_run.density = checked_surface_density(options.density, surface);
   return of_run;
 }
 

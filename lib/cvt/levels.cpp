@@ -9,7 +9,6 @@
 #include "cvt/cells.h"
 #include "cvt/inner_mesh.h"
 #include "delaunay/sites.h"
-#include "density/surface_density.h"
 #include "domain/arcs.h"
 #include "domain/surface.h"
 #include "exact/space.h"
@@ -231,18 +230,6 @@ std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections) {
 
 std::int64_t halved(const Surface& surface, std::int64_t n) {
   return surface.is_whole_sphere() ? (n + 8) / 4 : (n + 2) / 4;
-}
-
-Density density_of_run(const Density& density, const Surface& surface) {
-  Density of_surface = density_detail::surface_density(density, surface);
-  Eigen::Vector3d some = Eigen::Vector3d::UnitZ();
-  if (!surface.is_sphere()) {
-    some.setZero();
-    if (surface.is_bounded())
-      some.head<2>() = surface.rings()[0].col(0);
-  }
-  evaluate(of_surface, Points3(some)); // throws if the density is ill-formed
-  return of_surface;
 }
 
 Begun begin(const PointsRef& start, const Surface& surface, const CvtOptions& options) {

@@ -27,10 +27,6 @@ std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections = 1
 /// The number whose bisection is nearest to n.
 std::int64_t halved(const Surface& surface, std::int64_t n);
 
-/// The density in the form that the functional takes.
-/// \throws Error invalid_argument if it is ill-formed.
-Density density_of_run(const Density& density, const Surface& surface);
-
 /// The start of a run.
 struct Begun {
   State state;
@@ -60,7 +56,7 @@ Mesh mesh_of_run(const State& state, const Surface& surface,
 /// the next level.
 Level set_bisected(State& state, const Mesh& coarse);
 /// The same after insertion and contraction of edges.
-/// \param density as density_of_run() gives it.
+/// \param density as surface_density() gives it.
 Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
                               const EdgeChanges& changes);
 

@@ -85,4 +85,16 @@ Density surface_density(const Density& density, const Surface& surface) {
   return planar;
 }
 
+Density checked_surface_density(const Density& density, const Surface& surface) {
+  Density of_surface = surface_density(density, surface);
+  Eigen::Vector3d some = Eigen::Vector3d::UnitZ();
+  if (!surface.is_sphere()) {
+    some.setZero();
+    if (surface.is_bounded())
+      some.head<2>() = surface.rings()[0].col(0);
+  }
+  evaluate(of_surface, Points3(some)); // throws if the density is ill-formed
+  return of_surface;
+}
+
 } // namespace calotte::density_detail

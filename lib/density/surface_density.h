@@ -10,7 +10,11 @@ namespace calotte::density_detail {
 
 /// The density in the form that the rooms above evaluate: on the sphere itself; in a plane uniform,
 /// or a callable of columns (x, y, 0) that accounts for the periods.
-/// \throws Error invalid_argument if the density is ill-formed.
+/// \throws Error invalid_argument in a plane, if bumps are ill-formed.
 Density surface_density(const Density& density, const Surface& surface);
+
+/// The same, evaluated at one point, so that an ill-formed density is refused before any work.
+/// \throws Error invalid_argument.
+Density checked_surface_density(const Density& density, const Surface& surface);
 
 } // namespace calotte::density_detail

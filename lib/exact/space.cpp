@@ -113,12 +113,17 @@ bool Plane::is_short(const Position& a, const Position& b) const {
 }
 
 void require_positions(const Plane& plane, const PointsRef& points, const std::string& thing) {
-  FirstFault fault;
+  FirstFault infinite, fault;
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      if (!plane.has_position(point(points, i)))
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3 x = point(points, i);
+      if (!std::isfinite(x.x) || !std::isfinite(x.y))
+        infinite.at(i);
+      else if (!plane.has_position(x))
         fault.at(i);
+    }
   });
+  infinite.refuse(thing, "is not finite; give finite coordinates");
   fault.refuse(thing, "is more than 2^30 periods away; give its copy in the box");
 }
 

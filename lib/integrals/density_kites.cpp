@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -220,6 +221,7 @@ CALOTTE_VECTOR_WIDTHS void add_nodes(const NodeRows& nodes, const Edge& edge, Ve
 template <class Triangles>
 void density_terms(const Triangles& space, const Batch& batch, const TriangleRows& rows,
                    const Integrand& integrand, const Array<Vec3>& x, TriangleTerms& terms) {
+  assert(integrand.nodes.size() % group == 0);
   const CentreRows centres = centre_rows(space, batch, rows);
   alignas(64) Row rho_centre;
   if (integrand.at_sites)

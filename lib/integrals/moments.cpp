@@ -7,9 +7,9 @@
 #include "integrals/clipped_moments.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 
 namespace calotte::integrals_detail {
@@ -87,6 +87,7 @@ std::vector<std::vector<Vec3>> neighbours_of(const std::vector<std::int32_t>& si
 template <Space S>
 void integrate(const Integrand& integrand, const Generators<S>& of, const Patch& patch,
                const Array<Vec3>& x, const CellSums& sums, std::vector<std::int32_t>& suspects) {
+  assert(sums.mass == nullptr || (S::on_sphere && of.outline == nullptr));
   const auto triangles = triangles_in(of, x);
   if (of.outline == nullptr) {
     sum_kites(triangles, integrand, patch.corners, x, sums, suspects);

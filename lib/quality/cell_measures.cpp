@@ -2,7 +2,6 @@
 #include "base/points.h"
 #include "density/surface_density.h"
 #include "domain/surface.h"
-#include "exact/space.h"
 #include "quality/closed_mesh.h"
 #include "quality/demand.h"
 #include "quality/flat_hull.h"
@@ -16,7 +15,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace calotte {
@@ -112,9 +110,12 @@ void set_demand(const ClosedMesh& closed, const Density& density, Subject& subje
       inverse_spacings(points.leftCols(closed.generators), density, root_integral(closed, density));
   set_fits(subject, out);
   const Moments moments = moments_of(closed, density);
-  for (std::int64_t i = 0; i < closed.generators; ++i)
-    out.off_centroid[i] =
-        norm(centroid_of(closed, moments, i) - column(points, i)) / out.spacing[i];
+  for (std::int64_t i = 0; i < closed.generators; ++i) {
+    if (std::isnan(out.spacing[i])) // in no triangle
+      continue;
+    require_centroid(closed, moments, i);
+    out.off_centroid[i] = norm(off_centroid(closed, moments, i)) / out.spacing[i];
+  }
 }
 
 /// Values by triangle of a part of a mesh, for all of its triangles.
@@ -161,7 +162,7 @@ CellMeasures measure_in_plane(const Mesh& mesh, const Density& density) {
 
 CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
-  const Density on_surface = surface_density(density, mesh.surface);
+  const Density on_surface = checked_surface_density(density, mesh.surface);
   if (!mesh.surface.is_sphere())
     return measure_in_plane(mesh, on_surface);
   if (const Check found = check_surface(mesh); !found.passed())

@@ -7,7 +7,6 @@
 #include "domain/clipped_cell.h"
 #include "domain/surface.h"
 #include "exact/space.h"
-#include "quality/sides.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -37,12 +36,12 @@ public:
 
   bool has_cell(const Triangles& triangles, const VertexRings& rings, std::int64_t site) const {
     const Vec2 here = at(site);
+    if (outline_->side(here) == Side::outside)
+      return false;
     std::vector<CellCorner> cell;
     for (const Corner corner : rings[site])
       cell.push_back({centre_of(triangles, corner.triangle, corner.vertex),
                       at(triangles(previous_vertex(corner.vertex), corner.triangle)) - here});
-    if (outline_->side(here) == Side::outside)
-      return false;
     if (!near_boundary(*outline_, here, cell))
       return true;
     const std::vector<CellSide> sides = clipped_cell(*outline_, here, std::move(cell));
@@ -78,7 +77,7 @@ Array<std::uint8_t> flags(const ClosedMesh& closed, std::int64_t n, const Has& h
   return out;
 }
 
-Points3 with_hull(const Mesh& mesh, const Plane& plane) {
+Points3 sites_of(const Mesh& mesh, const Plane& plane) {
   const Outline* const outline = outline_of<Plane>(mesh.surface);
   const Points3 hull = outline != nullptr ? far_hull(*outline) : Points3(3, 0);
   Points3 points(3, mesh.points.cols() + hull.cols());
@@ -90,34 +89,40 @@ Points3 with_hull(const Mesh& mesh, const Plane& plane) {
 
 } // namespace
 
-ClosedMesh closed_mesh(const Mesh& mesh) {
+ClosedMesh closed_mesh(Mesh mesh) {
+  const std::int64_t n = mesh.points.cols();
   if (mesh.surface.is_sphere())
-    return {Surface::sphere(), with_unit_columns(mesh), mesh.points.cols()};
+    return {Surface::sphere(), std::move(mesh), n};
+  DelaunayOptions options;
+  options.duplicates = Duplicates::refuse;
   return {mesh.surface,
-          delaunay(with_hull(mesh, in_space<Plane>(mesh.surface)), unbounded(mesh.surface)),
-          mesh.points.cols()};
+          delaunay(sites_of(mesh, in_space<Plane>(mesh.surface)), unbounded(mesh.surface), options),
+          n};
 }
 
 Moments moments_of(const ClosedMesh& closed, const Density& density, int rule, int divisions) {
   const Mesh& mesh = closed.mesh;
-  Moments moments = in_space_of(closed.surface, [&]<Space S>(const S& space) {
+  return in_space_of(closed.surface, [&]<Space S>(const S& space) {
     return cell_moments(Generators<S>{space, outline_of<S>(closed.surface), closed.generators},
                         {&column(mesh.points, 0), static_cast<std::size_t>(mesh.points.cols())},
                         mesh.triangles, make_integrand(density, rule, divisions));
   });
-  for (std::int64_t i = 0; i < closed.generators; ++i)
-    if (const double length = norm(moments.first[i]); !(length > 0 && std::isfinite(length)))
-      throw Error(ErrorCode::invalid_argument,
-                  "the density is zero over the whole cell of site " + std::to_string(i) +
-                      ": make it positive everywhere",
-                  i);
-  return moments;
 }
 
-Vec3 centroid_of(const ClosedMesh& closed, const Moments& moments, std::int64_t i) {
-  const Vec3 x = column(closed.mesh.points, i);
-  return closed.surface.is_sphere() ? integrals_detail::centroid_of<Sphere>(x, moments.first[i])
-                                    : integrals_detail::centroid_of<Plane>(x, moments.first[i]);
+Vec3 off_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i) {
+  const Vec3 x = column(closed.mesh.points, i), first = moments.first[i];
+  return (closed.surface.is_sphere() ? integrals_detail::centroid_of<Sphere>(x, first)
+                                     : integrals_detail::centroid_of<Plane>(x, first)) -
+         x;
+}
+
+void require_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i) {
+  const double size = closed.surface.is_sphere() ? norm(moments.first[i]) : moments.mass[i];
+  if (!(size > 0 && std::isfinite(size)))
+    throw Error(ErrorCode::invalid_argument,
+                "the density is zero over the whole cell of site " + std::to_string(i) +
+                    ", or beyond 1e150: make it positive everywhere, and smaller",
+                i);
 }
 
 Array<std::uint8_t> triangles_inside(const ClosedMesh& closed, const Triangles& triangles) {
@@ -126,7 +131,7 @@ Array<std::uint8_t> triangles_inside(const ClosedMesh& closed, const Triangles& 
   });
 }
 
-Array<std::uint8_t> whole_cells(const ClosedMesh& closed, const VertexRings& rings) {
+Array<std::uint8_t> unclipped_cells(const ClosedMesh& closed, const VertexRings& rings) {
   return flags(closed, closed.generators, [&](const Domain& domain, std::int64_t i) {
     return domain.has_cell(closed.mesh.triangles, rings, i);
   });
@@ -147,7 +152,8 @@ std::vector<bool> clipped_cells(const Mesh& mesh) {
   if (!surface.is_bounded() || clipped.empty())
     return clipped;
   const ClosedMesh closed = closed_mesh(mesh);
-  const Array<std::uint8_t> whole = whole_cells(closed, make_vertex_rings(closed.mesh));
+  const Array<std::uint8_t> whole = unclipped_cells(
+      closed, make_vertex_rings(closed.mesh.triangles, closed.mesh.neighbours, closed.generators));
   for (std::size_t i = 0; i < clipped.size(); ++i)
     clipped[i] = whole[static_cast<std::int64_t>(i)] == 0;
   return clipped;

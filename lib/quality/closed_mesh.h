@@ -24,17 +24,20 @@ struct ClosedMesh {
 };
 
 /// The mesh itself on the sphere, where rings have no effect; in the plane a new one of its points.
-/// \pre on the sphere a closed mesh; in the plane points inside the surface, which is finite.
-ClosedMesh closed_mesh(const Mesh& mesh);
+/// \pre there is a point; on the sphere a closed mesh of unit columns; the plane is finite.
+/// \throws Error duplicate with the index of a point of the plane that equals an earlier one.
+ClosedMesh closed_mesh(Mesh mesh);
 
 /// Moments of the cells.
 /// \param density as surface_density() gives it; \param rule, divisions see make_integrand().
-/// \throws Error invalid_argument with the index of a cell over which the density is zero.
 Moments moments_of(const ClosedMesh& closed, const Density& density, int rule = 6,
                    int divisions = 1);
 
-/// Where generator i would be the centroid of its cell.
-Vec3 centroid_of(const ClosedMesh& closed, const Moments& moments, std::int64_t i);
+/// From generator i to the centroid of its cell.
+Vec3 off_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i);
+
+/// \throws Error invalid_argument with the index if cell i has no centroid.
+void require_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i);
 
 /// For each triangle 1 if it is one of the domain's, otherwise 0: its circumcentre is in it, and
 /// none of its corners is a point of the hull. Empty if all are.
@@ -43,6 +46,6 @@ Array<std::uint8_t> triangles_inside(const ClosedMesh& closed, const Triangles& 
 
 /// For each generator 1 if it is inside and the boundary passes through no interior of its cell,
 /// otherwise 0. Empty if there is no boundary.
-Array<std::uint8_t> whole_cells(const ClosedMesh& closed, const VertexRings& rings);
+Array<std::uint8_t> unclipped_cells(const ClosedMesh& closed, const VertexRings& rings);
 
 } // namespace calotte::quality_detail

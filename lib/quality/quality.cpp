@@ -15,7 +15,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <optional>
+#include <vector>
 
 namespace calotte {
 namespace quality_detail {
@@ -56,8 +57,10 @@ MomentPart add_moments(const ClosedMesh& closed, const Density& density) {
   if (!density.uniform())
     of_density = moments_of(closed, density);
   const Moments& moments = density.uniform() ? uniform : of_density;
+  for (std::int64_t i = 0; i < closed.generators && !density.uniform(); ++i)
+    require_centroid(closed, moments, i);
   return join_blocks<MomentPart>(closed.generators, [&](MomentPart& part, std::int64_t i) {
-    const Vec3 apart = centroid_of(closed, moments, i) - column(closed.mesh.points, i);
+    const Vec3 apart = off_centroid(closed, moments, i);
     part.area.add(uniform.mass[i]);
     part.energy += moments.energy[i];
     part.squares += dot(apart, apart);
@@ -75,7 +78,7 @@ Quality measure(const ClosedMesh& closed, const Density& density) {
                   inverse_spacings(mesh.points.leftCols(closed.generators), density, root),
                   triangles_inside(closed, mesh.triangles),
                   {}};
-  subject.whole = whole_cells(closed, subject.rings);
+  subject.whole = unclipped_cells(closed, subject.rings);
   Quality result = measure_shapes(subject, closed.generators);
   result.cell_area = moments.area.range();
   result.residual = std::sqrt(moments.squares / area); // sqrt(squares/n) over sqrt(area/n)
@@ -91,7 +94,10 @@ Quality measure_open(const Mesh& mesh, bool cells) {
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
                                                  found.failure + "; triangulate the points anew");
   const bool on_sphere = mesh.surface.is_sphere();
-  const Mesh part = on_sphere ? without_flat_hull(with_unit_columns(mesh)).mesh : mesh;
+  std::optional<Mesh> unit;
+  if (on_sphere)
+    unit = without_flat_hull(with_unit_columns(mesh)).mesh;
+  const Mesh& part = unit ? *unit : mesh;
   const Subject subject{part.triangles, part.neighbours, {}, make_shapes(part), {}, {}, {}};
   Quality result = measure_shapes(subject, 0);
   const std::vector<Sides> sides = sides_of_cells(part, subject.shapes);
@@ -114,9 +120,10 @@ Quality measure_open(const Mesh& mesh, bool cells) {
 
 Quality quality(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
-  const Density on_surface = surface_density(density, mesh.surface);
+  const Density on_surface = checked_surface_density(density, mesh.surface);
   const double triangles_area = require_cells(mesh);
-  Quality result = measure(closed_mesh(mesh), on_surface);
+  Quality result =
+      measure(closed_mesh(mesh.surface.is_sphere() ? with_unit_columns(mesh) : mesh), on_surface);
   result.triangles_area = mesh.surface.is_sphere() ? triangles_area / sphere_area : 0;
   return result;
 }

@@ -345,4 +345,6 @@ TEST_CASE("bad input of locate is one clear line with the index") {
                        "site 7 is more than 2^30 periods away; give its copy in the box", Error);
   CHECK_THROWS_WITH_AS(interpolated_density(far, DoubleVector::Ones(far.points.cols())),
                        "site 7 is more than 2^30 periods away; give its copy in the box", Error);
+  far.points(1, 7) = std::nan("");
+  CHECK_THROWS_WITH_AS(locate(far, places), "site 7 is not finite; give finite coordinates", Error);
 }

@@ -138,7 +138,22 @@ TEST_CASE("in the plane the lists have the ranges of quality()") {
 
 TEST_CASE("no surface and no density are errors") {
   Mesh mesh = spherical_delaunay(spiral_sphere(20));
-  CHECK_THROWS_AS(cell_measures(mesh, tanh_bump({0, 0, 0}, 1, 1, 0.5)), const Error&);
+  const Density no_bump = tanh_bump({0, 0, 0}, 1, 1, 0.5);
+  CHECK_THROWS_AS(cell_measures(mesh, no_bump), const Error&);
+  Points3 half = random_sphere(20, 2);
+  half.row(2) = half.row(2).cwiseAbs();
+  CHECK_THROWS_AS(cell_measures(spherical_delaunay(half), no_bump), const Error&);
   mesh.triangles(0, 3) = 99;
   CHECK_THROWS_AS(cell_measures(mesh), const Error&);
+}
+
+TEST_CASE("a site in no triangle has no measures, and changes no others") {
+  const Mesh mesh = spherical_delaunay(spiral_sphere(20));
+  Mesh more = mesh;
+  more.points.conservativeResize(3, 21);
+  more.points.col(20) << 0, 0.6, 0.8;
+  const CellMeasures alone = cell_measures(more), whole = cell_measures(mesh);
+  CHECK(std::isnan(alone.spacing[20]));
+  CHECK(std::isnan(alone.off_centroid[20]));
+  CHECK(alone.off_centroid.head(20) == whole.off_centroid);
 }

@@ -67,3 +67,16 @@ TEST_CASE("clipped cells: none in a periodic box, and all outside the domain") {
   const PlanarMesh mesh = planar_delaunay(random_places(50, rectangle({0, 0}, {1, 1}), 3));
   CHECK(clipped_cells(in_domain(rectangle({2, 2}, {3, 3}), mesh)) == std::vector<bool>(50, true));
 }
+
+TEST_CASE("clipped cells: two equal points have no cells") {
+  const PlanarDomain square = rectangle({0, 0}, {1, 1});
+  PlanarMesh mesh = planar_delaunay(random_places(20, square, 3));
+  mesh.points.col(5) = mesh.points.col(3);
+  try {
+    clipped_cells(in_domain(square, mesh));
+    CHECK(false);
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::duplicate);
+    CHECK(error.index() == 5);
+  }
+}

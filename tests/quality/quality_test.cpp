@@ -401,6 +401,8 @@ TEST_CASE(
       CHECK(error.code() == ErrorCode::invalid_argument);
       CHECK(message.find(words) != std::string::npos);
       CHECK(message.find('\n') == std::string::npos);
+      if (words.ends_with("of site "))
+        CHECK(message.find(words + std::to_string(error.index())) != std::string::npos);
     }
   };
   const Mesh good = spherical_delaunay(random_sphere(50, 2));
