@@ -134,7 +134,7 @@ CellMeasures measure_on_sphere(const Mesh& mesh, const Density& density) {
   const EdgeCounts edges = count_edges(mesh);
   set_surrounded(sides_of_cells(mesh, subject.shapes), edges.not_delaunay == 0, out);
   if (edges.boundary == 0 && edges.not_delaunay == 0)
-    set_demand(closed_mesh(mesh), density, subject, out);
+    set_demand(closed_on_sphere(mesh), density, subject, out);
   return out;
 }
 
@@ -142,7 +142,7 @@ CellMeasures measure_in_plane(const Mesh& mesh, const Density& density) {
   require_finite_plane(mesh.surface);
   require_voronoi_mesh(mesh);
   require_inside(mesh.points, mesh.surface);
-  const ClosedMesh closed = closed_mesh(mesh);
+  const ClosedMesh closed = closed_in_plane(mesh);
   Subject subject{mesh.triangles,
                   mesh.neighbours,
                   {},

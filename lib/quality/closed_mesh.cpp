@@ -89,15 +89,17 @@ Points3 sites_of(const Mesh& mesh, const Plane& plane) {
 
 } // namespace
 
-ClosedMesh closed_mesh(Mesh mesh) {
+ClosedMesh closed_on_sphere(Mesh mesh) {
   const std::int64_t n = mesh.points.cols();
-  if (mesh.surface.is_sphere())
-    return {Surface::sphere(), std::move(mesh), n};
+  return {Surface::sphere(), std::move(mesh), n};
+}
+
+ClosedMesh closed_in_plane(const Mesh& mesh) {
   DelaunayOptions options;
   options.duplicates = Duplicates::refuse;
   return {mesh.surface,
           delaunay(sites_of(mesh, in_space<Plane>(mesh.surface)), unbounded(mesh.surface), options),
-          n};
+          mesh.points.cols()};
 }
 
 Moments moments_of(const ClosedMesh& closed, const Density& density, int rule, int divisions) {
@@ -151,7 +153,7 @@ std::vector<bool> clipped_cells(const Mesh& mesh) {
   require_finite_plane(surface);
   if (!surface.is_bounded() || clipped.empty())
     return clipped;
-  const ClosedMesh closed = closed_mesh(mesh);
+  const ClosedMesh closed = closed_in_plane(mesh);
   const Array<std::uint8_t> whole = unclipped_cells(
       closed, make_vertex_rings(closed.mesh.triangles, closed.mesh.neighbours, closed.generators));
   for (std::size_t i = 0; i < clipped.size(); ++i)

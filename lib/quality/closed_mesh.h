@@ -23,10 +23,13 @@ struct ClosedMesh {
   std::int64_t generators = 0;
 };
 
-/// The mesh itself on the sphere, where rings have no effect; in the plane a new one of its points.
-/// \pre there is a point; on the sphere a closed mesh of unit columns; the plane is finite.
-/// \throws Error duplicate with the index of a point of the plane that equals an earlier one.
-ClosedMesh closed_mesh(Mesh mesh);
+/// The mesh itself; rings of its surface have no effect.
+/// \pre closed, of unit columns; there is a point.
+ClosedMesh closed_on_sphere(Mesh mesh);
+
+/// A new mesh of the points. \pre there is a point; the plane is finite.
+/// \throws Error duplicate with the index of a point that equals an earlier one.
+ClosedMesh closed_in_plane(const Mesh& mesh);
 
 /// Moments of the cells.
 /// \param density as surface_density() gives it; \param rule, divisions see make_integrand().

@@ -122,8 +122,9 @@ Quality quality(const Mesh& mesh, const Density& density) {
   using namespace quality_detail;
   const Density on_surface = checked_surface_density(density, mesh.surface);
   const double triangles_area = require_cells(mesh);
-  Quality result =
-      measure(closed_mesh(mesh.surface.is_sphere() ? with_unit_columns(mesh) : mesh), on_surface);
+  Quality result = measure(mesh.surface.is_sphere() ? closed_on_sphere(with_unit_columns(mesh))
+                                                    : closed_in_plane(mesh),
+                           on_surface);
   result.triangles_area = mesh.surface.is_sphere() ? triangles_area / sphere_area : 0;
   return result;
 }
