@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "delaunay/delaunay.h"
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "program.h"
 #include "report.h"
 #include "stopwatch.h"

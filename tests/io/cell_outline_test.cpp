@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "io/cell_outline.h"
-#include "io/polygons.h"
+#include "io/cells/cell_outline.h"
+#include "io/cells/polygons.h"
 #include "support/planes.h"
 
 #include <calotte/delaunay.h>

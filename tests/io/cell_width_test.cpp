@@ -5,7 +5,7 @@
 #include "base/spherical_angles.h"
 #include "cvt/cvt.h"
 #include "exact/predicates.h"
-#include "io/netcdf_writer.h"
+#include "io/netcdf/netcdf_writer.h"
 #include "support/files.h"
 #include "support/planes.h"
 #include "support/random.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "io/formats.h"
-#include "io/model_grid.h"
+#include "io/cells/model_grid.h"
+#include "io/formats/formats.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"

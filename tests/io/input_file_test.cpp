@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "support/files.h"
 
 #include <calotte/error.h>

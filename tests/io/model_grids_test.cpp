@@ -6,13 +6,13 @@
 #include "support/meshes.h"
 
 #include "base/lonlat.h"
-#include "io/distinct_places.h"
-#include "io/dual.h"
-#include "io/formats.h"
-#include "io/model_grid.h"
-#include "io/netcdf_reader.h"
-#include "io/netcdf_writer.h"
-#include "io/polygons.h"
+#include "io/cells/distinct_places.h"
+#include "io/cells/dual.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/polygons.h"
+#include "io/formats/formats.h"
+#include "io/netcdf/netcdf_reader.h"
+#include "io/netcdf/netcdf_writer.h"
 #include "support/planes.h"
 
 #include <calotte/delaunay.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command.h"
-#include "io/netcdf_header.h"
-#include "io/netcdf_reader.h"
-#include "io/netcdf_writer.h"
+#include "io/netcdf/netcdf_header.h"
+#include "io/netcdf/netcdf_reader.h"
+#include "io/netcdf/netcdf_writer.h"
 #include "support/files.h"
 #include "support/full_disk.h"
 #include "support/planes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/parallel.h"
-#include "io/file.h"
-#include "io/output_queue.h"
+#include "io/bytes/file.h"
+#include "io/bytes/output_queue.h"
 #include "support/files.h"
 #include "support/full_disk.h"
 

@@ -14,8 +14,8 @@ namespace {
 /// grid.
 constexpr int most_neighbours = 7;
 
-/// The arrays of a complete file, see lib/io/mpas_write.cpp, of n cells, 2n - 4 vertices and 3n - 6
-/// edges. Cells, vertices and edges have five coordinates and a number each.
+/// The arrays of a complete file, see lib/io/mpas/mpas_write.cpp, of n cells, 2n - 4 vertices and
+/// 3n - 6 edges. Cells, vertices and edges have five coordinates and a number each.
 double mpas_bytes(double cells, int neighbours) {
   constexpr double real = 8, integer = 4, place = 5 * real + integer;
   const double of_cell = place + integer * (1 + 3 * neighbours) + 4 * real,

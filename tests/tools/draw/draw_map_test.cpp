@@ -6,7 +6,7 @@
 #include "draw/values.h"
 #include "draw/vector.h"
 #include "draw/view.h"
-#include "io/netcdf_writer.h"
+#include "io/netcdf/netcdf_writer.h"
 #include "support/clouds.h"
 #include "support/pictures.h"
 

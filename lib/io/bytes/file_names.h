@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/bytes/room.h"
+
+#include <calotte/io.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// The information in the names of files.
+namespace calotte::io_detail {
+
+// MPI-SCVT's names; the rest of a name, as in RegionList.12, is common to files that belong
+// together.
+inline constexpr std::string_view vertices_name = "SaveVertices";
+inline constexpr std::string_view triangles_name = "SaveTriangles";
+inline constexpr std::string_view density_name = "SaveDensity";
+inline constexpr std::string_view centres_name = "RegionList";
+inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
+inline constexpr std::string_view boundaries_name = "SaveBoundaries";
+inline constexpr std::string_view loop_counts_name = "SaveLoopCounts";
+
+// FESOM's names.
+inline constexpr std::string_view fesom_nodes_name = "nod2d.out";
+inline constexpr std::string_view fesom_elements_name = "elem2d.out";
+inline constexpr std::string_view fesom_depths_name = "aux3d.out";
+
+/// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
+std::string suffix_of(const std::string& path);
+
+bool is_netcdf(Format format);
+
+/// The format of a mesh file by its name, if the name determines it.
+std::optional<Format> format_of_name(const std::string& path);
+
+/// Replaces the start `stem` of the file name by `other`; none if the name does not start with
+/// `stem`.
+std::optional<std::string> sibling(const std::string& path, std::string_view stem,
+                                   std::string_view other);
+
+/// \throws Error invalid_argument, always, with the names that determine a format.
+[[noreturn]] void refuse_name(const std::string& path);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/json_stream.h"
+
+#include "io/bytes/file.h"
+
+#include <calotte/error.h>
+
+namespace calotte::io_detail {
+
+JsonBuffer::int_type JsonBuffer::underflow() {
+  read_some(in_, bytes_.data(), std::ssize(bytes_), name_);
+  const std::streamsize count = in_.gcount();
+  if (count == 0)
+    return traits_type::eof();
+  for (std::streamsize k = 0; k < count; ++k, ++position_)
+    check(bytes_[static_cast<std::size_t>(k)]);
+  setg(bytes_.data(), bytes_.data(), bytes_.data() + count);
+  return traits_type::to_int_type(bytes_[0]);
+}
+
+void JsonBuffer::check(char c) {
+  if (++length_ > longest)
+    fail("a number or a text longer than " + std::to_string(longest) + " bytes");
+  if (in_text_) {
+    in_text_ = escaped_ || c != '"';
+    escaped_ = !escaped_ && c == '\\';
+    return;
+  }
+  switch (c) {
+  case '"':
+    in_text_ = true;
+    length_ = 0;
+    break;
+  case '[':
+  case '{':
+    length_ = 0;
+    if (++depth_ > deepest)
+      fail("values nested deeper than " + std::to_string(deepest));
+    break;
+  case ']':
+  case '}':
+    --depth_;
+    length_ = 0;
+    break;
+  case ',':
+  case ':':
+  case ' ':
+  case '\t':
+  case '\n':
+  case '\r':
+    length_ = 0;
+    break;
+  default:
+    break;
+  }
+}
+
+void JsonBuffer::fail(const std::string& problem) const {
+  throw Error(ErrorCode::parse, name_ + ": " + problem + " at byte " +
+                                    std::to_string(position_ + 1) + "; give plain GeoJSON");
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/text.h"
+
+#include "io/bytes/file.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <istream>
+#include <system_error>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr std::size_t chunk = std::size_t{1} << 20;
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_mark(char c) { return c == ',' || c == ';' || c == '|'; }
+
+const char* skip_blanks(const char* p, const char* end) {
+  while (p != end && is_blank(*p))
+    ++p;
+  return p;
+}
+
+/// A column runs to the next separator.
+const char* column_end(const char* p, const char* end) {
+  return std::find_if(p, end, [](char c) { return is_blank(c) || is_mark(c); });
+}
+
+/// std::from_chars does not accept a plus sign.
+const char* skip_plus(const char* p, const char* end) {
+  return end - p > 1 && p[0] == '+' && p[1] != '+' && p[1] != '-' ? p + 1 : p;
+}
+
+template <class T> Columned parse(std::string_view line, int count, T* values) {
+  const char* const end = line.data() + line.size();
+  const char* p = skip_blanks(line.data(), end);
+  Columned read;
+  while (true) {
+    if (p == end) {
+      read.outcome = Outcome::too_few;
+      return read;
+    }
+    const auto result = std::from_chars(skip_plus(p, end), end, values[read.columns]);
+    const bool whole = result.ptr == end || is_blank(*result.ptr) || is_mark(*result.ptr);
+    if (result.ec != std::errc() || !whole) {
+      const bool range = result.ec == std::errc::result_out_of_range && whole;
+      read.outcome = range ? Outcome::out_of_range : Outcome::no_number;
+      read.text = {p, static_cast<std::size_t>(column_end(p, end) - p)};
+      return read;
+    }
+    if (++read.columns == count)
+      return read;
+    p = skip_blanks(result.ptr, end);
+    if (p != end && is_mark(*p))
+      p = skip_blanks(p + 1, end);
+  }
+}
+
+} // namespace
+
+LineReader::LineReader(std::istream& in, std::string name)
+    : in_(in), name_(std::move(name)), buffer_(chunk), at_first_(bytes_left(in)) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  while (end_ < mark.size() && refill()) {
+  }
+  if (std::string_view(buffer_.data(), end_).starts_with(mark))
+    begin_ = mark.size();
+}
+
+bool LineReader::next(std::string_view& line) {
+  std::size_t scanned = begin_;
+  while (true) {
+    if (after_cr_ && begin_ != end_) {
+      if (buffer_[begin_] == '\n')
+        ++begin_, ++scanned;
+      after_cr_ = false;
+    }
+    while (scanned != end_ && buffer_[scanned] != '\n' && buffer_[scanned] != '\r')
+      ++scanned;
+    if (scanned != end_)
+      break;
+    const std::size_t length = scanned - begin_;
+    if (!refill()) {
+      if (length == 0)
+        return false;
+      line = {buffer_.data() + begin_, length};
+      begin_ = end_;
+      ++number_;
+      return true;
+    }
+    scanned = begin_ + length;
+  }
+  line = {buffer_.data() + begin_, scanned - begin_};
+  after_cr_ = buffer_[scanned] == '\r';
+  begin_ = scanned + 1;
+  ++number_;
+  return true;
+}
+
+/// Moves the unread bytes to the front of the buffer and reads more; false at the end of the
+/// stream.
+bool LineReader::refill() {
+  constexpr std::size_t most_line = std::size_t{1} << 24;
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  if (end_ >= most_line) {
+    ++number_;
+    fail("a line longer than 16 MiB; give a text file");
+  }
+  if (end_ == buffer_.size())
+    buffer_.resize(2 * buffer_.size());
+  read_some(in_, buffer_.data() + end_, static_cast<std::int64_t>(buffer_.size() - end_), name_);
+  const auto count = static_cast<std::size_t>(in_.gcount());
+  end_ += count, read_ += count;
+  if (count == 0)
+    require_whole(read_, at_first_, name_);
+  return count > 0;
+}
+
+bool LineReader::next_content(std::string_view& line) {
+  while (next(line)) {
+    line = line.substr(0, line.find('#'));
+    if (!std::all_of(line.begin(), line.end(), is_blank))
+      return true;
+  }
+  return false;
+}
+
+void LineReader::fail(const std::string& problem) const {
+  throw Error(ErrorCode::parse, name_ + " line " + std::to_string(number_) + ": " + problem,
+              number_);
+}
+
+Columned parse_columns(std::string_view line, int count, double* values) {
+  return parse(line, count, values);
+}
+
+Columned parse_columns(std::string_view line, int count, std::int64_t* values) {
+  return parse(line, count, values);
+}
+
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  constexpr std::string_view blanks = " \t";
+  const char *at = text.data(), *const end = text.data() + text.size();
+  const auto skip = [&](std::string_view characters, int most) {
+    for (; at != end && most > 0 && characters.find(*at) != std::string_view::npos; --most)
+      ++at;
+  };
+  constexpr int any = 1 << 30;
+  for (skip(blanks, any); at != end; skip(blanks, any)) {
+    if (!numbers.empty()) {
+      skip(",;|", 1);
+      skip(blanks, any);
+    }
+    skip("+", 1);
+    double number = 0;
+    const auto [stop, problem] = std::from_chars(at, end, number);
+    if (problem != std::errc() || !std::isfinite(number))
+      return std::nullopt;
+    at = stop;
+    if (at != end && (blanks.find(*at) == std::string_view::npos) && *at != ',' && *at != ';' &&
+        *at != '|')
+      return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers.empty() ? std::nullopt : std::optional(numbers);
+}
+
+void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
+               std::vector<std::int32_t>& faces, std::int64_t first, std::int64_t count) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (ids[i] < first || ids[i] - first >= points)
+      reader.fail("id " + std::to_string(ids[i]) + " is not one of the " + std::to_string(points) +
+                  " points; ids count from " + std::to_string(first));
+    faces.push_back(static_cast<std::int32_t>(ids[i] - first));
+  }
+}
+
+bool holds_number(std::string_view line) {
+  const char* const end = line.data() + line.size();
+  for (const char* p = line.data(); p != end;) {
+    const char* const stop = column_end(p, end);
+    double value;
+    const std::string_view column(p, static_cast<std::size_t>(stop - p));
+    if (parse_columns(column, 1, &value).outcome == Outcome::ok)
+      return true;
+    p = stop == end ? end : stop + 1;
+  }
+  return false;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return "\"" + shown + (text.size() > longest ? "..." : "") + "\"";
+}
+
+std::string describe(const Columned& read) {
+  if (read.outcome == Outcome::out_of_range)
+    return in_quotes(read.text) + " is out of range";
+  return read.text.empty() ? "a column is empty" : in_quotes(read.text) + " is not a number";
+}
+
+Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(chunk + 64); }
+
+Writer& Writer::text(std::string_view bytes) {
+  if (bytes.size() > chunk) {
+    flush();
+    sink_(bytes);
+    return *this;
+  }
+  buffer_.append(bytes);
+  if (buffer_.size() >= chunk)
+    flush();
+  return *this;
+}
+
+Writer& Writer::number(double value) {
+  char digits[32];
+  return text({digits, std::to_chars(digits, digits + sizeof digits, value).ptr});
+}
+
+Writer& Writer::number(std::int64_t value) {
+  char digits[32];
+  return text({digits, std::to_chars(digits, digits + sizeof digits, value).ptr});
+}
+
+void Writer::flush() {
+  sink_(buffer_);
+  buffer_.clear();
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/bytes/room.h"
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace calotte::io_detail {
+
+// ---- Reading
+
+/// The lines of a stream, which end in LF, CRLF or CR; the last may lack its ending. A UTF-8 byte
+/// order mark before the first is skipped.
+class LineReader {
+public:
+  /// \param name stands for the stream in messages.
+  LineReader(std::istream& in, std::string name);
+
+  /// Reads the next line, without its ending; valid until the next call. False after the last one.
+  /// \throws Error file.
+  bool next(std::string_view& line);
+
+  /// As next(), without comments; skips lines without other content.
+  bool next_content(std::string_view& line);
+
+  std::int64_t number() const { return number_; } ///< 1-based, of the line that `next` returned
+  const std::string& name() const { return name_; }
+
+  /// \throws Error parse that names the current line.
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  bool refill();
+
+  std::istream& in_;
+  std::string name_;
+  std::vector<char> buffer_;
+  std::size_t at_first_ = 0, read_ = 0; ///< bytes that the stream had, and those read
+  std::size_t begin_ = 0, end_ = 0;     ///< the unread part of the buffer
+  std::int64_t number_ = 0;
+  bool after_cr_ = false; ///< a following LF belongs to the same line ending
+};
+
+/// The result of parsing the numbers at the start of a line.
+enum class Outcome {
+  ok,
+  too_few,      ///< the line ends before `count` columns
+  no_number,    ///< a column is not a number, or empty
+  out_of_range, ///< a column is a number that the type cannot hold
+};
+
+/// The first invalid column, or the number of columns read.
+struct Columned {
+  Outcome outcome = Outcome::ok;
+  int columns = 0;       ///< read so far
+  std::string_view text; ///< of the offending column
+};
+
+/// Reads the first `count` columns of a line: blanks and tabs, and at most one of comma, semicolon
+/// and bar, separate them.
+Columned parse_columns(std::string_view line, int count, double* values);
+Columned parse_columns(std::string_view line, int count, std::int64_t* values);
+
+/// All of a text as finite numbers with blanks, or one of comma, semicolon and bar, between; none
+/// for any other text.
+std::optional<std::vector<double>> numbers_of(std::string_view text);
+
+/// Appends ids of one line of text, which count from `first` there and from 0 in `faces`.
+/// \throws Error parse for an id that is not one of the points.
+void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
+               std::vector<std::int32_t>& faces, std::int64_t first = 0, std::int64_t count = 3);
+
+/// True if one of the line's columns is a number.
+bool holds_number(std::string_view line);
+
+/// Text from a file as one short printable line within quotes.
+std::string in_quotes(std::string_view text);
+
+/// A description such as "`abc` is not a number", without the remedy.
+/// \pre the outcome is not ok or too_few.
+std::string describe(const Columned& read);
+
+// ---- Writing
+
+/// Receives output bytes.
+using Sink = std::function<void(std::string_view)>;
+
+/// An array's bytes.
+template <class T> std::string_view bytes_of(const T* data, std::int64_t count) {
+  return {reinterpret_cast<const char*>(data), sizeof(T) * static_cast<std::size_t>(count)};
+}
+
+/// Collects small pieces for a sink. Call flush() at the end.
+class Writer {
+public:
+  explicit Writer(Sink sink);
+
+  Writer& text(std::string_view bytes);
+  Writer& number(double value); ///< the fewest digits that read back to the same bits
+  Writer& number(std::int64_t value);
+  template <class T> Writer& raw(const T& value) {
+    return text({reinterpret_cast<const char*>(&value), sizeof value});
+  }
+  void flush();
+
+private:
+  Sink sink_;
+  std::string buffer_;
+};
+
+} // namespace calotte::io_detail

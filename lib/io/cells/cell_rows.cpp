@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/cell_rows.h"
+
+#include "io/bytes/text.h"
+#include "io/cells/distinct_places.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/netcdf_fields.h"
+#include "io/cells/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr std::size_t fewest_corners = 3;
+
+// ---- Corners
+
+std::optional<double> number_of(const NetcdfReader& file, const std::string& name,
+                                const std::string& attribute) {
+  const double value = file.number(name, attribute, 0);
+  const bool absent = value == 0 && file.number(name, attribute, 1) == 1;
+  return absent ? std::nullopt : std::optional(value);
+}
+
+/// The values that stand for none.
+struct Missing {
+  std::optional<double> fill, other;
+
+  Missing(const NetcdfReader& file, const std::string& name)
+      : fill(number_of(file, name, "_FillValue")), other(number_of(file, name, "missing_value")) {}
+  bool any() const { return fill || other; }
+  bool operator()(double value) const {
+    return any() && (std::isnan(value) || value == fill || value == other);
+  }
+};
+
+/// From corners first to a row of corners for each cell.
+void turn_rows(std::vector<double>& values, std::int64_t corners) {
+  const std::vector<double> old = values;
+  const std::int64_t cells = std::ssize(old) / corners;
+  for (std::int64_t k = 0; k < corners; ++k)
+    for (std::int64_t i = 0; i < cells; ++i)
+      values[static_cast<std::size_t>(i * corners + k)] =
+          old[static_cast<std::size_t>(k * cells + i)];
+}
+
+double degrees_of(const NetcdfReader& file, const std::string& corners,
+                  const std::string& centres) {
+  const bool own = centres.empty() || !file.text(corners, "units").empty();
+  return degrees_per_unit(file, own ? corners : centres);
+}
+
+/// Corners that are none take the place of another, so that all are places. \returns them.
+std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& rows,
+                                      LonLats& places) {
+  const Missing no_longitude(file, rows.corner_longitude), no_latitude(file, rows.corner_latitude);
+  std::vector<std::size_t> missing;
+  if (!no_longitude.any() && !no_latitude.any())
+    return missing;
+  const std::size_t count = places.longitudes.size();
+  std::size_t known = count;
+  for (std::size_t i = 0; i < count; ++i)
+    if (no_longitude(places.longitudes[i]) || no_latitude(places.latitudes[i]))
+      missing.push_back(i);
+    else
+      known = std::min(known, i);
+  if (known == count)
+    file.fail(rows.corner_longitude + " and " + rows.corner_latitude +
+              " hold fill values only; make the file again");
+  for (const std::size_t i : missing) {
+    places.longitudes[i] = places.longitudes[known];
+    places.latitudes[i] = places.latitudes[known];
+  }
+  return missing;
+}
+
+// ---- Names
+
+/// The units of the conventions end in "_east", "_E" or "E".
+bool says(const NetcdfReader& file, const std::string& name, const std::string& standard_name,
+          const std::string& direction, char letter) {
+  const std::string units = file.text(name, "units");
+  return file.is_numeric(name) &&
+         (file.text(name, "standard_name") == standard_name || units.ends_with(direction) ||
+          (units.starts_with("degree") && units.back() == letter));
+}
+bool is_longitude(const NetcdfReader& file, const std::string& name) {
+  return says(file, name, "longitude", "_east", 'E');
+}
+bool is_latitude(const NetcdfReader& file, const std::string& name) {
+  return says(file, name, "latitude", "_north", 'N');
+}
+
+/// The bounds of coordinates; empty without, or if they have another shape.
+std::string bounds_of(const NetcdfReader& file, const std::string& name) {
+  const std::string bounds = file.text(name, "bounds");
+  if (bounds.empty() || !file.has_variable(bounds))
+    return {};
+  const std::vector<std::string> own = file.dimensions_of(name), more = file.dimensions_of(bounds);
+  const bool follows = more.size() == own.size() + 1 && !own.empty() && own.size() <= 2 &&
+                       std::equal(own.begin(), own.end(), more.begin());
+  return follows ? bounds : "";
+}
+
+bool has_corners(const NetcdfReader& file, const std::string& bounds) {
+  return !bounds.empty() &&
+         static_cast<std::size_t>(file.shape_of(bounds).back()) >= fewest_corners;
+}
+
+/// The latitudes that go with longitudes, which have bounds.
+std::string latitude_beside(const NetcdfReader& file, const std::string& longitude) {
+  const std::vector<std::string> dimensions = file.dimensions_of(longitude);
+  for (const std::string& name : file.variables())
+    if (is_latitude(file, name) && file.dimensions_of(name) == dimensions &&
+        has_corners(file, bounds_of(file, name)))
+      return name;
+  return {};
+}
+
+/// How many variables have all dimensions of a coordinate.
+std::int64_t variables_on(const NetcdfReader& file, const std::string& coordinate) {
+  const std::vector<std::string> wanted = file.dimensions_of(coordinate);
+  const std::vector<std::string> names = file.variables();
+  return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+    const std::vector<std::string> has = file.dimensions_of(name);
+    return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& dimension) {
+      return std::find(has.begin(), has.end(), dimension) != has.end();
+    });
+  });
+}
+
+std::optional<CellRows> bounded_cells(const NetcdfReader& file) {
+  std::optional<CellRows> best;
+  std::int64_t most = -1;
+  for (const std::string& name : file.variables()) {
+    if (!is_longitude(file, name) || !has_corners(file, bounds_of(file, name)))
+      continue;
+    const std::string latitude = latitude_beside(file, name);
+    if (const std::int64_t count = variables_on(file, name); !latitude.empty() && count > most) {
+      most = count;
+      best = {bounds_of(file, name), bounds_of(file, latitude), name, latitude};
+    }
+  }
+  return best;
+}
+
+constexpr std::string_view oasis_corners = ".clo";
+
+std::vector<std::string> oasis_grids(const NetcdfReader& file) {
+  std::vector<std::string> grids;
+  for (const std::string& name : file.variables())
+    if (name.ends_with(oasis_corners)) {
+      const std::string grid = name.substr(0, name.size() - oasis_corners.size());
+      if (file.has_variable(grid + ".cla"))
+        grids.push_back(grid);
+    }
+  return grids;
+}
+
+std::optional<CellRows> oasis_cells(const NetcdfReader& file) {
+  const std::vector<std::string> grids = oasis_grids(file);
+  if (grids.empty())
+    return {};
+  const std::string& grid = grids.front();
+  if (grids.size() > 1)
+    file.fail("grids of OASIS for several models (" + grid + ", " + grids[1] +
+              (grids.size() > 2 ? ", ..." : "") +
+              "); write one of them to a file of its own, such "
+              "as with ncks -v " +
+              grid + ".lon," + grid + ".lat," + grid + ".clo," + grid + ".cla");
+  const bool centres = file.has_variable(grid + ".lon") && file.has_variable(grid + ".lat");
+  return CellRows{grid + ".clo", grid + ".cla", centres ? grid + ".lon" : "",
+                  centres ? grid + ".lat" : "", true};
+}
+
+// ---- What a file is instead of a mesh
+
+/// The first variable of which that holds; empty without.
+template <class Is> std::string first_variable(const NetcdfReader& file, const Is& is) {
+  const std::vector<std::string> names = file.variables();
+  const auto found = std::find_if(names.begin(), names.end(), is);
+  return found == names.end() ? "" : *found;
+}
+
+std::string two_bounds(const NetcdfReader& file) {
+  return first_variable(file, [&](const std::string& name) {
+    const std::string bounds = is_longitude(file, name) ? bounds_of(file, name) : "";
+    return !bounds.empty() && file.shape_of(bounds).back() == 2;
+  });
+}
+
+} // namespace
+
+Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Points3& centres) {
+  const std::vector<std::int64_t> shape = file.shape_of(rows.corner_longitude);
+  if (shape.size() < 2)
+    file.fail(rows.corner_longitude + " has no dimension of corners; make the file again");
+  const std::int64_t most = rows.corners_first ? shape.front() : shape.back();
+  if (most < 3)
+    file.fail(rows.corner_longitude + " has " + std::to_string(most) +
+              " corners a cell; make the file again with three or more");
+  LonLats places{file.doubles(rows.corner_longitude, shape),
+                 file.doubles(rows.corner_latitude, shape)};
+  const std::int64_t cells = std::ssize(places.longitudes) / most;
+  if (centres.cols() > 0 && cells != centres.cols())
+    file.fail(rows.corner_longitude + " holds " + std::to_string(cells) + " cells, but there are " +
+              std::to_string(centres.cols()) + " centres; make the file again");
+  if (rows.corners_first)
+    for (std::vector<double>* values : {&places.longitudes, &places.latitudes})
+      turn_rows(*values, most);
+  const std::vector<std::size_t> missing = fill_missing(file, rows, places);
+  scale(places.longitudes, degrees_of(file, rows.corner_longitude, rows.longitude));
+  scale(places.latitudes, degrees_of(file, rows.corner_latitude, rows.latitude));
+  places = checked(file, rows.corner_longitude + " and " + rows.corner_latitude, std::move(places));
+  DistinctPlaces distinct = distinct_places(places.longitudes, places.latitudes);
+  for (const std::size_t i : missing)
+    distinct.id[i] = -1;
+  return polygons_of(distinct.id, most, from_degrees(distinct.longitudes, distinct.latitudes),
+                     centres);
+}
+
+std::optional<CellRows> cell_rows_of(const NetcdfReader& file) {
+  const std::optional<CellRows> cells = bounded_cells(file);
+  return cells ? cells : oasis_cells(file);
+}
+
+RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice) {
+  RawMesh raw;
+  if (!rows.longitude.empty())
+    raw.points =
+        read_lonlats(file, rows.longitude, rows.latitude,
+                     std::vector<std::int64_t>(file.dimensions_of(rows.longitude).size(), -1));
+  raw.polygons = read_cell_rows(file, rows, raw.points);
+  raw.corner_rounding = file.is_float(rows.corner_longitude) ? float_rounding : 0;
+  std::vector<std::string> dimensions = file.dimensions_of(rows.corner_longitude);
+  dimensions.erase(rows.corners_first ? dimensions.begin() : std::prev(dimensions.end()));
+  read_fields(
+      file,
+      {.cells = dimensions.size() == 1 ? dimensions.front() : "",
+       .vertices = "",
+       .variables = {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude}},
+      choice, raw);
+  drop_derived_fields(raw);
+  return raw;
+}
+
+void refuse_netcdf(const NetcdfReader& file) {
+  const std::string connectivity = first_variable(file, [&](const std::string& name) {
+    return file.text(name, "cf_role") == "face_node_connectivity";
+  });
+  if (!connectivity.empty())
+    file.fail("the connectivity " + connectivity +
+              " of UGRID, but no variable of cf_role \"mesh_topology\" and topology_dimension 2, "
+              "which names it and the coordinates of the nodes; add one");
+  if (file.has_variable("elements") && file.has_variable("edge_cross_dxdy"))
+    file.fail("the mesh information of an older FESOM, without the topology of UGRID; give the "
+              "model's nod2d.out, or the fesom.mesh.diag.nc of FESOM 2.1 or later");
+  if (file.has_variable("nv") && file.has_variable("lonc"))
+    file.fail(
+        "the triangles of FVCOM (nv) without the topology of UGRID; add a variable of cf_role "
+        "\"mesh_topology\" and topology_dimension 2, whose face_node_connectivity is nv and "
+        "whose node_coordinates are lon lat, and to nv the attribute start_index 1");
+  if (const std::string longitude = two_bounds(file); !longitude.empty())
+    file.fail(
+        "a grid of rows and columns, as " + longitude +
+        " has two bounds; cells need their corners, which cdo setgridtype,curvilinear writes");
+  if (file.dimension("nCells") >= 0 && !file.has_variable("xCell"))
+    file.fail("fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh "
+              "file, or add its variables with ncks -A");
+  const std::string points = first_variable(file, [&](const std::string& name) {
+    return is_longitude(file, name) && file.dimensions_of(name).size() == 1;
+  });
+  if (!points.empty())
+    file.fail("longitudes (" + points +
+              ") without bounds of three corners or more, so that its cells have no shape; give a "
+              "file with bounds, or the points as text to calotte delaunay --lonlat");
+  file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP, ESMF, Exodus or ICON, and no cells "
+            "with bounds as in the CF conventions; convert it to one of them");
+}
+
+} // namespace calotte::io_detail

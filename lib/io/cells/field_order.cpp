@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/field_order.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+/// The numbers of a place are a column.
+Eigen::Map<DoubleMatrix> columns_of(DoubleVector& values, std::int64_t count) {
+  return {values.data(), count, count > 0 ? values.size() / count : 0};
+}
+
+/// An order of pairs.
+std::uint64_t key_of(std::int32_t low, std::int32_t high) {
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
+}
+
+void set_pair(Pairs& pairs, Eigen::Index column, std::uint64_t key) {
+  pairs.col(column) << static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key);
+}
+
+std::string joined(const std::vector<MeshField>& fields, bool directed) {
+  std::string names;
+  for (const MeshField& field : fields)
+    if (field.location == Location::edges && field.directed == directed)
+      names += (names.empty() ? "" : ", ") + field.name;
+  return names;
+}
+
+std::string line_of(const EdgeOrder& order, const std::vector<MeshField>& fields) {
+  const auto turned = std::count(order.turned.begin(), order.turned.end(), true);
+  const std::string directed = joined(fields, true), others = joined(fields, false);
+  std::string line = "edges run from their lower to their higher cell: turned " +
+                     std::to_string(turned) + " of " + std::to_string(order.turned.size());
+  line += directed.empty() ? "" : "; changes its sign there: " + directed;
+  line += others.empty() ? "" : "; keeps its sign: " + others;
+  return line;
+}
+
+void ignore_edge_fields(std::vector<MeshField>& fields, std::vector<std::string>& ignored) {
+  std::erase_if(fields, [&](const MeshField& field) {
+    if (field.location == Location::edges)
+      ignored.push_back(field.name);
+    return field.location == Location::edges;
+  });
+}
+
+} // namespace
+
+bool has_values_for(const MeshField& field, std::int64_t places) {
+  return field.values.size() == places * field.count();
+}
+
+void move_values(MeshField& field, std::span<const std::int32_t> place) {
+  DoubleVector moved(field.values.size());
+  const auto from = columns_of(field.values, field.count());
+  auto to = columns_of(moved, field.count());
+  for (std::size_t i = 0; i < place.size(); ++i)
+    to.col(place[i]) = from.col(static_cast<Eigen::Index>(i));
+  field.values = std::move(moved);
+}
+
+void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int32_t> place) {
+  for (MeshField& field : fields)
+    if (field.location == Location::vertices && has_values_for(field, std::ssize(place)))
+      move_values(field, place);
+}
+
+void select_values(MeshField& field, std::span<const std::int32_t> from) {
+  DoubleVector selected(field.count() * std::ssize(from));
+  const auto all = columns_of(field.values, field.count());
+  auto to = columns_of(selected, field.count());
+  for (std::size_t i = 0; i < from.size(); ++i)
+    to.col(static_cast<Eigen::Index>(i)) = all.col(from[i]);
+  field.values = std::move(selected);
+}
+
+Pairs edges_of(const Triangles& triangles) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(static_cast<std::size_t>(triangles.size() / 2));
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (const std::int32_t a = triangles(i, t), b = triangles((i + 1) % 3, t); a < b)
+        keys.push_back(key_of(a, b));
+  std::sort(keys.begin(), keys.end());
+  Pairs edges(2, std::ssize(keys));
+  for (std::size_t e = 0; e < keys.size(); ++e)
+    set_pair(edges, static_cast<Eigen::Index>(e), keys[e]);
+  return edges;
+}
+
+EdgeOrder order_of(const Pairs& pairs) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys(static_cast<std::size_t>(pairs.cols()));
+  EdgeOrder order{Pairs(2, pairs.cols()), std::vector<std::int32_t>(keys.size()),
+                  std::vector<bool>(keys.size())};
+  for (std::size_t e = 0; e < keys.size(); ++e) {
+    const auto column = static_cast<Eigen::Index>(e);
+    const auto [low, high] = std::minmax(pairs(0, column), pairs(1, column));
+    keys[e] = {key_of(low, high), static_cast<std::int32_t>(e)};
+    order.turned[e] = pairs(0, column) > pairs(1, column);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    set_pair(order.sorted, static_cast<Eigen::Index>(k), keys[k].first);
+    order.place[static_cast<std::size_t>(keys[k].second)] = static_cast<std::int32_t>(k);
+  }
+  return order;
+}
+
+void move_edge_values(MeshField& field, const EdgeOrder& order) {
+  auto values = columns_of(field.values, field.count());
+  for (std::size_t e = 0; field.directed && e < order.turned.size(); ++e)
+    if (order.turned[e])
+      values.col(static_cast<Eigen::Index>(e)) *= -1;
+  move_values(field, order.place);
+}
+
+void settle_edge_fields(const Triangles& triangles, const Pairs& pairs,
+                        std::vector<MeshField>& fields, std::vector<std::string>& changes,
+                        std::vector<std::string>& ignored) {
+  const auto is_at_edges = [](const MeshField& field) { return field.location == Location::edges; };
+  if (std::none_of(fields.begin(), fields.end(), is_at_edges))
+    return;
+  const bool may_be = pairs.cols() > 0 && 2 * pairs.cols() == triangles.size();
+  const EdgeOrder order = may_be ? order_of(pairs) : EdgeOrder();
+  if (!may_be || order.sorted != edges_of(triangles))
+    return ignore_edge_fields(fields, ignored);
+  for (MeshField& field : fields)
+    if (is_at_edges(field))
+      move_edge_values(field, order);
+  changes.push_back(line_of(order, fields));
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/open_cells.h"
+
+#include <calotte/error.h>
+#include <calotte/mesh_file.h>
+
+#include <utility>
+
+namespace calotte {
+namespace {
+
+Voronoi of_polygons(const MeshFile& file) {
+  io_detail::OpenCells cells = io_detail::open_cells(file);
+  if (!cells.problem.empty())
+    throw Error(ErrorCode::invalid_argument, "the cells are not Voronoi cells: " + cells.problem +
+                                                 "; use areas() and the corners of the polygons");
+  return std::move(cells.voronoi);
+}
+
+} // namespace
+
+Voronoi voronoi(const MeshFile& file) {
+  if (!file.mesh && !file.polygons)
+    throw Error(ErrorCode::invalid_argument, "the file holds neither a mesh nor cells");
+  const bool clipped = file.plane() && file.mesh->surface.is_bounded();
+  return file.polygons && !clipped ? of_polygons(file) : voronoi(*file.mesh);
+}
+
+} // namespace calotte

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/mesh_intake.h"
+
+#include "base/points.h"
+#include "delaunay/delaunay.h"
+#include "io/cells/dual.h"
+#include "io/cells/field_order.h"
+#include "io/cells/polygons.h"
+#include "mesh/adjacency.h"
+#include "mesh/canonical_order.h"
+#include "mesh/orientation.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& problem, std::int64_t index) {
+  throw Error(ErrorCode::parse, name + ": " + problem + "; make the file again", index);
+}
+
+void require_ids(const std::string& name, const Triangles& triangles, std::int64_t points) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (triangles(i, t) < 0 || triangles(i, t) >= points)
+        refuse(name,
+               "triangle " + std::to_string(t) + " has an id that is not one of the " +
+                   std::to_string(points) + " points",
+               t);
+}
+
+std::string triangle_name(const Triangles& triangles, std::int64_t t) {
+  return "triangle " + std::to_string(t) + " (" + std::to_string(triangles(0, t)) + ", " +
+         std::to_string(triangles(1, t)) + ", " + std::to_string(triangles(2, t)) + ")";
+}
+
+// ---- Canonical form
+
+void require_one_orientation(const std::string& name, const Triangles& triangles,
+                             const Orientations& found) {
+  if (!found.contradict())
+    return;
+  const std::int64_t t = found.first_exception();
+  const bool clockwise = t == found.first_clockwise;
+  refuse(name,
+         triangle_name(triangles, t) + " runs " + (clockwise ? "clockwise" : "counter-clockwise") +
+             ", but " + std::to_string(clockwise ? found.counter_clockwise : found.clockwise) +
+             " triangles run the other way, so the file contradicts itself",
+         t);
+}
+
+/// Turns clockwise triangles.
+void orient(const std::string& name, Triangles& triangles, const Orientations& found,
+            std::vector<std::string>& changes) {
+  require_one_orientation(name, triangles, found);
+  if (found.clockwise == 0)
+    return;
+  reverse(triangles);
+  changes.push_back("turned " + std::to_string(found.clockwise) + " clockwise triangles");
+}
+
+/// The corners of polygons, of which one belongs to each triangle, follow their triangles.
+void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
+  if (polygons.corners.cols() != places.place.size())
+    return;
+  const Points3 old = polygons.corners;
+  for (Eigen::Index v = 0; v < old.cols(); ++v)
+    polygons.corners.col(places.place[v]) = old.col(v);
+  for (std::int32_t& id : polygons.ids.items)
+    id = places.place[id];
+}
+
+void sort(Triangles& triangles, Polygons* polygons, MeshFile& file) {
+  if (is_canonical(triangles))
+    return;
+  Triangles sorted;
+  const CanonicalPlaces places = order_triangles(triangles, {}, sorted);
+  triangles = std::move(sorted);
+  move_vertex_values(file.fields, {places.place.begin(), places.place.end()});
+  if (polygons != nullptr)
+    reorder_corners(*polygons, places);
+  file.changes.push_back("sorted " + std::to_string(triangles.cols()) + " triangles");
+}
+
+void require_one_surface(const std::string& name, const Triangles& triangles,
+                         const Triangles& neighbours) {
+  const SharedEdge edge = first_shared_edge(triangles, neighbours);
+  if (edge.triangle >= 0)
+    refuse(name,
+           "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
+               " of " + triangle_name(triangles, edge.triangle) +
+               " belongs to more than two triangles, or to two on the same side of it, so the "
+               "triangles overlap",
+           edge.triangle);
+}
+
+void require_distinct_vertices(const std::string& name, const Triangles& triangles) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    if (triangles(0, t) == triangles(1, t) || triangles(1, t) == triangles(2, t) ||
+        triangles(2, t) == triangles(0, t))
+      refuse(name, triangle_name(triangles, t) + " has a vertex twice", t);
+}
+
+/// Orientation, order and neighbours. \pre ids are in range.
+/// \param polygons whose corners belong to the triangles, or none.
+Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t points,
+                    const Orientations& found, MeshFile& file, Polygons* polygons = nullptr) {
+  require_distinct_vertices(name, triangles);
+  orient(name, triangles, found, file.changes);
+  sort(triangles, polygons, file);
+  Triangles neighbours = neighbours_of(triangles, points);
+  require_one_surface(name, triangles, neighbours);
+  return neighbours;
+}
+
+/// Sets all but the points of a mesh whose triangles are those of a file. As above.
+void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* polygons = nullptr) {
+  mesh.neighbours =
+      canonical(name, mesh.triangles, mesh.points.cols(),
+                orientations_of(mesh.points, mesh.triangles, mesh.surface), file, polygons);
+  mesh.site_of_input = themselves(mesh.points.cols());
+}
+
+/// \param triangulate gives the mesh. \throws what it throws, with the file's name.
+auto named(const std::string& name, const auto& triangulate) {
+  try {
+    return triangulate();
+  } catch (const Error& error) {
+    throw Error(error.code(), name + ": " + error.what(), error.index());
+  }
+}
+
+// ---- Cells
+
+/// Whether polygons are worth comparing: one for each site.
+bool may_be_voronoi(const Mesh& mesh, const Polygons& polygons) {
+  return mesh.closed() && polygons.size() == mesh.points.cols();
+}
+
+/// Values by corner become values by triangle.
+void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
+                       std::vector<MeshField>& fields) {
+  const auto is_by_corner = [&](const MeshField& field) {
+    return field.location == Location::vertices && has_values_for(field, polygons.corners.cols());
+  };
+  if (std::none_of(fields.begin(), fields.end(), is_by_corner))
+    return;
+  const Ids corners = corners_of_vertices(cells, polygons);
+  for (MeshField& field : fields)
+    if (is_by_corner(field))
+      select_values(field, {corners.data(), static_cast<std::size_t>(corners.size())});
+}
+
+void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile& file) {
+  const std::int64_t turned = turn_counter_clockwise(polygons, name, each);
+  if (turned > 0)
+    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+}
+
+/// Keeps the polygons unless they are the Voronoi cells of the mesh.
+void settle_polygons(const std::string& name, RawMesh raw, MeshFile& file) {
+  Polygons& polygons = raw.polygons;
+  if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
+    const Voronoi cells = voronoi(*file.mesh);
+    file.not_voronoi = difference_from(cells, polygons, raw.corner_rounding);
+    if (file.not_voronoi.empty())
+      return move_to_triangles(cells, polygons, file.fields);
+  } else if (file.mesh) {
+    file.not_voronoi = !file.mesh->closed()
+                           ? "the mesh is open"
+                           : "there are " + std::to_string(polygons.size()) + " cells, but " +
+                                 std::to_string(file.mesh->points.cols()) + " distinct centres";
+  }
+  require_no_overlap(polygons, name);
+  file.polygons = std::move(polygons);
+}
+
+/// Cells whose centres have no Delaunay triangulation stay polygons.
+void triangulate_centres(const Points3& centres, MeshFile& file) {
+  try {
+    file.mesh = delaunay(centres);
+  } catch (const Error& error) {
+    file.not_voronoi = error.what();
+  }
+}
+
+/// Cells without triangles. A mesh is what their own corners make of them. Corners of more than
+/// three cells are those of Voronoi cells if they agree with the triangulation of the centres.
+void settle_cells(const std::string& name, RawMesh raw, MeshFile& file) {
+  if (raw.points.cols() == 0) {
+    file.not_voronoi = "the cells have no centres";
+    return settle_polygons(name, std::move(raw), file);
+  }
+  file.mesh = mesh_of_cells(raw.points, raw.polygons, raw.corner_rounding, file.fields);
+  if (file.mesh && file.mesh->closed())
+    return;
+  if (!file.mesh && cover_sphere(raw.polygons)) {
+    triangulate_centres(raw.points, file);
+    settle_polygons(name, std::move(raw), file);
+    if (file.polygons) // triangles of the centres are not the file's
+      file.mesh.reset();
+    return;
+  }
+  if (!file.mesh)
+    file.not_voronoi = "they are a part of the sphere, and their corners are not the circumcentres "
+                       "of three centres each";
+  settle_polygons(name, std::move(raw), file);
+}
+
+/// Keeps the polygons: their boundary is the file's alone. Each has a site.
+void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) {
+  const auto& sites = file.mesh->site_of_input;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+    if (sites[i] != static_cast<std::int32_t>(i))
+      refuse(name,
+             "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
+                 " have one centre",
+             static_cast<std::int64_t>(i));
+  turn_cells(name, polygons, false, file);
+  require_no_overlap(polygons, name);
+  std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
+    if (field.location != Location::cells)
+      file.ignored.push_back(field.name);
+    return field.location != Location::cells;
+  });
+  file.not_voronoi = "the boundary of the plane clips them";
+  file.polygons = std::move(polygons);
+}
+
+/// Values by input column become values by site: a site has those of its lowest column.
+void merge_values(const Mesh& mesh, MeshFile& file) {
+  const auto columns = std::ssize(mesh.site_of_input);
+  if (columns == mesh.points.cols())
+    return;
+  std::vector<std::int32_t> lowest(static_cast<std::size_t>(mesh.points.cols()));
+  for (auto i = columns; i-- > 0;)
+    lowest[static_cast<std::size_t>(mesh.site_of_input[static_cast<std::size_t>(i)])] =
+        static_cast<std::int32_t>(i);
+  if (file.density.size() == columns)
+    file.density = DoubleVector(file.density(lowest));
+  for (MeshField& field : file.fields)
+    if (field.location == Location::cells && has_values_for(field, columns))
+      select_values(field, lowest);
+}
+
+MeshFile rest_of(const std::string& format, RawMesh& raw) {
+  MeshFile file;
+  file.format = format;
+  file.density = std::move(raw.density);
+  file.fields = std::move(raw.fields);
+  file.ignored = std::move(raw.ignored);
+  return file;
+}
+
+void require_places(const std::string& name, const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (!points.col(i).allFinite())
+      refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
+    if (points(2, i) != 0)
+      throw Error(ErrorCode::invalid_argument,
+                  name + ": z is not 0 at point " + std::to_string(i) +
+                      ", so it is not a planar mesh; read it as one of the sphere",
+                  i);
+  }
+}
+
+} // namespace
+
+bool lies_in_plane(const Points3& points) {
+  return points.cols() >= 3 && (points.row(2).array() == 0).all();
+}
+
+void require_sphere(const std::string& name, const Points3& points) {
+  if (lies_in_plane(points))
+    throw Error(
+        ErrorCode::invalid_argument,
+        name +
+            ": z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
+}
+
+void require_directions(const std::string& name, const Points3& points) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (!points.col(i).allFinite() || (points.col(i).array() == 0).all())
+      refuse(name, "point " + std::to_string(i) + " has no direction (NaN, infinite or zero)", i);
+}
+
+double radius_of(const Points3& points) {
+  constexpr double rounding = 1e-6;
+  if (points.cols() == 0)
+    return 1;
+  const DoubleVector norms = points.colwise().stableNorm();
+  const double mean = norms.mean();
+  if (!((norms.array() - mean).abs() <= rounding * mean).all())
+    return 1;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.12g", mean);
+  return std::strtod(text.data(), nullptr);
+}
+
+MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
+  require_sphere(name, raw.points);
+  require_directions(name, raw.points);
+  MeshFile file = rest_of(format, raw);
+  const bool has_cells = raw.polygons.size() > 0;
+  if (has_cells)
+    turn_cells(name, raw.polygons, raw.turns_each, file);
+  if (raw.triangles.cols() > 0) {
+    require_ids(name, raw.triangles, raw.points.cols());
+    Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
+    complete(name, mesh, file, &raw.polygons);
+    settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
+    file.mesh = std::move(mesh);
+    if (has_cells)
+      settle_polygons(name, std::move(raw), file);
+  } else if (!has_cells) {
+    file.mesh = named(name, [&] { return delaunay(raw.points); });
+    merge_values(*file.mesh, file);
+    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
+  } else {
+    settle_cells(name, std::move(raw), file);
+  }
+  if (file.mesh)
+    file.sphere_radius = radius_of(file.mesh->points);
+  return file;
+}
+
+MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
+  require_places(name, raw.points);
+  raw.points.row(2).setZero(); // not -0
+  MeshFile file = rest_of(format, raw);
+  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
+    throw Error(ErrorCode::invalid_argument,
+                name + ": it holds cells of the sphere; of a plane only triangles are read");
+  if (raw.triangles.cols() == 0) {
+    file.mesh = named(name, [&] { return delaunay(raw.points, Surface::plane()); });
+    if (raw.polygons.size() > 0)
+      settle_clipped(name, std::move(raw.polygons), file);
+    return file;
+  }
+  require_ids(name, raw.triangles, raw.points.cols());
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, Surface::plane()};
+  complete(name, mesh, file);
+  file.mesh = std::move(mesh);
+  return file;
+}
+
+namespace {
+
+Mesh mesh_of_columns_in_order(const std::string& name, const Points3& points, Triangles& triangles,
+                              const Surface& surface, MeshFile& file) {
+  require_ids(name, triangles, points.cols());
+  canonical(name, triangles, points.cols(), orientations_of(points, triangles, surface), file);
+  return mesh_of_columns(points, triangles, surface);
+}
+
+} // namespace
+
+MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles) {
+  MeshFile file;
+  file.format = "triangles";
+  if (lies_in_plane(points)) {
+    require_places(name, points);
+    file.mesh = mesh_of_columns_in_order(name, points, triangles, Surface::plane(), file);
+    file.mesh->points.row(2).setZero(); // not -0
+    return file;
+  }
+  require_directions(name, points);
+  file.mesh = mesh_of_columns_in_order(name, points, triangles, {}, file);
+  file.sphere_radius = radius_of(points);
+  return file;
+}
+
+MeshFile periodic_mesh_file_of(const std::string& name, Mesh mesh, RawMesh rest) {
+  MeshFile file = rest_of("MPAS", rest);
+  complete(name, mesh, file);
+  settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
+  file.mesh = std::move(mesh);
+  if (rest.polygons.size() > 0) {
+    turn_cells(name, rest.polygons, false, file);
+    require_no_overlap(rest.polygons, name);
+    file.not_voronoi = "the mesh is open";
+    file.polygons = std::move(rest.polygons);
+  }
+  return file;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/cells/raw_mesh.h"
+#include "io/cells/room.h"
+#include "io/netcdf/netcdf_reader.h"
+
+#include <set>
+#include <string>
+
+namespace calotte::io_detail {
+
+/// What a format calls the parts of a mesh, and the variables that describe the mesh itself.
+struct NetcdfMeshNames {
+  std::string cells, vertices;     ///< dimensions; empty for none
+  std::set<std::string> variables; ///< that are not fields
+  std::string edges = {};          ///< a dimension; empty for none
+  /// Variables that refer to cells by number, which other formats number otherwise: neither read
+  /// nor written.
+  std::set<std::string> lists = {};
+  std::set<std::string> derived = {}; ///< that writers make themselves; they may be read as fields
+};
+
+/// Reads the variables with numbers for each cell, edge or vertex into the raw mesh's fields, and
+/// lists all others that do not describe the mesh as ignored. A dimension of the mesh's own
+/// variables, such as the edges of a cell, whose order another file would not keep, makes no field.
+/// \throws Error parse, file.
+void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
+                 RawMesh& raw);
+
+/// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
+/// add_offset. \throws Error parse, file.
+DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/open_cells.h"
+
+#include "base/points.h"
+#include "exact/space.h"
+#include "io/cells/polygons.h"
+#include "voronoi/open.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace calotte::io_detail {
+namespace {
+
+/// The corners that are on a cell keep their order.
+void set_cells(const Polygons& polygons, Voronoi& out) {
+  std::vector<std::int32_t> vertex(static_cast<std::size_t>(polygons.corners.cols()), -1);
+  for (const std::int32_t id : polygons.ids.items)
+    vertex[static_cast<std::size_t>(id)] = 0;
+  std::int32_t count = 0;
+  for (std::int32_t& id : vertex)
+    id = id < 0 ? -1 : count++;
+  out.on_sphere = polygons.on_sphere;
+  out.period = polygons.period;
+  out.cells = polygons.centres;
+  out.vertices.resize(3, count);
+  for (std::size_t k = 0; k < vertex.size(); ++k)
+    if (vertex[k] >= 0)
+      out.vertices.col(vertex[k]) = polygons.corners.col(static_cast<Eigen::Index>(k));
+  out.vertices_on_cell = polygons.ids;
+  for (std::int32_t& id : out.vertices_on_cell.items)
+    id = vertex[static_cast<std::size_t>(id)];
+}
+
+/// The length of a chord; in a periodic plane to the nearest copy.
+double distance(const Voronoi& cells, const Vec3& from, const Vec3& to) {
+  return norm(cells.on_sphere ? to - from : Plane(cells.period).offset(from, to));
+}
+
+/// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
+double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
+  const Vec3 centre = circumcentre_of(cells, v);
+  const double reach = distance(cells, centre, column(cells.cells, cells.cells_on_vertex(0, v)));
+  return distance(cells, column(cells.vertices, v), centre) / std::max(width, reach);
+}
+
+/// The first vertex that is no circumcentre.
+std::string first_difference(const Voronoi& cells) {
+  const double width = std::sqrt(
+      cells.cell_area.sum() / static_cast<double>(std::max<Eigen::Index>(cells.cells.cols(), 1)));
+  for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) {
+    if (cells.cells_on_vertex.col(v).minCoeff() < 0)
+      continue;
+    const double distance = distance_from_circumcentre(cells, v, width);
+    if (!(distance <= 1e-6))
+      return "the common corner of cells " + std::to_string(cells.cells_on_vertex(0, v)) + ", " +
+             std::to_string(cells.cells_on_vertex(1, v)) + " and " +
+             std::to_string(cells.cells_on_vertex(2, v)) + " is " + std::to_string(distance) +
+             " cell widths away from the circumcentre of their centres";
+  }
+  return {};
+}
+
+} // namespace
+
+Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
+  const Vec3 &a = column(cells.cells, cells.cells_on_vertex(0, v)),
+             &b = column(cells.cells, cells.cells_on_vertex(1, v)),
+             &c = column(cells.cells, cells.cells_on_vertex(2, v));
+  return cells.on_sphere ? Sphere::circumcentre(a, b, c)
+                         : Plane(cells.period).circumcentre(a, b, c);
+}
+
+OpenCells open_cells(const Polygons& polygons) {
+  OpenCells out;
+  if (polygons.centres.cols() != polygons.size()) {
+    out.problem = "the cells have no centres";
+    return out;
+  }
+  set_cells(polygons, out.voronoi);
+  try {
+    voronoi_detail::connect_open(out.voronoi);
+  } catch (const Error& error) {
+    out.problem = error.what();
+    return out;
+  }
+  voronoi_detail::measure_open(out.voronoi);
+  out.problem = first_difference(out.voronoi);
+  return out;
+}
+
+OpenCells open_cells(const MeshFile& file) {
+  OpenCells cells = open_cells(*file.polygons);
+  if (!cells.problem.empty() && (file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons)))
+    cells.problem = file.not_voronoi;
+  return cells;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/written_values.h"
+
+#include "io/cells/field_order.h"
+#include "mesh/canonical_order.h"
+
+#include <calotte/error.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace calotte::io_detail {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
+}
+
+void require_size(const std::string& path, const std::string& what, std::int64_t size,
+                  std::int64_t expected) {
+  if (size != expected)
+    refuse(path, what + " has " + std::to_string(size) + " values; give one for each of " +
+                     std::to_string(expected));
+}
+
+void require_density(const std::string& path, const DoubleVector& density, std::int64_t sites) {
+  require_size(path, "the density of the sites", density.size(), sites);
+  for (Eigen::Index i = 0; i < density.size(); ++i)
+    if (!(density[i] >= 0 && std::isfinite(density[i])))
+      refuse(path, "the density is " + std::to_string(density[i]) + " at site " +
+                       std::to_string(i) + "; give finite numbers that are not negative");
+  if (density.maxCoeff() == 0)
+    refuse(path, "the density is zero at every site; make it positive somewhere");
+}
+
+/// What FESOM demands: it stops below three levels, and takes what is beyond 11 km for ids of an
+/// earlier version.
+void require_depths(const std::string& path, const WriteOptions& options, std::int64_t sites) {
+  constexpr double deepest = 11000; // metres
+  const DoubleVector levels = options.depth_levels.cwiseAbs();
+  if (options.depth_levels.size() < 3 || options.depth_levels[0] != 0)
+    refuse(path, "the levels of depth are fewer than 3, or do not begin with 0; give such as 0, "
+                 "10, 30, 100, in metres");
+  for (Eigen::Index k = 1; k < levels.size(); ++k)
+    if (!(levels[k] > levels[k - 1] && levels[k] <= deepest &&
+          std::signbit(options.depth_levels[k]) == std::signbit(options.depth_levels[1])))
+      refuse(path, "level " + std::to_string(k) + " of the depths is " +
+                       std::to_string(options.depth_levels[k]) +
+                       " m; each lies deeper than the one before, and none deeper than 11000 m");
+  require_size(path, "the depth of the bottom", options.site_depth.size(), sites);
+  for (Eigen::Index i = 0; i < options.site_depth.size(); ++i)
+    if (!(std::abs(options.site_depth[i]) <= deepest))
+      refuse(path, "the bottom is " + std::to_string(options.site_depth[i]) + " m deep at site " +
+                       std::to_string(i) + "; give metres, at most 11000");
+}
+
+void require_dimensions(const std::string& path, const MeshField& field) {
+  for (const FieldDimension& dimension : field.dimensions)
+    if (dimension.size < 1)
+      refuse(path, "the dimension " + dimension.name + " of the field " + field.name +
+                       " has the size " + std::to_string(dimension.size) + "; give one from 1 on");
+  if (field.leading < 0 || field.leading > std::ssize(field.dimensions))
+    refuse(path, "the field " + field.name + " has " + std::to_string(field.dimensions.size()) +
+                     " dimensions, of which " + std::to_string(field.leading) +
+                     " cannot come before its location's; correct `leading`");
+}
+
+Pairs renamed(Pairs pairs, std::span<const std::int32_t> new_site) {
+  for (std::int32_t& site : pairs.reshaped())
+    site = new_site[static_cast<std::size_t>(site)];
+  return pairs;
+}
+
+} // namespace
+
+void require_values(const std::string& path, const MeshSizes& mesh, const WriteOptions& options) {
+  if (options.site_density.size() > 0)
+    require_density(path, options.site_density, mesh.sites);
+  if (options.depth_levels.size() > 0)
+    require_depths(path, options, mesh.sites);
+  for (const MeshField& field : options.fields) {
+    require_dimensions(path, field);
+    const bool at_edges = field.location == Location::edges;
+    if (at_edges && !mesh.closed)
+      refuse(path, "the field " + field.name +
+                       " is at edges, which only closed meshes number; leave it out");
+    const std::int64_t places = field.location == Location::cells ? mesh.sites
+                                : at_edges                        ? 3 * mesh.triangles / 2
+                                                                  : mesh.triangles;
+    require_size(path, "the field " + field.name, field.values.size(), field.count() * places);
+  }
+}
+
+void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
+                     WriteOptions& options) {
+  for (DoubleVector* values : {&options.site_density, &options.site_depth}) {
+    const DoubleVector old = *values;
+    for (Eigen::Index i = 0; i < old.size(); ++i)
+      (*values)[new_site[static_cast<std::size_t>(i)]] = old[i];
+  }
+  mesh_detail::CanonicalPlaces places;
+  EdgeOrder edges;
+  for (MeshField& field : options.fields) {
+    if (field.location == Location::vertices && places.place.size() == 0) {
+      Triangles renumbered;
+      places = mesh_detail::order_triangles(mesh.triangles, new_site, renumbered);
+    }
+    if (field.location == Location::edges && edges.place.empty())
+      edges = order_of(renamed(edges_of(mesh.triangles), new_site));
+    if (field.location == Location::edges)
+      move_edge_values(field, edges);
+    else
+      move_values(field,
+                  field.location == Location::cells
+                      ? new_site
+                      : std::span<const std::int32_t>(places.place.begin(), places.place.end()));
+  }
+}
+
+} // namespace calotte::io_detail

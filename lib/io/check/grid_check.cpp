@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/check/grid_check.h"
+
+#include "base/points.h"
+#include "io/bytes/broken.h"
+#include "io/cells/polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
+
+// ---- Orientation and cover
+
+void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
+  const Broken found = broken(areas.size(), [&](std::int64_t i) {
+    // Files of others have cells without corners where their mask is 0.
+    return grid.polygons.ids.count(i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
+  });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists + ": " + found.of_all() +
+                       " cells do not run counter-clockwise seen from outside; the "
+                       "first is " +
+                       cell_name(found.first),
+                   found.first);
+}
+
+/// Whether a cell comes to a corner twice.
+void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    const std::span<const std::int32_t> ids = polygons.ids[i];
+    for (auto id = ids.begin(); id != ids.end(); ++id)
+      if (std::find(ids.begin(), id, *id) != id)
+        return Verdict::breaks;
+    return Verdict::keeps;
+  });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists + ": " + found.of_all() +
+                       " cells have a corner twice; the first is " + cell_name(found.first),
+                   found.first);
+}
+
+/// Whether a polygon shares a side, in its direction, with another. One without area covers
+/// nothing.
+void check_overlap(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
+                   Deviations& deviations) {
+  const auto covers = [&](const Side& side) {
+    return has_area(grid.polygons, side.polygon, areas[side.polygon]);
+  };
+  const Broken found = broken(sides.from.size(), [&](std::int64_t node) {
+    const std::span<const Side> from = sides.from[node];
+    for (std::size_t k = 1; k < from.size(); ++k)
+      if (from[k].to == from[k - 1].to && covers(from[k]) && covers(from[k - 1]))
+        return Verdict::breaks;
+    return Verdict::keeps;
+  });
+  if (found.any())
+    deviations.add(grid.lists,
+                   grid.lists +
+                       ": two cells overlap, as both lie to the left of one side from "
+                       "corner " +
+                       std::to_string(found.first) + " (0-based)",
+                   found.first);
+}
+
+void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
+                 Deviations& deviations) {
+  const Broken open = broken(sides.from.size(), [&](std::int64_t node) {
+    return verdict_of(!sides.is_open(static_cast<std::int32_t>(node)));
+  });
+  if (!grid.polygons.on_sphere)
+    return;
+  const double whole = 4 * pi, sum = std::abs(areas.sum());
+  if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
+    return;
+  deviations.add(grid.corners,
+                 grid.corners + ": no side is open, but the areas of the cells sum to " +
+                     std::to_string(sum / whole) + " times the sphere's",
+                 -1, std::abs(sum / whole - 1));
+}
+
+// ---- Centres
+
+/// The angle by which the sides turn around a point: 2 pi around a point inside, 0 outside, -2 pi
+/// around the antipodes of the inside.
+double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre) {
+  double turn = 0;
+  const std::span<const std::int32_t> ids = polygons.ids[i];
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::int32_t next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
+    const Vec3 from = column(polygons.corners, ids[k]) - centre,
+               to = column(polygons.corners, next) - centre;
+    if (!polygons.on_sphere) {
+      turn += std::atan2(cross(from, to).z, dot(from, to));
+      continue;
+    }
+    const Vec3 a = cross(centre, from), b = cross(centre, to);
+    turn += std::atan2(dot(centre, cross(from, to)), dot(a, b));
+  }
+  return turn;
+}
+
+/// In a plane a site may be on the boundary, even at a corner.
+constexpr double on_boundary = 1e-3;
+
+void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    if (polygons.ids.count(i) < 3)
+      return Verdict::untested;
+    const double turn = turn_around(polygons, i, column(polygons.centres, i));
+    return verdict_of((areas[i] < 0 ? -turn : turn) > (polygons.on_sphere ? pi : on_boundary));
+  });
+  if (found.any())
+    deviations.add(grid.centres,
+                   grid.centres + ": " + found.of_all() +
+                       " centres are outside their cells; the first is that of " +
+                       cell_name(found.first),
+                   found.first);
+}
+
+/// Distances that are equal but for rounding.
+struct Range {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  void add(const Vec3& apart) {
+    const double distance = norm(apart);
+    least = std::min(least, distance);
+    greatest = std::max(greatest, distance);
+  }
+  bool is_one(double rounding) const {
+    return greatest - least <= rounding_of_others * greatest + 2 * rounding + 1e-13;
+  }
+};
+
+/// The centre of each triangle is as far from all its corners, if it is in most.
+/// \returns whether that is so in most.
+bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
+  const Polygons& polygons = grid.polygons;
+  const Broken found = broken(polygons.size(), [&](std::int64_t i) {
+    Range range;
+    for (const std::int32_t id : polygons.ids[i])
+      range.add(column(polygons.corners, id) - column(polygons.centres, i));
+    return verdict_of(range.is_one(grid.rounding));
+  });
+  if (found.any() && found.is_law())
+    deviations.add(grid.centres,
+                   grid.centres + ": " + found.of_all() +
+                       " centres are not the circumcentres of their triangles, as "
+                       "the others are; the first is that of " +
+                       cell_name(found.first),
+                   found.first);
+  return found.is_law();
+}
+
+/// Of a corner of three or more cells.
+Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t node) {
+  if (sides.from.count(node) < 3)
+    return Verdict::untested;
+  Range range;
+  for (const Side& side : sides.from[node])
+    range.add(column(grid.polygons.corners, node) - column(grid.polygons.centres, side.polygon));
+  return verdict_of(range.is_one(grid.rounding));
+}
+
+/// Whether all tested corners of a cell break the law, so that its centre is wrong.
+bool centre_is_wrong(const StoredGrid& grid, const Sides& sides, std::int64_t cell) {
+  return std::ranges::none_of(grid.polygons.ids[cell], [&](std::int32_t node) {
+    return is_equidistant(grid, sides, node) == Verdict::keeps;
+  });
+}
+
+void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+  const Broken found = broken(sides.from.size(),
+                              [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
+  if (!found.any() || !found.is_law())
+    return;
+  const std::string law = ": " + found.of_all() +
+                          " corners are not as far from the centres of all cells around them, as "
+                          "the others are; the first is corner " +
+                          std::to_string(found.first) + " (0-based)";
+  for (const Side& side : sides.from[found.first])
+    if (centre_is_wrong(grid, sides, side.polygon))
+      return deviations.add(grid.centres,
+                            grid.centres + law + "; the centre of " + cell_name(side.polygon) +
+                                " is not that of a Voronoi cell",
+                            side.polygon);
+  deviations.add(grid.corners, grid.corners + law, found.first);
+}
+
+bool has_triangles_only(const Polygons& polygons) {
+  return polygons.ids.items.size() == 3 * polygons.size() && most_corners(polygons) == 3;
+}
+
+} // namespace
+
+void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations) {
+  const DoubleVector areas = areas_of(grid.polygons);
+  check_orientation(grid, areas, deviations);
+  check_distinct_corners(grid, deviations);
+  check_overlap(grid, sides, areas, deviations);
+  check_cover(grid, sides, areas, deviations);
+  if (grid.polygons.centres.cols() != grid.polygons.size())
+    return;
+  if (has_triangles_only(grid.polygons) && check_circumcentres(grid, deviations))
+    return; // those of obtuse triangles are outside
+  check_inside(grid, areas, deviations);
+  check_voronoi(grid, sides, deviations);
+}
+
+void check_areas(const StoredGrid& grid, const std::string& variable, Deviations& deviations) {
+  const std::string units = deviations.file().text(variable, "units");
+  const bool on_sphere = grid.polygons.on_sphere;
+  const bool on_unit_sphere =
+      units.empty() || units.starts_with("rad") || units.starts_with("ster") || units == "sr";
+  if ((on_sphere && !on_unit_sphere) || !deviations.has(variable, {grid.polygons.size()}))
+    return;
+  const DoubleVector areas = areas_of(grid.polygons);
+  const double width = std::sqrt(areas.cwiseAbs().mean());
+  const double tolerance = rounding_of_others + 4 * grid.rounding / width;
+  deviations.add(
+      variable,
+      deviations.visit_rows<double>(variable,
+                                    [&](std::int64_t i, const double* stored, Differences& out) {
+                                      const double derived = std::abs(areas[i]);
+                                      out.compare(i, *stored, derived, derived, tolerance);
+                                    }),
+      on_sphere ? "the area on the unit sphere of each cell, whose sides are arcs of great circles"
+                : "the area of each cell, whose sides are straight");
+}
+
+void check_mask(const std::string& variable, std::int64_t cells, Deviations& deviations) {
+  if (!deviations.has(variable, {cells}))
+    return;
+  const Differences differences = deviations.visit_rows<std::int32_t>(
+      variable, [](std::int64_t i, const std::int32_t* stored, Differences& out) {
+        if (*stored != 0 && *stored != 1)
+          out.note(i, *stored, 1, 1);
+      });
+  deviations.add(variable, differences, "0 or 1");
+  const std::vector<std::int32_t> mask = deviations.file().ints(variable, {cells});
+  if (cells > 0 && std::all_of(mask.begin(), mask.end(), [](std::int32_t m) { return m == 0; }))
+    deviations.add(variable, variable + " is 0 at all cells, so that none takes part", 0);
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/model_grid.h"
+#include "io/check/grid_check.h"
+#include "io/formats/formats.h"
+#include "io/formats/ugrid.h"
+
+#include "base/points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+double rounding_of(const NetcdfReader& file, const std::string& variable) {
+  return file.has_variable(variable) && file.is_float(variable) ? float_rounding : 0;
+}
+
+// ---- Attributes
+
+/// The names that an attribute of a variable lists must be variables.
+void check_names(const std::string& variable, const std::string& attribute,
+                 Deviations& deviations) {
+  for (const std::string& name : names_in(deviations.file().text(variable, attribute)))
+    if (!deviations.file().has_variable(name))
+      deviations.add(variable, "the attribute " + attribute + " of " + variable + " names " + name +
+                                   ", which is no variable of the file");
+}
+
+void check_all_names(Deviations& deviations) {
+  for (const std::string& variable : deviations.file().variables())
+    for (const char* attribute :
+         {"coordinates", "bounds", "mesh", "node_coordinates", "edge_coordinates",
+          "face_coordinates", "face_node_connectivity", "edge_node_connectivity",
+          "face_edge_connectivity", "face_face_connectivity", "edge_face_connectivity"})
+      check_names(variable, attribute, deviations);
+}
+
+/// Of longitudes and latitudes.
+void check_units(const std::string& variable, Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  if (file.has_variable(variable) && file.text(variable, "units").empty())
+    deviations.add(variable, variable + " has no units; they must be degrees or radians");
+}
+
+void check_role(const std::string& variable, const std::string& role, Deviations& deviations) {
+  const std::string stored = deviations.file().text(variable, "cf_role");
+  if (!stored.empty() && stored != role)
+    deviations.add(variable, "the attribute cf_role of " + variable + " is \"" + stored +
+                                 "\" instead of \"" + role + "\"");
+}
+
+void check_ugrid_attributes(const Topology& topology, Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  check_all_names(deviations);
+  check_role(topology.face_nodes, "face_node_connectivity", deviations);
+  if (file.number(topology.mesh, "topology_dimension", -1) != 2)
+    deviations.add(topology.mesh, "the attribute topology_dimension of " + topology.mesh +
+                                      " is missing; it must be 2");
+  const double start = file.number(topology.face_nodes, "start_index", 0);
+  if (start != 0 && start != 1)
+    deviations.add(topology.face_nodes, "the attribute start_index of " + topology.face_nodes +
+                                            " is " + std::to_string(start) + "; it must be 0 or 1");
+  if (!topology.face_dimension.empty() && file.dimension(topology.face_dimension) < 0)
+    deviations.add(topology.mesh, "the attribute face_dimension of " + topology.mesh + " names " +
+                                      topology.face_dimension +
+                                      ", which is no dimension of the file");
+  for (const auto* names : {&topology.nodes, &topology.faces})
+    for (const std::string& name : *names)
+      check_units(name, deviations);
+}
+
+// ---- Sites
+
+/// Cartesian places against longitudes and latitudes.
+void check_sites(const std::vector<std::string>& names, const Points3& points, double rounding,
+                 const MeshFile& file, Deviations& deviations) {
+  const double stored_radius = deviations.file().number("", "sphere_radius", 0);
+  const double radius =
+      stored_radius > 0 && std::isfinite(stored_radius) ? stored_radius : file.sphere_radius;
+  const double width = std::sqrt(4 * std::numbers::pi /
+                                 static_cast<double>(std::max<Eigen::Index>(points.cols(), 1)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string& name = names[static_cast<std::size_t>(axis)];
+    if (!deviations.has(name, {points.cols()}))
+      continue;
+    const double of_floats = rounding + rounding_of(deviations.file(), name);
+    deviations.add(name,
+                   deviations.visit_rows<double>(
+                       name,
+                       [&](std::int64_t i, const double* stored, Differences& out) {
+                         out.compare(i, *stored, radius * points(axis, i), radius * width,
+                                     rounding_of_others + of_floats / width);
+                       }),
+                   "the place at the longitude and latitude, on the sphere of sphere_radius");
+  }
+}
+
+// ---- Bounds
+
+/// Whether an angle in degrees is that of a place, or cannot be told there.
+bool is_angle(double stored, const LonLat& place, bool longitude, double tolerance) {
+  const double apart = stored - (longitude ? place.longitude : place.latitude);
+  return longitude ? std::abs(std::remainder(apart, 360.0)) *
+                             std::cos(place.latitude * std::numbers::pi / 180) <=
+                         tolerance
+                   : std::abs(apart) <= tolerance;
+}
+
+/// The bounds of the faces' longitudes or latitudes against their nodes. What follows the last
+/// corner is any of them, or no number.
+void check_bounds(const std::string& variable, bool longitude, const StoredGrid& grid,
+                  Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  const std::string name = file.text(variable, "bounds");
+  if (name.empty() || !deviations.has(name, {grid.polygons.size(), -1}))
+    return;
+  const double unit = degrees_per_unit(file, variable), fill = file.number(name, "_FillValue", NAN),
+               tolerance =
+                   1e-9 + (grid.rounding + rounding_of(file, name)) * 180 / std::numbers::pi;
+  const Polygons& faces = grid.polygons;
+  const std::int64_t width = deviations.width(name);
+  const auto corner_at = [&](std::int64_t face, std::int64_t k) {
+    return eastern_lonlat_of(column(faces.corners, faces.ids[face][static_cast<std::size_t>(k)]));
+  };
+  deviations.add(name,
+                 deviations.visit_rows<double>(
+                     name,
+                     [&](std::int64_t face, const double* row, Differences& out) {
+                       const std::int64_t count = faces.ids.count(face);
+                       for (std::int64_t k = 0; k < width; ++k) {
+                         const bool past = k >= count;
+                         bool fits = past && (row[k] == fill || std::isnan(row[k]));
+                         for (std::int64_t j = past ? 0 : k; !fits && j < (past ? count : k + 1);
+                              ++j)
+                           fits = is_angle(unit * row[k], corner_at(face, j), longitude, tolerance);
+                         const LonLat corner = corner_at(face, std::min(k, count - 1));
+                         if (!fits)
+                           out.note(face * width + k, row[k],
+                                    (longitude ? corner.longitude : corner.latitude) / unit, 1);
+                       }
+                     }),
+                 "the corners of the faces in their order");
+}
+
+// ---- SCRIP
+
+void check_grid_dims(std::int64_t cells, Deviations& deviations) {
+  if (!deviations.has("grid_dims", {-1}))
+    return;
+  double product = 1;
+  for (const double size : deviations.file().doubles("grid_dims", {-1}))
+    product *= size;
+  if (product != static_cast<double>(cells))
+    deviations.add("grid_dims",
+                   "grid_dims: the product of its sizes is " + std::to_string(product) +
+                       ", but grid_size is " + std::to_string(cells),
+                   0, std::abs(product / static_cast<double>(cells) - 1));
+}
+
+// ---- ESMF
+
+/// Whether an entry after an element's last node is one more: a node that is not the last again.
+bool is_node(std::int32_t id, std::int32_t last, std::int32_t start, double fill,
+             std::int64_t nodes) {
+  return id != last && id != fill && id >= start && id < start + nodes;
+}
+
+void check_padding(std::int64_t nodes, Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  const std::int32_t start = file.start_index("elementConn", 1);
+  const double fill =
+      file.number("elementConn", "_FillValue", std::numeric_limits<double>::quiet_NaN());
+  const std::vector<std::int32_t> counts = file.ints("numElementConn", {-1});
+  const std::int64_t width = deviations.width("elementConn");
+  const Differences differences = deviations.visit_rows<std::int32_t>(
+      "elementConn", [&](std::int64_t i, const std::int32_t* row, Differences& out) {
+        std::int64_t count = counts[static_cast<std::size_t>(i)];
+        while (count < width && is_node(row[count], row[count - 1], start, fill, nodes))
+          ++count;
+        if (count != counts[static_cast<std::size_t>(i)])
+          out.note(i, counts[static_cast<std::size_t>(i)], static_cast<double>(count), 1);
+      });
+  if (differences.count > 0)
+    deviations.add("numElementConn",
+                   "numElementConn: " + std::to_string(differences.count) +
+                       " numbers are not those of the nodes in elementConn; at (" +
+                       std::to_string(differences.index) + "), 0-based, " +
+                       std::to_string(static_cast<std::int64_t>(differences.stored)) +
+                       " is stored, but elementConn has " +
+                       std::to_string(static_cast<std::int64_t>(differences.derived)),
+                   differences.index);
+}
+
+} // namespace
+
+void check_ugrid(const MeshFile& file, Deviations& deviations) {
+  const NetcdfReader& stored = deviations.file();
+  const Topology topology = topology_of(stored);
+  check_ugrid_attributes(topology, deviations);
+  const StoredGrid grid{read_ugrid_faces(stored, topology), topology.face_nodes,
+                        topology.nodes[0] + ", " + topology.nodes[1],
+                        topology.faces.empty() ? "" : topology.faces[0] + ", " + topology.faces[1],
+                        rounding_of(stored, topology.nodes[0])};
+  if (!topology.sites.empty()) {
+    const bool at_nodes =
+        stored.dimensions_of(topology.sites[0]) == stored.dimensions_of(topology.nodes[0]);
+    const Points3& places = at_nodes ? grid.polygons.corners : grid.polygons.centres;
+    if (places.cols() > 0)
+      check_sites(topology.sites, places, grid.rounding, file, deviations);
+  }
+  const Sides sides(grid.polygons);
+  check_polygons(grid, sides, deviations);
+  check_areas(grid, "cell_area", deviations);
+  for (std::size_t k = 0; k < topology.faces.size() && grid.polygons.on_sphere; ++k)
+    check_bounds(topology.faces[k], k == 0, grid, deviations);
+  check_ugrid_connectivity(grid.polygons, sides, topology.mesh, deviations);
+}
+
+void check_scrip(const MeshFile& /*file*/, Deviations& deviations) {
+  const NetcdfReader& stored = deviations.file();
+  check_all_names(deviations);
+  Points3 centres;
+  if (stored.has_variable("grid_center_lon"))
+    centres = read_lonlats(stored, "grid_center_lon", "grid_center_lat");
+  const std::int64_t cells = stored.dimension("grid_size");
+  check_grid_dims(cells, deviations);
+  check_mask("grid_imask", cells, deviations);
+  for (const char* name :
+       {"grid_center_lon", "grid_center_lat", "grid_corner_lon", "grid_corner_lat"})
+    check_units(name, deviations);
+  if (!stored.has_variable("grid_corner_lon"))
+    return;
+  const StoredGrid grid{read_scrip_cells(stored, centres), "grid_corner_lon, grid_corner_lat",
+                        "grid_corner_lon, grid_corner_lat", "grid_center_lon, grid_center_lat",
+                        rounding_of(stored, "grid_corner_lon")};
+  check_polygons(grid, Sides(grid.polygons), deviations);
+  check_areas(grid, "grid_area", deviations);
+}
+
+void check_esmf(const MeshFile& /*file*/, Deviations& deviations) {
+  const NetcdfReader& stored = deviations.file();
+  check_all_names(deviations);
+  for (const char* name : {"nodeCoords", "centerCoords"})
+    check_units(name, deviations);
+  if (!stored.has_variable("elementConn"))
+    return;
+  const StoredGrid grid{read_esmf_cells(stored, read_esmf_centres(stored)), "elementConn",
+                        "nodeCoords", "centerCoords", rounding_of(stored, "nodeCoords")};
+  check_mask("elementMask", grid.polygons.size(), deviations);
+  check_padding(grid.polygons.corners.cols(), deviations);
+  check_polygons(grid, Sides(grid.polygons), deviations);
+  check_areas(grid, "elementArea", deviations);
+}
+
+} // namespace calotte::io_detail

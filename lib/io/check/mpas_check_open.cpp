@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/check/mpas_check.h"
+
+#include "base/points.h"
+#include "domain/clipped_cell.h"
+#include "exact/space.h"
+#include "io/cells/open_cells.h"
+#include "io/mpas/mpas.h"
+#include "io/mpas/mpas_open.h"
+#include "voronoi/open.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+// The part of a tessellation that an open mesh has, in the numbering of its file. Places of
+// vertices that lack a cell are the file's; all else follows from these and from the cells.
+
+namespace calotte::io_detail {
+namespace {
+
+// ---- Ids
+
+void set_edges(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
+  const std::int64_t edges = lists.cells_on_edge.rows();
+  out.cells_on_edge.resize(2, edges);
+  out.vertices_on_edge.resize(2, edges);
+  numbering.edge = Array<std::int32_t>(edges);
+  numbering.file_edge = Array<std::int32_t>(edges);
+  numbering.reversed = Array<std::uint8_t>(edges);
+  for (std::int32_t e = 0; e < edges; ++e) {
+    const std::int32_t first = lists.cells_on_edge.at(e, 0), second = lists.cells_on_edge.at(e, 1);
+    const bool reversed = second >= 0 && (first < 0 || second < first);
+    for (int k = 0; k < 2; ++k) {
+      out.cells_on_edge(reversed ? 1 - k : k, e) = lists.cells_on_edge.at(e, k);
+      out.vertices_on_edge(reversed ? 1 - k : k, e) = lists.vertices_on_edge.at(e, k);
+    }
+    numbering.edge[e] = numbering.file_edge[e] = e;
+    numbering.reversed[e] = reversed;
+  }
+}
+
+void set_vertices(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
+  const std::int64_t vertices = lists.cells_on_vertex.rows();
+  out.cells_on_vertex = Eigen::Map<const Triangles>(lists.cells_on_vertex.ids.data(), 3, vertices);
+  out.edges_on_vertex = Eigen::Map<const Triangles>(lists.edges_on_vertex.ids.data(), 3, vertices);
+  numbering.vertex = Array<std::int32_t>(vertices);
+  numbering.vertex_start = Array<std::int8_t>(vertices);
+  numbering.file_vertex = Array<std::int32_t>(vertices);
+  for (std::int32_t v = 0; v < vertices; ++v) {
+    numbering.vertex[v] = v;
+    numbering.vertex_start[v] = 0;
+    numbering.file_vertex[v] = v;
+  }
+}
+
+/// The rows without their padding.
+IdLists lists_of(const IdTable& table, const Offsets& begin) {
+  IdLists lists{begin, Ids(begin[begin.size() - 1])};
+  for (std::int64_t i = 0; i < lists.size(); ++i)
+    for (std::int64_t k = 0; k < lists.count(i); ++k)
+      lists.items[begin[i] + k] = table.at(i, k);
+  return lists;
+}
+
+void set_cells(const OpenLists& lists, Voronoi& out) {
+  Offsets begin(lists.cells + 1);
+  begin[0] = 0;
+  for (std::int64_t i = 0; i < lists.cells; ++i)
+    begin[i + 1] = begin[i] + lists.edge_count[static_cast<std::size_t>(i)];
+  out.edges_on_cell = lists_of(lists.edges_on_cell, begin);
+  out.vertices_on_cell = lists_of(lists.vertices_on_cell, begin);
+  out.cells_on_cell = lists_of(lists.cells_on_cell, begin);
+}
+
+// ---- Places and measures
+
+/// The vertices, or edges, as the file has them, or none.
+Points3 stored_places(const MpasKind& kind, std::int64_t count, bool on_sphere,
+                      Deviations& deviations) {
+  Points3 places(3, std::max<std::int64_t>(count, 0));
+  for (int row = 0; row < 3; ++row) {
+    const std::string name = std::string(1, "xyz"[row]) + kind.name;
+    if (!deviations.has(name, {count}))
+      return {};
+    const std::vector<double> values = deviations.file().doubles(name, {count});
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
+  }
+  if (on_sphere)
+    for (auto place : places.colwise())
+      place /= place.norm();
+  return places;
+}
+
+void place_vertices(Points3 stored, Voronoi& out) {
+  out.vertices = std::move(stored);
+  for (Eigen::Index v = 0; v < out.cells_on_vertex.cols(); ++v) {
+    if (out.cells_on_vertex.col(v).minCoeff() < 0)
+      continue;
+    set_column(out.vertices, v, circumcentre_of(out, v));
+  }
+}
+
+/// A file that was cut from another keeps the edges towards missing cells where they were, and
+/// their lengths; programs that compute these anew take the middle of the vertices. \returns the
+/// places of the edges that were kept; NaN for others.
+Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
+  constexpr double halves_agree = 1e-5; // the edge is half way to the missing cell
+  const std::int64_t edges = part.cells_on_edge.cols();
+  Points3 places = stored_places(mpas_edge, edges, part.on_sphere, deviations);
+  if (places.cols() == 0 || !deviations.has("dcEdge", {edges}))
+    return {};
+  const std::vector<double> lengths = deviations.file().doubles("dcEdge", {edges});
+  for (std::int64_t e = 0; e < edges; ++e) {
+    const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
+    const double dc = lengths[static_cast<std::size_t>(e)] / radius,
+                 way = part.on_sphere ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
+                                      : norm(Plane(part.period).offset(cell, edge));
+    if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
+      places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return places;
+}
+
+/// What a file has for an incomplete cell is -1, whatever its unit.
+void mark_incomplete_cells(double radius, Voronoi& out) {
+  for (double& area : out.cell_area)
+    if (!(area > 0))
+      area = -1 / (radius * radius);
+}
+
+/// The cells as the file has them.
+Points3 cells_of(const MeshFile& file) {
+  Points3 cells = file.mesh->points;
+  if (file.sphere())
+    for (auto unit : cells.colwise())
+      unit /= unit.norm();
+  return cells;
+}
+
+} // namespace
+
+void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations) {
+  Voronoi part;
+  MpasNumbering numbering;
+  OpenLists lists;
+  part.on_sphere = file.sphere() != nullptr;
+  part.period = file.mesh->surface.period();
+  part.cells = cells_of(file);
+  Points3 vertices = stored_places(mpas_vertex, deviations.file().dimension("nVertices"),
+                                   part.on_sphere, deviations);
+  const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
+                     lists.cells_on_edge.rows() > 0;
+  if (whole && !check_open_lists(lists, deviations))
+    return;
+  if (whole) {
+    set_edges(lists, part, numbering);
+    set_vertices(lists, part, numbering);
+    set_cells(lists, part);
+    place_vertices(std::move(vertices), part);
+    voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
+    mark_incomplete_cells(radius, part);
+  }
+  const double width = whole ? part.dc.mean() : 1;
+  const DoubleVector density =
+      file.density.size() == part.cells.cols() ? file.density : DoubleVector();
+  const MpasCheck check{deviations,         part, density, numbering, radius, width,
+                        rounding_of_others, false};
+  check_mpas_places(check);
+  if (!whole)
+    return;
+  check_mpas_measures(check);
+  check_mpas_weights(check);
+  check_mpas_quality(check);
+}
+
+} // namespace calotte::io_detail

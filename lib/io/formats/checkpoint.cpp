@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/state.h"
+#include "io/bytes/binary.h"
+#include "io/bytes/file.h"
+#include "io/formats/formats.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <boost/crc.hpp>
+
+#include <algorithm>
+#include <type_traits>
+
+// The head, which names format, version and order of bytes; the configuration; the command; the
+// fields of State as they stand, each array after its length as Int64; and the CRC-32 of
+// all that.
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+using base_detail::CompactField;
+using cvt_detail::State;
+
+constexpr std::string_view format = "calotte checkpoint ";
+
+std::string head() {
+  std::string line(format);
+  line += "12, ";
+  line += little_endian ? "little" : "big";
+  line += "-endian\n";
+  return line;
+}
+
+/// One list of fields serves writing and reading.
+template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
+  visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.linear_density), visit(i.l2),
+      visit(i.linf), visit(i.gradient), visit(i.energy), visit(i.shape_excess),
+      visit(i.off_centroid), visit(i.largest_offset);
+  visit(i.accepted), visit(i.flips), visit(i.rebuilt), visit(i.seconds);
+  visit(i.seconds_exchange), visit(i.seconds_repair), visit(i.seconds_moments);
+  visit(i.seconds_solver);
+}
+
+template <class Region, class Visit> void visit_region(Region& r, const Visit& visit) {
+  visit(r.sites), visit(r.seconds);
+}
+
+template <class Level, class Visit> void visit_level(Level& l, const Visit& visit) {
+  visit(l.cells), visit(l.insertion_rounds), visit(l.tolerance), visit(l.max_iterations);
+}
+
+template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
+  visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
+  visit(s.final_rule), visit(s.stuck), visit(s.glides), visit(s.raised), visit(s.penalty),
+      visit(s.demanded_spacing), visit(s.descended);
+  visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
+  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.stride);
+}
+
+/// What follows an array's length: points, ids, or a list of points.
+template <class State, class Visit> void visit_arrays(State& s, const Visit& visit) {
+  visit(s.points), visit(s.id), visit(s.site_of_input);
+  visit(s.memory.steps), visit(s.memory.changes), visit(s.memory.curvatures);
+  visit(s.memory.laplacian_at);
+}
+
+// ---- Writing
+
+/// Puts an array after its length.
+struct Put {
+  Writer* out;
+  void operator()(const Points3& points) const {
+    out->raw(std::int64_t{points.cols()}).text(bytes_of(points.data(), points.size()));
+  }
+  template <class T> void operator()(const std::vector<T>& values) const {
+    out->raw(std::ssize(values)).text(bytes_of(values.data(), std::ssize(values)));
+  }
+  void operator()(const std::vector<CompactField>& list) const {
+    out->raw(std::ssize(list));
+    for (const CompactField& field : list)
+      out->raw(field.scale)
+          .raw(std::int64_t{field.values.cols()})
+          .text(bytes_of(field.values.data(), field.values.size()));
+  }
+};
+
+void put_checkpoint(const Sink& sink, const State& state, const std::string& configuration,
+                    const std::string& command) {
+  Writer out(sink);
+  const auto raw = [&](const auto& value) { out.raw(value); };
+  out.text(head());
+  out.raw(std::ssize(configuration)).text(configuration);
+  out.raw(std::ssize(command)).text(command);
+  visit_arrays(state, Put{&out});
+  visit_scalars(state, raw);
+  out.raw(std::ssize(state.report.levels));
+  for (const CvtLevel& level : state.report.levels)
+    visit_level(level, raw);
+  out.raw(std::ssize(state.report.iterations));
+  for (const CvtIteration& iteration : state.report.iterations)
+    visit_iteration(iteration, raw);
+  out.raw(std::ssize(state.report.regions));
+  for (const CvtRegion& region : state.report.regions)
+    visit_region(region, raw);
+  out.flush();
+}
+
+// ---- Reading
+
+/// Takes the next value of its own type.
+struct Take {
+  Bytes* bytes;
+  template <class T> void operator()(T& value) const {
+    if constexpr (std::is_same_v<T, bool>)
+      value = *bytes->take(1).data() != 0;
+    else
+      value = load<T>(bytes->take(sizeof value).data());
+  }
+};
+
+std::int64_t take_count(Bytes& bytes) {
+  constexpr std::int64_t most = std::int64_t{1} << 40;
+  std::int64_t count = 0;
+  Take{&bytes}(count);
+  if (count < 0 || count > most)
+    bytes.fail("a length is out of range; use another checkpoint or start anew");
+  return count;
+}
+
+/// Takes an array with its length.
+struct TakeArray {
+  Bytes* bytes;
+  void operator()(Points3& points) const { take_columns(points); }
+  template <class T> void operator()(std::vector<T>& values) const {
+    const std::int64_t count = take_count(*bytes);
+    const std::string_view raw = bytes->take(static_cast<std::int64_t>(sizeof(T)) * count);
+    values.resize(static_cast<std::size_t>(count));
+    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(values.data()));
+  }
+  void operator()(std::vector<CompactField>& list) const {
+    for (std::int64_t k = take_count(*bytes); k > 0; --k) {
+      CompactField& field = list.emplace_back();
+      Take{bytes}(field.scale);
+      take_columns(field.values);
+    }
+  }
+
+private:
+  /// The columns of a matrix of three rows, after their number.
+  template <class Matrix> void take_columns(Matrix& matrix) const {
+    const std::int64_t count = take_count(*bytes);
+    const std::string_view raw =
+        bytes->take(static_cast<std::int64_t>(3 * sizeof(typename Matrix::Scalar)) * count);
+    matrix.resize(3, count);
+    std::copy(raw.begin(), raw.end(), reinterpret_cast<char*>(matrix.data()));
+  }
+};
+
+State take_state(Bytes& bytes) {
+  State state;
+  visit_arrays(state, TakeArray{&bytes});
+  const Take take{&bytes};
+  visit_scalars(state, take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_level(state.report.levels.emplace_back(), take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_iteration(state.report.iterations.emplace_back(), take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_region(state.report.regions.emplace_back(), take);
+  bytes.finish();
+  return state;
+}
+
+/// What stands after the head. \throws Error parse.
+std::string_view after_head(const std::string& path, std::string_view content) {
+  const Bytes bytes(content, path);
+  const std::string expected = head();
+  const std::string_view start = content.substr(0, expected.size());
+  if (start != expected) {
+    if (expected.starts_with(start))
+      bytes.fail("the checkpoint is cut short; use another or start anew");
+    if (start.starts_with(format))
+      bytes.fail("a checkpoint of another version of calotte or kind of machine; finish the run "
+                 "there or start anew");
+    bytes.fail("not a checkpoint; give the file that a run wrote as its checkpoint");
+  }
+  return content.substr(expected.size());
+}
+
+/// What stands between head and checksum. \throws Error parse.
+std::string_view body_of(const std::string& path, std::string_view content) {
+  const std::string_view body = after_head(path, content);
+  boost::crc_32_type checksum;
+  constexpr std::size_t size = sizeof checksum.checksum();
+  const std::size_t checked = body.size() < size ? 0 : content.size() - size;
+  checksum.process_bytes(content.data(), checked);
+  if (checked == 0 ||
+      load<decltype(checksum.checksum())>(content.data() + checked) != checksum.checksum())
+    Bytes(content, path).fail("the checkpoint is cut short or damaged; use another or start anew");
+  return body.substr(0, body.size() - size);
+}
+
+/// The next line, taken off the text.
+std::string take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string line(text.substr(0, end));
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line.empty() ? "nothing more" : "\"" + line + "\"";
+}
+
+void require_same(const std::string& path, std::string_view theirs, std::string_view ours) {
+  if (theirs == ours)
+    return;
+  std::string their_line, our_line;
+  do {
+    their_line = take_line(theirs);
+    our_line = take_line(ours);
+  } while (their_line == our_line && !(theirs.empty() && ours.empty()));
+  throw Error(ErrorCode::invalid_argument,
+              path + ": a checkpoint of another configuration: it has " + their_line +
+                  " where this run has " + our_line + "; give the same options or start anew");
+}
+
+} // namespace
+
+void write_checkpoint(const std::string& path, const CvtState& state,
+                      const std::string& configuration, const std::string& command) {
+  OutputFile file(path);
+  boost::crc_32_type checksum;
+  const auto sink = [&](std::string_view bytes) {
+    checksum.process_bytes(bytes.data(), bytes.size());
+    file.append(bytes);
+  };
+  put_checkpoint(sink, State::of(state), configuration, command);
+  const auto sum = checksum.checksum();
+  file.append({reinterpret_cast<const char*>(&sum), sizeof sum});
+  file.commit();
+}
+
+CvtState read_checkpoint(const std::string& path, const std::string& configuration) {
+  std::ifstream in = open_input(path);
+  const std::string content = read_all(in, path);
+  Bytes bytes(body_of(path, content), path);
+  const std::int64_t words = take_count(bytes);
+  require_same(path, bytes.take(words), configuration);
+  bytes.take(take_count(bytes)); // the command
+  return State::wrapped(take_state(bytes));
+}
+
+std::string read_checkpoint_command(const std::string& path) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  std::ifstream in = open_input(path);
+  std::string start(most, '\0');
+  read_some(in, start.data(), std::ssize(start), path);
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  Bytes bytes(start.size() < most ? body_of(path, start) : after_head(path, start), path);
+  bytes.take(take_count(bytes)); // the configuration
+  return std::string(bytes.take(take_count(bytes)));
+}
+
+} // namespace calotte

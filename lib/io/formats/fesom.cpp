@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/cells/model_grid.h"
+#include "io/formats/formats.h"
+#include "mesh/orientation.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+// The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017), text: nod2d.out has the
+// number of nodes, then id, longitude and latitude in degrees and a flag, 1 on the coast, a line;
+// elem2d.out the number of triangles, then three ids a line. Ids are from 1 on. aux3d.out has the
+// number of levels, their depths, and the depth of the bottom at each node, a number a line.
+
+namespace calotte::io_detail {
+namespace {
+
+std::string beside(const std::string& path, std::string_view name) {
+  return sibling(path, fesom_nodes_name, name).value_or(path);
+}
+
+template <class T>
+void take(LineReader& reader, std::string_view& line, int count, T* values,
+          const std::string& awaited) {
+  if (!reader.next_content(line))
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  const Columned read = parse_columns(line, count, values);
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                " where " + awaited + " belongs");
+}
+
+std::int64_t take_count(LineReader& reader, const std::string& of) {
+  std::string_view line;
+  std::int64_t count = 0;
+  take(reader, line, 1, &count, "the number of " + of);
+  if (count < 0 || count > (std::int64_t{1} << 30))
+    reader.fail(std::to_string(count) + " is not a number of " + of);
+  return count;
+}
+
+/// Consecutive ids are the rule; the flags go along as a field. \param longitudes receives those of
+/// the file.
+RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
+  std::ifstream in = open_input(path);
+  LineReader reader(in, path);
+  const std::int64_t count = take_count(reader, "nodes");
+  std::vector<double> places, flags;
+  std::string_view line;
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::array<double, 4> row{};
+    take(reader, line, 4, row.data(),
+         "node " + std::to_string(i + 1) + " of " + std::to_string(count));
+    if (row[0] != static_cast<double>(i + 1))
+      reader.fail("node " + std::to_string(i + 1) + " has another id; number the nodes from 1 on");
+    if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
+      reader.fail("longitude and latitude are no place on the sphere; make the file again");
+    const Vec3 place = from_lonlat(row[1], row[2]);
+    longitudes.push_back(row[1]);
+    places.insert(places.end(), {place.x, place.y, place.z});
+    flags.push_back(row[3]);
+  }
+  RawMesh raw{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
+  raw.fields.push_back({.name = "coast",
+                        .long_name = "1 for a node on the coast",
+                        .values = Eigen::Map<const DoubleVector>(flags.data(), count)});
+  return raw;
+}
+
+Triangles read_elements(const std::string& path, std::int64_t nodes) {
+  std::ifstream in = open_input(path);
+  LineReader reader(in, path);
+  const std::int64_t count = take_count(reader, "elements");
+  std::vector<std::int32_t> ids;
+  std::string_view line;
+  for (std::int64_t t = 0; t < count; ++t) {
+    std::array<std::int64_t, 3> row{};
+    take(reader, line, 3, row.data(),
+         "element " + std::to_string(t + 1) + " of " + std::to_string(count));
+    parse_ids(reader, row.data(), nodes, ids, 1);
+  }
+  return Eigen::Map<const Triangles>(ids.data(), 3, count);
+}
+
+// ---- Channels
+
+/// The least and the greatest longitude of the corners of a triangle, degrees.
+struct Span {
+  double least = 1e300, greatest = -1e300;
+  void add(double x) {
+    least = std::min(least, x);
+    greatest = std::max(greatest, x);
+  }
+  double width() const { return greatest - least; }
+};
+
+/// FESOM reads meshes whose ends are joined after a number of degrees, cyclic_length, that the
+/// files do not hold. On the sphere the triangles that join them run all along the mesh, the other
+/// way round. \param longitudes of the nodes as the file has them.
+void require_no_channel(const std::string& path, const std::vector<double>& longitudes,
+                        const RawMesh& raw) {
+  const mesh_detail::Orientations found = mesh_detail::orientations_of(raw.points, raw.triangles);
+  if (!found.contradict())
+    return;
+  Span all, most_others;
+  std::int64_t joining = 0;
+  for (const double x : longitudes)
+    all.add(x);
+  for (Eigen::Index t = 0; t < raw.triangles.cols(); ++t) {
+    Span span;
+    for (const std::int32_t node : raw.triangles.col(t))
+      span.add(longitudes[static_cast<std::size_t>(node)]);
+    if (span.width() > all.width() / 2)
+      ++joining;
+    else
+      most_others.add(span.width());
+  }
+  if (joining != std::min(found.clockwise, found.counter_clockwise) || !(all.width() < 359))
+    return;
+  std::ostringstream text;
+  text << path << ": " << joining
+       << " triangles join both ends of a channel that is periodic after "
+       << "some " << std::setprecision(3) << all.width() + most_others.greatest
+       << " degrees of longitude (FESOM's cyclic_length), which the sphere does not hold; leave "
+          "these triangles out, or give a mesh that goes around the sphere";
+  throw Error(ErrorCode::parse, text.str());
+}
+
+} // namespace
+
+namespace {
+
+Writer to(OutputFile& file) {
+  return Writer([&file](std::string_view bytes) { file.append(bytes); });
+}
+
+void put_nodes(const Mesh& mesh, OutputFile& file) {
+  std::vector<bool> coast(static_cast<std::size_t>(mesh.points.cols()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int end : {1, 2})
+          coast[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
+  Writer out = to(file);
+  out.number(std::int64_t{mesh.points.cols()}).text("\n");
+  const Points3 units = on_sphere(mesh.points, 1);
+  for (Eigen::Index i = 0; i < units.cols(); ++i) {
+    const LonLat place = eastern_lonlat_of(column(units, i));
+    out.number(std::int64_t{i + 1}).text(" ").number(place.longitude).text(" ");
+    out.number(place.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
+  }
+  out.flush();
+}
+
+void put_elements(const Mesh& mesh, OutputFile& file) {
+  Writer out = to(file);
+  out.number(std::int64_t{mesh.triangles.cols()}).text("\n");
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      out.number(std::int64_t{mesh.triangles(i, t) + 1}).text(i < 2 ? " " : "\n");
+  out.flush();
+}
+
+/// Depths below 0, as FESOM has them; it takes the sign of the second level for that of all.
+void put_depths(const WriteOptions& options, OutputFile& file) {
+  Writer out = to(file);
+  out.number(std::int64_t{options.depth_levels.size()}).text("\n");
+  for (const DoubleVector* depths : {&options.depth_levels, &options.site_depth})
+    for (const double depth : *depths)
+      out.number(depth == 0 ? 0 : -std::abs(depth)).text("\n");
+  out.flush();
+}
+
+} // namespace
+
+void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  OutputFile nodes(path), elements(beside(path, fesom_elements_name));
+  std::optional<OutputFile> depths;
+  nodes.watch(options.progress, 60 * mesh.points.cols());
+  put_nodes(mesh, nodes);
+  put_elements(mesh, elements);
+  if (options.depth_levels.size() > 0) {
+    depths.emplace(beside(path, fesom_depths_name));
+    put_depths(options, *depths);
+    depths->commit();
+  }
+  elements.commit();
+  nodes.commit();
+}
+
+RawMesh read_fesom(const std::string& path) {
+  std::vector<double> longitudes;
+  RawMesh raw = read_nodes(path, longitudes);
+  raw.triangles = read_elements(beside(path, fesom_elements_name), raw.points.cols());
+  require_no_channel(path, longitudes, raw);
+  return raw;
+}
+
+} // namespace calotte::io_detail

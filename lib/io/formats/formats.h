@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/bytes/text.h"
+#include "io/cells/raw_mesh.h"
+#include "io/command.h"
+#include "io/formats/room.h"
+#include "io/mpas/mpas.h"
+#include "io/shapes/points_text.h"
+
+#include <calotte/io.h>
+#include <calotte/mesh_file.h>
+#include <calotte/types.h>
+#include <calotte/voronoi.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+/// The formats. A writer's mesh is numbered as its file shall be; a reader checks that the file is
+/// whole and leaves the rest to read_mesh.
+namespace calotte::io_detail {
+
+// ---- Streams
+
+void put_triangle_lines(const Sink& sink, const Triangles& triangles); ///< i j k a line
+void put_off(const Sink& sink, const Mesh& mesh);
+void put_off(const Sink& sink, const Polygons& polygons);
+void put_ply(const Sink& sink, const Mesh& mesh);
+void put_ply(const Sink& sink, const Polygons& polygons);
+void put_triangles_text(const Sink& sink, const Mesh& mesh);
+void put_msh(const Sink& sink, const Mesh& mesh);
+void put_vtp(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtu(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtp_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtu_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_vtp_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
+void put_vtu_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
+void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options);
+void put_geojson(const Sink& sink, const Polygons& polygons, const WriteOptions& options);
+
+/// \throws Error parse, file.
+RawMesh get_vtk_xml(std::istream& in, const std::string& name);    ///< .vtp and .vtu
+RawMesh get_vtk_legacy(std::istream& in, const std::string& name); ///< .vtk
+RawMesh get_off(std::istream& in, const std::string& name);
+RawMesh get_ply(std::istream& in, const std::string& name);
+RawMesh get_msh(std::istream& in, const std::string& name);
+RawMesh get_geojson(std::istream& in, const std::string& name);
+
+/// Triangles of `points` columns.
+Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
+
+/// Whether a format has a place for a field; all that have a place for fields at all have one for
+/// those with one number for each cell.
+bool holds_field(Format format, const MeshField& field);
+
+/// The format that holds polygons where one of triangles is asked for: vtp and vtu have a kind of
+/// their own for cells. none for a format that holds no other faces than triangles.
+std::optional<Format> polygon_format(Format format);
+
+// ---- Files of their own making. \throws Error invalid_argument, file.
+
+struct CellGrid;
+void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_exodus(const std::string& path, const CellGrid& grid, const WriteOptions& options);
+void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
+
+class NetcdfReader;
+/// Whether an open file is of the kind.
+bool is_ugrid(const NetcdfReader& file);
+bool is_scrip(const NetcdfReader& file);
+bool is_esmf(const NetcdfReader& file);
+bool is_exodus(const NetcdfReader& file);
+bool is_icon(const NetcdfReader& file);
+/// \pre it is. \throws Error parse, file.
+RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_scrip(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_esmf(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_exodus(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_icon(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
+RawMesh read_fesom(const std::string& path);
+/// The cells with their corners' lists as the file has them. \pre it has corners, and as many
+/// centres or none.
+Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres);
+Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
+Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
+RawMesh read_mpi_scvt(const std::string& path);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "io/bytes/json_stream.h"
+#include "io/bytes/text.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/polygons.h"
+#include "io/formats/formats.h"
+#include "io/shapes/geojson_corners.h"
+
+#include <calotte/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <istream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+// GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. Features with a site, which are
+// Voronoi cells as calotte writes them or points, give the sites; polygons of others give cells,
+// and so do Voronoi cells of which some were left out.
+
+namespace calotte::io_detail {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array axes{"x", "y", "z"};
+
+std::string text_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// Numbers for each feature under one name; NaN where a feature has none.
+struct Column {
+  std::vector<double> values;
+  bool integer = true;
+
+  void set(std::int64_t feature, const json& value) {
+    values.resize(static_cast<std::size_t>(feature), none);
+    values.push_back(value.get<double>());
+    integer = integer && value.is_number_integer();
+  }
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The features of a collection, one after the other.
+class Features {
+public:
+  explicit Features(const std::string& name) : name_(name) {}
+
+  void take(const json& feature) {
+    const json properties = feature.value("properties", json()),
+               geometry = feature.value("geometry", json());
+    take_properties(properties);
+    const std::optional<Vec3> site = site_of(properties);
+    const std::string type = geometry.is_object() ? text_in(geometry, "type") : "";
+    const bool is_polygon = type == "Polygon" || type == "MultiPolygon",
+               is_voronoi = is_polygon && site && is_voronoi_cell(properties),
+               is_cell = is_polygon && !is_voronoi;
+    if (is_cell != (count_ > 0 ? !rings_.empty() && voronoi_ == 0 : is_cell))
+      fail("is " + std::string(is_cell ? "a cell" : "no polygon") + ", unlike those before it");
+    if (is_cell)
+      rings_.push_back(ring_of(geometry, type));
+    else if (is_voronoi)
+      take_voronoi_cell(geometry, type);
+    if (site)
+      sites_.push_back(*site);
+    else if (!is_cell)
+      sites_.push_back(place_of_point(geometry, type));
+    ++count_;
+  }
+
+  std::int64_t count() const { return count_; }
+
+  RawMesh raw() {
+    RawMesh raw;
+    const bool has_sites = std::ssize(sites_) == count_;
+    if (has_sites) {
+      raw.points.resize(3, count_);
+      for (std::int64_t i = 0; i < count_; ++i)
+        set_column(raw.points, i, sites_[static_cast<std::size_t>(i)]);
+    }
+    if (voronoi_ > 0 && !are_part_of_sphere())
+      rings_.clear(); // their sites tell all
+    else if (!unread_.empty())
+      throw Error(ErrorCode::parse, unread_);
+    if (!rings_.empty())
+      raw.polygons = polygons(has_sites ? directions_of(raw.points) : Points3());
+    raw.turns_each = true;
+    add_fields(has_sites, raw);
+    raw.ignored.assign(ignored_.begin(), ignored_.end());
+    return raw;
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error(ErrorCode::parse, name_ + ": feature " + std::to_string(count_) + " " + problem,
+                count_);
+  }
+
+  void take_properties(const json& properties) {
+    if (!properties.is_object())
+      return;
+    for (const auto& [key, value] : properties.items())
+      if (value.is_number())
+        columns_[key].set(count_, value);
+      else if (!value.is_null())
+        ignored_.insert(key);
+  }
+
+  static bool has_numbers(const json& properties, const auto& names) {
+    return properties.is_object() && std::all_of(names.begin(), names.end(), [&](const char* key) {
+             return properties.contains(key) && properties[key].is_number();
+           });
+  }
+
+  static std::optional<Vec3> site_of(const json& properties) {
+    if (!has_numbers(properties, axes))
+      return std::nullopt;
+    return Vec3{properties["x"].get<double>(), properties["y"].get<double>(),
+                properties["z"].get<double>()};
+  }
+
+  /// Its ring is of use only if other cells of the sphere are missing.
+  void take_voronoi_cell(const json& geometry, const std::string& type) {
+    ++voronoi_;
+    rings_.emplace_back();
+    try {
+      rings_.back() = ring_of(geometry, type);
+    } catch (const Error& error) {
+      if (unread_.empty())
+        unread_ = error.what();
+    }
+  }
+
+  /// Whether Voronoi cells of the sphere leave at least one uncovered.
+  bool are_part_of_sphere() const {
+    const std::vector<double>& areas = columns_.at("area").values;
+    if (voronoi_ < count_ || std::ssize(areas) < count_ ||
+        std::all_of(sites_.begin(), sites_.end(), [](const Vec3& site) { return site.z == 0; }))
+      return false;
+    constexpr double whole = 4 * std::numbers::pi;
+    return std::accumulate(areas.begin(), areas.end(), 0.0) <
+           whole * (1 - 0.5 / static_cast<double>(count_));
+  }
+
+  /// Those that only Voronoi cells of calotte have.
+  static bool is_voronoi_cell(const json& properties) {
+    return has_numbers(properties, std::array{"area", "spacing", "quality", "degree"});
+  }
+
+  static bool is_position(const json& place) {
+    return place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number() &&
+           std::abs(place[1].get<double>()) <= 90;
+  }
+
+  static Vec3 on_sphere_at(const json& place) {
+    return from_lonlat(place[0].get<double>(), place[1].get<double>());
+  }
+
+  Vec3 place_of_point(const json& geometry, const std::string& type) const {
+    const json place = type == "Point" ? geometry.value("coordinates", json()) : json();
+    if (!is_position(place))
+      fail("is neither a polygon nor a point that is the site of its cell; give it a geometry, or "
+           "numbers x, y and z as properties");
+    return on_sphere_at(place);
+  }
+
+  /// A cell that the meridian of 180 degrees cuts has several polygons, which are joined there.
+  CornerRing ring_of(const json& geometry, const std::string& type) {
+    const json coordinates = geometry.value("coordinates", json());
+    if (type == "Polygon")
+      return ring_of(coordinates);
+    if (!coordinates.is_array() || coordinates.empty())
+      fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
+    CornerRing whole = ring_of(coordinates[0]);
+    for (std::size_t k = 1; k < coordinates.size(); ++k)
+      if (!corners_.join(ring_of(coordinates[k]), whole))
+        fail("is a MultiPolygon whose parts do not share one side; only cells of one ring are "
+             "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
+    return whole;
+  }
+
+  /// Without consecutive equal places, and without the way to a pole and back along one meridian by
+  /// which a ring around the pole is closed in the plane of longitude and latitude.
+  CornerRing ring_of(const json& rings) {
+    if (!rings.is_array() || rings.empty() || !rings[0].is_array())
+      fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
+    if (rings.size() > 1)
+      fail("has a hole; only cells of one ring are read");
+    CornerRing ring;
+    std::int32_t cut = -1; // the corner at which the way to a pole begins and ends
+    for (const json& place : rings[0]) {
+      if (!is_position(place))
+        fail("has a position that is no longitude and latitude in degrees; correct it");
+      const std::int32_t corner = corners_.id_of(place[0].get<double>(), place[1].get<double>());
+      if (corners_.push(corner, ring))
+        cut = corner;
+    }
+    while (ring.size() > 1 && ring.front() == ring.back())
+      ring.pop_back();
+    if (!ring.empty() && corners_.is_pole(ring.front()))
+      std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+    if (ring.size() > 3 && ring[ring.size() - 2] == ring.front() && corners_.is_pole(ring.back())) {
+      ring.resize(ring.size() - 2);
+      cut = ring.front();
+    }
+    corners_.leave_out_cut(cut, ring);
+    if (ring.size() < 3)
+      fail("has a ring of fewer than 3 places; leave it out");
+    return ring;
+  }
+
+  static Points3 directions_of(const Points3& points) {
+    Points3 centres = points;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      centres.col(i) = points.col(i).stableNormalized();
+    return centres;
+  }
+
+  Polygons polygons(Points3 centres) const {
+    Polygons polygons{corners_.columns(), {Offsets(count_ + 1), {}}, std::move(centres)};
+    polygons.ids.begin[0] = 0;
+    std::vector<std::int32_t> ids;
+    for (std::int64_t i = 0; i < count_; ++i) {
+      const CornerRing& ring = rings_[static_cast<std::size_t>(i)];
+      ids.insert(ids.end(), ring.begin(), ring.end());
+      polygons.ids.begin[i + 1] = std::ssize(ids);
+    }
+    polygons.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+    return polygons;
+  }
+
+  /// Without those that a writer makes anew.
+  bool is_derived(const std::string& name, const DoubleVector& values, bool has_sites,
+                  const RawMesh& raw) const {
+    if (name == "x" || name == "y" || name == "z")
+      return has_sites;
+    if (name == "id")
+      return values == DoubleVector::LinSpaced(count_, 0, static_cast<double>(count_ - 1));
+    if (raw.polygons.size() > 0 && voronoi_ == 0)
+      return name == "area" && are_areas_of(raw.polygons, values);
+    return name == "area" || name == "spacing" || name == "quality" || name == "degree";
+  }
+
+  void add_fields(bool has_sites, RawMesh& raw) {
+    for (auto& [name, column] : columns_) {
+      column.values.resize(static_cast<std::size_t>(count_), Column::none);
+      DoubleVector values =
+          Eigen::Map<const DoubleVector>(column.values.data(), std::ssize(column.values));
+      if (is_derived(name, values, has_sites, raw))
+        continue;
+      if (name == "density" && values.allFinite())
+        raw.density = std::move(values);
+      else
+        raw.fields.push_back(
+            {.name = name, .values = std::move(values), .integer = column.integer});
+    }
+  }
+
+  const std::string& name_;
+  std::int64_t count_ = 0;
+  std::vector<Vec3> sites_; ///< of the features that have one
+  GeoCorners corners_;
+  std::vector<CornerRing> rings_; ///< of all features, or none
+  std::int64_t voronoi_ = 0;      ///< features that are Voronoi cells of calotte
+  std::string unread_;            ///< what the first of them says whose ring is not read; or ""
+  std::map<std::string, Column> columns_;
+  std::set<std::string> ignored_;
+};
+
+/// The whole file without its features, of which each is shown to `take` as soon as it is read.
+json parse(std::istream& in, const std::string& name,
+           const std::function<void(const json& feature)>& take) {
+  bool in_features = false;
+  const auto keep = [&](int depth, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::key && depth == 1)
+      in_features = parsed == "features";
+    if (event != json::parse_event_t::object_end || depth != 2 || !in_features)
+      return true;
+    take(parsed);
+    return false;
+  };
+  try {
+    JsonBuffer buffer(in, name);
+    std::istream checked(&buffer);
+    return json::parse(checked, keep);
+  } catch (const json::parse_error& error) {
+    throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
+                                      std::to_string(error.byte) + "; make the file again");
+  } catch (const json::exception&) {
+    throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
+  }
+}
+
+} // namespace
+
+RawMesh get_geojson(std::istream& in, const std::string& name) {
+  Features features(name);
+  const json rest = parse(in, name, [&](const json& feature) { features.take(feature); });
+  if (!rest.is_object() || text_in(rest, "type") != "FeatureCollection")
+    throw Error(ErrorCode::parse, name + ": no GeoJSON FeatureCollection; give one of the cells");
+  const json others = rest.value("features", json());
+  if (features.count() == 0 || !others.is_array() || !others.empty())
+    throw Error(ErrorCode::parse, name + ": \"features\" is empty or holds other values than "
+                                         "objects; give one feature for each cell");
+  return features.raw();
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/gmsh.h"
+
+#include "io/bytes/text.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <istream>
+#include <unordered_map>
+#include <vector>
+
+// Meshes of Gmsh (Geuzaine and Remacle, Int. J. Numer. Methods Eng. 79, 2009; the formats MSH 2 and
+// 4 of its manual, as text): sections from $Name to $EndName; nodes and elements have numbers of
+// their own. Lines and points of the geometry are elements, too.
+
+namespace calotte::io_detail {
+namespace {
+
+enum class Shape { triangle, less, more };
+
+/// What the types of the manual are; the corners of a triangle come before its other nodes.
+Shape shape_of(std::int64_t type) {
+  constexpr std::array<std::int64_t, 8> triangles{2, 9, 20, 21, 22, 23, 24, 25},
+      lines_and_points{1, 8, 15, 26, 27, 28, 62, 63};
+  const auto is_in = [&](const auto& types) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+  };
+  return is_in(triangles) ? Shape::triangle : is_in(lines_and_points) ? Shape::less : Shape::more;
+}
+
+class GmshFile {
+public:
+  GmshFile(std::istream& in, const std::string& name) : reader_(in, name) {}
+
+  RawMesh read() {
+    for (std::string_view line; reader_.next_content(line);)
+      section(trimmed(line));
+    if (corners_.empty())
+      throw Error(ErrorCode::parse,
+                  reader_.name() + ": a file of Gmsh without triangles; mesh its surfaces (gmsh "
+                                   "-2), and save all elements (Mesh.SaveAll=1)");
+    return raw();
+  }
+
+private:
+  static std::string trimmed(std::string_view line) {
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\t'))
+      line.remove_suffix(1);
+    return std::string(line);
+  }
+
+  void section(const std::string& name) {
+    if (!name.starts_with("$"))
+      reader_.fail(in_quotes(name) + " is not the name of a section, such as $Nodes; the section "
+                                     "before has more lines than it announces");
+    if (name == "$NOD" || name == "$ELM")
+      reader_.fail("version 1 of Gmsh's format is not read; save the mesh as version 2 or 4 "
+                   "(Mesh.MshFileVersion)");
+    if (name == "$MeshFormat")
+      format();
+    else if (name == "$Nodes")
+      nodes();
+    else if (name == "$Elements")
+      elements();
+    const std::string end = "$End" + name.substr(1);
+    const bool known = name == "$Nodes" || name == "$Elements";
+    for (std::string_view line = next(name); trimmed(line) != end; line = next(name))
+      if (known)
+        reader_.fail(in_quotes(line) + " instead of " + end +
+                     "; the section has more lines than it announces");
+  }
+
+  std::string_view next(const std::string& section) {
+    std::string_view line;
+    if (!reader_.next_content(line))
+      reader_.fail("the file ends within " + section + "; it was cut short");
+    return line;
+  }
+
+  template <class T, std::size_t count>
+  std::array<T, count> columns(std::string_view line, std::size_t used = count) const {
+    std::array<T, count> values{};
+    const Columned read = parse_columns(line, static_cast<int>(used), values.data());
+    if (read.outcome == Outcome::too_few)
+      reader_.fail("fewer than " + std::to_string(used) + " columns");
+    if (read.outcome != Outcome::ok)
+      reader_.fail(describe(read));
+    return values;
+  }
+
+  std::int64_t count_of(std::int64_t number) const {
+    if (number < 0 || number > most_entries)
+      reader_.fail(std::to_string(number) + " is not a number of lines");
+    return number;
+  }
+
+  void format() {
+    const auto [version, type, size] = columns<double, 3>(next("$MeshFormat"));
+    if (!(version >= 2 && version < 3) && !(version >= 4 && version < 5))
+      reader_.fail("only the versions 2 and 4 of Gmsh's format are read; save the mesh as one of "
+                   "them (Mesh.MshFileVersion)");
+    if (type != 0)
+      reader_.fail("a binary file of Gmsh; save the mesh as text (Mesh.Binary=0)");
+    version_ = version;
+  }
+
+  /// Calls block(kind, lines) for each block of a section of version 4.
+  template <class Block> void blocks(const std::string& name, const Block& block) {
+    const std::int64_t count = count_of(columns<std::int64_t, 2>(next(name))[0]);
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto head = columns<std::int64_t, 4>(next(name));
+      block(head[2], count_of(head[3]));
+    }
+  }
+
+  void nodes() {
+    if (version_ >= 4.1) {
+      blocks("$Nodes", [&](std::int64_t /*parametric*/, std::int64_t lines) {
+        const std::size_t first = places_.size() / 3;
+        for (std::int64_t i = 0; i < lines; ++i)
+          number_node(columns<std::int64_t, 1>(next("$Nodes"))[0],
+                      first + static_cast<std::size_t>(i));
+        for (std::int64_t i = 0; i < lines; ++i)
+          add_place(columns<double, 3>(next("$Nodes")));
+      });
+      return;
+    }
+    const auto lines_of = [&](std::int64_t lines) {
+      for (std::int64_t i = 0; i < lines; ++i) {
+        const std::string_view line = next("$Nodes");
+        const auto row = columns<double, 4>(line);
+        number_node(columns<std::int64_t, 1>(line)[0], places_.size() / 3);
+        add_place({row[1], row[2], row[3]});
+      }
+    };
+    if (version_ >= 4)
+      blocks("$Nodes", [&](std::int64_t, std::int64_t lines) { lines_of(lines); });
+    else
+      lines_of(count_of(columns<std::int64_t, 1>(next("$Nodes"))[0]));
+  }
+
+  void number_node(std::int64_t node, std::size_t place) {
+    if (!place_of_.emplace(node, place).second)
+      reader_.fail("the node " + std::to_string(node) + " comes twice; make the file again");
+  }
+
+  void add_place(const std::array<double, 3>& place) {
+    for (const double x : place)
+      if (!std::isfinite(x))
+        reader_.fail("NaN or an infinite number; correct it");
+    places_.insert(places_.end(), place.begin(), place.end());
+  }
+
+  void elements() {
+    if (version_ >= 4) {
+      blocks("$Elements", [&](std::int64_t type, std::int64_t lines) {
+        for (std::int64_t i = 0; i < lines; ++i)
+          element(next("$Elements"), type, 1);
+      });
+      return;
+    }
+    const std::int64_t lines = count_of(columns<std::int64_t, 1>(next("$Elements"))[0]);
+    for (std::int64_t i = 0; i < lines; ++i) {
+      const std::string_view line = next("$Elements");
+      const auto [number, type, tags] = columns<std::int64_t, 3>(line);
+      if (tags < 0 || tags > std::int64_t{most_tags})
+        reader_.fail(std::to_string(tags) + " is not a number of tags");
+      element(line, type, 3 + static_cast<std::size_t>(tags));
+    }
+  }
+
+  /// \param first the column of its first node.
+  void element(std::string_view line, std::int64_t type, std::size_t first) {
+    const Shape shape = shape_of(type);
+    if (shape == Shape::more)
+      reader_.fail("an element of type " + std::to_string(type) +
+                   (type == 3 ? ", a quadrangle" : "") +
+                   "; only triangles are read, so mesh the surfaces with triangles alone");
+    if (shape == Shape::less)
+      return;
+    const auto row = columns<std::int64_t, 3 + most_tags + 3>(line, first + 3);
+    corners_.insert(corners_.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
+                    row.begin() + static_cast<std::ptrdiff_t>(first + 3));
+  }
+
+  /// Only the nodes of triangles are sites: others belong to the geometry, such as the centre of a
+  /// sphere.
+  RawMesh raw() const {
+    std::vector<std::int32_t> site(places_.size() / 3, -1);
+    const auto place_of = [&](std::int64_t node) {
+      const auto found = place_of_.find(node);
+      if (found == place_of_.end() || found->second >= site.size())
+        throw Error(ErrorCode::parse, reader_.name() + ": a triangle has the node " +
+                                          std::to_string(node) +
+                                          ", which $Nodes does not have; make the file again");
+      return found->second;
+    };
+    for (const std::int64_t node : corners_)
+      site[place_of(node)] = 0;
+    std::int32_t sites = 0;
+    for (std::int32_t& id : site)
+      id = id < 0 ? -1 : sites++;
+    RawMesh raw{.points = Points3(3, sites)};
+    for (std::size_t k = 0; k < site.size(); ++k)
+      if (site[k] >= 0)
+        raw.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(places_.data() + 3 * k);
+    raw.triangles.resize(3, std::ssize(corners_) / 3);
+    for (std::size_t k = 0; k < corners_.size(); ++k)
+      raw.triangles.data()[k] = site[place_of(corners_[k])];
+    return raw;
+  }
+
+  static constexpr std::size_t most_tags = 8;
+  static constexpr std::int64_t most_entries = std::int64_t{1} << 30;
+
+  LineReader reader_;
+  double version_ = 2;
+  std::unordered_map<std::int64_t, std::size_t> place_of_; ///< by the number of a node
+  std::vector<double> places_;                             ///< x y z of a node after another
+  std::vector<std::int64_t> corners_;                      ///< of triangles: numbers of nodes
+};
+
+} // namespace
+
+bool is_gmsh(std::istream& in) { return in.peek() == '$'; }
+
+RawMesh get_gmsh(std::istream& in, const std::string& name) { return GmshFile(in, name).read(); }
+
+} // namespace calotte::io_detail

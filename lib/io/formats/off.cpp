@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/formats.h"
+#include "io/formats/poly_data.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The Object File Format of Geomview: "OFF", the counts of points, faces and edges, a point a line,
+// then a face a line with its number of corners first. Faces that are not all triangles are cells.
+
+namespace calotte::io_detail {
+namespace {
+
+/// The next line with its first `count` columns in `values`.
+template <class T> void take(LineReader& reader, int count, T* values, const std::string& awaited) {
+  std::string_view line;
+  if (!reader.next_content(line))
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  const Columned read = parse_columns(line, count, values);
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                " where " + awaited + " belongs");
+}
+
+std::string of(const char* thing, std::int64_t index, std::int64_t count) {
+  return std::string(thing) + " " + std::to_string(index) + " of " + std::to_string(count);
+}
+
+void put_head(Writer& out, const Points3& points, std::int64_t faces) {
+  out.text("OFF\n").number(std::int64_t{points.cols()}).text(" ").number(faces).text(" 0\n");
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    out.number(points(0, i))
+        .text(" ")
+        .number(points(1, i))
+        .text(" ")
+        .number(points(2, i))
+        .text("\n");
+}
+
+void put_face(Writer& out, std::span<const std::int32_t> ids) {
+  out.number(std::ssize(ids));
+  for (const std::int32_t id : ids)
+    out.text(" ").number(std::int64_t{id});
+  out.text("\n");
+}
+
+/// The corners of the next face.
+void take_face(LineReader& reader, std::int64_t points, const std::string& awaited,
+               std::vector<std::int64_t>& face, std::vector<std::int32_t>& ids) {
+  std::string_view line;
+  if (!reader.next_content(line))
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  std::int64_t corners = 0;
+  Columned read = parse_columns(line, 1, &corners);
+  if (read.outcome == Outcome::ok && (corners < 3 || corners > std::max<std::int64_t>(points, 3)))
+    reader.fail("a face of " + std::to_string(corners) + " corners; give 3 or more, each a point");
+  if (read.outcome == Outcome::ok) {
+    face.resize(static_cast<std::size_t>(corners) + 1);
+    read = parse_columns(line, static_cast<int>(corners) + 1, face.data());
+  }
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                " where " + awaited + " belongs");
+  parse_ids(reader, face.data() + 1, points, ids, 0, corners);
+}
+
+} // namespace
+
+void put_off(const Sink& sink, const Mesh& mesh) {
+  Writer out(sink);
+  put_head(out, mesh.points, mesh.triangles.cols());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    put_face(out, {mesh.triangles.col(t).data(), 3});
+  out.flush();
+}
+
+void put_off(const Sink& sink, const Polygons& polygons) {
+  Writer out(sink);
+  put_head(out, polygons.corners, polygons.size());
+  for (std::int64_t i = 0; i < polygons.size(); ++i)
+    put_face(out, polygons.ids[i]);
+  out.flush();
+}
+
+RawMesh get_off(std::istream& in, const std::string& name) {
+  LineReader reader(in, name);
+  std::string_view line;
+  if (!reader.next_content(line) || line.substr(0, line.find_last_not_of(" \t") + 1) != "OFF")
+    throw Error(ErrorCode::parse, name + " line 1: not an OFF file, which starts with the line OFF",
+                1);
+  std::int64_t counts[2];
+  take(reader, 2, counts, "the numbers of points and faces");
+
+  std::vector<double> points;
+  for (std::int64_t i = 0; i < counts[0]; ++i) {
+    double p[3];
+    take(reader, 3, p, of("point", i, counts[0]));
+    points.insert(points.end(), p, p + 3);
+  }
+  std::vector<std::int32_t> ids;
+  std::vector<std::int64_t> begin{0}, face;
+  for (std::int64_t i = 0; i < counts[1]; ++i) {
+    take_face(reader, counts[0], of("face", i, counts[1]), face, ids);
+    begin.push_back(std::ssize(ids));
+  }
+  if (reader.next_content(line))
+    reader.fail("more lines than the file's counts announce");
+  PolyData poly_data;
+  poly_data.points = Eigen::Map<const Points3>(points.data(), 3, std::ssize(points) / 3);
+  poly_data.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
+                   Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
+  return raw_mesh_of(name, std::move(poly_data));
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/poly_data.h"
+
+#include "io/bytes/scalars.h"
+#include "io/bytes/text.h"
+#include "io/cells/mesh_intake.h"
+#include "io/cells/model_grid.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr const char* site_name = "site";
+constexpr const char* triangle_name = "triangle";
+
+/// How far a direction may turn by rounding to single precision, and the circumcentre of three such
+/// directions with it, radians.
+constexpr double single_rounding = 4 * 0x1p-24;
+
+/// Of the cells; written with each mesh, and computed from it.
+bool is_derived(const std::string& name) {
+  constexpr std::array<std::string_view, 4> derived{"area", "spacing", "quality", "degree"};
+  return std::find(derived.begin(), derived.end(), name) != derived.end();
+}
+
+bool holds_centres(const std::string& name) { return name == site_name || name == "Center"; }
+
+const DataArray* find(const PolyData& poly_data, const std::string& name, bool of_polygons) {
+  const auto found =
+      std::find_if(poly_data.arrays.begin(), poly_data.arrays.end(), [&](const DataArray& array) {
+        return array.name == name && array.of_polygons == of_polygons && array.components == 3;
+      });
+  return found == poly_data.arrays.end() ? nullptr : &*found;
+}
+
+Points3 points_of(const DataArray& array) {
+  return Eigen::Map<const Points3>(array.values.data(), 3, array.values.size() / 3);
+}
+
+bool all_triangles(const PolyData& poly_data) {
+  for (std::int64_t i = 0; i <= poly_data.size(); ++i)
+    if (poly_data.ids.begin[i] != 3 * i)
+      return false;
+  return true;
+}
+
+// ---- Voronoi cells as calotte writes them
+
+Triangles triangles_of(const std::string& name, const DataArray& array, std::int64_t sites) {
+  Triangles triangles(3, array.values.size() / 3);
+  for (Eigen::Index k = 0; k < array.values.size(); ++k) {
+    const auto id = number_as<std::int32_t>(array.values[k]);
+    if (id < 0 || id >= sites)
+      fail_array(name, triangle_name,
+                 "it has a site at point " + std::to_string(k / 3) + " that is not one of the " +
+                     std::to_string(sites) +
+                     " cells; make the file again, or remove the array to read the cells alone",
+                 k / 3);
+    triangles.data()[k] = id;
+  }
+  return triangles;
+}
+
+/// Each corner of a cell belongs to a triangle of the cell's site. Another program may have removed
+/// or renumbered cells.
+void require_triangles_of_cells(const std::string& name, const PolyData& poly_data,
+                                const Triangles& triangles) {
+  for (std::int64_t i = 0; i < poly_data.size(); ++i)
+    for (const std::int32_t corner : poly_data.ids[i])
+      if (!(triangles.col(corner).array() == i).any())
+        fail_array(name, triangle_name,
+                   "cell " + std::to_string(i) + " has the corner " + std::to_string(corner) +
+                       ", whose triangle is not one of the cell; the cells were changed, so remove "
+                       "the array to read them alone",
+                   i);
+}
+
+// ---- Fields
+
+void add_field(DataArray& array, Location location, std::set<std::string>& names, RawMesh& raw) {
+  if (location == Location::cells && is_derived(array.name))
+    return;
+  const bool first = names.insert(array.name).second;
+  if (!first)
+    raw.ignored.push_back(std::move(array.name));
+  else if (location == Location::cells && array.name == "density")
+    raw.density = std::move(array.values);
+  else
+    raw.fields.push_back(
+        {.name = std::move(array.name), .location = location, .values = std::move(array.values)});
+}
+
+/// Adds the arrays of one component.
+void add_fields(PolyData& poly_data, bool polygons_are_cells, RawMesh& raw) {
+  std::set<std::string> names;
+  raw.ignored = std::move(poly_data.ignored);
+  for (DataArray& array : poly_data.arrays)
+    if (array.components == 1 && array.values.size() > 0)
+      add_field(array,
+                array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
+                names, raw);
+    else if (array.name != site_name && array.name != triangle_name && !polygons_are_cells)
+      raw.ignored.push_back(array.name);
+}
+
+// ---- Cells
+
+Points3 directions(const std::string& name, const Points3& points) {
+  require_directions(name, points);
+  return on_sphere(points, 1);
+}
+
+RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* centres) {
+  RawMesh raw;
+  if (lies_in_plane(poly_data.points)) {
+    if (centres == nullptr)
+      throw Error(ErrorCode::invalid_argument,
+                  name +
+                      ": z is 0 at all points; of a plane only triangles, and cells with an array "
+                      "site, are read");
+    raw.points = points_of(*centres);
+    raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points, false};
+    return raw;
+  }
+  raw.polygons = {directions(name, poly_data.points), std::move(poly_data.ids), Points3(3, 0)};
+  if (centres != nullptr) {
+    raw.points = points_of(*centres);
+    raw.polygons.centres = directions(name + ": array " + in_quotes(centres->name), raw.points);
+  }
+  raw.corner_rounding = poly_data.single ? single_rounding : 0;
+  return raw;
+}
+
+} // namespace
+
+void fail_array(const std::string& name, const std::string& array, const std::string& problem,
+                std::int64_t index) {
+  throw Error(ErrorCode::parse, name + ": array " + in_quotes(array) + ": " + problem, index);
+}
+
+bool is_read(const std::string& name, bool of_polygons, std::int64_t components) {
+  return components == 1 ||
+         (components == 3 && (of_polygons ? holds_centres(name) : name == triangle_name));
+}
+
+void require_polygons(const std::string& name, const PolyData& poly_data,
+                      const PolyDataNames& names) {
+  const std::int64_t count = poly_data.size();
+  const auto& [begins, ids] = poly_data.ids;
+  const std::string again = "; make the file again";
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t begin = begins[i], end = begins[i + 1];
+    if (end > ids.size())
+      fail_array(name, names.offsets,
+                 "polygon " + std::to_string(i) + " ends at " + std::to_string(end) +
+                     ", but there are " + std::to_string(ids.size()) + " corners" + again,
+                 i);
+    if (end < begin || end - begin < 3)
+      fail_array(name, names.offsets,
+                 "polygon " + std::to_string(i) + " runs from " + std::to_string(begin) + " to " +
+                     std::to_string(end) + ", so it has fewer than 3 corners" + again,
+                 i);
+    for (std::int64_t k = begin; k < end; ++k)
+      if (ids[k] < 0 || ids[k] >= poly_data.points.cols())
+        fail_array(name, names.ids,
+                   "polygon " + std::to_string(i) + " has a corner that is not one of the " +
+                       std::to_string(poly_data.points.cols()) + " points" + again,
+                   i);
+  }
+  if (const std::int64_t used = count > 0 ? begins[count] : 0; used != ids.size())
+    fail_array(name, names.ids,
+               "it has " + std::to_string(ids.size()) + " corners, but the " +
+                   std::to_string(count) + " polygons have " + std::to_string(used) + again);
+}
+
+RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data) {
+  const DataArray* const site = find(poly_data, site_name, true);
+  const DataArray* const triangle = find(poly_data, triangle_name, false);
+  const bool cells = poly_data.size() > 0 && (site != nullptr || !all_triangles(poly_data));
+  RawMesh raw;
+  if (cells && site != nullptr && triangle != nullptr) {
+    raw.points = points_of(*site);
+    raw.triangles = triangles_of(name, *triangle, poly_data.size());
+    require_triangles_of_cells(name, poly_data, raw.triangles);
+  } else if (cells) {
+    raw = cells_of(name, poly_data, site != nullptr ? site : find(poly_data, "Center", true));
+  } else {
+    raw.points = std::move(poly_data.points);
+    raw.triangles = Eigen::Map<const Triangles>(poly_data.ids.items.data(), 3, poly_data.size());
+  }
+  add_fields(poly_data, cells, raw);
+  return raw;
+}
+
+} // namespace calotte::io_detail

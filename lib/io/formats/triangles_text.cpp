@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/formats.h"
+
+#include <calotte/error.h>
+
+#include <numeric>
+
+namespace calotte::io_detail {
+namespace {
+
+/// For each site its lowest input column, or itself where the mesh does not say.
+std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
+  std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
+  if (mesh.site_of_input.empty())
+    std::iota(inputs.begin(), inputs.end(), 0);
+  for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i) {
+    std::int32_t& input = inputs[static_cast<std::size_t>(mesh.site_of_input[i])];
+    if (input < 0)
+      input = static_cast<std::int32_t>(i);
+  }
+  return inputs;
+}
+
+} // namespace
+
+void put_triangle_lines(const Sink& sink, const Triangles& triangles) {
+  Writer out(sink);
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+    out.number(std::int64_t{triangles(0, t)})
+        .text(" ")
+        .number(std::int64_t{triangles(1, t)})
+        .text(" ")
+        .number(std::int64_t{triangles(2, t)})
+        .text("\n");
+  out.flush();
+}
+
+void put_triangles_text(const Sink& sink, const Mesh& mesh) {
+  const std::vector<std::int32_t> inputs = input_of_site(mesh);
+  Triangles columns = mesh.triangles;
+  for (std::int32_t& id : columns.reshaped())
+    id = inputs[static_cast<std::size_t>(id)];
+  put_triangle_lines(sink, columns);
+}
+
+Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points) {
+  LineReader reader(in, name);
+  std::vector<std::int32_t> triangles;
+  for (std::string_view line; reader.next_content(line);) {
+    std::int64_t ids[3];
+    const Columned read = parse_columns(line, 3, ids);
+    if (read.outcome != Outcome::ok)
+      reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                  "; write three ids i j k on each line, counted from 0");
+    parse_ids(reader, ids, points, triangles);
+  }
+  if (triangles.empty())
+    throw Error(ErrorCode::parse, name + ": no triangles; write three ids i j k on each line");
+  return Eigen::Map<const Triangles>(triangles.data(), 3,
+                                     static_cast<Eigen::Index>(triangles.size() / 3));
+}
+
+} // namespace calotte::io_detail

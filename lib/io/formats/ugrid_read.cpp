@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/dual.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/netcdf_fields.h"
+#include "io/formats/formats.h"
+#include "io/formats/ugrid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace calotte::io_detail {
+namespace {
+
+/// The first variable that describes a mesh of faces, or nothing.
+std::string mesh_variable(const NetcdfReader& file) {
+  for (const std::string& name : file.variables())
+    if (file.text(name, "cf_role") == "mesh_topology" &&
+        file.number(name, "topology_dimension", 2) == 2)
+      return name;
+  return "";
+}
+
+/// Latitude, or y.
+bool is_second(const NetcdfReader& file, const std::string& name) {
+  const std::string standard_name = file.text(name, "standard_name");
+  return standard_name == "latitude" || standard_name == "projection_y_coordinate" ||
+         file.text(name, "units").find("north") != std::string::npos;
+}
+
+} // namespace
+
+std::vector<std::string> names_in(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<std::string> names;
+  for (std::string name; words >> name;)
+    names.push_back(name);
+  return names;
+}
+
+Topology topology_of(const NetcdfReader& file) {
+  const std::string mesh = mesh_variable(file);
+  Topology topology{
+      file.text(mesh, "face_node_connectivity"),     file.text(mesh, "face_dimension"),
+      names_in(file.text(mesh, "node_coordinates")), names_in(file.text(mesh, site_coordinates)),
+      names_in(file.text(mesh, "face_coordinates")), mesh};
+  if (topology.face_nodes.empty())
+    file.fail("the mesh variable " + mesh + " names no face_node_connectivity; add the attribute");
+  if (topology.nodes.size() != 2)
+    file.fail("the node_coordinates of the mesh variable " + mesh +
+              " are not the names of two variables, longitude and latitude; correct the attribute");
+  topology.planar = file.text(topology.nodes[0], "standard_name").starts_with("projection_");
+  if (is_second(file, topology.nodes[0]))
+    std::swap(topology.nodes[0], topology.nodes[1]);
+  if (topology.faces.size() != 2)
+    topology.faces.clear();
+  else if (is_second(file, topology.faces[0]))
+    std::swap(topology.faces[0], topology.faces[1]);
+  if (!topology.sites.empty() && topology.sites.size() != 3)
+    file.fail(std::string("the ") + site_coordinates + " of the mesh variable " + mesh +
+              " are not the names of three variables; correct the attribute or remove it");
+  return topology;
+}
+
+namespace {
+
+/// Node ids, 0-based, a face a column; -1 past its last corner.
+using FaceNodes = Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign>;
+
+/// Turns what a file holds into such ids.
+struct FaceNodesReader {
+  const NetcdfReader& file;
+  const std::string& name;
+  std::int64_t nodes;
+  double start;
+  double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
+
+  std::int32_t id(double value, std::int64_t face) const {
+    if (value == fill || std::isnan(value))
+      return -1;
+    const double node = value - start;
+    if (!(node >= 0 && node < static_cast<double>(nodes)) || node != std::floor(node)) {
+      std::ostringstream text;
+      text << name << " of face " << face << " (0-based) has " << value
+           << ", which is not one of the " << nodes << " nodes from " << start
+           << " on; make the file again";
+      file.fail(text.str());
+    }
+    return static_cast<std::int32_t>(node);
+  }
+
+  void require_polygon(const FaceNodes& faces, std::int64_t face) const {
+    const auto corners = faces.col(face).array() >= 0;
+    const std::int64_t count = corners.count();
+    if (count < 3 || !corners.head(count).all())
+      file.fail(name + " of face " + std::to_string(face) +
+                " (0-based) does not start with three or more nodes, then padding; make the file "
+                "again");
+  }
+};
+
+/// Without the attribute ids count from 0; those of FESOM's files, from 1: one is the number of
+/// nodes, and none is 0.
+double start_index_of(const NetcdfReader& file, const std::string& name, std::int64_t nodes,
+                      const std::vector<double>& ids) {
+  const auto has = [&](std::int64_t id) {
+    return std::find(ids.begin(), ids.end(), static_cast<double>(id)) != ids.end();
+  };
+  const double start = file.number(name, "start_index", -1);
+  return start != -1 ? start : has(nodes) && !has(0) ? 1 : 0;
+}
+
+FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std::int64_t nodes) {
+  const std::string& name = topology.face_nodes;
+  // Doubles hold every padding that others use, whatever its type.
+  const std::vector<double> values = file.doubles(name, {-1, -1});
+  const std::vector<std::int64_t> shape = file.shape_of(name);
+  const std::vector<std::string> dimensions = file.dimensions_of(name);
+  const bool faces_last =
+      dimensions[1] == topology.face_dimension && dimensions[0] != topology.face_dimension;
+  const std::int64_t faces = shape[faces_last ? 1 : 0], most = shape[faces_last ? 0 : 1];
+
+  const FaceNodesReader reader{file, name, nodes, start_index_of(file, name, nodes, values)};
+  FaceNodes result(most, faces);
+  for (std::int64_t face = 0; face < faces; ++face) {
+    for (std::int64_t k = 0; k < most; ++k)
+      result(k, face) = reader.id(
+          values[static_cast<std::size_t>(faces_last ? k * faces + face : face * most + k)], face);
+    reader.require_polygon(result, face);
+  }
+  return result;
+}
+
+/// Unit vectors; in a plane places with z = 0. \param names of longitude and latitude, or x and y.
+Points3 read_pairs(const NetcdfReader& file, const Topology& topology,
+                   const std::vector<std::string>& names, std::int64_t count = -1) {
+  if (!topology.planar)
+    return read_lonlats(file, names[0], names[1], {count});
+  const std::vector<double> x = file.doubles(names[0], {count}),
+                            y = file.doubles(names[1], {std::ssize(x)});
+  Points3 places = Points3::Zero(3, std::ssize(x));
+  places.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), places.cols());
+  places.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), places.cols());
+  if (!places.allFinite())
+    file.fail(names[0] + " and " + names[1] +
+              " hold a number that is no place (NaN or infinite); make the file again");
+  return places;
+}
+
+/// The faces' places as given. \param count -1 for any number.
+Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& names,
+                    std::int64_t count) {
+  Points3 places;
+  for (int row = 0; row < 3; ++row) {
+    const std::vector<double> values = file.doubles(names[static_cast<std::size_t>(row)], {count});
+    places.resize(3, std::ssize(values));
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), places.cols());
+    count = places.cols();
+  }
+  return places;
+}
+
+/// The faces as polygons.
+Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
+  Polygons polygons{std::move(nodes), {Offsets(faces.cols() + 1), {}}, std::move(centres), !planar};
+  auto& [begin, ids] = polygons.ids;
+  begin[0] = 0;
+  for (Eigen::Index face = 0; face < faces.cols(); ++face)
+    begin[face + 1] = begin[face] + (faces.col(face).array() >= 0).count();
+  ids.resize(begin[faces.cols()]);
+  for (Eigen::Index face = 0; face < faces.cols(); ++face)
+    std::copy_n(faces.col(face).data(), polygons.ids.count(face), ids.data() + begin[face]);
+  return polygons;
+}
+
+/// The first node that three faces do not surround.
+std::int64_t first_without_triangle(const Dual& dual) {
+  if (dual.failed >= 0)
+    return dual.failed;
+  std::int64_t node = 0;
+  while (node < dual.corner.size() && dual.corner[node] == node)
+    ++node;
+  return node;
+}
+
+/// One triangle of faces a node.
+Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
+  Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
+  if (dual.failed >= 0 || dual.triangles.cols() < nodes)
+    file.fail("the faces around node " + std::to_string(first_without_triangle(dual)) +
+              " (0-based) are not three that share edges; make the file again");
+  return std::move(dual.triangles);
+}
+
+/// Everything that the mesh variable names is not a field.
+NetcdfMeshNames names_of(const NetcdfReader& file, const Topology& topology, bool sites_are_nodes) {
+  const std::vector<std::string> of_faces = file.dimensions_of(topology.face_nodes);
+  const std::string nodes = file.dimensions_of(topology.nodes[0]).front();
+  const std::string faces =
+      !topology.face_dimension.empty() ? topology.face_dimension : of_faces[0];
+  NetcdfMeshNames names{sites_are_nodes ? nodes : faces,
+                        sites_are_nodes ? faces : nodes,
+                        {topology.mesh, topology.face_nodes}};
+  if (!topology.sites.empty())
+    names.variables.insert("cell_area"); // as written here
+  for (const auto* list : {&topology.nodes, &topology.sites, &topology.faces})
+    names.variables.insert(list->begin(), list->end());
+  for (const char* attribute :
+       {"edge_node_connectivity", "face_edge_connectivity", "face_face_connectivity",
+        "edge_face_connectivity", "boundary_node_connectivity"})
+    names.variables.insert(file.text(topology.mesh, attribute));
+  for (const std::string& face : topology.faces)
+    names.variables.insert(file.text(face, "bounds"));
+  return names;
+}
+
+bool all_triangles(const FaceNodes& faces) {
+  return faces.cols() > 0 && (faces.bottomRows(faces.rows() - 3).array() < 0).all();
+}
+
+} // namespace
+
+bool is_ugrid(const NetcdfReader& file) { return !mesh_variable(file).empty(); }
+
+Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
+  Points3 nodes = read_pairs(file, topology, topology.nodes);
+  const FaceNodes faces = face_nodes_of(file, topology, nodes.cols());
+  Points3 centres;
+  if (!topology.faces.empty())
+    centres = read_pairs(file, topology, topology.faces, faces.cols());
+  return faces_of(faces, std::move(nodes), std::move(centres), topology.planar);
+}
+
+RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
+  const Topology topology = topology_of(file);
+  const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
+  if (nodes.size() != 1)
+    file.fail(topology.nodes[0] + " is not a list of nodes; make the file again");
+  const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
+
+  RawMesh raw;
+  const std::vector<std::string>& sites = topology.sites;
+  const bool sites_are_faces =
+      !sites.empty() && file.dimensions_of(sites[0]) != file.dimensions_of(topology.nodes[0]);
+  const bool sites_are_nodes = !sites_are_faces && (!sites.empty() || all_triangles(faces));
+  if (sites_are_faces) {
+    raw.points = read_places(file, sites, faces.cols());
+    raw.triangles = dual(file, faces, nodes[0]);
+  } else if (sites_are_nodes) {
+    raw.points = sites.empty() ? read_pairs(file, topology, topology.nodes)
+                               : read_places(file, sites, nodes[0]);
+    raw.triangles = faces.topRows(3);
+  } else {
+    if (!topology.faces.empty())
+      raw.points = read_pairs(file, topology, topology.faces);
+    else if (topology.planar)
+      file.fail("the mesh variable " + topology.mesh +
+                " names no face_coordinates, which cells of a plane need; add the attribute");
+    raw.polygons =
+        faces_of(faces, read_pairs(file, topology, topology.nodes), raw.points, topology.planar);
+    raw.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
+  }
+  read_fields(file, names_of(file, topology, sites_are_nodes), choice, raw);
+  drop_derived_fields(raw);
+  return raw;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/vtk_cell_types.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+constexpr std::int32_t triangle_type = 5, polygon_type = 7, quad_type = 9;
+
+/// VTK's name of a type that is not read (vtkCellType.h).
+std::string name_of(std::int32_t type) {
+  constexpr std::array<std::pair<std::int32_t, std::string_view>, 17> names{
+      {{0, "empty cell"},
+       {1, "vertex"},
+       {2, "vertices"},
+       {3, "line"},
+       {4, "polyline"},
+       {6, "triangle strip"},
+       {8, "pixel"},
+       {10, "tetrahedron"},
+       {11, "voxel"},
+       {12, "hexahedron"},
+       {13, "wedge"},
+       {14, "pyramid"},
+       {21, "quadratic edge"},
+       {22, "quadratic triangle"},
+       {23, "quadratic quad"},
+       {42, "polyhedron"},
+       {69, "Lagrange triangle"}}};
+  for (const auto& [number, name] : names)
+    if (number == type)
+      return " (" + std::string(name) + ")";
+  return {};
+}
+
+} // namespace
+
+void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
+                        const std::string& array) {
+  for (std::int64_t i = 0; i < poly_data.size(); ++i) {
+    const std::int32_t type = types[i];
+    const std::string cell = "cell " + std::to_string(i);
+    if (type != triangle_type && type != polygon_type && type != quad_type)
+      fail_array(name, array,
+                 cell + " has the type " + std::to_string(type) + name_of(type) +
+                     "; only 5 (triangle), 7 (polygon) and 9 (quad) are read, remove the others",
+                 i);
+    const std::int64_t corners = poly_data.ids.count(i);
+    if ((type == triangle_type && corners != 3) || (type == quad_type && corners != 4))
+      fail_array(name, array,
+                 cell + " has the type " + std::to_string(type) + " but " +
+                     std::to_string(corners) + " corners; make the file again",
+                 i);
+  }
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/formats/poly_data.h"
+#include "io/formats/room.h"
+
+#include <string>
+
+namespace calotte::io_detail {
+
+/// Accepts the cell types triangle (5), polygon (7) and quad (9) of VTK.
+/// \param types one for each polygon.
+/// \throws Error parse, naming the first cell of another type, or one whose corners are not as many
+/// as its type has.
+void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
+                        const std::string& array = "types");
+
+} // namespace calotte::io_detail

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file.h"
+#include "io/formats/formats.h"
+#include "io/formats/poly_data.h"
+#include "io/formats/vtk_cell_types.h"
+#include "io/formats/vtk_legacy.h"
+
+#include <calotte/error.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+// VTK's legacy files (the VTK User's Guide, "VTK File Formats", "Simple Legacy Formats"), versions
+// 1.0 to 5.1: POLYDATA and UNSTRUCTURED_GRID.
+
+namespace calotte::io_detail {
+namespace {
+
+const std::string again = "; the file is damaged or incomplete, make it again";
+
+/// The points of cells of one kind. As of version 5.1: offsets from 0 on, and the points.
+IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
+                     std::int64_t points) {
+  const auto type = [&] {
+    const LegacyText::Type read = text.type();
+    if (!read.scalar)
+      fail_array(text.name(), section, "its type is " + read.name + ", not one of numbers" + again);
+    return *read.scalar;
+  };
+  IdLists cells;
+  const Scalar of_offsets = type();
+  cells.begin = text.numbers<std::int64_t>(section, of_offsets, offsets);
+  if (!text.take("CONNECTIVITY"))
+    fail_array(text.name(), section, "no CONNECTIVITY follows its OFFSETS" + again);
+  const Scalar of_points = type();
+  cells.items = text.numbers<std::int32_t>(section, of_points, points);
+  if (offsets > 0 && cells.begin[0] != 0)
+    fail_array(text.name(), section, "its OFFSETS do not start with 0" + again);
+  return cells;
+}
+
+/// Before version 5.1: the number of points before those of each cell.
+IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t count,
+                   std::int64_t size) {
+  const auto list = text.numbers<std::int32_t>(section, Scalar::int32, size);
+  if (count > size)
+    fail_array(text.name(), section,
+               "its " + std::to_string(size) + " numbers cannot hold " + std::to_string(count) +
+                   " cells" + again);
+  IdLists cells{Offsets::Zero(count + 1), Ids(size - count)};
+  std::int64_t place = 0, end = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t corners = place < size ? list[place] : -1;
+    if (corners < 0 || corners > size - place - 1 || end + corners > cells.items.size())
+      fail_array(text.name(), section,
+                 "cell " + std::to_string(i) + " runs beyond the " + std::to_string(size) +
+                     " numbers" + again,
+                 i);
+    cells.items.segment(end, corners) = list.segment(place + 1, corners);
+    place += corners + 1;
+    end += corners;
+    cells.begin[i + 1] = end;
+  }
+  return cells;
+}
+
+IdLists read_cells(LegacyText& text, const std::string& section) {
+  const std::int64_t first = text.count("cells"), size = text.count("their numbers");
+  return text.take("OFFSETS") ? read_offsets(text, section, first, size)
+                              : read_lists(text, section, first, size);
+}
+
+/// Reads a file keyword by keyword.
+class Reader {
+public:
+  Reader(std::string_view content, const std::string& name) : text_(content, name) {}
+
+  PolyData read() {
+    require_data_set();
+    for (std::string_view keyword = text_.word(); !keyword.empty(); keyword = text_.word()) {
+      std::string lower(keyword);
+      for (char& c : lower)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      if (!read_geometry(lower) && !read_attribute(lower))
+        text_.fail(in_quotes(keyword) + " is not a keyword of " +
+                   (grid_ ? "UNSTRUCTURED_GRID" : "POLYDATA") + " in a legacy VTK file" + again);
+    }
+    return finish();
+  }
+
+private:
+  void require_data_set() {
+    const bool keyword = text_.take("DATASET");
+    grid_ = keyword && text_.take("UNSTRUCTURED_GRID");
+    if (!grid_ && !(keyword && text_.take("POLYDATA")))
+      text_.fail("it holds " + in_quotes(text_.word()) +
+                 "; only DATASET POLYDATA and UNSTRUCTURED_GRID are read");
+  }
+
+  // ---- Points and cells
+
+  bool read_geometry(const std::string& keyword) {
+    if (keyword == "points")
+      read_points();
+    else if (keyword == (grid_ ? "cells" : "polygons"))
+      poly_data_.ids = read_cells(text_, grid_ ? "CELLS" : "POLYGONS");
+    else if (keyword == "cell_types" && grid_)
+      read_types();
+    else if ((keyword == "vertices" || keyword == "lines") && !grid_)
+      before_ += read_cells(text_, keyword).size();
+    else if (keyword == "triangle_strips" && !grid_)
+      refuse_strips();
+    else
+      return false;
+    return true;
+  }
+
+  void read_points() {
+    const std::int64_t count = text_.count("points");
+    const LegacyText::Type type = text_.type();
+    if (!type.scalar)
+      fail_array(text_.name(), "POINTS",
+                 "its type is " + type.name + ", not one of numbers" + again);
+    const Column<double> numbers = text_.numbers<double>("POINTS", *type.scalar, 3 * count);
+    poly_data_.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
+    poly_data_.single = type.scalar == Scalar::float32;
+  }
+
+  void read_types() {
+    const std::int64_t count = text_.count("cell types");
+    types_ = text_.numbers<std::int32_t>("CELL_TYPES", Scalar::int32, count);
+  }
+
+  void refuse_strips() {
+    if (const std::int64_t strips = read_cells(text_, "TRIANGLE_STRIPS").size(); strips > 0)
+      text_.fail("it has " + std::to_string(strips) +
+                 " triangle strips, which are not read; write triangles (vtkTriangleFilter)");
+  }
+
+  // ---- Data
+
+  bool read_attribute(const std::string& keyword) {
+    if (keyword == "point_data" || keyword == "cell_data") {
+      of_cells_ = keyword == "cell_data";
+      tuples_ = text_.count("values");
+    } else if (keyword == "metadata") {
+      text_.skip_metadata();
+    } else if (keyword == "field") {
+      read_field();
+    } else if (keyword == "scalars") {
+      read_scalars();
+    } else if (keyword == "lookup_table") {
+      const std::string name = text_.decoded_name();
+      text_.skip(name, colours(), 4 * text_.count("colours"));
+    } else if (keyword == "color_scalars") {
+      const std::string name = text_.decoded_name();
+      const std::int64_t components = text_.count("components");
+      ignore(name, colours(), components * tuples_);
+    } else if (keyword == "texture_coordinates") {
+      const std::string name = text_.decoded_name();
+      const std::int64_t components = text_.count("components");
+      read_array(name, text_.type(), components, tuples_);
+    } else {
+      return read_plain(keyword);
+    }
+    return true;
+  }
+
+  /// Attributes of a name and a type, with a number of components that the keyword gives.
+  bool read_plain(const std::string& keyword) {
+    constexpr std::array<std::pair<std::string_view, int>, 7> plain{{{"vectors", 3},
+                                                                     {"normals", 3},
+                                                                     {"tensors", 9},
+                                                                     {"tensors6", 6},
+                                                                     {"global_ids", 1},
+                                                                     {"pedigree_ids", 1},
+                                                                     {"edge_flags", 1}}};
+    for (const auto& [name, components] : plain)
+      if (name == keyword) {
+        const std::string array = text_.decoded_name();
+        read_array(array, text_.type(), components, tuples_);
+        return true;
+      }
+    return false;
+  }
+
+  /// Colours are bytes in binary files, fractions in others.
+  static LegacyText::Type colours() { return {"unsigned_char", Scalar::uint8}; }
+
+  void read_scalars() {
+    const std::string name = text_.decoded_name();
+    const LegacyText::Type type = text_.type();
+    std::int64_t components = 1;
+    if (const std::string_view word = text_.word_of_line();
+        !word.empty() && (!parse_number(word, Scalar::int64, components) || components < 0))
+      fail_array(text_.name(), name, in_quotes(word) + " is not its number of components" + again);
+    if (text_.take("LOOKUP_TABLE"))
+      text_.word();
+    read_array(name, type, components, tuples_);
+  }
+
+  /// Arrays, each with sizes of its own. Before the data of points and cells they are the file's.
+  void read_field() {
+    text_.word();
+    const std::int64_t count = text_.count("arrays");
+    for (std::int64_t i = 0; i < count; ++i) {
+      while (text_.take("METADATA"))
+        text_.skip_metadata();
+      const std::string name = text_.decoded_name();
+      const std::int64_t components = text_.count("components"), tuples = text_.count("values");
+      const LegacyText::Type type = text_.type();
+      if (of_cells_.has_value())
+        read_array(name, type, components, tuples);
+      else
+        ignore(name, type, components * tuples);
+    }
+  }
+
+  void ignore(const std::string& name, const LegacyText::Type& type, std::int64_t count) {
+    text_.skip(name, type, count);
+    poly_data_.ignored.push_back(name);
+  }
+
+  void read_array(const std::string& name, const LegacyText::Type& type, std::int64_t components,
+                  std::int64_t tuples) {
+    if (!of_cells_.has_value() || tuples != tuples_)
+      fail_array(
+          text_.name(), name,
+          "it has " + std::to_string(tuples) + " values, but POINT_DATA or CELL_DATA " +
+              (of_cells_.has_value() ? "announces " + std::to_string(tuples_) : "is missing") +
+              again);
+    if (components > most_components)
+      fail_array(text_.name(), name,
+                 "it has " + std::to_string(components) + " components" + again);
+    if (!type.scalar || !is_read(name, *of_cells_, components))
+      return ignore(name, type, components * tuples);
+    poly_data_.arrays.push_back({name, *of_cells_, static_cast<int>(components),
+                                 text_.numbers<double>(name, *type.scalar, components * tuples)});
+  }
+
+  // ---- The whole
+
+  PolyData finish() {
+    if (grid_) {
+      if (types_.size() != poly_data_.size())
+        fail_array(text_.name(), "CELL_TYPES",
+                   "it has " + std::to_string(types_.size()) + " types for " +
+                       std::to_string(poly_data_.size()) + " cells" + again);
+      require_cell_types(text_.name(), poly_data_, types_, "CELL_TYPES");
+    }
+    const std::string section = grid_ ? "CELLS" : "POLYGONS";
+    require_polygons(text_.name(), poly_data_, {section, section});
+    for (DataArray& array : poly_data_.arrays)
+      keep_values_of_faces(array);
+    return std::move(poly_data_);
+  }
+
+  /// Drops the values of vertices and lines, which come first.
+  void keep_values_of_faces(DataArray& array) const {
+    const std::int64_t skipped = array.of_polygons ? before_ : 0,
+                       used = array.of_polygons ? poly_data_.size() : poly_data_.points.cols();
+    if (array.values.size() != array.components * (skipped + used))
+      fail_array(text_.name(), array.name,
+                 "it has " + std::to_string(array.values.size() / array.components) +
+                     " values for " + std::to_string(skipped + used) +
+                     (array.of_polygons ? " cells" : " points") + again);
+    if (skipped > 0)
+      array.values = Column<double>(array.values.tail(array.components * used));
+  }
+
+  static constexpr std::int64_t most_components = 1 << 20;
+
+  LegacyText text_;
+  bool grid_ = false;
+  PolyData poly_data_;
+  Ids types_;
+  std::int64_t before_ = 0;      ///< vertices and lines
+  std::optional<bool> of_cells_; ///< whose data come; none before the first
+  std::int64_t tuples_ = 0;      ///< as announced
+};
+
+} // namespace
+
+RawMesh get_vtk_legacy(std::istream& in, const std::string& name) {
+  const std::string content = read_all(in, name, require_legacy_vtk);
+  return raw_mesh_of(name, Reader(content, name).read());
+}
+
+} // namespace calotte::io_detail

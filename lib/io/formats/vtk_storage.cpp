@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/vtk_storage.h"
+
+#include "io/bytes/base64.h"
+#include "io/bytes/text.h"
+#include "io/formats/poly_data.h"
+
+#define ZLIB_CONST
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace calotte::io_detail {
+namespace {
+
+const std::string again = "; the file is damaged or incomplete, make it again";
+
+/// An array of a file, for messages.
+struct Place {
+  const VtkStorage& storage;
+  const XmlElement& array;
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    fail_array(storage.name, array.attribute("Name", array.name), problem);
+  }
+};
+
+// ---- Bytes
+
+/// Bytes of the file, or decoded ones.
+class StoredBytes {
+public:
+  explicit StoredBytes(std::string_view bytes) : bytes_(bytes) {}
+  explicit StoredBytes(std::string&& own) : own_(std::move(own)) {}
+  std::string_view view() const { return own_.empty() ? bytes_ : std::string_view(own_); }
+
+private:
+  std::string_view bytes_;
+  std::string own_;
+};
+
+/// The stored bytes of an array from its header on.
+class Source {
+public:
+  Source(const Place& place, std::string_view stored, bool base64)
+      : place_(place), raw_(stored), base64_(stored), is_base64_(base64) {}
+
+  std::int64_t most() const {
+    return is_base64_ ? base64_.most() : static_cast<std::int64_t>(raw_.size());
+  }
+
+  /// \throws Error parse if there are fewer.
+  StoredBytes take(std::uint64_t count) {
+    if (count > static_cast<std::uint64_t>(most()))
+      place_.fail("its data end early" + again);
+    if (!is_base64_) {
+      const std::string_view taken = raw_.substr(0, count);
+      raw_.remove_prefix(count);
+      return StoredBytes(taken);
+    }
+    std::string out;
+    out.reserve(count);
+    base64_.take(static_cast<std::int64_t>(count), out);
+    if (out.size() != count)
+      place_.fail("its base64 text ends early or has another character" + again);
+    return StoredBytes(std::move(out));
+  }
+
+  std::uint64_t take_length() {
+    const VtkStorage& storage = place_.storage;
+    const StoredBytes bytes = take(static_cast<std::uint64_t>(size_of(storage.length_type)));
+    return storage.length_type == Scalar::uint64
+               ? stored<std::uint64_t>(bytes.view().data(), storage.swapped)
+               : stored<std::uint32_t>(bytes.view().data(), storage.swapped);
+  }
+
+private:
+  const Place& place_;
+  std::string_view raw_;
+  Base64Reader base64_;
+  bool is_base64_;
+};
+
+std::string count_text(std::uint64_t bytes) { return std::to_string(bytes) + " bytes"; }
+
+/// \param size how many bytes there must be; -1 for any number.
+void require_size(const Place& place, std::uint64_t bytes, std::int64_t size) {
+  if (size >= 0 && bytes != static_cast<std::uint64_t>(size))
+    place.fail("it has " + count_text(bytes) + ", but " + std::to_string(size) + " belong there" +
+               again);
+}
+
+// ---- Compression
+
+/// The header of a compressed array: blocks of one size, the last one of another, unless that is 0.
+struct Blocks {
+  std::uint64_t size = 0, last = 0;
+  std::vector<std::uint64_t> compressed; ///< size of each
+
+  std::uint64_t size_of_block(std::size_t i) const {
+    return i + 1 == compressed.size() && last > 0 ? last : size;
+  }
+};
+
+/// zlib compresses to a thousandth at best (its manual: 1030:1).
+bool is_plausible(std::uint64_t size, std::uint64_t compressed) {
+  return size / 1100 <= compressed + 1;
+}
+
+Blocks take_blocks(const Place& place, Source& source) {
+  const std::uint64_t count = source.take_length();
+  Blocks blocks{.size = source.take_length(), .last = source.take_length(), .compressed = {}};
+  if (count > static_cast<std::uint64_t>(source.most() / size_of(place.storage.length_type)))
+    place.fail("its header announces " + std::to_string(count) + " blocks, more than there are" +
+               again);
+  for (std::uint64_t i = 0; i < count; ++i)
+    blocks.compressed.push_back(source.take_length());
+  auto left = static_cast<std::uint64_t>(source.most());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t compressed = blocks.compressed[i], size = blocks.size_of_block(i);
+    if (compressed > left || !is_plausible(size, compressed))
+      place.fail("its header announces block " + std::to_string(i) + " of " +
+                 count_text(compressed) + " for " + count_text(size) + ", which cannot be" + again);
+    left -= compressed;
+  }
+  return blocks;
+}
+
+/// Appends what a block decompresses to. The memory grows with the bytes, not with what the header
+/// announces. False if they are not `size` bytes.
+bool inflate_block(std::string_view compressed, std::uint64_t size, std::string& out) {
+  constexpr std::uint64_t chunk = std::uint64_t{1} << 20;
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<const Bytef*>(compressed.data());
+  stream.avail_in = static_cast<uInt>(compressed.size());
+  if (compressed.size() > std::numeric_limits<uInt>::max() || inflateInit(&stream) != Z_OK)
+    return false;
+  const std::unique_ptr<z_stream, decltype(&inflateEnd)> end(&stream, &inflateEnd);
+  const std::size_t before = out.size();
+  int result = Z_OK;
+  for (std::uint64_t done = 0; result == Z_OK && done <= size; done = out.size() - before) {
+    const std::uint64_t room = std::clamp<std::uint64_t>(size - done, 1, chunk);
+    out.resize(before + done + room);
+    stream.next_out = reinterpret_cast<Bytef*>(out.data() + before + done);
+    stream.avail_out = static_cast<uInt>(room);
+    result = inflate(&stream, Z_NO_FLUSH);
+    out.erase(out.size() - stream.avail_out);
+  }
+  return result == Z_STREAM_END && out.size() - before == size;
+}
+
+StoredBytes take_compressed(const Place& place, Source& source, std::int64_t size) {
+  const Blocks blocks = take_blocks(place, source);
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < blocks.compressed.size(); ++i)
+    sum += blocks.size_of_block(i);
+  require_size(place, sum, size);
+  std::string out;
+  for (std::size_t i = 0; i < blocks.compressed.size(); ++i) {
+    const StoredBytes block = source.take(blocks.compressed[i]);
+    if (!inflate_block(block.view(), blocks.size_of_block(i), out))
+      place.fail("block " + std::to_string(i) + " is not " + count_text(blocks.size_of_block(i)) +
+                 " compressed by zlib" + again);
+  }
+  return StoredBytes(std::move(out));
+}
+
+// ---- An array
+
+Source source_of(const Place& place, bool appended) {
+  const VtkStorage& storage = place.storage;
+  if (!appended)
+    return {place, place.array.text, true};
+  if (!storage.appended)
+    place.fail("its data are appended, but the file has no AppendedData" + again);
+  const std::string text = place.array.attribute("offset");
+  std::int64_t offset = -1;
+  if (!parse_number(text, Scalar::int64, offset) || offset < 0 ||
+      offset > static_cast<std::int64_t>(storage.appended->size()))
+    place.fail("its offset is " + in_quotes(text) + ", which is not within the " +
+               std::to_string(storage.appended->size()) + " bytes of AppendedData" + again);
+  return {place, storage.appended->substr(static_cast<std::size_t>(offset)),
+          storage.appended_base64};
+}
+
+StoredBytes bytes_of(const Place& place, bool appended, std::int64_t size) {
+  Source source = source_of(place, appended);
+  if (place.storage.compressed)
+    return take_compressed(place, source, size);
+  const std::uint64_t bytes = source.take_length();
+  require_size(place, bytes, size);
+  return source.take(bytes);
+}
+
+template <class T>
+void read_text(const Place& place, Scalar type, std::int64_t count, const Room<T>& room) {
+  std::vector<T> numbers;
+  std::string_view text = place.array.text;
+  for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
+    T number{};
+    if (!parse_number(word, type, number))
+      place.fail(in_quotes(word) + " at place " + std::to_string(numbers.size()) +
+                 " is not a number of its type; correct it");
+    numbers.push_back(number);
+  }
+  if (count >= 0 && std::ssize(numbers) != count)
+    place.fail("it has " + std::to_string(numbers.size()) + " numbers, but " +
+               std::to_string(count) + " belong there" + again);
+  std::copy(numbers.begin(), numbers.end(), room(std::ssize(numbers)));
+}
+
+} // namespace
+
+std::optional<Scalar> vtk_type(const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, Scalar>, 10> types{
+      {{"Int8", Scalar::int8},
+       {"UInt8", Scalar::uint8},
+       {"Int16", Scalar::int16},
+       {"UInt16", Scalar::uint16},
+       {"Int32", Scalar::int32},
+       {"UInt32", Scalar::uint32},
+       {"Int64", Scalar::int64},
+       {"UInt64", Scalar::uint64},
+       {"Float32", Scalar::float32},
+       {"Float64", Scalar::float64}}};
+  for (const auto& [text, type] : types)
+    if (text == name)
+      return type;
+  return std::nullopt;
+}
+
+template <class T>
+void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count,
+                      const Room<T>& room) {
+  const Place place{storage, array};
+  const std::optional<Scalar> type = vtk_type(array.attribute("type"));
+  if (!type)
+    place.fail("its type " + in_quotes(array.attribute("type")) + " is not one of numbers");
+  const std::string format = array.attribute("format", "ascii");
+  if (format == "ascii")
+    return read_text<T>(place, *type, count, room);
+  if (format != "binary" && format != "appended")
+    place.fail("its format " + in_quotes(format) + " is not ascii, binary or appended");
+  const std::int64_t width = size_of(*type);
+  const StoredBytes bytes = bytes_of(place, format == "appended", count < 0 ? -1 : width * count);
+  const auto size = static_cast<std::int64_t>(bytes.view().size());
+  if (size % width != 0)
+    place.fail("it has " + std::to_string(size) + " bytes, which are not numbers of " +
+               std::to_string(width) + again);
+  copy_numbers(bytes.view().data(), size / width, *type, storage.swapped, room(size / width));
+}
+
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<double>&);
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<std::int32_t>&);
+template void read_vtk_numbers(const VtkStorage&, const XmlElement&, std::int64_t,
+                               const Room<std::int64_t>&);
+
+} // namespace calotte::io_detail

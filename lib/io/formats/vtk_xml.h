@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/formats/formats.h"
+#include "io/formats/room.h"
+
+#include <calotte/voronoi.h>
+
+/// Writing VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData
+/// (.vtp) and UnstructuredGrid (.vtu) have in common.
+namespace calotte::io_detail {
+
+/// In what the two differ.
+struct VtkFlavour {
+  std::string data_set; ///< the name of the data set's element
+  std::string
+      cell_counts;   ///< attributes of Piece that count the cells, up to the number of those here
+  std::string cells; ///< the element that holds connectivity and offsets
+  bool types;        ///< whether a UInt8 type follows for each cell
+};
+
+/// An array as the head announces it.
+struct VtkArray {
+  std::string element; ///< it stands in, of several arrays in a row
+  std::string type, name;
+  std::int64_t tuples = 0;
+  int components = 1;
+
+  std::int64_t bytes() const;
+};
+
+/// All that the head of a file says.
+struct VtkHead {
+  VtkFlavour flavour;
+  std::int64_t points = 0, cells = 0;
+  std::vector<VtkArray> arrays;
+};
+
+/// Puts the bytes of an array.
+using VtkContent = std::function<void(Writer&)>;
+
+/// \param contents of the head's arrays.
+void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents);
+
+/// CellFields as arrays of an element, and their contents; the fields must outlive these.
+void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head);
+void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
+/// Fields of one location as Float64 arrays of an element, and their contents; those that have the
+/// name of an array before them are left out. The fields must outlive these.
+void add_fields(const std::string& element, const std::vector<MeshField>& fields, Location location,
+                VtkHead& head, std::vector<VtkContent>& contents);
+/// Points Float64, which stay where they are until they are put.
+void add_points(std::int64_t points, VtkHead& head);
+VtkContent content_of(const Points3& points);
+/// Connectivity, offsets and types of cells with so many corners in all.
+void add_cells(std::int64_t corners, VtkHead& head);
+
+// ---- The two kinds of files, a file for each
+
+/// Triangles, with the CellFields at the points of a closed mesh.
+void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
+                       const VtkFlavour& flavour);
+
+/// Voronoi cells as polygons with their CellFields and sites, on the sphere of the sites if these
+/// stand on one; at each point, a corner of cells, the three sites of its triangle.
+void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
+                   const VtkFlavour& flavour);
+/// Polygons with their areas and numbers of corners, on the unit sphere.
+void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOptions& options,
+                   const VtkFlavour& flavour);
+
+} // namespace calotte::io_detail

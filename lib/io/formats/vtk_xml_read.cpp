@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file.h"
+#include "io/bytes/scalars.h"
+#include "io/bytes/xml.h"
+#include "io/formats/formats.h"
+#include "io/formats/poly_data.h"
+#include "io/formats/vtk_cell_types.h"
+#include "io/formats/vtk_storage.h"
+
+#include <calotte/error.h>
+
+#include <utility>
+
+// VTK's XML files (the VTK User's Guide, "VTK File Formats"): PolyData and UnstructuredGrid.
+
+namespace calotte::io_detail {
+namespace {
+
+const std::string again = "; the file is damaged or incomplete, make it again";
+
+[[noreturn]] void fail(const std::string& name, const std::string& problem) {
+  throw Error(ErrorCode::parse, name + ": " + problem);
+}
+
+// ---- The XML and the appended data
+
+/// A file's text in two parts, and what stands between them, which need not be XML.
+struct Parts {
+  std::vector<std::string_view> xml;
+  std::optional<std::string_view> appended;
+};
+
+/// \throws Error parse for a file that starts as no file of XML does.
+void require_xml(std::string_view start, const std::string& name) {
+  if (start.find('<') == std::string_view::npos)
+    fail(name, "it does not start with XML, so it is no VTK file of XML" + again);
+}
+
+Parts parts_of(std::string_view content, const std::string& name) {
+  constexpr std::string_view start_tag = "<AppendedData", end_tag = "</AppendedData>";
+  const std::size_t tag = content.find(start_tag);
+  const std::size_t close = content.find('>', tag);
+  if (tag == std::string_view::npos || close == std::string_view::npos || content[close - 1] == '/')
+    return {{content}, std::nullopt};
+  const std::size_t end = content.rfind(end_tag);
+  std::size_t begin = close + 1;
+  while (begin < content.size() && is_space(content[begin]))
+    ++begin;
+  if (end == std::string_view::npos || end <= begin || content[begin] != '_')
+    fail(name, "its AppendedData do not start with _ and end with " + std::string(end_tag) + again);
+  return {{content.substr(0, close + 1), content.substr(end)},
+          content.substr(begin + 1, end - begin - 1)};
+}
+
+/// A file whose XML is parsed.
+struct VtkFile {
+  XmlDocument document;
+  std::string type; ///< of the data set
+  VtkStorage storage;
+
+  const XmlElement* child(const XmlElement& parent, std::string_view name) const {
+    const std::vector<const XmlElement*> found = children(document, parent, name);
+    return found.empty() ? nullptr : found.front();
+  }
+};
+
+Scalar length_type(const XmlElement& root, const std::string& name) {
+  const std::string type = root.attribute("header_type", "UInt32");
+  if (type != "UInt32" && type != "UInt64")
+    fail(name, "its header_type " + in_quotes(type) + " is not UInt32 or UInt64" + again);
+  return type == "UInt64" ? Scalar::uint64 : Scalar::uint32;
+}
+
+bool is_swapped(const XmlElement& root, const std::string& name) {
+  const std::string order = root.attribute("byte_order", "LittleEndian");
+  if (order != "LittleEndian" && order != "BigEndian")
+    fail(name, "its byte_order " + in_quotes(order) + " is not LittleEndian or BigEndian" + again);
+  return (order == "LittleEndian") != (std::endian::native == std::endian::little);
+}
+
+bool is_compressed(const XmlElement& root, const std::string& name) {
+  const std::string compressor = root.attribute("compressor");
+  if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+    fail(name, "it is compressed by " + in_quotes(compressor) +
+                   ", which is not read; write it with vtkZLibDataCompressor or without "
+                   "compression");
+  return !compressor.empty();
+}
+
+VtkFile file_of(std::string_view content, const std::string& name) {
+  const Parts parts = parts_of(content, name);
+  VtkFile file{.document = parse_xml(parts.xml, name), .type = {}, .storage = {}};
+  const XmlElement& root = file.document.front();
+  file.type = root.attribute("type");
+  if (root.name != "VTKFile" || (file.type != "PolyData" && file.type != "UnstructuredGrid"))
+    fail(name, "it holds " + in_quotes(root.name) + " of type " + in_quotes(file.type) +
+                   "; only VTKFile of type PolyData or UnstructuredGrid is read");
+  file.storage = {.name = name,
+                  .swapped = is_swapped(root, name),
+                  .length_type = length_type(root, name),
+                  .compressed = is_compressed(root, name),
+                  .appended = parts.appended,
+                  .appended_base64 = false};
+  if (const XmlElement* appended = file.child(root, "AppendedData")) {
+    const std::string encoding = appended->attribute("encoding", "base64");
+    if (encoding != "raw" && encoding != "base64")
+      fail(name, "the encoding " + in_quotes(encoding) +
+                     " of its AppendedData is not raw or base64" + again);
+    file.storage.appended_base64 = encoding == "base64";
+  }
+  return file;
+}
+
+// ---- The piece
+
+/// A count among the attributes of a piece; 0 where it is not given.
+std::int64_t count_of(const XmlElement& piece, const std::string& key, const std::string& name) {
+  const std::string text = piece.attribute(key, "0");
+  std::int32_t count = -1;
+  if (!parse_number(text, Scalar::int64, count) || count < 0)
+    fail(name,
+         "its " + key + " is " + in_quotes(text) + ", not a number from 0 to 2147483647" + again);
+  return count;
+}
+
+/// What a piece holds, by its attributes.
+struct Counts {
+  std::int64_t points = 0;
+  std::int64_t before = 0;   ///< vertices and lines, which come before the polygons in cell data
+  std::int64_t polygons = 0; ///< or cells of an UnstructuredGrid
+  std::int64_t strips = 0;
+
+  bool empty() const { return points == 0 && before == 0 && polygons == 0 && strips == 0; }
+};
+
+Counts counts_of(const VtkFile& file, const XmlElement& piece) {
+  const std::string& name = file.storage.name;
+  if (file.type == "UnstructuredGrid")
+    return {.points = count_of(piece, "NumberOfPoints", name),
+            .polygons = count_of(piece, "NumberOfCells", name)};
+  return {.points = count_of(piece, "NumberOfPoints", name),
+          .before = count_of(piece, "NumberOfVerts", name) + count_of(piece, "NumberOfLines", name),
+          .polygons = count_of(piece, "NumberOfPolys", name),
+          .strips = count_of(piece, "NumberOfStrips", name)};
+}
+
+/// The only piece that is not empty, or else the first.
+const XmlElement& piece_of(const VtkFile& file) {
+  const std::string& name = file.storage.name;
+  const XmlElement* const data = file.child(file.document.front(), file.type);
+  const std::vector<const XmlElement*> pieces =
+      data != nullptr ? children(file.document, *data, "Piece") : std::vector<const XmlElement*>{};
+  if (pieces.empty())
+    fail(name, "it has no Piece of " + file.type + again);
+  std::vector<const XmlElement*> full;
+  for (const XmlElement* const piece : pieces)
+    if (!counts_of(file, *piece).empty())
+      full.push_back(piece);
+  if (full.size() > 1)
+    fail(name, "it has " + std::to_string(full.size()) +
+                   " pieces, whose points on common borders are double; write it as one piece "
+                   "without double points (vtkCleanPolyData, vtkStaticCleanUnstructuredGrid)");
+  return full.empty() ? *pieces.front() : *full.front();
+}
+
+/// An array of a section of the piece, the first one for "". Null if there is none.
+const XmlElement* find_array(const VtkFile& file, const XmlElement& piece,
+                             const std::string& section, const std::string& array) {
+  if (const XmlElement* const parent = file.child(piece, section))
+    for (const XmlElement* const element : children(file.document, *parent, "DataArray"))
+      if (array.empty() || element->attribute("Name") == array)
+        return element;
+  return nullptr;
+}
+
+const XmlElement& array_of(const VtkFile& file, const XmlElement& piece, const std::string& section,
+                           const std::string& array) {
+  if (const XmlElement* const found = find_array(file, piece, section, array))
+    return *found;
+  fail_array(file.storage.name, array.empty() ? section : array,
+             "it is not among the DataArrays of " + section + again);
+}
+
+void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t count,
+                 PolyData& poly_data) {
+  if (count == 0 && find_array(file, piece, "Points", "") == nullptr)
+    return;
+  const XmlElement& array = array_of(file, piece, "Points", "");
+  if (const std::string components = array.attribute("NumberOfComponents"); components != "3")
+    fail_array(file.storage.name, array.attribute("Name", "Points"),
+               "its NumberOfComponents is " + in_quotes(components) + ", not 3" + again);
+  read_vtk_numbers<double>(file.storage, array, 3 * count, [&](std::int64_t size) {
+    poly_data.points.resize(3, size / 3);
+    return poly_data.points.data();
+  });
+  poly_data.single = array.attribute("type") == "Float32";
+}
+
+void read_polygons(const VtkFile& file, const XmlElement& piece, std::int64_t count,
+                   PolyData& poly_data) {
+  const std::string section = file.type == "PolyData" ? "Polys" : "Cells";
+  if (count == 0 && find_array(file, piece, section, "connectivity") == nullptr)
+    return;
+  const VtkStorage& storage = file.storage;
+  read_vtk_numbers<std::int64_t>(storage, array_of(file, piece, section, "offsets"), count,
+                                 [&](std::int64_t size) {
+                                   poly_data.ids.begin.resize(size + 1);
+                                   poly_data.ids.begin[0] = 0;
+                                   return poly_data.ids.begin.data() + 1;
+                                 });
+  poly_data.ids.items =
+      vtk_numbers<std::int32_t>(storage, array_of(file, piece, section, "connectivity"), -1);
+  if (file.type == "UnstructuredGrid")
+    require_cell_types(
+        storage.name, poly_data,
+        vtk_numbers<std::int32_t>(storage, array_of(file, piece, section, "types"), count));
+}
+
+// ---- Data
+
+void read_array(const VtkFile& file, const XmlElement& element, const Counts& counts,
+                bool of_polygons, PolyData& poly_data) {
+  const std::string name = element.attribute("Name");
+  const std::string text = element.attribute("NumberOfComponents", "1");
+  std::int32_t components = 0;
+  if (!parse_number(text, Scalar::int64, components) || components < 0)
+    fail_array(file.storage.name, name, "its NumberOfComponents is " + in_quotes(text) + again);
+  const bool numbers = element.name == "DataArray" && vtk_type(element.attribute("type"));
+  if (name.empty() || !numbers || !is_read(name, of_polygons, components)) {
+    poly_data.ignored.push_back(name);
+    return;
+  }
+  const std::int64_t skipped = of_polygons ? components * counts.before : 0,
+                     used = components * (of_polygons ? counts.polygons : counts.points);
+  Column<double> values = vtk_numbers<double>(file.storage, element, skipped + used);
+  if (skipped > 0)
+    values = Column<double>(values.tail(used));
+  poly_data.arrays.push_back({name, of_polygons, components, std::move(values)});
+}
+
+void read_data(const VtkFile& file, const XmlElement& piece, const Counts& counts,
+               PolyData& poly_data) {
+  for (const bool of_polygons : {false, true})
+    if (const XmlElement* const data = file.child(piece, of_polygons ? "CellData" : "PointData"))
+      for (const XmlElement* const element : children(file.document, *data))
+        read_array(file, *element, counts, of_polygons, poly_data);
+}
+
+/// Names of data of the whole file.
+void ignore_field_data(const VtkFile& file, PolyData& poly_data) {
+  const XmlElement* const data = file.child(file.document.front(), file.type);
+  if (const XmlElement* const fields = file.child(*data, "FieldData"))
+    for (const XmlElement* const element : children(file.document, *fields))
+      poly_data.ignored.push_back(element->attribute("Name"));
+}
+
+} // namespace
+
+RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
+  const std::string content = read_all(in, name, require_xml);
+  const VtkFile file = file_of(content, name);
+  const XmlElement& piece = piece_of(file);
+  const Counts counts = counts_of(file, piece);
+  if (counts.strips > 0)
+    fail(name, "it has " + std::to_string(counts.strips) +
+                   " triangle strips, which are not read; write triangles (vtkTriangleFilter)");
+  PolyData poly_data;
+  read_points(file, piece, counts.points, poly_data);
+  read_polygons(file, piece, counts.polygons, poly_data);
+  require_polygons(name, poly_data);
+  ignore_field_data(file, poly_data);
+  read_data(file, piece, counts, poly_data);
+  return raw_mesh_of(name, std::move(poly_data));
+}
+
+} // namespace calotte::io_detail

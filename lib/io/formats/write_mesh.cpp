@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/write_mesh.h"
+#include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/polygons.h"
+#include "io/cells/written_fields.h"
+#include "io/cells/written_values.h"
+#include "io/formats/formats.h"
+
+#include "base/monitor.h"
+#include "base/points.h"
+#include "domain/surface.h"
+#include "mesh/ids.h"
+#include "mesh/renumber.h"
+
+#include <calotte/check.h>
+#include <calotte/error.h>
+#include <calotte/mesh_file.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+void require_ids(const std::string& path, const Mesh& mesh) {
+  const std::int64_t sites = mesh.points.cols();
+  if (!are_ids(mesh.triangles, sites) || !are_ids(mesh.site_of_input, sites))
+    refuse_to_write(path, "the mesh has an id that is not one of its " + std::to_string(sites) +
+                              " points");
+}
+
+MeshSizes sizes_of(const Mesh& mesh) {
+  return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
+}
+
+void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
+  require_ids(path, mesh);
+  if (holds_cells(format) && !mesh.closed())
+    refuse_to_write(
+        path, "the mesh is open, and its outer cells would reach round the far side of the "
+              "sphere; write its triangles (.vtp, .vtu, .off, .ply, .msh), cut a limited area "
+              "out of a wider grid, or add sites all around the sphere");
+}
+
+Numbering numbering_of(const WriteOptions& options) {
+  if (options.numbering != Numbering::by_format)
+    return options.numbering;
+  return is_netcdf(options.format) ? Numbering::curve : Numbering::input;
+}
+
+void put_mesh(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
+  switch (options.format) {
+  case Format::vtp:
+    return put_vtp(sink, mesh, options);
+  case Format::vtu:
+    return put_vtu(sink, mesh, options);
+  case Format::vtp_cells:
+    return put_vtp_cells(sink, mesh, options);
+  case Format::vtu_cells:
+    return put_vtu_cells(sink, mesh, options);
+  case Format::geojson:
+    return put_geojson(sink, mesh, options);
+  case Format::off:
+    return put_off(sink, mesh);
+  case Format::ply:
+    return put_ply(sink, mesh);
+  case Format::msh:
+    return put_msh(sink, mesh);
+  default:
+    return put_triangles_text(sink, mesh);
+  }
+}
+
+/// \param mesh `const Mesh&`; or `Mesh`, which MPAS formats consume.
+template <class AnyMesh>
+void write_numbered(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
+  switch (options.format) {
+  case Format::mpas:
+    return write_mpas(path, std::forward<AnyMesh>(mesh), options);
+  case Format::mpas_minimal:
+    return write_mpas_minimal(path, std::forward<AnyMesh>(mesh), options);
+  case Format::ugrid:
+    return write_ugrid(path, cell_grid(mesh), options);
+  case Format::ugrid_triangles:
+    return write_ugrid_triangles(path, mesh, options);
+  case Format::scrip:
+    return write_scrip(path, cell_grid(mesh), options);
+  case Format::esmf:
+    return write_esmf(path, cell_grid(mesh), options);
+  case Format::exodus:
+    return write_exodus(path, cell_grid(mesh), options);
+  case Format::fesom:
+    return write_fesom(path, mesh, options);
+  case Format::mpi_scvt:
+    return write_mpi_scvt(path, mesh, options);
+  default:
+    put_file(path, options.progress, expected_bytes(options.format) * mesh.points.cols(),
+             [&](const Sink& sink) { put_mesh(sink, mesh, options); });
+  }
+}
+
+/// The mesh in a file's numbering, and the options' values with it.
+Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions& options) {
+  if (options.site_density.size() == 0 && options.site_depth.size() == 0 && options.fields.empty())
+    return renumbered(mesh, numbering);
+  Mesh whole = mesh;
+  whole.site_of_input = themselves(mesh.points.cols());
+  Mesh out = renumbered(whole, numbering);
+  renumber_values(mesh, out.site_of_input, options);
+  return out;
+}
+
+void require_input_numbering(const std::string& path, Numbering numbering) {
+  if (numbering == Numbering::curve || numbering == Numbering::rcm)
+    refuse_to_write(path, "the cells of a planar mesh keep their numbers; leave the order out");
+}
+
+/// \param mesh `const Mesh&`; or an rvalue, which is freed as early as the format allows.
+template <class AnyMesh>
+void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
+  constexpr double numbered = 0.2; // of the time, where the cells are numbered anew
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  require_options(path, resolved);
+  require_mesh(path, mesh, resolved.format);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    replace_names(resolved.fields);
+  Monitor monitor(options.progress);
+  monitor.begin("number", numbered, 1);
+  const Numbering numbering = numbering_of(resolved);
+  const bool stays =
+      numbering == Numbering::input || (numbering == Numbering::curve && is_in_curve_order(mesh));
+  resolved.progress = rest_of(options.progress, stays ? 0 : numbered);
+  if (stays) {
+    write_numbered(path, std::forward<AnyMesh>(mesh), resolved);
+  } else {
+    Mesh other = renumbered_with_values(mesh, numbering, resolved);
+    if constexpr (!std::is_lvalue_reference_v<AnyMesh>)
+      mesh = {};
+    write_numbered(path, std::move(other), resolved);
+  }
+  monitor.finish("write");
+}
+
+/// Those that files of polygons do not compute.
+void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
+  const CellFields fields = fields_of(voronoi, options);
+  options.fields.push_back({.name = "density", .values = fields.density});
+  options.fields.push_back({.name = "spacing", .values = fields.spacing});
+  options.fields.push_back({.name = "quality", .values = fields.quality});
+  options.fields.push_back({.name = "degree", .values = fields.degree.cast<double>()});
+}
+
+void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
+  if (options.format == Format::mpas)
+    return write_mpas(path, std::move(cells), {}, options);
+  if (options.format != Format::ugrid)
+    add_cell_fields(cells, options);
+  DoubleVector area = std::move(cells.cell_area);
+  write_polygons(path, {polygons_of(std::move(cells)), std::move(area), {}}, options);
+}
+
+void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  const Surface& surface = mesh.surface;
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  require_planar_format(path, surface, resolved.format);
+  if (options.site_density.size() == 0 && !options.density.uniform())
+    resolved.site_density = evaluate(options.density, mesh.points, surface); // held by site
+  resolved.density = {};
+  require_options(path, resolved);
+  require_input_numbering(path, options.numbering);
+  require_ids(path, mesh);
+  require_values(path, sizes_of(mesh), resolved);
+  if (is_netcdf(resolved.format))
+    replace_names(resolved.fields);
+  resolved.progress = rest_of(options.progress, 0);
+  if (surface.is_bounded() && holds_cells(resolved.format)) {
+    std::erase_if(resolved.fields,
+                  [](const MeshField& field) { return field.location != Location::cells; });
+    write_cells(path, voronoi(mesh), resolved);
+  } else {
+    write_numbered(path, mesh, resolved);
+  }
+  Monitor(options.progress).finish("write");
+}
+
+} // namespace
+
+void require_planar_format(const std::string& path, const Surface& plane, Format format) {
+  const bool periodic = plane.period().maxCoeff() > 0, bounded = plane.is_bounded();
+  const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
+  const bool cells = format == Format::mpas || format == Format::ugrid ||
+                     format == Format::vtp_cells || format == Format::vtu_cells ||
+                     format == Format::geojson;
+  const bool places = format == Format::vtp || format == Format::vtu || format == Format::off ||
+                      format == Format::ply || format == Format::msh;
+  if (format == Format::triangles || (periodic ? mpas : places || (bounded && cells)))
+    return;
+  if (bounded)
+    refuse_to_write(path,
+                    "the cells of a bounded plane are written as mpas (.nc), ugrid, vtp-cells, "
+                    "vtu-cells or geojson, its triangles as .vtp, .vtu, .off, .ply or .msh; "
+                    "give one of these formats");
+  refuse_to_write(
+      path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
+                       "that ends in .nc, .txt or .tri"
+                     : "a plane is written as triangles, .vtp, .vtu, .off, .ply or .msh, and as "
+                       "cells only within a domain, which clips them; give a name that ends so, or "
+                       "convert that file with its domain");
+}
+
+void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
+  if (mesh.surface.is_sphere())
+    write_sphere(path, mesh, options);
+  else
+    write_plane(path, mesh, options);
+}
+
+void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
+  if (mesh.surface.is_sphere())
+    write_sphere(path, std::move(mesh), options);
+  else
+    write_plane(path, mesh, options);
+  mesh = {};
+}
+
+} // namespace calotte

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_names.h"
+#include "io/cells/centroids.h"
+#include "io/cells/dual.h"
+#include "io/cells/field_order.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/open_cells.h"
+#include "io/cells/polygons.h"
+#include "io/cells/written_fields.h"
+#include "io/formats/formats.h"
+#include "io/formats/write_mesh.h"
+
+#include "base/monitor.h"
+
+#include <calotte/check.h>
+#include <calotte/mesh_file.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// \throws Error invalid_argument, where the format does not hold cells of any shape.
+void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
+  const std::string others = "; write " + formats_of_polygons(file.polygons->on_sphere);
+  if (format == Format::mpas_minimal)
+    refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
+                              file.not_voronoi + others);
+  if (!polygon_format(format))
+    refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
+                              file.not_voronoi + others);
+  for (std::int64_t i = 0; i < file.polygons->size(); ++i)
+    if (file.polygons->ids.count(i) == 0)
+      refuse_to_write(
+          path, "cell " + std::to_string(i) +
+                    " has an incomplete boundary, which no format of cells can hold; write the "
+                    "triangles (.vtp, .vtu, .off, .ply, .msh)");
+}
+
+/// The points of the cells where these have the polygons' places, which keeps their bits; none in a
+/// plane.
+Points3 places_of(const MeshFile& file, double radius) {
+  const Points3& centres = file.polygons->centres;
+  if (!file.polygons->on_sphere)
+    return {};
+  const bool same = file.mesh && file.mesh->points.cols() == centres.cols();
+  return on_sphere(same ? file.mesh->points : centres, radius);
+}
+
+void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  const OpenCells cells = open_cells(file);
+  if (!cells.problem.empty())
+    refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem + "; write " +
+                              formats_of_polygons(file.polygons->on_sphere));
+  write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
+}
+
+/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, and
+/// in a periodic plane, at their corners.
+bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
+  return field.location == Location::cells ||
+         (field.location == Location::vertices && format != Format::mpas &&
+          !(polygons.period.maxCoeff() > 0) && has_values_for(field, polygons.corners.cols()));
+}
+
+void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
+  require_options(path, options);
+  require_polygon_format(path, file, options.format);
+  std::erase_if(options.fields, [&](const MeshField& field) {
+    return !is_of(*file.polygons, field, options.format);
+  });
+  const bool has_density = file.density.size() == file.polygons->size();
+  if (options.format == Format::mpas) {
+    if (has_density && options.density.uniform() && options.site_density.size() == 0)
+      options.site_density = file.density;
+    write_open_mpas(path, file, options);
+  } else {
+    if (has_density)
+      options.fields.push_back({.name = "density", .values = file.density});
+    if (is_netcdf(options.format))
+      replace_names(options.fields);
+    Polygons polygons = unwrapped(*file.polygons);
+    if (options.format == Format::scrip && polygons.centres.cols() == 0)
+      polygons.centres = centroids_of(polygons);
+    write_polygons(path, cell_grid(polygons), options);
+  }
+  Monitor(options.progress).finish("write");
+}
+
+/// Whether the rings of a plane's surface clip the cells of its mesh.
+bool is_clipped(const MeshFile& file) { return file.plane() && file.mesh->surface.is_bounded(); }
+
+/// Cells are written as they are, to formats of triangles only where the file has no triangles.
+/// \param triangles of the cells of a plane, if there are any.
+bool writes_polygons(const MeshFile& file, const std::optional<Mesh>& triangles, Format format) {
+  if (!file.polygons || holds_cells(format))
+    return file.polygons.has_value() && !is_clipped(file);
+  return file.plane() ? !triangles && file.mesh->surface.period().maxCoeff() == 0
+                      : !file.mesh || file.mesh->closed();
+}
+
+/// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
+std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
+  if (!file.plane() || file.mesh->surface.period().maxCoeff() > 0 || !file.polygons ||
+      holds_cells(format))
+    return {};
+  return planar_mesh_of_cells(file.mesh->points, *file.polygons);
+}
+
+/// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
+/// may be the others.
+void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
+  if (!holds_cells(format))
+    return;
+  const EdgeCounts edges = count_edges(mesh);
+  if (edges.not_delaunay > 0)
+    refuse_to_write(
+        path, "the mesh has " + std::to_string(edges.not_delaunay) +
+                  " edges that are not Delaunay (the first is from site " +
+                  std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]) +
+                  "), so it has no Voronoi cells; write its triangles (.vtp, .vtu, .off, .ply, "
+                  ".msh), or triangulate its points anew");
+}
+
+/// Whether a field stands at the corners of the file's cells, of which only some are triangles.
+bool is_at_corners(const MeshFile& file, const MeshField& field) {
+  return field.location == Location::vertices && file.mesh && file.polygons &&
+         !has_values_for(field, file.mesh->triangles.cols());
+}
+
+/// Names of the fields that a format cannot hold.
+std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
+  const bool clipped = !polygons && is_clipped(file) && holds_cells(format);
+  std::vector<std::string> dropped;
+  for (const MeshField& field : file.fields)
+    if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
+        (polygons && !is_of(*file.polygons, field, format)) ||
+        (!polygons && is_at_corners(file, field)))
+      dropped.push_back(field.name);
+  return dropped;
+}
+
+} // namespace
+
+WrittenFields write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
+  WriteOptions resolved = options;
+  resolved.format = format_of(path, options.format);
+  resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
+  WrittenFields written;
+  if (is_netcdf(resolved.format))
+    written.renamed = replace_names(resolved.fields);
+  const std::optional<Mesh> triangles = triangles_of(file, resolved.format);
+  const bool polygons = writes_polygons(file, triangles, resolved.format);
+  if (!polygons && options.density.uniform() && options.site_density.size() == 0)
+    resolved.site_density = file.density;
+  if (!polygons)
+    std::erase_if(resolved.fields,
+                  [&](const MeshField& field) { return is_at_corners(file, field); });
+  if (polygons) {
+    resolved.format = polygon_format(resolved.format).value_or(resolved.format);
+    write_polygons_of(path, file, resolved);
+  } else if (triangles) {
+    write(path, *triangles, resolved);
+  } else {
+    if (file.sphere())
+      require_voronoi(path, *file.mesh, resolved.format);
+    write(path, *file.mesh, resolved);
+  }
+  written.dropped = dropped_fields(file, resolved.format, polygons);
+  return written;
+}
+
+} // namespace calotte

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cull.h>
+
+#include "base/points.h"
+#include "base/require.h"
+#include "io/bytes/file.h"
+#include "io/mpas/mpas_cull.h"
+#include "voronoi/cell_walk.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace io_detail {
+namespace {
+
+void require_options(const CullOptions& options) {
+  require(options.land_fraction >= 0 && options.land_fraction < 1,
+          "the fraction of land is not from 0 to less than 1; give one such as 0.5");
+  require(!options.coast.rings.empty() || options.raster.land.size() > 0 ||
+              !options.field.variable.empty() || !options.barriers.empty(),
+          "there is no land; give a coast, a raster, a field or a barrier");
+  require(!options.sphere_radius ||
+              (*options.sphere_radius > 0 && std::isfinite(*options.sphere_radius)),
+          "the radius of the sphere is not positive and finite; give another");
+}
+
+/// Coasts and rasters are followed from cell to cell all around the sphere.
+/// \throws Error invalid_argument, for a part of the sphere.
+void require_global(const MpasSource& source, const Voronoi& cells) {
+  if (cells.cells_on_cell.items.minCoeff() < 0)
+    throw Error(
+        ErrorCode::invalid_argument,
+        source.netcdf().reader().path() +
+            " does not cover the sphere, so that coasts and rasters leave its cells; leave the "
+            "land out of the global mesh with calotte cull and cut the region from that "
+            "ocean with calotte cut, or tell the sea by a field (--field)");
+}
+
+/// The cells of the source, as far as options need them.
+struct Ground {
+  IdLists cells_on_cell;
+  std::optional<Voronoi> cells; ///< for coasts, rasters and lines
+};
+
+Ground ground_of(const MpasSource& source, const CullOptions& options) {
+  if (options.coast.rings.empty() && options.raster.land.size() == 0 && options.passages.empty() &&
+      options.barriers.empty() && options.seeds.cols() == 0)
+    return {source.lists("cellsOnCell", source.cells()), {}};
+  Voronoi cells = tessellation_of(source);
+  if (!options.coast.rings.empty() || options.raster.land.size() > 0)
+    require_global(source, cells);
+  return {cells.cells_on_cell, std::move(cells)};
+}
+
+/// The fractions of land by the coast or the raster, of both the greater; empty without these.
+DoubleVector fractions_of(const Ground& ground, const CullOptions& options) {
+  DoubleVector fractions;
+  if (!options.coast.rings.empty())
+    fractions = land_fractions(*ground.cells, options.coast);
+  if (options.raster.land.size() == 0)
+    return fractions;
+  const DoubleVector sampled = land_fractions(*ground.cells, options.raster);
+  return fractions.size() > 0 ? DoubleVector(fractions.cwiseMax(sampled)) : sampled;
+}
+
+/// By cell: whether it is land.
+struct Land {
+  std::vector<std::uint8_t> flags;
+  DoubleVector fractions;
+};
+
+Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
+  const std::int64_t n = ground.cells_on_cell.size();
+  Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0),
+            fractions_of(ground, options)};
+  const SeaField& field = options.field;
+  DoubleVector values;
+  if (!field.variable.empty())
+    values = read_cell_field(field.path.empty() ? source : field.path, field.variable, n).values;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const bool by_fraction = land.fractions.size() > 0 && land.fractions[i] > options.land_fraction;
+    const bool by_field =
+        values.size() > 0 && !(values[i] >= field.lower && values[i] < field.upper);
+    land.flags[static_cast<std::size_t>(i)] = by_fraction || by_field ? 1 : 0;
+  }
+  return land;
+}
+
+std::vector<std::int32_t> cells_at(const Voronoi& cells, const Points3& places) {
+  const voronoi_detail::CellWalk walk(cells);
+  std::vector<std::int32_t> found;
+  for (Eigen::Index k = 0; k < places.cols(); ++k)
+    found.push_back(walk.locate(0, column(places, k)));
+  return found;
+}
+
+SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
+  SeaOptions sea;
+  sea.fill = options.fill;
+  if (!options.passages.empty())
+    sea.opened = cells_on_lines(*ground.cells, options.passages);
+  if (!options.barriers.empty())
+    sea.closed = cells_on_lines(*ground.cells, options.barriers);
+  if (options.seeds.cols() > 0)
+    sea.seeds = cells_at(*ground.cells, options.seeds);
+  return sea;
+}
+
+/// \throws Error invalid_argument, naming the first passage that is on land and opens none of the
+/// sea.
+void require_passages(const Ground& ground, const Land& land, const Ids& sea,
+                      const CullOptions& options) {
+  for (std::size_t p = 0; p < options.passages.size(); ++p) {
+    const std::vector<std::int32_t> cells = cells_on_lines(*ground.cells, {options.passages[p]});
+    const bool apart = std::all_of(cells.begin(), cells.end(), [&](std::int32_t cell) {
+      return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
+    });
+    if (apart)
+      throw Error(ErrorCode::invalid_argument,
+                  "passage " + std::to_string(p) +
+                      " lies on land only and reaches no sea; begin and end it in the sea",
+                  static_cast<std::int64_t>(p));
+  }
+}
+
+void add_maps(const MpasPart& part, NetcdfSubset& subset) {
+  const auto add = [&](const std::string& kind, const std::string& dimension, const Kept& kept) {
+    const std::string name = "mapCulledToBase" + kind;
+    subset.left_out.push_back(name); // of an earlier cull
+    subset.added.push_back({name, dimension, "0-based id in the mesh before culling",
+                            [&kept](std::int64_t i) { return kept.old[i]; }});
+  };
+  add("Cell", "nCells", part.cells);
+  add("Edge", "nEdges", part.edges);
+  add("Vertex", "nVertices", part.vertices);
+}
+
+// ---- Files beside the grid
+
+/// The masks that MPAS-Tools culls by.
+void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file) {
+  const int cells = file.dimension("nCells", sea.size()), regions = file.dimension("nRegions", 1);
+  const auto define = [&](const std::string& name, NetcdfType type, std::vector<int> dimensions,
+                          const std::string& long_name) {
+    return file.variable(name, type, dimensions,
+                         {{"units", std::string("1")}, {"long_name", long_name}});
+  };
+  const int cull = define("cullCell", NetcdfType::int32, {cells}, "1 for cells that are culled"),
+            masks = define("regionCellMasks", NetcdfType::int32, {cells, regions},
+                           "1 for cells of land");
+  const int fraction = fractions.size() > 0 ? define("landFraction", NetcdfType::float64, {cells},
+                                                     "fraction of each cell that is land")
+                                            : -1;
+  file.begin();
+  const NetcdfWriter::Fill<std::int32_t> flags = [&](std::int64_t begin, std::int64_t end,
+                                                     std::int32_t* out) {
+    for (std::int64_t i = begin; i < end; ++i)
+      *out++ = sea[i] < 0 ? 1 : 0;
+  };
+  file.put(cull, flags);
+  file.put(masks, flags);
+  if (fraction >= 0)
+    file.put(fraction,
+             NetcdfWriter::Fill<double>([&](std::int64_t begin, std::int64_t end, double* out) {
+               std::copy_n(fractions.data() + begin, end - begin, out);
+             }));
+}
+
+/// A line for each of so many ids.
+template <class Id> void put_lines(std::int64_t count, const Id& id, OutputFile& file) {
+  constexpr std::size_t enough = 1 << 20;
+  std::string text;
+  for (std::int64_t i = 0; i < count; ++i) {
+    text += std::to_string(id(i));
+    text += '\n';
+    if (text.size() > enough || i + 1 == count) {
+      file.append(text);
+      text.clear();
+    }
+  }
+}
+
+/// The files beside the grid: written and finished at once, named later.
+class Companions {
+public:
+  Companions(const CullOptions& options, const Ids& sea, const DoubleVector& fractions,
+             const Kept& cells) {
+    if (!options.mask_path.empty()) {
+      mask_ = std::make_unique<NetcdfWriter>(options.mask_path);
+      put_mask(sea, fractions, *mask_);
+      mask_->finish();
+    }
+    if (options.cell_map_folder.empty())
+      return;
+    const auto write = [&](const std::string& name, std::int64_t count, const auto& id) {
+      texts_.push_back(std::make_unique<OutputFile>(
+          (std::filesystem::path(options.cell_map_folder) / name).string()));
+      put_lines(count, id, *texts_.back());
+      texts_.back()->finish();
+    };
+    write("cellMapForward.txt", cells.number.size(),
+          [&](std::int64_t i) { return cells.number[i] - 1; });
+    write("cellMapBackward.txt", cells.count(), [&](std::int64_t i) { return cells.old[i]; });
+  }
+  void commit() {
+    if (mask_)
+      mask_->commit();
+    for (const std::unique_ptr<OutputFile>& text : texts_)
+      text->commit();
+  }
+
+private:
+  std::unique_ptr<NetcdfWriter> mask_;
+  std::vector<std::unique_ptr<OutputFile>> texts_;
+};
+
+void add_attributes(double radius, NetcdfSubset& subset) {
+  subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
+  subset.attributes["sphere_radius"] = {"sphere_radius", radius};
+}
+
+} // namespace
+} // namespace io_detail
+
+CullReport cull(const std::string& source_path, const std::string& target,
+                const CullOptions& options) {
+  using namespace io_detail;
+  require_options(options);
+  const MpasSource source(source_path);
+  const double radius = options.sphere_radius.value_or(source.radius());
+  const Ground ground = ground_of(source, options);
+  const Land land = land_of(source_path, ground, options);
+  CullReport report;
+  report.land = std::count(land.flags.begin(), land.flags.end(), 1);
+  const SeaCells decided =
+      sea_cells(ground.cells_on_cell, land.flags, sea_options(ground, options));
+  const Ids& sea = decided.mask;
+  report.sea = decided.report;
+  require_passages(ground, land, sea, options);
+  const MpasPart part = part_of(source, sea);
+  const ReversedEdges reversed = reversed_edges(source, part);
+  NetcdfSubset subset = subset_of(source, part);
+  add_reversals(source, part, reversed, subset);
+  add_kites(source, part, subset);
+  add_maps(part, subset);
+  add_radius(source, radius, subset);
+  add_attributes(radius, subset);
+  subset.dimensions = options.dimensions;
+  add_history(source, part, options.history, subset);
+  report.sphere_radius = radius;
+  report.cells = part.cells.count();
+  report.edges = part.edges.count();
+  report.vertices = part.vertices.count();
+  Companions companions(options, sea, land.fractions, part.cells);
+  report.left_out =
+      write_part(source, part, subset, target, options.progress, [&] { companions.commit(); });
+  return report;
+}
+
+} // namespace calotte

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/cut.h>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "io/mpas/mpas_cut.h"
+#include "io/mpas/mpas_subset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace calotte {
+namespace io_detail {
+namespace {
+
+std::vector<std::uint8_t> flags_of(const Points3& places,
+                                   const std::function<bool(const Eigen::Vector3d&)>& inside) {
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(places.cols()));
+  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      flags[static_cast<std::size_t>(i)] = inside(places.col(i)) ? 1 : 0;
+  });
+  return flags;
+}
+
+Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
+            int rings) {
+  return limited_area_mask(source.lists("cellsOnCell", source.cells()),
+                           flags_of(source.places(), inside), rings);
+}
+
+/// The masks of the kept cells, edges and vertices.
+struct Masks {
+  Ids cells, edges, vertices;
+};
+
+Masks masks_of(const MpasPart& part, const Ids& of_all) {
+  Masks masks{Ids(part.cells.count()), {}, {}};
+  for (std::int64_t i = 0; i < part.cells.count(); ++i)
+    masks.cells[i] = of_all[part.cells.old[i]];
+  masks.edges = least_mask(part.edges_on_cell, masks.cells, part.edges.count());
+  masks.vertices = least_mask(part.vertices_on_cell, masks.cells, part.vertices.count());
+  return masks;
+}
+
+void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
+  const auto add = [&](const std::string& kind, const std::string& dimension, const Ids& mask,
+                       const std::string& meaning) {
+    const std::string name = "bdyMask" + kind;
+    subset.left_out.push_back(name); // of an earlier cut
+    subset.added.push_back({name, dimension, meaning, [&mask](std::int64_t i) { return mask[i]; }});
+  };
+  add("Cell", "nCells", masks.cells,
+      rings == 0
+          ? "0 in the region"
+          : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
+  add("Edge", "nEdges", masks.edges, "least bdyMaskCell of the cells on each edge");
+  add("Vertex", "nVertices", masks.vertices, "least bdyMaskCell of the cells on each vertex");
+}
+
+// ---- Density
+
+/// The values of a variable with one for each cell, of the kept ones; empty if the file has none.
+DoubleVector kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
+  const NetcdfReader& file = source.netcdf().reader();
+  if (!file.has_variable(name) || file.shape_of(name) != std::vector<std::int64_t>{source.cells()})
+    return {};
+  const std::vector<double> all = file.doubles(name, {source.cells()});
+  DoubleVector values(kept.count());
+  for (std::int64_t i = 0; i < kept.count(); ++i)
+    values[i] = all[static_cast<std::size_t>(kept.old[i])];
+  return values;
+}
+
+/// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
+void add_density(const MpasSource& source, const MpasPart& part, double radius, Nominal nominal,
+                 NetcdfSubset& subset) {
+  DoubleVector density = kept_values(source, "meshDensity", part.cells);
+  const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
+  if (!(greatest > 0 && std::isfinite(greatest)))
+    return;
+  density /= greatest;
+  add_division(source, "meshDensity", greatest, subset);
+  if (nominal == Nominal::of_source && source.netcdf().find("nominalMinDc") >= 0)
+    return add_division(source, "nominalMinDc", std::pow(greatest, 0.25), subset);
+  subset.left_out.emplace_back("nominalMinDc");
+  const DoubleVector area = kept_values(source, "areaCell", part.cells);
+  if (area.size() > 0)
+    subset.numbers.push_back(
+        {"nominalMinDc", "m", "nominal distance of neighbouring generators where meshDensity is 1",
+         nominal_spacing({area, density, {}, {}, {}}) * radius / source.radius()});
+}
+
+// ---- The file
+
+void add_attributes(double radius, NetcdfSubset& subset) {
+  const auto set = [&](const std::string& name, const auto& value) {
+    subset.attributes[name] = {name, value};
+  };
+  set("on_a_sphere", std::string("YES"));
+  set("sphere_radius", radius);
+  set("is_periodic", std::string("NO"));
+  set("mesh_spec", std::string("1.1"));
+}
+
+CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
+  CutReport report{part.cells.count(), part.edges.count(), part.vertices.count(), {}, {}};
+  report.cells_by_mask.resize(static_cast<std::size_t>(rings) + 1);
+  for (const std::int32_t mask : masks.cells)
+    ++report.cells_by_mask[static_cast<std::size_t>(mask)];
+  return report;
+}
+
+} // namespace
+
+CutReport cut(const MpasSource& source, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside, const CutOptions& options,
+              Nominal nominal) {
+  const double radius = options.sphere_radius.value_or(source.radius());
+  require(radius > 0 && std::isfinite(radius),
+          "the radius of the sphere is not positive and finite; give another");
+  const Ids mask = mask_of(source, inside, options.rings);
+  const MpasPart part = part_of(source, mask);
+  const Masks masks = masks_of(part, mask);
+  NetcdfSubset subset = subset_of(source, part);
+  add_masks(masks, options.rings, subset);
+  add_radius(source, radius, subset);
+  add_density(source, part, radius, nominal, subset);
+  add_attributes(radius, subset);
+  subset.dimensions = options.dimensions;
+  add_history(source, part, options.history, subset);
+  CutReport report = report_of(part, masks, options.rings);
+  report.left_out = write_part(source, part, subset, target, options.progress);
+  return report;
+}
+
+} // namespace io_detail
+
+CutReport cut(const std::string& source, const std::string& target, const Surface& region,
+              const CutOptions& options) {
+  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& place) {
+    return region.contains(place);
+  };
+  return cut(source, target, inside, options);
+}
+
+CutReport cut(const std::string& source, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside,
+              const CutOptions& options) {
+  return io_detail::cut(io_detail::MpasSource(source), target, inside, options);
+}
+
+} // namespace calotte

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mpas/mpas_open.h"
+
+#include "io/bytes/broken.h"
+
+#include <algorithm>
+
+namespace calotte::io_detail {
+namespace {
+
+/// Reads a table of ids below a bound. \returns whether the file has it.
+bool read_table(const std::string& name, std::int64_t rows, std::int64_t width, std::int64_t bound,
+                IdTable& table, Deviations& deviations) {
+  if (!deviations.has(name, {rows, width}))
+    return false;
+  table.width = deviations.width(name);
+  table.ids = deviations.file().ints(name, {rows, width});
+  Differences outside;
+  for (std::size_t k = 0; k < table.ids.size(); ++k) {
+    const std::int32_t id = table.ids[k];
+    const bool inside = id >= 0 && id <= bound;
+    if (!inside)
+      outside.note(static_cast<std::int64_t>(k), id, 0, 1);
+    table.ids[k] = inside ? id - 1 : -1;
+  }
+  deviations.add(name, outside, "ids in range");
+  return true;
+}
+
+/// A law of the rows of a variable.
+bool check_law(const std::string& variable, const std::string& things, const std::string& problem,
+               const Broken& found, Deviations& deviations) {
+  if (found.any())
+    deviations.add(variable,
+                   variable + ": " + found.of_all() + " " + things + " " + problem +
+                       "; the first is " + std::to_string(found.first) + " (0-based)",
+                   found.first);
+  return !found.any();
+}
+
+// ---- Edges and vertices
+
+/// Whether b follows a, counter-clockwise around a vertex that has all three cells.
+bool follows(const IdTable& cells, std::int64_t vertex, std::int32_t a, std::int32_t b) {
+  for (int j = 0; j < 3; ++j)
+    if (cells.at(vertex, j) == a)
+      return cells.at(vertex, (j + 1) % 3) == b;
+  return false;
+}
+
+/// Whether a vertex has both cells of an edge, `a` followed by `b` where that can be told.
+bool has_cells(const OpenLists& lists, std::int32_t vertex, std::int32_t a, std::int32_t b) {
+  const IdTable& cells = lists.cells_on_vertex;
+  if (vertex < 0)
+    return false;
+  if (a < 0 || b < 0)
+    return cells.has(vertex, std::max(a, b));
+  return cells.has(vertex, -1) ? cells.has(vertex, a) && cells.has(vertex, b)
+                               : follows(cells, vertex, a, b);
+}
+
+Verdict edge_verdict(const OpenLists& lists, std::int64_t e) {
+  const std::int32_t a = lists.cells_on_edge.at(e, 0), b = lists.cells_on_edge.at(e, 1);
+  const std::int32_t right = lists.vertices_on_edge.at(e, 0),
+                     left = lists.vertices_on_edge.at(e, 1);
+  return verdict_of(right != left && has_cells(lists, right, b, a) && has_cells(lists, left, a, b));
+}
+
+/// The edges j at a vertex end there; those of a complete vertex enclose its cells.
+Verdict vertex_verdict(const OpenLists& lists, std::int64_t v) {
+  const bool complete = !lists.cells_on_vertex.has(v, -1);
+  for (int j = 0; j < 3; ++j) {
+    const std::int32_t e = lists.edges_on_vertex.at(v, j),
+                       next = lists.edges_on_vertex.at(v, (j + 1) % 3),
+                       cell = lists.cells_on_vertex.at(v, j);
+    if (e < 0 && complete)
+      return Verdict::breaks;
+    if (e >= 0 && !lists.vertices_on_edge.has(e, static_cast<std::int32_t>(v)))
+      return Verdict::breaks;
+    if (complete &&
+        (next < 0 || !lists.cells_on_edge.has(e, cell) || !lists.cells_on_edge.has(next, cell)))
+      return Verdict::breaks;
+  }
+  return Verdict::keeps;
+}
+
+bool check_edges(const OpenLists& lists, Deviations& deviations) {
+  const std::int64_t edges = lists.cells_on_edge.rows();
+  const bool pairs = check_law("cellsOnEdge", "edges", "have no cell, or one cell twice",
+                               broken(edges,
+                                      [&](std::int64_t e) {
+                                        return verdict_of(lists.cells_on_edge.at(e, 0) !=
+                                                          lists.cells_on_edge.at(e, 1));
+                                      }),
+                               deviations);
+  return check_law("verticesOnEdge", "edges",
+                   "do not run, with their first cell to the left, between two vertices of both "
+                   "cells",
+                   broken(edges, [&](std::int64_t e) { return edge_verdict(lists, e); }),
+                   deviations) &&
+         pairs;
+}
+
+// ---- Cells
+
+/// The number of edges that name each cell.
+std::vector<std::int32_t> edges_by_cell(const OpenLists& lists) {
+  std::vector<std::int32_t> count(static_cast<std::size_t>(lists.cells));
+  for (const std::int32_t cell : lists.cells_on_edge.ids)
+    if (cell >= 0)
+      ++count[static_cast<std::size_t>(cell)];
+  return count;
+}
+
+std::int32_t other_cell(const OpenLists& lists, std::int32_t e, std::int64_t cell) {
+  return lists.cells_on_edge.at(e, lists.cells_on_edge.at(e, 0) == cell ? 1 : 0);
+}
+
+Verdict padded(const IdTable& table, std::int64_t row, std::int64_t count) {
+  for (std::int64_t k = count; k < table.width; ++k)
+    if (table.at(row, k) >= 0)
+      return Verdict::breaks;
+  return Verdict::keeps;
+}
+
+/// holds(k, edge) for each edge of a cell, and padding after the last.
+template <class Holds>
+Verdict cell_verdict(const OpenLists& lists, const IdTable& table, std::int64_t i,
+                     const Holds& holds) {
+  const std::int64_t count = lists.edge_count[static_cast<std::size_t>(i)];
+  if (count > lists.edges_on_cell.width || count > table.width)
+    return Verdict::breaks;
+  for (std::int64_t k = 0; k < count; ++k)
+    if (const std::int32_t e = lists.edges_on_cell.at(i, k); e < 0 || !holds(k, e))
+      return Verdict::breaks;
+  return padded(table, i, count);
+}
+
+Verdict edges_verdict(const OpenLists& lists, std::int64_t i) {
+  return cell_verdict(lists, lists.edges_on_cell, i, [&](std::int64_t k, std::int32_t e) {
+    bool once = true;
+    for (std::int64_t other = 0; other < k; ++other)
+      once = once && lists.edges_on_cell.at(i, other) != e;
+    return once && lists.cells_on_edge.has(e, static_cast<std::int32_t>(i));
+  });
+}
+
+/// Edge k runs, seen from its first cell, from vertex k - 1 to vertex k.
+Verdict corners_verdict(const OpenLists& lists, std::int64_t i) {
+  const std::int64_t count = lists.edge_count[static_cast<std::size_t>(i)];
+  return cell_verdict(lists, lists.vertices_on_cell, i, [&](std::int64_t k, std::int32_t e) {
+    const bool first = lists.cells_on_edge.at(e, 0) == i;
+    return lists.vertices_on_cell.at(i, (k + count - 1) % count) ==
+               lists.vertices_on_edge.at(e, first ? 0 : 1) &&
+           lists.vertices_on_cell.at(i, k) == lists.vertices_on_edge.at(e, first ? 1 : 0);
+  });
+}
+
+Verdict neighbours_verdict(const OpenLists& lists, std::int64_t i) {
+  return cell_verdict(lists, lists.cells_on_cell, i, [&](std::int64_t k, std::int32_t e) {
+    return lists.cells_on_cell.at(i, k) == other_cell(lists, e, i);
+  });
+}
+
+bool check_cells(const OpenLists& lists, Deviations& deviations) {
+  const std::vector<std::int32_t> count = edges_by_cell(lists);
+  const auto law = [&](const std::string& variable, const std::string& problem,
+                       const auto& verdict_at) {
+    return check_law(variable, "cells", problem, broken(lists.cells, verdict_at), deviations);
+  };
+  const bool counts =
+      law("nEdgesOnCell", "have another number of edges in cellsOnEdge", [&](std::int64_t i) {
+        const auto cell = static_cast<std::size_t>(i);
+        return verdict_of(count[cell] == lists.edge_count[cell]);
+      });
+  return counts &&
+         law("edgesOnCell", "do not list their edges, each once, then 0",
+             [&](std::int64_t i) { return edges_verdict(lists, i); }) &&
+         law("verticesOnCell", "do not list the ends of their edges, counter-clockwise, then 0",
+             [&](std::int64_t i) { return corners_verdict(lists, i); }) &&
+         law("cellsOnCell", "do not list the cells across their edges, then 0",
+             [&](std::int64_t i) { return neighbours_verdict(lists, i); });
+}
+
+void check_boundary(const OpenLists& lists, Deviations& deviations) {
+  if (!deviations.has("boundaryVertex", {lists.cells_on_vertex.rows()}))
+    return;
+  deviations.add("boundaryVertex",
+                 deviations.visit_rows<std::int32_t>(
+                     "boundaryVertex",
+                     [&](std::int64_t v, const std::int32_t* flag, Differences& out) {
+                       out.compare(v, *flag, lists.cells_on_vertex.has(v, -1) ? 1 : 0);
+                     }),
+                 "1 at vertices that lack a cell, and 0 elsewhere");
+}
+
+} // namespace
+
+bool IdTable::has(std::int64_t row, std::int32_t id) const {
+  const auto begin = ids.begin() + row * width;
+  return std::find(begin, begin + width, id) != begin + width;
+}
+
+bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  const std::int64_t vertices = file.dimension("nVertices"), edges = file.dimension("nEdges");
+  const auto read = [&](const std::string& name, std::int64_t rows, std::int64_t width,
+                        std::int64_t bound, IdTable& table) {
+    return rows >= 0 && read_table(name, rows, width, bound, table, deviations);
+  };
+  lists.cells = cells;
+  if (!read("cellsOnVertex", vertices, 3, cells, lists.cells_on_vertex) ||
+      !read("edgesOnVertex", vertices, 3, edges, lists.edges_on_vertex) ||
+      !read("cellsOnEdge", edges, 2, cells, lists.cells_on_edge) ||
+      !read("verticesOnEdge", edges, 2, vertices, lists.vertices_on_edge) ||
+      !read("edgesOnCell", cells, -1, edges, lists.edges_on_cell) ||
+      !read("verticesOnCell", cells, -1, vertices, lists.vertices_on_cell) ||
+      !read("cellsOnCell", cells, -1, cells, lists.cells_on_cell) ||
+      !deviations.has("nEdgesOnCell", {cells}))
+    return false;
+  lists.edge_count = file.ints("nEdgesOnCell", {cells});
+  return true;
+}
+
+bool check_open_lists(const OpenLists& lists, Deviations& deviations) {
+  check_boundary(lists, deviations);
+  const bool edges = check_edges(lists, deviations);
+  const bool vertices =
+      check_law("edgesOnVertex", "vertices",
+                "do not list edges that end there, edge j before cell j of cellsOnVertex",
+                broken(lists.cells_on_vertex.rows(),
+                       [&](std::int64_t v) { return vertex_verdict(lists, v); }),
+                deviations);
+  return check_cells(lists, deviations) && edges && vertices;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/cells/deviations.h"
+#include "io/mpas/room.h"
+
+#include <calotte/types.h>
+#include <calotte/voronoi.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// Open MPAS meshes, of which cells are missing.
+namespace calotte::io_detail {
+
+/// Rows of ids, 0-based; -1 for a missing one.
+struct IdTable {
+  std::int64_t width = 0;
+  std::vector<std::int32_t> ids;
+
+  std::int64_t rows() const { return width > 0 ? std::ssize(ids) / width : 0; }
+  std::int32_t at(std::int64_t row, std::int64_t k) const {
+    return ids[static_cast<std::size_t>(row * width + k)];
+  }
+  bool has(std::int64_t row, std::int32_t id) const;
+};
+
+/// The lists of an MPAS file.
+struct OpenLists {
+  std::int64_t cells = 0;
+  IdTable cells_on_vertex, edges_on_vertex, cells_on_edge, vertices_on_edge, edges_on_cell,
+      vertices_on_cell, cells_on_cell;
+  std::vector<std::int32_t> edge_count; ///< by cell
+};
+
+/// Reads the lists. Adds a deviation for ids out of range. \returns whether all lists are there.
+bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations);
+
+/// Adds a deviation for each relation between the lists that does not hold.
+/// \returns whether all hold.
+bool check_open_lists(const OpenLists& lists, Deviations& deviations);
+
+} // namespace calotte::io_detail

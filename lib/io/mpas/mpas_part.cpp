@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mpas/mpas_part.h"
+
+#include "base/parallel.h"
+#include "io/bytes/big_endian.h"
+#include "io/mpas/mpas.h"
+#include "voronoi/connectivity.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace calotte::io_detail {
+namespace {
+
+/// Throws unless the file has a mesh of the sphere with the lists of its cells.
+void require_lists(const NetcdfSource& file) {
+  const std::string& path = file.reader().path();
+  if (!is_mpas(file.reader()))
+    throw Error(ErrorCode::invalid_argument, path + " holds no MPAS mesh; convert it with calotte "
+                                                    "convert");
+  if (is_planar_mpas(file.reader()))
+    throw Error(ErrorCode::invalid_argument,
+                path + " holds a mesh of the plane, not of the sphere; give another");
+  for (const char* name : {"nEdgesOnCell", "cellsOnCell", "edgesOnCell", "verticesOnCell"})
+    if (file.find(name) < 0)
+      throw Error(ErrorCode::invalid_argument,
+                  path + " holds no " + name + "; complete it with calotte convert IN OUT.nc");
+  for (const char* name : {"nCells", "nEdges", "nVertices"})
+    if (file.reader().dimension(name) < 0)
+      file.reader().fail("it has no dimension " + std::string(name) + "; make the file again");
+}
+
+/// \throws Error parse, unless the generators are on the sphere of the attribute.
+double radius_of(const NetcdfReader& file) {
+  std::array<double, 3> place{};
+  for (std::size_t k = 0; k < 3; ++k)
+    file.rows(std::string(1, "xyz"[k]) + "Cell", 0, 1, &place[k]);
+  const double norm = std::hypot(place[0], place[1], place[2]),
+               radius = file.number("", "sphere_radius", norm);
+  if (!(std::abs(radius - norm) <= 1e-3 * norm))
+    file.fail("the first cell is " + std::to_string(norm) +
+              " from the centre of the sphere, but the attribute sphere_radius is " +
+              std::to_string(radius) + "; correct it");
+  return radius;
+}
+
+Points3 read_places(const NetcdfReader& file, const std::string& kind, std::int64_t count) {
+  Points3 places(3, count);
+  for (int row = 0; row < 3; ++row) {
+    const std::vector<double> values = file.doubles(std::string(1, "xyz"[row]) + kind, {count});
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
+  }
+  return places;
+}
+
+/// Throws unless edge k of each cell lies between vertices k - 1 and k, also for the other cell.
+void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& cells) {
+  if (cells.edges_on_cell.items.minCoeff() < 0 || cells.vertices_on_cell.items.minCoeff() < 0)
+    file.fail("a cell lacks an edge or a vertex; give a global mesh");
+  Pairs ends = Pairs::Constant(2, edges, -1);
+  for (std::int64_t i = 0; i < cells.vertices_on_cell.size(); ++i) {
+    const std::span<const std::int32_t> vertices = cells.vertices_on_cell[i];
+    if (vertices.size() < 3)
+      file.fail("cell " + std::to_string(i + 1) + " (1-based) has " +
+                std::to_string(vertices.size()) +
+                " edges in nEdgesOnCell, fewer than three; make the file again");
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const std::int32_t end = vertices[k], start = voronoi_detail::start_of(cells, i, k);
+      const Eigen::Vector2i pair(std::min(start, end), std::max(start, end));
+      auto known = ends.col(cells.edges_on_cell[i][k]);
+      if (known[0] >= 0 && known != pair)
+        file.fail("edgesOnCell and verticesOnCell of cell " + std::to_string(i + 1) +
+                  " (1-based) do not correspond: edge k lies between vertices k - 1 and k; make "
+                  "the file again");
+      known = pair;
+    }
+  }
+}
+
+template <class T>
+void take_row(const NetcdfSource& file, const std::string& variable, std::int64_t row,
+              const T* stored, std::int64_t bound, std::span<std::int32_t> out) {
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (stored[k] < 0 || stored[k] > bound + 1)
+      file.reader().fail(variable + " has the id " + std::to_string(stored[k]) + " at cell " +
+                         std::to_string(row + 1) + " (both 1-based), but there are " +
+                         std::to_string(bound) + "; make the file again");
+    out[k] = stored[k] == bound + 1 ? -1 : static_cast<std::int32_t>(stored[k]) - 1;
+  }
+}
+
+/// The things that the lists of kept cells name.
+Kept named(const Ids& ids, std::int64_t bound, std::vector<std::uint8_t>& cells_at) {
+  std::vector<std::int8_t> count(static_cast<std::size_t>(bound), -1);
+  for (const std::int32_t id : ids)
+    if (id >= 0 && count[static_cast<std::size_t>(id)] < 3)
+      count[static_cast<std::size_t>(id)] = std::max<std::int8_t>(
+          static_cast<std::int8_t>(count[static_cast<std::size_t>(id)] + 1), 1);
+  Kept kept = kept_of(count);
+  cells_at.resize(static_cast<std::size_t>(kept.count()));
+  for (std::int64_t k = 0; k < kept.count(); ++k)
+    cells_at[static_cast<std::size_t>(k)] =
+        static_cast<std::uint8_t>(count[static_cast<std::size_t>(kept.old[k])]);
+  return kept;
+}
+
+/// New ids in place of those of before.
+void renumber(const Kept& kept, Ids& ids) {
+  for_each_block(ids.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k)
+      if (ids[k] >= 0)
+        ids[k] = kept.number[ids[k]] - 1;
+  });
+}
+
+} // namespace
+
+MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
+  require_lists(netcdf_);
+  const NetcdfReader& file = netcdf_.reader();
+  cells_ = file.dimension("nCells");
+  edges_ = file.dimension("nEdges");
+  vertices_ = file.dimension("nVertices");
+  radius_ = radius_of(file);
+  counts_ = file.ints("nEdgesOnCell", {cells_});
+  const std::int64_t width = netcdf_.product(netcdf_.find("cellsOnCell"), 1, 2);
+  for (const std::int32_t count : counts_)
+    if (count < 0 || count > width)
+      file.fail("nEdgesOnCell is " + std::to_string(count) + " at a cell, but cellsOnCell holds " +
+                std::to_string(width) + "; make the file again");
+}
+
+Points3 MpasSource::places() const { return read_places(netcdf_.reader(), "Cell", cells_); }
+
+Points3 MpasSource::vertex_places() const {
+  return read_places(netcdf_.reader(), "Vertex", vertices_);
+}
+
+IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
+  Kept all{Array<std::int32_t>(cells_), {}};
+  for (std::int32_t i = 0; i < cells_; ++i)
+    all.old[i] = i;
+  return lists(variable, bound, all);
+}
+
+IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const Kept& kept) const {
+  const int v = netcdf_.find(variable);
+  const NetcdfReader& file = netcdf_.reader();
+  const std::int64_t width = netcdf_.product(netcdf_.find("cellsOnCell"), 1, 2);
+  if (file.shape_of(variable) != std::vector<std::int64_t>{cells_, width})
+    file.fail(variable + " has another shape than cellsOnCell; make the file again");
+  const std::optional<NetcdfType> type = netcdf_.variables()[static_cast<std::size_t>(v)].type;
+  if (type != NetcdfType::int32 && type != NetcdfType::int64)
+    file.fail(variable + " does not hold integers of 4 or 8 bytes; make the file again");
+  IdLists lists{Offsets(kept.count() + 1), {}};
+  lists.begin[0] = 0;
+  for (std::int64_t i = 0; i < kept.count(); ++i)
+    lists.begin[i + 1] = lists.begin[i] + counts_[static_cast<std::size_t>(kept.old[i])];
+  lists.items.resize(lists.begin[kept.count()]);
+  for_each_block(kept.count(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    const std::int64_t values = (last - first) * width, size = size_of(*type);
+    Array<std::int64_t> room(values); // for ids of either size
+    auto* const bytes = reinterpret_cast<char*>(room.begin());
+    read_kept_rows(netcdf_, v, 0, kept, first, last, bytes);
+    swap_big_endian(bytes, values, size, bytes);
+    for (std::int64_t i = first; i < last; ++i) {
+      const char* const row = bytes + (i - first) * width * size;
+      if (size == 4)
+        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int32_t*>(row), bound,
+                 lists[i]);
+      else
+        take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int64_t*>(row), bound,
+                 lists[i]);
+    }
+  });
+  return lists;
+}
+
+Voronoi tessellation_of(const MpasSource& source) {
+  Voronoi cells;
+  cells.cells = source.places();
+  cells.vertices = source.vertex_places();
+  for (Points3* places : {&cells.cells, &cells.vertices})
+    for (auto place : places->colwise())
+      place /= place.norm();
+  cells.edges_on_cell = source.lists("edgesOnCell", source.edges());
+  cells.vertices_on_cell = source.lists("verticesOnCell", source.vertices());
+  cells.cells_on_cell = source.lists("cellsOnCell", source.cells());
+  require_edges(source.netcdf().reader(), source.edges(), cells);
+  return cells;
+}
+
+MpasPart part_of(const MpasSource& source, const Ids& keep) {
+  MpasPart part;
+  part.cells = kept_of(keep);
+  part.edges_on_cell = source.lists("edgesOnCell", source.edges(), part.cells);
+  part.vertices_on_cell = source.lists("verticesOnCell", source.vertices(), part.cells);
+  part.cells_on_cell = source.lists("cellsOnCell", source.cells(), part.cells);
+  part.edges = named(part.edges_on_cell.items, source.edges(), part.cells_at_edge);
+  part.vertices = named(part.vertices_on_cell.items, source.vertices(), part.cells_at_vertex);
+  renumber(part.edges, part.edges_on_cell.items);
+  renumber(part.vertices, part.vertices_on_cell.items);
+  renumber(part.cells, part.cells_on_cell.items);
+  return part;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/mpas/room.h"
+#include "io/netcdf/netcdf_subset.h"
+
+#include <calotte/limited_area.h>
+#include <calotte/lists.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// MPAS files, and parts of their meshes.
+namespace calotte::io_detail {
+
+/// A file with the lists that tell which edges and vertices its cells have.
+class MpasSource {
+public:
+  /// \throws Error file; parse; invalid_argument for a file that holds no mesh of the sphere, or
+  ///         one without these lists.
+  explicit MpasSource(const std::string& path);
+
+  const NetcdfSource& netcdf() const { return netcdf_; }
+  std::int64_t cells() const { return cells_; }
+  std::int64_t edges() const { return edges_; }
+  std::int64_t vertices() const { return vertices_; }
+  double radius() const { return radius_; } ///< of its sphere
+
+  Points3 places() const; ///< 3 x n, of the generators, as the file has them
+  Points3 vertex_places() const;
+
+  /// A variable with a list of ids for each cell, or for each of the given ones: 0-based, -1 for a
+  /// missing one. \param bound number of things that ids stand for.
+  IdLists lists(const std::string& variable, std::int64_t bound) const;
+  IdLists lists(const std::string& variable, std::int64_t bound, const Kept& kept) const;
+
+private:
+  NetcdfSource netcdf_;
+  std::int64_t cells_ = 0, edges_ = 0, vertices_ = 0;
+  double radius_ = 1;
+  std::vector<std::int32_t> counts_; ///< nEdgesOnCell
+};
+
+/// The cells as polygons: places, vertices and the lists of the cells.
+/// \throws Error parse, for an incomplete cell, and for lists of a cell that do not correspond.
+Voronoi tessellation_of(const MpasSource& source);
+
+/// The part of a mesh that is kept.
+struct MpasPart {
+  Kept cells, edges, vertices;
+  /// By kept edge and vertex: the number of kept cells there.
+  std::vector<std::uint8_t> cells_at_edge, cells_at_vertex;
+  /// Of the kept cells; ids are the new ones, 0-based, -1 for a cell that is left out.
+  IdLists edges_on_cell, vertices_on_cell, cells_on_cell;
+};
+
+/// The kept cells with all edges and vertices that touch one.
+/// \param keep by cell: >= 0 if it is kept.
+/// \throws Error parse, for ids out of range.
+MpasPart part_of(const MpasSource& source, const Ids& keep);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mpas/mpas_places.h"
+
+#include "base/spherical_angles.h"
+#include "base/vec3.h"
+#include "voronoi/geometry.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+namespace calotte::io_detail {
+namespace {
+
+using Announced = GridFile::Announced;
+
+// ---- Values
+
+/// From 0 to below 2 pi.
+CALOTTE_INLINE double eastern_longitude(double x, double y) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return eastern(longitude_of(x, y), turn);
+}
+
+CALOTTE_VECTOR_WIDTHS
+void longitudes(const double* xyz, std::int64_t count, double* out) {
+  for (std::int64_t i = 0; i < count; ++i)
+    out[i] = eastern_longitude(xyz[3 * i], xyz[3 * i + 1]);
+}
+
+CALOTTE_VECTOR_WIDTHS
+void latitudes(const double* xyz, std::int64_t count, double* out) {
+  for (std::int64_t i = 0; i < count; ++i)
+    out[i] = latitude_of(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+}
+
+const Vec3* columns(const Points3& points, std::int64_t first) {
+  return reinterpret_cast<const Vec3*>(points.data()) + first;
+}
+
+void fill_coordinates(const Vec3* places, double factor, std::int64_t count, double* const* xyz) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    xyz[0][i] = factor * places[i].x;
+    xyz[1][i] = factor * places[i].y;
+    xyz[2][i] = factor * places[i].z;
+  }
+}
+
+/// Of directions; zeros in a plane.
+void fill_angles(const Vec3* directions, bool on_sphere, std::int64_t count,
+                 double* const* latlon) {
+  if (on_sphere) {
+    latitudes(&directions->x, count, latlon[0]);
+    longitudes(&directions->x, count, latlon[1]);
+  } else {
+    std::fill(latlon[0], latlon[0] + count, 0.0);
+    std::fill(latlon[1], latlon[1] + count, 0.0);
+  }
+}
+
+/// The first columns of a group: lat, lon, x, y and z; and the numbers from 1 on.
+void fill_places(const MpasMesh& mesh, const Vec3* places, std::int64_t begin, std::int64_t end,
+                 std::int32_t* const* ints, double* const* doubles) {
+  fill_angles(places, mesh.voronoi.on_sphere, end - begin, doubles);
+  fill_coordinates(places, mesh.radius, end - begin, doubles + 2);
+  std::iota(ints[0], ints[0] + (end - begin), static_cast<std::int32_t>(begin + 1));
+}
+
+void fill_vertices(const MpasMesh& mesh, std::int64_t begin, std::int64_t end,
+                   std::int32_t* const* ints, double* const* doubles) {
+  Voronoi& voronoi = mesh.voronoi;
+  Array<Vec3> computed;
+  if (!mesh.whole()) {
+    computed = Array<Vec3>(end - begin);
+    measure_vertices(mesh.surplus, begin, end, voronoi, computed.begin());
+  }
+  fill_places(mesh, mesh.whole() ? columns(voronoi.vertices, begin) : computed.begin(), begin, end,
+              ints, doubles);
+  const double unit = mesh.radius * mesh.radius;
+  double *area = doubles[5], *kites = doubles[6];
+  for (std::int64_t v = begin; v < end; ++v) {
+    *area++ = unit * (mesh.whole() ? voronoi.vertex_area[v] : vertex_area(voronoi, v));
+    for (int j = 0; j < 3; ++j)
+      *kites++ = unit * voronoi.kites(j, v);
+  }
+}
+
+void fill_edges(const MpasMesh& mesh, std::int64_t begin, std::int64_t end,
+                std::int32_t* const* ints, double* const* doubles) {
+  Voronoi& voronoi = mesh.voronoi;
+  double *dc = doubles[5], *dv = doubles[6], *angles = doubles[7];
+  if (mesh.whole()) {
+    std::copy(voronoi.angle.data() + begin, voronoi.angle.data() + end, angles);
+    fill_places(mesh, columns(voronoi.edges, begin), begin, end, ints, doubles);
+  } else {
+    Array<Vec3> computed(end - begin);
+    measure_edges(mesh.surplus, begin, end, voronoi, computed.begin(), angles);
+    fill_places(mesh, computed.begin(), begin, end, ints, doubles);
+  }
+  for (std::int64_t e = begin; e < end; ++e) {
+    *dc++ = mesh.radius * voronoi.dc[e];
+    *dv++ = mesh.radius * voronoi.dv[e];
+  }
+}
+
+// ---- Variables
+
+std::vector<Announced> coordinates(const MpasKind& kind, int dimension) {
+  std::vector<Announced> out;
+  for (const char c : {'x', 'y', 'z'}) {
+    const std::string axis(1, c);
+    std::string long_name = axis;
+    long_name.append(" coordinate of ").append(kind.place);
+    out.push_back({axis + kind.name, {dimension}, described("m", long_name)});
+  }
+  return out;
+}
+
+/// In the order of fill_places(), the numbers last.
+std::vector<Announced> places_of(const MpasKind& kind, int dimension) {
+  std::vector<Announced> out = coordinates(kind, dimension);
+  out.insert(out.begin(), {{"lat" + kind.name,
+                            {dimension},
+                            described("radians", "latitude of " + kind.place, "latitude")},
+                           {"lon" + kind.name,
+                            {dimension},
+                            described("radians", "longitude of " + kind.place, "longitude")}});
+  out.push_back({.name = "indexTo" + kind.name + "ID",
+                 .dimensions = {dimension},
+                 .attributes = described("1", "number of each " + kind.word),
+                 .integer = true});
+  return out;
+}
+
+} // namespace
+
+void put_coordinates(MpasFile& file, const MpasKind& kind, int dimension, const Points3& points,
+                     double factor) {
+  file.together(coordinates(kind, dimension),
+                [&points, factor](std::int64_t begin, std::int64_t end, std::int32_t* const*,
+                                  double* const* xyz) {
+                  fill_coordinates(columns(points, begin), factor, end - begin, xyz);
+                });
+}
+
+void put_cells(MpasFile& file, int cells, const MpasMesh& mesh) {
+  file.together(places_of(mpas_cell, cells),
+                [&mesh](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
+                        double* const* doubles) {
+                  const Voronoi& voronoi = mesh.voronoi;
+                  fill_places(mesh, columns(voronoi.cells, begin), begin, end, ints, doubles);
+                  fill_coordinates(columns(mesh.sites(), begin), 1, end - begin, doubles + 2);
+                });
+}
+
+void put_vertices(MpasFile& file, int vertices, int degree, const MpasMesh& mesh) {
+  std::vector<Announced> variables = places_of(mpas_vertex, vertices);
+  variables.push_back({"areaTriangle",
+                       {vertices},
+                       described("m2", "area of the triangle of generators around each vertex")});
+  variables.push_back(
+      {"kiteAreasOnVertex",
+       {vertices, degree},
+       described("m2", "signed area of the part of each triangle in each of its cells")});
+  file.together(variables, [&mesh](auto... arguments) { fill_vertices(mesh, arguments...); });
+}
+
+void put_edges(MpasFile& file, int edges, const MpasMesh& mesh) {
+  std::vector<Announced> variables = places_of(mpas_edge, edges);
+  variables.push_back(
+      {"dcEdge", {edges}, described("m", "distance of the generators of the cells on each edge")});
+  variables.push_back(
+      {"dvEdge", {edges}, described("m", "distance of the vertices at the ends of each edge")});
+  variables.push_back(
+      {"angleEdge",
+       {edges},
+       described("radians", mesh.voronoi.on_sphere
+                                ? "angle of the normal of each edge from east"
+                                : "angle of the normal of each edge from the x axis")});
+  file.together(variables, [&mesh](auto... arguments) { fill_edges(mesh, arguments...); });
+}
+
+} // namespace calotte::io_detail

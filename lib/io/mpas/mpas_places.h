@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/mpas/mpas.h"
+#include "io/mpas/room.h"
+
+#include <calotte/types.h>
+
+/// The variables of places in MPAS files, and the measures that are computed with the places of
+/// vertices and edges. Unless the mesh is whole, its places are computed here and not stored. The
+/// mesh must outlive the file.
+namespace calotte::io_detail {
+
+/// x, y and z: a factor times the points, which must outlive the file.
+void put_coordinates(MpasFile& file, const MpasKind& kind, int dimension, const Points3& points,
+                     double factor);
+
+/// Places and numbers.
+void put_cells(MpasFile& file, int cells, const MpasMesh& mesh);
+
+/// The same, and areaTriangle and kiteAreasOnVertex. Sets the kites.
+/// \param degree the dimension vertexDegree.
+void put_vertices(MpasFile& file, int vertices, int degree, const MpasMesh& mesh);
+
+/// The same, and dcEdge, dvEdge and angleEdge, after put_vertices(). Sets dc and dv.
+void put_edges(MpasFile& file, int edges, const MpasMesh& mesh);
+
+} // namespace calotte::io_detail

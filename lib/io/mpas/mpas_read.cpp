@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/dual.h"
+#include "io/cells/field_order.h"
+#include "io/cells/mesh_intake.h"
+#include "io/cells/netcdf_fields.h"
+#include "io/cells/polygons.h"
+#include "io/mpas/mpas.h"
+#include "io/netcdf/netcdf_reader.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "domain/surface.h"
+#include "exact/predicates.h"
+#include "exact/space.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+/// One row of coordinates a call, which all have the same length. \param kind "Cell" or "Vertex".
+Points3 places_of(const NetcdfReader& file, const std::string& kind) {
+  Points3 places;
+  for (int row = 0; row < 3; ++row) {
+    const std::string name = std::string(1, "xyz"[row]) + kind;
+    const std::vector<double> values =
+        file.doubles(name, {row == 0 ? std::int64_t{-1} : std::int64_t{places.cols()}});
+    if (row == 0)
+      places.resize(3, std::ssize(values));
+    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), std::ssize(values));
+  }
+  return places;
+}
+
+/// 0-based, -1 for the 0 of a missing one. \throws Error parse, for other ids.
+std::vector<std::int32_t> ids_of(const NetcdfReader& file, const std::string& variable,
+                                 const std::vector<std::int64_t>& shape, const std::string& row,
+                                 std::int64_t width, const std::string& thing, std::int64_t count) {
+  std::vector<std::int32_t> ids = file.ints(variable, shape);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k] < 0 || ids[k] > count)
+      file.fail(variable + " has " + thing + " " + std::to_string(ids[k]) + " at " + row + " " +
+                std::to_string(static_cast<std::int64_t>(k) / width + 1) +
+                " (both 1-based), but there are " + std::to_string(count) +
+                "; make the file again");
+    --ids[k];
+  }
+  return ids;
+}
+
+/// The triangles of the vertices with three cells, and the vertex of each.
+struct CompleteVertices {
+  Triangles triangles;
+  std::vector<std::int32_t> vertex;
+  bool all = true;
+};
+
+CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells) {
+  const std::vector<std::int32_t> ids =
+      ids_of(file, "cellsOnVertex", {-1, 3}, "vertex", 3, "cell", cells);
+  const Eigen::Map<const Triangles> around(ids.data(), 3, std::ssize(ids) / 3);
+  CompleteVertices complete{Triangles(3, around.cols()), {}, true};
+  for (std::int32_t v = 0; v < around.cols(); ++v)
+    if (around.col(v).minCoeff() >= 0) {
+      complete.triangles.col(std::ssize(complete.vertex)) = around.col(v);
+      complete.vertex.push_back(v);
+    }
+  complete.all = std::ssize(complete.vertex) == around.cols();
+  complete.triangles.conservativeResize(Eigen::NoChange, std::ssize(complete.vertex));
+  return complete;
+}
+
+/// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
+/// or of the circumcentre's distance from the cells, whichever is larger.
+bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
+  return are_circumcentres(sites, triangles, vertices,
+                           corner_tolerance(mean_width(sites.cols()), 0), 1e-6);
+}
+
+/// The cells as the file has them. A cell with a missing vertex has none here.
+Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
+  const std::int64_t cells = sites.cols();
+  const std::vector<std::int32_t> counts = file.ints("nEdgesOnCell", {cells});
+  const std::int64_t width = file.shape_of("verticesOnCell").back();
+  const std::vector<std::int32_t> rows =
+      ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
+  Polygons polygons{std::move(vertices), {Offsets(cells + 1), {}}, std::move(sites)};
+  std::vector<std::int32_t> ids;
+  for (std::int64_t i = 0; i < cells; ++i) {
+    polygons.ids.begin[i] = std::ssize(ids);
+    const std::int64_t count = counts[static_cast<std::size_t>(i)];
+    if (count < 0 || count > width)
+      file.fail("nEdgesOnCell is " + std::to_string(count) + " at cell " + std::to_string(i + 1) +
+                " (1-based), but verticesOnCell holds " + std::to_string(width) +
+                "; make the file again");
+    const auto first = rows.begin() + i * width;
+    if (std::all_of(first, first + count, [](std::int32_t id) { return id >= 0; }))
+      ids.insert(ids.end(), first, first + count);
+  }
+  polygons.ids.begin[cells] = std::ssize(ids);
+  polygons.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  return polygons;
+}
+
+void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int32_t>& vertices) {
+  for (MeshField& field : fields)
+    if (field.location == Location::vertices)
+      select_values(field, vertices);
+}
+
+/// The periods; 0 in the direction in which a channel has walls.
+Eigen::Vector2d periods_of(const NetcdfReader& file) {
+  const Eigen::Vector2d period(file.number("", "x_period", 0), file.number("", "y_period", 0));
+  if (!period.allFinite() || period.minCoeff() < 0 || period.maxCoeff() == 0)
+    file.fail("neither x_period nor y_period is positive, or one is negative; a plane has a "
+              "period in one direction or two, or the attribute is_periodic \"NO\"");
+  return period;
+}
+
+/// Rows x and y into [0, period); what is there keeps its bits.
+void wrap(Points3& places, const Eigen::Vector2d& period) {
+  const Plane plane(period);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    set_column(places, i, plane.wrapped(column(places, i)));
+}
+
+bool has_edge_fields(const RawMesh& raw) {
+  return std::any_of(raw.fields.begin(), raw.fields.end(),
+                     [](const MeshField& field) { return field.location == Location::edges; });
+}
+
+/// The cells of the edges, which fields need that are at edges.
+void read_edges(const NetcdfReader& file, std::int64_t cells, RawMesh& raw) {
+  if (!has_edge_fields(raw) || !file.has_variable("cellsOnEdge"))
+    return;
+  const std::vector<std::int32_t> ids =
+      ids_of(file, "cellsOnEdge", {file.dimension("nEdges"), 2}, "edge", 2, "cell", cells);
+  raw.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
+}
+
+void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, FieldChoice choice,
+                             RawMesh& raw) {
+  read_fields(file, mpas_names(), choice, raw);
+  read_edges(file, cells, raw);
+  if (file.has_variable("meshDensity") &&
+      file.shape_of("meshDensity") == std::vector<std::int64_t>{cells})
+    raw.density = values_with_fill(file, "meshDensity");
+}
+
+bool has_cells(const NetcdfReader& file) {
+  return file.has_variable("verticesOnCell") && file.has_variable("nEdgesOnCell") &&
+         file.has_variable("xVertex");
+}
+
+Points3 finite_places_of(const NetcdfReader& file, const std::string& kind) {
+  Points3 places = places_of(file, kind);
+  if (!places.allFinite())
+    file.fail("a coordinate x" + kind + " or y" + kind +
+              " is NaN or infinite; make the file again");
+  places.row(2).setZero();
+  return places;
+}
+
+/// A channel has vertices without a cell along its walls. MPAS-Tools makes it of a plane that is
+/// periodic in both directions, with rows of cells that are to be removed.
+void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool closed) {
+  if (closed && period.minCoeff() == 0)
+    file.fail(std::string(period.x() == 0 ? "x_period" : "y_period") +
+              " is 0, which makes a channel, but cells join its walls" +
+              (file.has_variable("cullCell")
+                   ? "; remove those that cullCell marks, with MpasCellCuller.x"
+                   : "; give the period, or remove the cells between the walls"));
+}
+
+/// The cells of a channel, or of a box with land.
+Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
+                             const Eigen::Vector2d& period) {
+  if (!has_cells(file))
+    file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
+              "xVertex); make the file again");
+  Points3 vertices = finite_places_of(file, "Vertex");
+  wrap(vertices, period);
+  Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
+  polygons.on_sphere = false;
+  polygons.period = period;
+  return polygons;
+}
+
+/// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
+MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
+  if (!has_cells(file))
+    file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
+              "make the file again");
+  RawMesh raw{.points = places_of(file, "Cell")};
+  Points3 vertices = finite_places_of(file, "Vertex");
+  read_density_and_fields(file, raw.points.cols(), choice, raw);
+  raw.polygons = cells_of(file, raw.points, std::move(vertices));
+  raw.polygons.on_sphere = false;
+  return planar_mesh_file_of(file.path(), "MPAS", std::move(raw));
+}
+
+} // namespace
+
+bool is_mpas(const NetcdfReader& file) {
+  return file.has_variable("xCell") && file.has_variable("yCell") && file.has_variable("zCell");
+}
+
+bool is_planar_mpas(const NetcdfReader& file) {
+  return file.text("", "on_a_sphere").starts_with("NO");
+}
+
+Points3 read_mpas_sites(const NetcdfReader& file) {
+  if (is_planar_mpas(file))
+    throw Error(ErrorCode::invalid_argument, file.path() + " holds a mesh of the plane, not of the "
+                                                           "sphere; read it with read_mesh()");
+  return places_of(file, "Cell");
+}
+
+RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw{.points = read_mpas_sites(file)};
+  require_directions(file.path(), raw.points);
+  const std::int64_t cells = raw.points.cols();
+  CompleteVertices complete = complete_vertices(file, cells);
+  read_density_and_fields(file, cells, choice, raw);
+  if (has_cells(file)) {
+    const Points3 vertices = places_of(file, "Vertex");
+    require_directions(file.path() + ": of the vertices", vertices);
+    if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
+      raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
+  }
+  if (!complete.all)
+    select_vertices(raw.fields, complete.vertex);
+  raw.triangles = std::move(complete.triangles);
+  return raw;
+}
+
+MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
+  if (file.text("", "is_periodic").starts_with("NO"))
+    return read_bounded_plane(file, choice);
+  const Eigen::Vector2d period = periods_of(file);
+  Mesh mesh;
+  mesh.surface = domain_detail::UncheckedSurface::of_plane({}, period);
+  mesh.points = finite_places_of(file, "Cell");
+  wrap(mesh.points, period);
+  CompleteVertices complete = complete_vertices(file, mesh.points.cols());
+  mesh.triangles = std::move(complete.triangles);
+  RawMesh rest;
+  read_density_and_fields(file, mesh.points.cols(), choice, rest);
+  require_walls(file, period, complete.all);
+  if (!complete.all) {
+    rest.polygons = cells_between_walls(file, mesh.points, period);
+    select_vertices(rest.fields, complete.vertex);
+  }
+  return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));
+}
+
+} // namespace calotte::io_detail

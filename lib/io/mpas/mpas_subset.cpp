@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/mpas/mpas_subset.h"
+
+#include "io/bytes/big_endian.h"
+#include "io/bytes/file.h"
+#include "io/mpas/mpas.h"
+
+#include <calotte/error.h>
+#include <calotte/version.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+
+namespace calotte::io_detail {
+namespace {
+
+// ---- Ids
+
+/// A variable of ids, and what these stand for.
+struct IdVariable {
+  const char* name;
+  Kept MpasPart::*of;
+};
+
+constexpr IdVariable id_variables[] = {
+    {"cellsOnCell", &MpasPart::cells},       {"cellsOnEdge", &MpasPart::cells},
+    {"cellsOnVertex", &MpasPart::cells},     {"edgesOnCell", &MpasPart::edges},
+    {"edgesOnEdge", &MpasPart::edges},       {"edgesOnVertex", &MpasPart::edges},
+    {"verticesOnCell", &MpasPart::vertices}, {"verticesOnEdge", &MpasPart::vertices}};
+
+constexpr IdVariable number_variables[] = {{"indexToCellID", &MpasPart::cells},
+                                           {"indexToEdgeID", &MpasPart::edges},
+                                           {"indexToVertexID", &MpasPart::vertices}};
+
+/// Lists of cells that start with their length.
+constexpr const char* made_by_models[] = {"advCells", "advCellsForEdge"};
+
+/// work(values, count) on values of the machine's order in place of those of the file.
+template <class T, class Work> void on_values(char* bytes, std::int64_t count, const Work& work) {
+  Array<T> values(count);
+  swap_big_endian(bytes, count, sizeof(T), reinterpret_cast<char*>(values.begin()));
+  work(values.begin(), count);
+  to_big_endian(values.begin(), count, bytes);
+}
+
+[[noreturn]] void refuse_id(const NetcdfReader& file, const std::string& variable, std::int64_t row,
+                            std::int64_t id, std::int64_t count) {
+  file.fail(variable + " has the id " + std::to_string(id) + " in row " + std::to_string(row + 1) +
+            " (both 1-based), but there are " + std::to_string(count) + "; make the file again");
+}
+
+/// Values in a row of a variable whose rows are those of its first dimension.
+std::int64_t width_of(const NetcdfSource& source, int variable) {
+  return source.product(variable, 1,
+                        source.variables()[static_cast<std::size_t>(variable)].dimensions.size());
+}
+
+/// Models write the number after the last for a missing one, others 0.
+template <class T> bool is_missing(T id, std::int64_t count) { return id == 0 || id == count + 1; }
+
+template <class T>
+ChangeRows renumbering(const NetcdfSource& source, int variable, const Kept& of) {
+  const std::int64_t width = width_of(source, variable), count = of.number.size();
+  const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
+  return [&source, &of, &name, width, count](std::int64_t begin, std::int64_t end, char* bytes) {
+    on_values<T>(bytes, (end - begin) * width, [&](T* ids, std::int64_t n) {
+      for (std::int64_t k = 0; k < n; ++k) {
+        if (ids[k] < 0 || ids[k] > count + 1)
+          refuse_id(source.reader(), name, begin + k / width, ids[k], count);
+        ids[k] = is_missing(ids[k], count) ? 0 : of.number[ids[k] - 1];
+      }
+    });
+  };
+}
+
+/// \throws Error parse, for a variable that is not of integers.
+ChangeRows renumbering_of(const NetcdfSource& source, int variable, const Kept& of) {
+  const NetcdfSource::Variable& ids = source.variables()[static_cast<std::size_t>(variable)];
+  if (ids.type == NetcdfType::int32)
+    return renumbering<std::int32_t>(source, variable, of);
+  if (ids.type == NetcdfType::int64)
+    return renumbering<std::int64_t>(source, variable, of);
+  source.reader().fail(ids.name + " does not hold integers of 4 or 8 bytes; make the file again");
+}
+
+/// \throws Error parse.
+void require_integers(const NetcdfSource& source, int variable) {
+  const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
+  if (!source.reader().is_integer(name))
+    source.reader().fail(name + " does not hold integers; make the file again");
+}
+
+/// The file's own numbers from 1 on, of integers of any size.
+ChangeRows numbers_of(const NetcdfSource& source, int variable) {
+  require_integers(source, variable);
+  const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
+  return [size](std::int64_t begin, std::int64_t end, char* bytes) {
+    for (std::int64_t row = begin; row < end; ++row, bytes += size)
+      for (std::int64_t k = 0; k < size; ++k)
+        bytes[k] = static_cast<char>((row + 1) >> 8 * (size - 1 - k));
+  };
+}
+
+/// 1 at vertices that lack a cell, of integers of any size.
+ChangeRows boundary_of(const NetcdfSource& source, int variable, const MpasPart& part) {
+  require_integers(source, variable);
+  const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
+  return [size, &part](std::int64_t begin, std::int64_t end, char* bytes) {
+    for (std::int64_t v = begin; v < end; ++v, bytes += size) {
+      std::memset(bytes, 0, static_cast<std::size_t>(size));
+      bytes[size - 1] = part.cells_at_vertex[static_cast<std::size_t>(v)] < 3 ? 1 : 0;
+    }
+  };
+}
+
+/// Weights of edges that are left out become 0: only edges with one kept cell have such.
+ChangeRows weights_of(const NetcdfSource& source, int variable, const MpasPart& part) {
+  const int ids = source.find("edgesOnEdge");
+  const std::int64_t width = width_of(source, variable),
+                     size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type),
+                     id_size = size_of(*source.variables()[static_cast<std::size_t>(ids)].type);
+  const ChangeRows renumber = renumbering_of(source, ids, part.edges);
+  return [=, &source, &part](std::int64_t begin, std::int64_t end, char* bytes) {
+    std::string row(static_cast<std::size_t>(width_of(source, ids) * id_size), '\0');
+    const std::string zero(static_cast<std::size_t>(id_size), '\0');
+    for (std::int64_t e = begin; e < end; ++e, bytes += width * size) {
+      if (part.cells_at_edge[static_cast<std::size_t>(e)] == 2)
+        continue;
+      read_kept_rows(source, ids, 0, part.edges, e, e + 1, row.data());
+      renumber(e, e + 1, row.data());
+      for (std::int64_t k = 0; k < width; ++k)
+        if (row.compare(static_cast<std::size_t>(k * id_size), zero.size(), zero) == 0)
+          std::memset(bytes + k * size, 0, static_cast<std::size_t>(size));
+    }
+  };
+}
+
+void add_change(const NetcdfSource& source, const std::string& variable, NetcdfSubset& subset,
+                const std::function<ChangeRows(int)>& make) {
+  if (const int v = source.find(variable); v >= 0)
+    subset.changes[variable].push_back(make(v));
+}
+
+/// How a quantity depends on the radius of the sphere: with this power.
+struct Power {
+  const char* name;
+  int power;
+};
+
+constexpr Power powers[] = {{"xCell", 1},
+                            {"yCell", 1},
+                            {"zCell", 1},
+                            {"xEdge", 1},
+                            {"yEdge", 1},
+                            {"zEdge", 1},
+                            {"xVertex", 1},
+                            {"yVertex", 1},
+                            {"zVertex", 1},
+                            {"dcEdge", 1},
+                            {"dvEdge", 1},
+                            {"gridSpacing", 1},
+                            {"nominalMinDc", 1},
+                            {"areaCell", 2},
+                            {"areaTriangle", 2},
+                            {"kiteAreasOnVertex", 2},
+                            {"defc_a", -1},
+                            {"defc_b", -1},
+                            {"deriv_two", -2},
+                            {"cell_gradient_coef_x", -1},
+                            {"cell_gradient_coef_y", -1}};
+
+template <class T> ChangeRows scaling(std::int64_t width, double factor, double divisor) {
+  return [=](std::int64_t begin, std::int64_t end, char* bytes) {
+    on_values<T>(bytes, (end - begin) * width, [=](T* values, std::int64_t n) {
+      for (std::int64_t k = 0; k < n; ++k)
+        values[k] = static_cast<T>(values[k] * factor / divisor);
+    });
+  };
+}
+
+void add_scaling(const NetcdfSource& source, const std::string& variable, double factor,
+                 double divisor, NetcdfSubset& subset) {
+  add_change(source, variable, subset, [&](int v) -> ChangeRows {
+    const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(v)];
+    const std::int64_t width = row_values(source, subset, v);
+    if (of.type == NetcdfType::float32)
+      return scaling<float>(width, factor, divisor);
+    if (of.type == NetcdfType::float64)
+      return scaling<double>(width, factor, divisor);
+    source.reader().fail(variable + " does not hold floating-point numbers; make the file again");
+  });
+}
+
+} // namespace
+
+NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
+  const NetcdfSource& file = source.netcdf();
+  NetcdfSubset subset;
+  subset.kept = {{"nCells", &part.cells}, {"nEdges", &part.edges}, {"nVertices", &part.vertices}};
+  for (const IdVariable& ids : id_variables)
+    add_change(file, ids.name, subset,
+               [&](int v) { return renumbering_of(file, v, part.*(ids.of)); });
+  for (const IdVariable& numbers : number_variables)
+    add_change(file, numbers.name, subset, [&](int v) { return numbers_of(file, v); });
+  add_change(file, "boundaryVertex", subset, [&](int v) { return boundary_of(file, v, part); });
+  subset.left_out.assign(std::begin(made_by_models), std::end(made_by_models));
+  if (file.find("edgesOnEdge") >= 0)
+    add_change(file, "weightsOnEdge", subset, [&](int v) { return weights_of(file, v, part); });
+  return subset;
+}
+
+void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset) {
+  const double from = source.radius();
+  if (from == radius)
+    return;
+  for (const auto& [name, power] : powers)
+    add_scaling(source.netcdf(), name, std::pow(power > 0 ? radius : from, std::abs(power)),
+                std::pow(power > 0 ? from : radius, std::abs(power)), subset);
+}
+
+void add_division(const MpasSource& source, const std::string& variable, double divisor,
+                  NetcdfSubset& subset) {
+  if (divisor != 1)
+    add_scaling(source.netcdf(), variable, 1, divisor, subset);
+}
+
+void add_history(const MpasSource& source, const MpasPart& part, const std::string& history,
+                 NetcdfSubset& subset) {
+  const NetcdfReader& file = source.netcdf().reader();
+  const auto set = [&](const std::string& name, const std::string& value) {
+    subset.attributes[name] = {name, value};
+  };
+  const auto before = [&](const std::string& name, const std::string& value) {
+    const std::string old = file.text("", name);
+    return value.empty() || old.empty() ? value + old : value + "\n" + old;
+  };
+  if (const std::string all = before("history", history); !all.empty())
+    set("history", all);
+  const std::string parent = file.text("", "file_id");
+  set("file_id", fingerprint(part.cells.old, parent));
+  set("parent_id", before("parent_id", parent));
+  set("source", "calotte " CALOTTE_VERSION);
+}
+
+std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
+                                    const NetcdfSubset& subset, const std::string& path,
+                                    const ProgressCallback& progress,
+                                    const std::function<void()>& commit_others) {
+  OutputFile graph(graph_path(path));
+  NetcdfWriter file(path, progress);
+  const std::int64_t inner = (part.cells_on_cell.items.array() >= 0).count() / 2;
+  put_graph([&](std::string_view text) { graph.append(text); }, part.cells_on_cell, inner);
+  std::vector<std::string> refused = put_subset(source.netcdf(), subset, file);
+  file.finish();
+  graph.finish();
+  if (commit_others)
+    commit_others();
+  graph.commit();
+  file.commit();
+  for (const char* name : made_by_models)
+    if (source.netcdf().find(name) >= 0)
+      refused.emplace_back(name);
+  return refused;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/netcdf/netcdf_subset.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <set>
+
+namespace calotte::io_detail {
+namespace {
+
+// ---- Rows
+
+/// Reading over a gap of so many bytes costs less than another call.
+constexpr std::int64_t widest_gap = 1 << 15;
+/// Bytes read at once.
+constexpr std::int64_t most_read = 1 << 20;
+
+void copy_row(const char* from, std::int64_t bytes, char* to) {
+  if (bytes == 8)
+    std::memcpy(to, from, 8);
+  else if (bytes == 4)
+    std::memcpy(to, from, 4);
+  else
+    std::memcpy(to, from, static_cast<std::size_t>(bytes));
+}
+
+/// The end of the kept rows from `begin` on that one call reads.
+std::int64_t end_of_read(const Kept& kept, std::int64_t begin, std::int64_t end,
+                         std::int64_t row_bytes) {
+  std::int64_t last = begin + 1;
+  while (last < end && (kept.old[last] - kept.old[last - 1] - 1) * row_bytes <= widest_gap &&
+         (kept.old[last] - kept.old[begin] + 1) * row_bytes <= most_read)
+    ++last;
+  return last;
+}
+
+/// A variable, the dimension of which rows are left out, and the bytes of its rows.
+struct Rows {
+  const NetcdfSource& source;
+  int variable;
+  std::size_t axis;
+  std::int64_t row_bytes;
+};
+
+/// Within one index of the dimensions before the axis, whose rows start at `base`.
+void read_slab(const Rows& rows, std::int64_t base, const Kept& kept, std::int64_t begin,
+               std::int64_t end, char* out) {
+  Array<char> buffer;
+  for (std::int64_t k = begin; k < end;) {
+    const std::int64_t last = end_of_read(kept, k, end, rows.row_bytes), first = kept.old[k],
+                       count = kept.old[last - 1] - first + 1;
+    const bool whole = count == last - k;
+    if (!whole && buffer.size() < count * rows.row_bytes)
+      buffer = Array<char>(std::max(count * rows.row_bytes, most_read));
+    rows.source.rows(rows.variable, rows.axis, base + first, count, whole ? out : buffer.begin());
+    for (std::int64_t j = k; j < last && !whole; ++j)
+      copy_row(buffer.begin() + (kept.old[j] - first) * rows.row_bytes, rows.row_bytes,
+               out + (j - k) * rows.row_bytes);
+    out += (last - k) * rows.row_bytes;
+    k = last;
+  }
+}
+
+std::int64_t bytes_of_rows(const NetcdfSource& source, int variable, std::size_t axis) {
+  const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(variable)];
+  const std::size_t rank = of.dimensions.size();
+  return source.product(variable, std::min(axis + 1, rank), rank) * size_of(*of.type);
+}
+
+// ---- Dimensions
+
+/// The dimension of a variable of which rows are left out; none if there is no such.
+std::optional<std::size_t> axis_of(const NetcdfSource& source, const NetcdfSubset& subset,
+                                   const NetcdfSource::Variable& variable) {
+  std::optional<std::size_t> axis;
+  for (std::size_t d = 0; d < variable.dimensions.size(); ++d) {
+    const auto id = static_cast<std::size_t>(variable.dimensions[d]);
+    if (!subset.kept.contains(source.dimensions()[id].name))
+      continue;
+    if (axis)
+      throw Error(ErrorCode::invalid_argument,
+                  source.reader().path() + ": " + variable.name +
+                      " has two dimensions of cells, edges or vertices; remove the variable");
+    axis = d;
+  }
+  return axis;
+}
+
+/// The unlimited dimension of the new file: the first that is unlimited, and the first of all
+/// variables that have it. -1 for none.
+int record_dimension(const NetcdfSource& source, const NetcdfSubset& subset) {
+  for (std::size_t id = 0; id < source.dimensions().size(); ++id) {
+    const NetcdfSource::Dimension& dimension = source.dimensions()[id];
+    if (!dimension.unlimited || subset.kept.contains(dimension.name))
+      continue;
+    bool first = true;
+    for (const NetcdfSource::Variable& variable : source.variables())
+      for (std::size_t d = 1; d < variable.dimensions.size(); ++d)
+        first = first && variable.dimensions[d] != static_cast<int>(id);
+    if (first)
+      return static_cast<int>(id);
+  }
+  return -1;
+}
+
+/// The new dimensions by those of the source; -1 for one without an index, which the classic
+/// formats do not hold.
+std::vector<int> define_dimensions(const NetcdfSource& source, const NetcdfSubset& subset,
+                                   NetcdfWriter& file) {
+  const int records = record_dimension(source, subset);
+  std::vector<int> ids;
+  for (const NetcdfSource::Dimension& dimension : source.dimensions()) {
+    const auto kept = subset.kept.find(dimension.name);
+    const std::int64_t size = kept == subset.kept.end() ? dimension.size : kept->second->count();
+    if (std::ssize(ids) == records)
+      ids.push_back(file.record_dimension(dimension.name, size));
+    else
+      ids.push_back(size > 0 ? file.dimension(dimension.name, size) : -1);
+  }
+  for (const FieldDimension& added : subset.dimensions)
+    if (std::none_of(source.dimensions().begin(), source.dimensions().end(),
+                     [&](const auto& dimension) { return dimension.name == added.name; }))
+      file.dimension(added.name, added.size);
+  return ids;
+}
+
+// ---- Variables
+
+/// A variable on its way from one file to the other.
+struct Passage {
+  int variable = 0, id = 0; ///< in the source and in the new file
+  std::optional<std::size_t> axis;
+  std::vector<ChangeRows> changes;
+};
+
+void put_passage(const NetcdfSource& source, const NetcdfSubset& subset, const Passage& passage,
+                 NetcdfWriter& file) {
+  const NetcdfSource::Variable& variable =
+      source.variables()[static_cast<std::size_t>(passage.variable)];
+  const std::size_t axis = passage.axis.value_or(0);
+  const std::int64_t row_bytes = bytes_of_rows(source, passage.variable, axis);
+  const Kept* kept = nullptr;
+  if (passage.axis)
+    kept = subset.kept.at(
+        source.dimensions()[static_cast<std::size_t>(variable.dimensions[axis])].name);
+  file.put(passage.id, row_bytes, [&](std::int64_t begin, std::int64_t end, char* out) {
+    if (kept != nullptr)
+      read_kept_rows(source, passage.variable, axis, *kept, begin, end, out);
+    else
+      source.rows(passage.variable, axis, begin, end - begin, out);
+    for (const ChangeRows& change : passage.changes)
+      change(begin, end, out);
+  });
+}
+
+bool is_left_out(const NetcdfSubset& subset, const std::string& name) {
+  return std::find(subset.left_out.begin(), subset.left_out.end(), name) != subset.left_out.end();
+}
+
+/// Defines the variables that the new file has of the source. \param refused receives the names of
+/// those that it cannot have.
+std::vector<Passage> define_variables(const NetcdfSource& source, const NetcdfSubset& subset,
+                                      const std::vector<int>& dimensions, NetcdfWriter& file,
+                                      std::vector<std::string>& refused) {
+  std::vector<Passage> passages;
+  for (int v = 0; v < std::ssize(source.variables()); ++v) {
+    const NetcdfSource::Variable& variable = source.variables()[static_cast<std::size_t>(v)];
+    if (is_left_out(subset, variable.name))
+      continue;
+    std::vector<int> ids;
+    for (const int d : variable.dimensions)
+      ids.push_back(dimensions[static_cast<std::size_t>(d)]);
+    if (!variable.type || std::find(ids.begin(), ids.end(), -1) != ids.end()) {
+      refused.push_back(variable.name);
+      continue;
+    }
+    const auto changes = subset.changes.find(variable.name);
+    passages.push_back(
+        {v, file.variable(variable.name, *variable.type, ids, variable.attributes),
+         axis_of(source, subset, variable),
+         changes == subset.changes.end() ? std::vector<ChangeRows>{} : changes->second});
+  }
+  return passages;
+}
+
+std::int32_t dimension_of(const NetcdfSource& source, const std::vector<int>& dimensions,
+                          const std::string& name) {
+  for (std::size_t d = 0; d < dimensions.size(); ++d)
+    if (source.dimensions()[d].name == name)
+      return dimensions[d];
+  return -1;
+}
+
+NetcdfAttributes described_by(const std::string& units, const std::string& long_name) {
+  return {{"units", units}, {"long_name", long_name}};
+}
+
+/// Those of the source, some with a new value, then those that are new.
+void define_attributes(const NetcdfSource& source, const NetcdfSubset& subset, NetcdfWriter& file) {
+  auto left = subset.attributes;
+  for (const NetcdfAttribute& attribute : source.attributes()) {
+    const auto replaced = left.find(attribute.name);
+    file.attribute(replaced == left.end() ? attribute : replaced->second);
+    if (replaced != left.end())
+      left.erase(replaced);
+  }
+  for (const auto& [name, attribute] : left)
+    file.attribute(attribute);
+}
+
+} // namespace
+
+void read_kept_rows(const NetcdfSource& source, int variable, std::size_t axis, const Kept& kept,
+                    std::int64_t begin, std::int64_t end, char* out) {
+  const Rows rows{source, variable, axis, bytes_of_rows(source, variable, axis)};
+  const std::int64_t all = source.product(variable, axis, axis + 1);
+  while (begin < end) {
+    const std::int64_t slab = begin / kept.count(), first = begin - slab * kept.count(),
+                       last = std::min(kept.count(), first + end - begin);
+    read_slab(rows, slab * all, kept, first, last, out);
+    out += (last - first) * rows.row_bytes;
+    begin += last - first;
+  }
+}
+
+std::int64_t row_values(const NetcdfSource& source, const NetcdfSubset& subset, int variable) {
+  const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(variable)];
+  return bytes_of_rows(source, variable, axis_of(source, subset, of).value_or(0)) /
+         size_of(*of.type);
+}
+
+std::vector<std::string> put_subset(const NetcdfSource& source, const NetcdfSubset& subset,
+                                    NetcdfWriter& file) {
+  std::vector<std::string> refused;
+  const std::vector<int> dimensions = define_dimensions(source, subset, file);
+  const std::vector<Passage> passages = define_variables(source, subset, dimensions, file, refused);
+  std::vector<int> added, numbers;
+  for (const NetcdfSubset::Added& of : subset.added)
+    added.push_back(file.variable(of.name, NetcdfType::int32,
+                                  {dimension_of(source, dimensions, of.dimension)},
+                                  described_by("1", of.long_name)));
+  for (const NetcdfSubset::Number& of : subset.numbers)
+    numbers.push_back(
+        file.variable(of.name, NetcdfType::float64, {}, described_by(of.units, of.long_name)));
+  define_attributes(source, subset, file);
+  file.begin();
+  for (const Passage& passage : passages)
+    put_passage(source, subset, passage, file);
+  for (std::size_t k = 0; k < added.size(); ++k)
+    file.put(added[k], NetcdfWriter::Fill<std::int32_t>(
+                           [&](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+                             for (std::int64_t i = begin; i < end; ++i)
+                               *out++ = subset.added[k].value(i);
+                           }));
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    file.put(numbers[k], NetcdfWriter::Fill<double>([&](std::int64_t, std::int64_t, double* out) {
+               *out = subset.numbers[k].value;
+             }));
+  return refused;
+}
+
+} // namespace calotte::io_detail

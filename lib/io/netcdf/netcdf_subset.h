@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "io/netcdf/netcdf_source.h"
+#include "io/netcdf/netcdf_writer.h"
+#include "io/netcdf/room.h"
+
+#include <calotte/mesh_field.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Files that hold some of the cells, edges and vertices of another.
+namespace calotte::io_detail {
+
+/// The kept ones of n things, in their order.
+struct Kept {
+  Array<std::int32_t> old;    ///< by kept thing: its 0-based id of before, ascending
+  Array<std::int32_t> number; ///< n: the new 1-based number of each; 0 if it is left out
+
+  std::int64_t count() const { return old.size(); }
+};
+
+/// Those with a flag >= 0.
+template <class Flags> Kept kept_of(const Flags& flags) {
+  const std::int64_t n = static_cast<std::int64_t>(flags.size());
+  Kept kept{{}, Array<std::int32_t>(n)};
+  std::int32_t count = 0;
+  for (std::int64_t i = 0; i < n; ++i)
+    kept.number[i] = flags[static_cast<decltype(flags.size())>(i)] >= 0 ? ++count : 0;
+  kept.old = Array<std::int32_t>(count);
+  for (std::int64_t i = 0; i < n; ++i)
+    if (kept.number[i] > 0)
+      kept.old[kept.number[i] - 1] = static_cast<std::int32_t>(i);
+  return kept;
+}
+
+/// Reads the kept rows begin to end - 1 of a variable, numbered over the dimensions 0 to `axis`, of
+/// which the last has rows left out. The bytes are those of the file: the most significant of each
+/// value first. \throws Error parse, file.
+void read_kept_rows(const NetcdfSource& source, int variable, std::size_t axis, const Kept& kept,
+                    std::int64_t begin, std::int64_t end, char* out);
+
+/// Changes such rows in place.
+using ChangeRows = std::function<void(std::int64_t begin, std::int64_t end, char* bytes)>;
+
+/// What becomes of the variables of a file.
+struct NetcdfSubset {
+  std::map<std::string, const Kept*> kept;                ///< by name of the dimension
+  std::map<std::string, std::vector<ChangeRows>> changes; ///< by variable, in their order
+  std::map<std::string, NetcdfAttribute> attributes = {}; ///< of the file: replace those of before
+  std::vector<std::string> left_out = {};                 ///< variables
+
+  /// A new variable of integers, one by thing of a dimension.
+  struct Added {
+    std::string name, dimension, long_name;
+    std::function<std::int32_t(std::int64_t i)> value;
+  };
+  std::vector<Added> added = {};
+  /// A new variable with one number.
+  struct Number {
+    std::string name, units, long_name;
+    double value = 0;
+  };
+  std::vector<Number> numbers = {};
+  /// New dimensions, unless the source has one of that name.
+  std::vector<FieldDimension> dimensions = {};
+};
+
+/// Number of values in a row of a variable, as changes see it.
+std::int64_t row_values(const NetcdfSource& source, const NetcdfSubset& subset, int variable);
+
+/// Writes the variables of a file, of which rows are left out, to a new one, which the caller then
+/// commits. \returns the variables that a classic file cannot hold: those of strings and of users'
+/// types. \throws Error file; parse; invalid_argument for a variable with two of the dimensions;
+/// what changes throw.
+std::vector<std::string> put_subset(const NetcdfSource& source, const NetcdfSubset& subset,
+                                    NetcdfWriter& file);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/netcdf/room.h"
+
+#include <calotte/progress.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// NetCDF files written through the C library, whose codes become this library's errors.
+namespace calotte::io_detail {
+
+/// The types of the classic formats; the last five exist in CDF-5 only.
+enum class NetcdfType {
+  text, ///< characters
+  int8,
+  int16,
+  int32,
+  float32,
+  float64,
+  uint8,
+  uint16,
+  uint32,
+  int64,
+  uint64
+};
+
+/// Bytes of a value.
+std::int64_t size_of(NetcdfType type);
+
+/// Several numbers of one type, in the machine's order of bytes.
+struct NetcdfValues {
+  NetcdfType type;
+  std::string bytes;
+};
+
+struct NetcdfAttribute {
+  std::string name;
+  std::variant<std::string, double, std::int32_t, std::int8_t, NetcdfValues> value;
+};
+using NetcdfAttributes = std::vector<NetcdfAttribute>;
+
+/// A classic NetCDF file that is being written: 64-bit offsets, or CDF-5 if a variable takes 4 GiB
+/// or a type requires it. Define dimensions, variables and attributes first, call begin(), which
+/// writes the header, then put each variable once. The path appears at commit(). Every method
+/// \throws Error file.
+class NetcdfWriter {
+public:
+  /// \param progress receives the bytes written, as OutputFile::watch() describes.
+  explicit NetcdfWriter(const std::string& path, ProgressCallback progress = {});
+  NetcdfWriter(const NetcdfWriter&) = delete;
+  NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+  ~NetcdfWriter();
+
+  /// \returns its id. A size of 0 makes it unlimited; no variable may have it.
+  int dimension(const std::string& name, std::int64_t size);
+  /// An unlimited dimension of so many records, the first of the variables that have it. These are
+  /// put as bytes. At most one. \returns its id.
+  int record_dimension(const std::string& name, std::int64_t records);
+  /// A dimension of that name and size which fields share. One that is unlimited gets the size; the
+  /// name grows if the file has another dimension of that name. \returns its id.
+  int field_dimension(const std::string& name, std::int64_t size);
+  /// \param dimensions ids, the slowest first; none for a scalar. \returns its id.
+  int variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
+               const NetcdfAttributes& attributes = {});
+  /// Of the whole file.
+  void attribute(NetcdfAttribute attribute);
+
+  void begin();
+
+  /// fill(begin, end, out) writes rows begin to end - 1 of the variable (its slowest dimension; a
+  /// scalar is one row) to out. Several threads call it at once for blocks of rows.
+  template <class T> using Fill = std::function<void(std::int64_t begin, std::int64_t end, T* out)>;
+  void put(int variable, const Fill<double>& fill);
+  void put(int variable, const Fill<std::int32_t>& fill);
+  void put(int variable, const Fill<std::int8_t>& fill);
+
+  /// The same for several variables with the same number of rows, whose values are computed
+  /// together. Each has its own output; those of ints and of doubles come in the given order.
+  using GroupFill = std::function<void(std::int64_t begin, std::int64_t end,
+                                       std::int32_t* const* ints, double* const* doubles)>;
+  void put(const std::vector<int>& ints, const std::vector<int>& doubles, const GroupFill& fill);
+
+  /// fill(begin, end, out) writes the pieces begin to end - 1 of the variable, of so many bytes
+  /// each, as the file holds them: the most significant byte of each value first. A piece is at
+  /// most a record. Several threads call it at once.
+  using FillBytes = std::function<void(std::int64_t begin, std::int64_t end, char* out)>;
+  void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
+
+  void finish(); ///< as OutputFile::finish()
+  void commit();
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace calotte::io_detail

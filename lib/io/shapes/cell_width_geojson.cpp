@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/cell_width_polygons.h"
+#include "io/shapes/cell_width_file.h"
+#include "io/shapes/geojson_areas.h"
+
+#include <calotte/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace calotte::io_detail {
+namespace {
+
+using Json = nlohmann::json;
+
+/// One file's polygons with their widths.
+class Collector {
+public:
+  Collector(std::string name, const PolygonWidths& widths)
+      : name_(std::move(name)), widths_(widths) {}
+
+  CellWidth read(const Json& root) {
+    outer_width(root, "insideWidth", widths_.inside, false);
+    outer_width(root, "outsideWidth", widths_.outside, true);
+    outer_width(root, "transition", widths_.transition, true);
+    for (const GeoGeometry& geometry :
+         geojson_polygons(root, name_, {"[longitude, latitude]", "give degrees"})) {
+      where_ = geometry.where;
+      regions_.push_back(region_of(geometry));
+    }
+    where_.clear();
+    require_narrower();
+    try {
+      return cell_width_of(regions_, widths_);
+    } catch (const Error& error) {
+      throw Error(error.code(), name_ + ": " + error.what());
+    }
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error(ErrorCode::parse, name_ + ": " + where_ + problem);
+  }
+
+  double positive(const Json& value, const std::string& what) const {
+    if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>()))
+      fail(what + " is not a positive number; give km");
+    return value.get<double>();
+  }
+
+  /// Takes a width from the caller or, if that is 0, from the file's member of that name.
+  void outer_width(const Json& root, const std::string& key, double& width, bool needed) const {
+    const auto given = root.find(key);
+    if (width == 0 && given != root.end())
+      width = positive(*given, "\"" + key + "\"");
+    if (!std::isfinite(width) || width < 0 || (needed && width == 0))
+      throw Error(ErrorCode::invalid_argument,
+                  name_ + ": no positive " +
+                      (key == "transition" ? "width of the transition"
+                                           : key.substr(0, key.size() - 5) + " width") +
+                      "; give it in km as an option or as the file's \"" + key + "\"");
+  }
+
+  double width_inside(const Json& properties) const {
+    if (properties.is_object())
+      if (const auto own = properties.find("cellWidth"); own != properties.end())
+        return positive(*own, "its property \"cellWidth\"");
+    if (widths_.inside == 0)
+      fail("no inside width; give it in km as an option or as a property \"cellWidth\"");
+    return widths_.inside;
+  }
+
+  /// With a place inside, all rings of the geometry bound one area.
+  WidthRegion region_of(const GeoGeometry& geometry) const {
+    WidthRegion region{width_inside(geometry.properties), {}};
+    const std::optional<GeoPosition> inside = inside_of(geometry, name_);
+    if (inside)
+      region.polygons.push_back({{}, Place{(*inside)[0], (*inside)[1]}});
+    std::int64_t rings = 0;
+    for (const GeoPolygon& polygon : geometry.polygons) {
+      if (!inside)
+        region.polygons.emplace_back();
+      for (const GeoRing& ring : polygon)
+        region.polygons.back().rings.push_back(places_of(ring, rings++));
+    }
+    return region;
+  }
+
+  Ring places_of(const GeoRing& positions, std::int64_t number) const {
+    Ring ring;
+    for (const GeoPosition& position : positions) {
+      require_degrees(position, name_,
+                      where_ + "position " + std::to_string(ring.size()) + " of ring " +
+                          std::to_string(number));
+      ring.push_back({position[0], position[1]});
+    }
+    return ring;
+  }
+
+  /// The smallest of several widths applies, so that a width larger than the outside width would
+  /// have no effect.
+  void require_narrower() const {
+    std::set<double> inside;
+    for (const WidthRegion& region : regions_)
+      inside.insert(region.inside);
+    if (inside.size() > 1 && *inside.rbegin() > widths_.outside)
+      fail("of several inside widths the widest, " + Json(*inside.rbegin()).dump() +
+           " km, is wider than the outside; as the least one holds it would not be seen");
+  }
+
+  std::string name_, where_;
+  PolygonWidths widths_;
+  std::vector<WidthRegion> regions_;
+};
+
+} // namespace
+
+CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
+                                  const PolygonWidths& widths) {
+  if (!(widths.radius_km > 0) || !std::isfinite(widths.radius_km))
+    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
+  return Collector(name, widths).read(read_geojson(in, name));
+}
+
+} // namespace calotte::io_detail

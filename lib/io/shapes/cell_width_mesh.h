@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "delaunay/delaunay.h"
+#include "io/shapes/room.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/types.h>
+
+namespace calotte::io_detail {
+
+/// Interpolates widths at points of the sphere linearly on the flat triangles between them, on a
+/// grid of longitudes and latitudes: see read_cell_width().
+/// \param points 3 x n directions.
+/// \param widths n.
+/// \throws Error as delaunay(); invalid_argument if the points leave a hemisphere empty.
+CellWidth resampled(const Points3& points, const DoubleVector& widths);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/read.h>
+
+#include "domain/spherical_area.h"
+#include "io/bytes/file.h"
+#include "io/command.h"
+#include "io/shapes/coast_file.h"
+#include "io/shapes/geojson_areas.h"
+
+#include <calotte/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace calotte {
+namespace io_detail {
+
+void add_land(const std::vector<WrittenRing>& rings, Coast& coast) {
+  constexpr double sphere = 4 * std::numbers::pi;
+  double left = 0; // of all rings, as often as a ring has it to its left
+  for (const WrittenRing& ring : rings)
+    if (ring.corners.size() > 2) {
+      left += area_to_the_left(arcs_of(ring));
+      coast.rings.push_back(corners_of({ring})[0]);
+    }
+  coast.area += left - sphere * std::floor(left / sphere);
+}
+
+namespace {
+
+/// Throws for a file of GSHHG that is not there, and names the package that has it.
+void require_gshhg(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename();
+  std::error_code error;
+  if (!name.starts_with("binned_GSHHS_") || std::filesystem::exists(path, error))
+    return;
+  const bool high = name.starts_with("binned_GSHHS_h"), full = name.starts_with("binned_GSHHS_f");
+  throw Error(ErrorCode::file, "cannot read " + path +
+                                   ": No such file; it comes with Debian's package gmt-gshhg-" +
+                                   (high   ? "high"
+                                    : full ? "full"
+                                           : "low") +
+                                   ", in /usr/share/gmt-gshhg; install it, or give other polygons "
+                                   "of land");
+}
+
+} // namespace
+} // namespace io_detail
+
+Coast read_coast(const std::string& path) {
+  using namespace io_detail;
+  require_gshhg(path);
+  if (is_netcdf_file(path))
+    return read_gshhg(NetcdfReader(path));
+  std::ifstream in = open_input(path);
+  Coast coast;
+  for (const GeoArea& area : geojson_areas(read_geojson(in, path), path))
+    add_land(area.rings, coast);
+  return coast;
+}
+
+} // namespace calotte

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/bytes/text.h"
+#include "io/shapes/geojson_polygons.h"
+
+#include <calotte/error.h>
+#include <calotte/io.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+/// The rings of a file, each with its origin for messages.
+struct Rings {
+  std::vector<GeoRing> corners;
+  std::vector<std::string> origins;
+
+  /// Ends the last ring and removes a repeated first corner.
+  void close() {
+    if (corners.empty())
+      return;
+    GeoRing& ring = corners.back();
+    if (ring.size() > 1 && ring.front() == ring.back())
+      ring.pop_back();
+  }
+};
+
+bool is_blank_line(std::string_view line) {
+  return line.find_first_not_of(" \t") == std::string_view::npos;
+}
+
+bool ends_ring(std::string_view line) {
+  return is_blank_line(line) || line[line.find_first_not_of(" \t")] == '>';
+}
+
+GeoPosition corner_of(const LineReader& reader, std::string_view line) {
+  GeoPosition corner;
+  const Columned read = parse_columns(line, 2, corner.data());
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "1 column only" : describe(read)) +
+                "; write two numbers x y on each line, and a blank line between rings");
+  return corner;
+}
+
+Rings rings_of_text(std::istream& in, const std::string& name) {
+  LineReader reader(in, name);
+  Rings rings;
+  bool header = false, open = false;
+  for (std::string_view line; reader.next(line);) {
+    if (ends_ring(line)) {
+      open = false;
+      continue;
+    }
+    line = line.substr(0, line.find('#'));
+    if (is_blank_line(line))
+      continue;
+    if (rings.corners.empty() && !header && !holds_number(line)) {
+      header = true;
+      continue;
+    }
+    const GeoPosition corner = corner_of(reader, line);
+    if (!open) {
+      rings.close();
+      rings.corners.emplace_back();
+      rings.origins.push_back("begins in line " + std::to_string(reader.number()));
+    }
+    open = true;
+    rings.corners.back().push_back(corner);
+  }
+  rings.close();
+  if (rings.corners.empty())
+    throw Error(ErrorCode::parse, name + ": no corners in " + std::to_string(reader.number()) +
+                                      " lines; write two numbers x y on each line");
+  return rings;
+}
+
+Rings rings_of_geojson(std::istream& in, const std::string& name) {
+  Rings rings;
+  for (const GeoGeometry& geometry :
+       geojson_polygons(read_geojson(in, name), name, {"[x, y]", "give two numbers"})) {
+    std::int64_t number = 0;
+    for (const GeoPolygon& polygon : geometry.polygons)
+      for (const GeoRing& ring : polygon) {
+        rings.corners.push_back(ring);
+        rings.origins.push_back("is in the file: " + geometry.where + "ring " +
+                                std::to_string(number++));
+      }
+  }
+  return rings;
+}
+
+Surface domain_of(const Rings& rings) {
+  Surface::Rings all;
+  for (const GeoRing& corners : rings.corners) {
+    DoubleMatrix ring(2, std::ssize(corners));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      ring.col(static_cast<Eigen::Index>(i)) << corners[i][0], corners[i][1];
+    all.push_back(std::move(ring));
+  }
+  return Surface::plane().within(std::move(all));
+}
+
+} // namespace
+
+Surface read_domain(const std::string& path) {
+  std::ifstream in = open_input(path);
+  const std::string suffix = suffix_of(path);
+  const bool json = suffix == ".geojson" || suffix == ".json";
+  const Rings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
+  try {
+    return domain_of(rings);
+  } catch (const Error& error) {
+    const std::int64_t ring = error.index();
+    const bool named = ring >= 0 && ring < std::ssize(rings.origins);
+    throw Error(error.code(),
+                path + ": " + error.what() +
+                    (named ? " (ring " + std::to_string(ring) + " " +
+                                 rings.origins[static_cast<std::size_t>(ring)] + ")"
+                           : ""),
+                ring);
+  }
+}
+
+} // namespace calotte

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/shapes/geojson_areas.h"
+
+#include "base/lonlat.h"
+#include "io/shapes/region_file.h"
+
+#include <calotte/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace calotte::io_detail {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& name, const std::string& problem) {
+  throw Error(ErrorCode::parse, name + ": " + problem);
+}
+
+std::string ring_name(std::size_t ring) { return "ring " + std::to_string(ring); }
+
+WrittenRing ring_of(const GeoRing& positions, const std::string& name, const std::string& where,
+                    std::size_t number) {
+  WrittenRing ring{{}, where + ring_name(number)};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    require_degrees(positions[i], name,
+                    where + "position " + std::to_string(i) + " of " + ring_name(number));
+    ring.corners.push_back(from_lonlat(positions[i][0], positions[i][1]));
+  }
+  drop_repeated(ring.corners);
+  return ring;
+}
+
+GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
+  GeoArea area{geometry.where, {}};
+  const std::optional<GeoPosition> inside = inside_of(geometry, name);
+  for (const GeoPolygon& polygon : geometry.polygons)
+    for (std::size_t r = 0; r < polygon.size(); ++r) {
+      area.rings.push_back(ring_of(polygon[r], name, geometry.where, area.rings.size()));
+      if (!inside && area.rings.back().corners.size() > 2)
+        enclose(area.rings.back(), r > 0);
+    }
+  if (!inside)
+    return area;
+  return named(name, [&] {
+    area.rings = around(std::move(area.rings), from_lonlat((*inside)[0], (*inside)[1]));
+    return area;
+  });
+}
+
+} // namespace
+
+void require_degrees(const GeoPosition& position, const std::string& name,
+                     const std::string& what) {
+  const auto [longitude, latitude] = position;
+  if (!(std::abs(longitude) <= 720) || !(std::abs(latitude) <= 90))
+    fail(name, what + " is [" + Json(longitude).dump() + ", " + Json(latitude).dump() +
+                   "], no longitude and latitude in degrees; correct it");
+}
+
+std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::string& name) {
+  if (!geometry.properties.is_object() || !geometry.properties.contains("inside"))
+    return std::nullopt;
+  const Json& given = geometry.properties["inside"];
+  const std::string what = geometry.where + "its property \"inside\"";
+  if (!given.is_array() || given.size() < 2 || !given[0].is_number() || !given[1].is_number())
+    fail(name, what + " is not a position [longitude, latitude]; give degrees");
+  const GeoPosition position{given[0].get<double>(), given[1].get<double>()};
+  require_degrees(position, name, what);
+  return position;
+}
+
+std::vector<GeoArea> geojson_areas(const Json& root, const std::string& name) {
+  std::vector<GeoArea> areas;
+  for (const GeoGeometry& geometry :
+       geojson_polygons(root, name, {"[longitude, latitude]", "give degrees"}))
+    areas.push_back(area_of(geometry, name));
+  return areas;
+}
+
+} // namespace calotte::io_detail

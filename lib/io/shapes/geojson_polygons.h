@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/shapes/room.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+/// Polygons of GeoJSON (RFC 7946) for any use.
+namespace calotte::io_detail {
+
+using GeoPosition = std::array<double, 2>;
+using GeoRing = std::vector<GeoPosition>; ///< its first position is not repeated at the end
+using GeoPolygon = std::vector<GeoRing>;  ///< the outer ring first, then holes
+
+/// One geometry of the type Polygon or MultiPolygon.
+struct GeoGeometry {
+  std::string where;         ///< "feature 3: " or nothing, for messages
+  nlohmann::json properties; ///< of its feature, or null
+  std::vector<GeoPolygon> polygons;
+};
+
+/// The meaning of a pair of coordinates, for messages.
+struct GeoPair {
+  std::string form;   ///< "[longitude, latitude]"
+  std::string remedy; ///< "give degrees"
+};
+
+/// Parses a file.
+/// \throws Error parse if it is no JSON or no object; file.
+nlohmann::json read_geojson(std::istream& in, const std::string& name);
+
+/// All polygons of a geometry, a feature, or a collection of either. Coordinates must be numbers,
+/// of any value; rings have at least three places.
+/// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon.
+std::vector<GeoGeometry> geojson_polygons(const nlohmann::json& root, const std::string& name,
+                                          const GeoPair& pair);
+
+} // namespace calotte::io_detail

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/shapes/jigsaw.h"
+
+#include "base/lonlat.h"
+#include "io/bytes/text.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace calotte::io_detail {
+namespace {
+
+std::string trimmed_lower(std::string_view text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0)
+    text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
+    text.remove_suffix(1);
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// The lines of one file, read section by section.
+class Sections {
+public:
+  Sections(std::istream& in, const std::string& name) : reader_(in, name) {}
+
+  JigsawFile read() {
+    for (std::string_view line; reader_.next_content(line);)
+      section(line);
+    if (file_.kind.empty())
+      throw Error(ErrorCode::parse,
+                  reader_.name() + ": no MSHID line; give a .msh file as JIGSAW writes it");
+    require_vertices();
+    return std::move(file_);
+  }
+
+private:
+  /// "NAME=what": `what` is a number of lines for most.
+  void section(std::string_view line) {
+    if (line.starts_with("$"))
+      reader_.fail("a file of Gmsh; give one of JIGSAW");
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos)
+      reader_.fail(in_quotes(line) +
+                   " is not a line NAME=...; a section has more or fewer lines than "
+                   "it announces");
+    const std::string name = trimmed_lower(line.substr(0, equals));
+    const std::string what(line.substr(equals + 1));
+    if (name != "coord" && !seen_.insert(name).second)
+      reader_.fail("the section " + in_quotes(name) + " comes twice; leave one of them out");
+    if (name == "mshid")
+      file_.kind = kind_in(what);
+    else if (name == "ndims")
+      file_.dimensions = static_cast<int>(whole<1>(what)[0]);
+    else if (name == "coord")
+      grid(whole<2>(what));
+    else if (name == "point")
+      points(whole<1>(what)[0]);
+    else if (name == "tria3")
+      triangles(whole<1>(what)[0]);
+    else if (name == "value")
+      file_.values = numbers(whole<1>(what)[0], 1);
+    else if (name == "radii")
+      radii(what);
+    else
+      skip(whole<1>(what)[0]);
+  }
+
+  /// "3;ellipsoid-mesh"; the kind may be missing.
+  static std::string kind_in(const std::string& text) {
+    const std::size_t semicolon = text.find(';');
+    const std::string kind =
+        semicolon == std::string::npos ? "" : trimmed_lower(text.substr(semicolon + 1));
+    return kind.empty() ? "euclidean-mesh" : kind;
+  }
+
+  /// One for all axes, or three.
+  void radii(std::string_view text) {
+    std::array<double, 3>& radii = file_.radii;
+    if (parse_columns(text, 3, radii.data()).outcome != Outcome::ok) {
+      parse(text, 1, radii.data());
+      radii.fill(radii[0]);
+    }
+    for (const double radius : radii)
+      if (!(radius > 0 && std::isfinite(radius)))
+        reader_.fail("a radius that is not positive and finite; correct it");
+  }
+
+  /// Whole numbers of a section's head.
+  template <int count> std::array<std::int64_t, count> whole(std::string_view text) {
+    std::array<std::int64_t, count> values{};
+    const Columned read = parse_columns(text, count, values.data());
+    if (read.outcome != Outcome::ok || *std::min_element(values.begin(), values.end()) < 0)
+      reader_.fail(in_quotes(text) + " is not a count of lines");
+    return values;
+  }
+
+  std::string_view next() {
+    std::string_view line;
+    if (!reader_.next_content(line))
+      reader_.fail("the file ends within a section; it was cut short");
+    return line;
+  }
+
+  template <class T> void parse(std::string_view line, int count, T* values) {
+    const Columned read = parse_columns(line, count, values);
+    if (read.outcome == Outcome::too_few)
+      reader_.fail("fewer than " + std::to_string(count) + " columns");
+    if (read.outcome != Outcome::ok)
+      reader_.fail(describe(read));
+  }
+
+  /// The first columns of so many lines, line by line. A tag may end the lines: one that is missing
+  /// shows that the last number was cut short.
+  std::vector<double> numbers(std::int64_t lines, int columns, int tags = 0) {
+    std::vector<double> values;
+    std::array<double, 4> row{};
+    for (std::int64_t i = 0; i < lines; ++i) {
+      parse(next(), columns + tags, row.data());
+      for (int c = 0; c < columns; ++c)
+        if (!std::isfinite(row[static_cast<std::size_t>(c)]))
+          reader_.fail("NaN or an infinite number; correct it");
+      values.insert(values.end(), row.begin(), row.begin() + columns);
+    }
+    return values;
+  }
+
+  void grid(const std::array<std::int64_t, 2>& head) {
+    if (head[0] != 1 && head[0] != 2)
+      reader_.fail("COORD=" + std::to_string(head[0]) + " is not an axis of a grid; give 1 and 2");
+    std::vector<double>& axis = head[0] == 1 ? file_.x_grid : file_.y_grid;
+    if (!axis.empty())
+      reader_.fail("COORD=" + std::to_string(head[0]) + " comes twice; leave one of them out");
+    axis = numbers(head[1], 1);
+  }
+
+  void points(std::int64_t count) {
+    if (file_.dimensions != 2 && file_.dimensions != 3)
+      reader_.fail("points of " + std::to_string(file_.dimensions) +
+                   " dimensions; write NDIMS=2 or NDIMS=3 before them");
+    const std::vector<double> all = numbers(count, file_.dimensions, 1);
+    file_.points = Eigen::Map<const DoubleMatrix>(all.data(), file_.dimensions,
+                                                  static_cast<Eigen::Index>(all.size()) /
+                                                      static_cast<Eigen::Index>(file_.dimensions));
+  }
+
+  void triangles(std::int64_t count) {
+    std::vector<std::int32_t> all;
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::array<std::int64_t, 4> ids{}; // and a tag
+      parse(next(), 4, ids.data());
+      parse_ids(reader_, ids.data(), most_points, all);
+    }
+    file_.triangles =
+        Eigen::Map<const Triangles>(all.data(), 3, static_cast<Eigen::Index>(all.size() / 3));
+  }
+
+  void skip(std::int64_t lines) {
+    for (std::int64_t i = 0; i < lines; ++i)
+      next();
+  }
+
+  /// Points may follow the triangles.
+  void require_vertices() const {
+    for (Eigen::Index t = 0; t < file_.triangles.cols(); ++t)
+      if (file_.triangles.col(t).maxCoeff() >= file_.points.cols())
+        throw Error(ErrorCode::parse,
+                    reader_.name() + ": triangle " + std::to_string(t) + " has vertex " +
+                        std::to_string(file_.triangles.col(t).maxCoeff()) + ", but there are " +
+                        std::to_string(file_.points.cols()) + " points, counted from 0");
+  }
+
+  static constexpr std::int64_t most_points = std::int64_t{1} << 31;
+
+  LineReader reader_;
+  JigsawFile file_;
+  std::set<std::string> seen_;
+};
+
+} // namespace
+
+JigsawFile read_jigsaw(std::istream& in, const std::string& name) {
+  return Sections(in, name).read();
+}
+
+Points3 directions_of(const JigsawFile& file, const std::string& name) {
+  if (file.dimensions == 3)
+    return file.points;
+  if (file.kind != "ellipsoid-mesh")
+    throw Error(ErrorCode::parse, name + ": a mesh of the plane; give an ellipsoid-mesh, or points "
+                                         "of NDIMS=3");
+  constexpr double degrees = 180 / std::numbers::pi;
+  Points3 points(3, file.points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const double latitude = file.points(1, i) * degrees;
+    if (std::abs(latitude) > 90.001)
+      throw Error(ErrorCode::parse,
+                  name + ": latitude " + std::to_string(file.points(1, i)) + " of point " +
+                      std::to_string(i) + " is not an angle in radians from -pi/2 to pi/2",
+                  i);
+    const Vec3 p = from_lonlat(file.points(0, i) * degrees, std::clamp(latitude, -90.0, 90.0));
+    points.col(i) << p.x, p.y, p.z;
+  }
+  return points;
+}
+
+} // namespace calotte::io_detail
