@@ -150,7 +150,7 @@ MeshFile read_input(const Request& request) {
   const Format format = options_of(*request.format, request.output).format;
   if (part)
     file.mesh->surface = *part;
-  else if (unbounded && !file.polygons && holds_cells(format))
+  else if (unbounded && !file.polygons && info_of(format).cells)
     throw Error(ErrorCode::invalid_argument,
                 request.output +
                     ": the cells of a bounded plane need its domain, which clips them; "

@@ -195,7 +195,7 @@ void add_delaunay(CLI::App& app) {
       ->add_option("POINTS,--points", request->points,
                    "Input points: text with x y z on each line (vectors of any length), - for "
                    "standard input, or the points of a mesh. Meshes: " +
-                       std::string(mesh_suffixes))
+                       names_of_read_meshes())
       ->type_name("FILE")
       ->required();
   command->add_option("-o,--output", request->mesh, help_of_output())

@@ -72,7 +72,7 @@ void add_help(CLI::App& app) {
   auto request = std::make_shared<HelpRequest>();
   CLI::Option* name = command->add_option(
       "NAME", request->name,
-      "A command, density, region, measures or exit-codes; default: all commands");
+      "A command, formats, density, region, measures or exit-codes; default: all commands");
   CLI::Option* man = command->add_flag(
       "--man", request->man, "Write the manual page of the command in the format of man(1)");
   command->add_option("--completion", request->shell, "Write the completion of a shell")

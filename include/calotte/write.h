@@ -50,7 +50,23 @@ enum class Format {
   geojson,         ///< the cells as polygons with their CellFields
   exodus,          ///< Exodus II of the cells, NetCDF, as TempestRemap reads it
   fesom,           ///< nod2d.out, and elem2d.out beside it: the triangles for FESOM, text
-  vtk,             ///< legacy VTK, which is read only: write() throws invalid_argument
+  vtk,             ///< legacy VTK, read only: write() throws invalid_argument, for this and below
+  icon,            ///< a grid of ICON, NetCDF, read only
+  cf,              ///< cells with bounds as in the CF conventions, or of OASIS, NetCDF, read only
+};
+
+/// What a format is.
+struct FormatInfo {
+  Format format = Format::by_name; ///< never by_name
+  /// Of the option --format, such as "ugrid-triangles"; empty where the format is read only.
+  std::string word;
+  /// Names that select it: suffixes such as ".exo", or whole names such as "nod2d.out".
+  std::vector<std::string> names;
+  std::string title;   ///< such as "UGRID of triangles"
+  bool cells = false;  ///< it holds Voronoi cells, and needs a closed mesh or a domain of the plane
+  bool netcdf = false; ///< NetCDF, classic or HDF5
+  bool read = true;    ///< read_mesh() reads it
+  bool points = true;  ///< it holds its points; else read_mesh() needs them
 };
 
 /// Options of write(). No option changes the geometry of the mesh.
@@ -130,8 +146,11 @@ void write(const std::string& path, Mesh&& mesh, const WriteOptions& options = {
 ///         another name.
 Format format_of(const std::string& path, Format option = Format::by_name);
 
-/// The words for formats, such as "ugrid-triangles", without by_name and vtk.
-const std::vector<std::pair<std::string, Format>>& format_words();
+/// All formats but by_name.
+const std::vector<FormatInfo>& formats();
+
+/// That of one. \pre not by_name.
+const FormatInfo& info_of(Format format);
 
 } // namespace calotte
 CALOTTE_API_END

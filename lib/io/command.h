@@ -27,10 +27,6 @@ void write_file(const std::string& path, std::string_view bytes);
 /// \throws Error file.
 bool is_netcdf_file(const std::string& path);
 
-/// True if the format stores Voronoi cells and thus requires a closed mesh, or a domain of the
-/// plane.
-bool holds_cells(Format format);
-
 /// Throws unless write() supports meshes of a plane in the format.
 /// \param path for the message.
 /// \param format not by_name.

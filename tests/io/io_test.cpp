@@ -403,8 +403,8 @@ TEST_CASE("unknown suffixes, folders that do not exist and full disks leave noth
   CHECK(error(scratch / "mesh.stl").code() == ErrorCode::invalid_argument);
   CHECK(std::string(error(scratch / "mesh").what())
             .ends_with(
-                "mesh: no suffix; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, "
-                ".ply, .msh, .geojson, .g, .exo, .txt or .tri, or is named SaveVertices or "
+                "mesh: no suffix; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, .vtk (read only), "
+                ".off, .ply, .msh, .geojson, .txt or .tri, or is named SaveVertices or "
                 "nod2d.out"));
   CHECK(error(scratch / "absent/mesh.vtp").code() == ErrorCode::file);
   CHECK(error_of([&] { calotte::read_points(scratch / "absent.txt"); }).code() == ErrorCode::file);

@@ -716,8 +716,7 @@ TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file
            : io_detail::write_mpas_minimal(scratch / name, of, {});
     };
     write("a.nc", mesh);
-    const PlanarMesh back =
-        PlanarMesh(*io_detail::read_planar_mpas(NetcdfReader(scratch / "a.nc")).plane());
+    const PlanarMesh back = PlanarMesh(*read_mesh_file(scratch / "a.nc").plane());
     CHECK(back.points == mesh.points);
     CHECK(back.triangles == mesh.triangles);
     CHECK(back.neighbours == mesh.neighbours);
@@ -838,8 +837,8 @@ TEST_CASE("files that are not as they should be end in one line") {
     forged.write(path);
     const Error error = error_of([&] {
       const NetcdfReader file(path);
-      forged.kind == "NO" && forged.period != -1 ? void(io_detail::read_planar_mpas(file))
-                                                 : void(io_detail::read_mpas(file));
+      forged.period == -1 ? void(io_detail::read_mpas_sites(file))
+                          : void(io_detail::read_mpas(file));
     });
     CHECK(error.code() == code);
     return std::string(error.what());

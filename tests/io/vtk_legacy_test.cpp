@@ -213,7 +213,7 @@ TEST_CASE("legacy VTK: files are not written, and say so") {
   };
   for (const char* name : {"mesh.vtk", "mesh.VTK", "mesh.data"})
     CHECK(problem(name, Format::vtk)
-              .ends_with(": legacy VTK files are read, but not written; write .vtp or .vtu"));
+              .ends_with(": legacy VTK files are read, but not written; write .vtp, .vtu or .nc"));
   CHECK(problem("mesh.vtk", Format::by_name).find("not written") != std::string::npos);
   CHECK(scratch.files() == 0);
 }

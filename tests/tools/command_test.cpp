@@ -84,8 +84,8 @@ TEST_CASE("bad usage is refused before any work") {
     check_refusal(bench, arguments, 2, message);
   };
   const std::string suffixes =
-      "; a mesh file ends in .nc, .vtp, .vtu, .vtk (read only), .off, .ply, "
-      ".msh, .geojson, .g, .exo, .txt or .tri, or is named SaveVertices or nod2d.out";
+      "; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, .vtk (read only), .off, .ply, "
+      ".msh, .geojson, .txt or .tri, or is named SaveVertices or nod2d.out";
   check_usage("delaunay never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"" + suffixes);
   check_usage("delaunay never -o mesh", "mesh: no suffix" + suffixes);
   check_usage("delaunay never -o mesh.vtp --regions 0",

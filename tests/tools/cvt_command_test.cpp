@@ -239,8 +239,9 @@ TEST_CASE("bad usage is refused before any work") {
   const std::string out = " -o mesh.vtp ", see = "; see calotte cvt --help";
   check_usage("never", "--output is required" + see);
   check_usage("never -o mesh.stl",
-              "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .vtp, .vtu, .vtk (read "
-              "only), .off, .ply, .msh, .geojson, .g, .exo, .txt or .tri, or is named SaveVertices "
+              "mesh.stl: unknown suffix \".stl\"; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, "
+              ".vtk (read "
+              "only), .off, .ply, .msh, .geojson, .txt or .tri, or is named SaveVertices "
               "or nod2d.out");
   check_usage("never -o mesh.vtp --sphere-radius 6371229",
               "--sphere-radius 6371229 applies to NetCDF files only, not to mesh.vtp; "

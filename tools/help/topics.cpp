@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/topics.h"
 
+#include <calotte/write.h>
+
+#include <iomanip>
+#include <sstream>
+
 namespace calotte::tools {
 namespace {
 
@@ -146,10 +151,36 @@ constexpr const char* codes =
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";
 
+/// From the library's table.
+std::string formats_text() {
+  std::ostringstream out;
+  out << "The name of a file selects its format, --format another one that has that name. Of "
+         "several, the\n"
+         "first is meant. A NetCDF file is read by its content.\n\n";
+  const auto line = [&](const std::string& title, const std::string& word, const std::string& names,
+                        const std::string& read, const std::string& written) {
+    out << std::left << std::setw(40) << title << std::setw(17) << word << std::setw(14) << names
+        << std::setw(13) << read << written << "\n";
+  };
+  line("format", "--format", "name", "read", "written");
+  for (const FormatInfo& info : formats()) {
+    std::string names;
+    for (const std::string& name : info.names)
+      names += (names.empty() ? "" : ", ") + name;
+    line(info.title, info.word, names,
+         !info.read    ? "no"
+         : info.points ? "yes"
+                       : "with points",
+         info.word.empty() ? "no" : "yes");
+  }
+  return out.str();
+}
+
 } // namespace
 
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all{
+      {"formats", "Formats of mesh files, and their names", formats_text()},
       {"density", "Syntax of --density, and of widths in km", density},
       {"region", "Syntax of --region: shapes and files", region},
       {"measures", "Meaning of what info and view measure", measures},

@@ -49,7 +49,7 @@ void add_start(CLI::App& command, CvtRequest& request) {
       .add_option("START,--points", request.points,
                   "Initial generators: text with x y z on each line (in the plane x y), - for "
                   "standard input, or the points of a mesh. Without a file give --cells. Meshes: " +
-                      std::string(mesh_suffixes))
+                      names_of_read_meshes())
       ->type_name("FILE");
   command.add_flag("--lonlat", request.lonlat,
                    "The points of START and --fixed are longitude and latitude in degrees");

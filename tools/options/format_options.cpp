@@ -6,6 +6,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,26 +19,18 @@ namespace {
 const std::map<std::string, Numbering> numberings{
     {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
 
-/// The word of a format.
-std::string word_of(Format format) {
-  for (const auto& [word, of] : format_words())
-    if (of == format)
-      return word;
-  return "";
-}
-
 Format format_of(const FormatWords& words, const std::string& path) {
   Format given = Format::by_name;
-  for (const auto& [word, format] : format_words())
-    if (words.format == word)
-      given = format;
+  for (const FormatInfo& info : formats())
+    if (words.format == info.word)
+      given = info.format;
   const Model* const model = model_of(words.model);
   const Format format = calotte::format_of(path, given);
   if (model != nullptr && model->format != format)
     throw Error(
         ErrorCode::invalid_argument,
-        path + ": --for " + model->word + " writes the format " + word_of(model->format) +
-            ", not " + word_of(format) + "; give " +
+        path + ": --for " + model->word + " writes the format " + info_of(model->format).word +
+            ", not " + info_of(format).word + "; give " +
             (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
             (words.format ? ", and leave --format out" : ""));
   return format;
@@ -56,24 +49,22 @@ bool starts_as(const std::string& path, const std::string& start) {
   return std::filesystem::path(path).filename().string().starts_with(start);
 }
 
-bool is_netcdf(Format format) {
-  switch (format) {
-  case Format::mpas:
-  case Format::mpas_minimal:
-  case Format::ugrid:
-  case Format::ugrid_triangles:
-  case Format::scrip:
-  case Format::esmf:
-  case Format::exodus:
-    return true;
-  default:
-    return false;
-  }
+/// The names of files of some formats, each once.
+std::string names(bool (*of)(const FormatInfo&)) {
+  std::vector<std::string> all;
+  for (const FormatInfo& info : formats())
+    for (const std::string& name : info.names)
+      if (of(info) && std::find(all.begin(), all.end(), name) == all.end())
+        all.push_back(name);
+  std::string list;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    list += (k == 0 ? "" : k + 1 < all.size() ? ", " : " or ") + all[k];
+  return list;
 }
 
 void require_radius(double radius, Format format, const std::string& path) {
   require_sphere_radius(radius);
-  if (radius != 1 && !is_netcdf(format))
+  if (radius != 1 && !info_of(format).netcdf)
     throw Error(ErrorCode::invalid_argument, "--sphere-radius " + shortest(radius) +
                                                  " applies to NetCDF files only, not to " + path +
                                                  "; leave it out, or give a name that ends in .nc");
@@ -84,14 +75,13 @@ void require_radius(double radius, Format format, const std::string& path) {
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius) {
   auto words = std::make_shared<FormatWords>();
   std::vector<std::string> known;
-  for (const auto& [word, format] : format_words())
-    known.push_back(word);
+  for (const FormatInfo& info : formats())
+    if (!info.word.empty())
+      known.push_back(info.word);
   add_model(command, words->model);
   command
       .add_option("--format", words->format,
-                  "Format of the mesh; default: by the file name. NetCDF: mpas (complete), "
-                  "mpas-minimal (for MpasMeshConverter.x), ugrid (cells), ugrid-triangles, scrip "
-                  "and esmf. VTK: vtp and vtu (triangles), vtp-cells and vtu-cells (Voronoi cells)")
+                  "Format of the mesh; default: by the file name; see calotte help formats")
       ->check(CLI::IsMember(known));
   add_sphere_radius(command, words->sphere_radius,
                     "Radius of the sphere in NetCDF files: metres, > 0, or earth (6371229 m); "
@@ -119,10 +109,13 @@ bool holds_triangles(const std::string& path) {
   return format_of_name(path) == Format::triangles && !starts_as(path, "Region");
 }
 
+std::string names_of_read_meshes() {
+  return names([](const FormatInfo& info) { return info.read && info.points; });
+}
+
 std::string help_of_output() {
-  return "Output mesh. Its name selects the format: .nc (MPAS; see --format), .vtp, .vtu, .off, "
-         ".ply, .msh (JIGSAW), .geojson (cells), .g (Exodus), .txt or .tri (triangles without "
-         "points), SaveVertices (MPI-SCVT), or nod2d.out (FESOM)";
+  return "Output mesh. Its name selects the format, see calotte help formats: " +
+         names([](const FormatInfo& info) { return !info.word.empty(); });
 }
 
 WriteOptions options_of(const FormatWords& words, const std::string& path) {

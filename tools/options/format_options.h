@@ -26,10 +26,8 @@ struct FormatWords {
 /// \param default_radius for the help.
 std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& default_radius = "1");
 
-/// The suffixes of meshes that hold their points, for help texts.
-inline constexpr const char* mesh_suffixes = ".nc (MPAS, UGRID, SCRIP, ESMF or ICON), .g (Exodus), "
-                                             ".vtp, .vtu, .vtk, .off, .ply, .msh, .geojson or "
-                                             "nod2d.out (FESOM)";
+/// The names of files of meshes that hold their points, for help texts.
+std::string names_of_read_meshes();
 
 /// True if read_sites() reads a file of this name: a mesh that holds its points, except text such
 /// as MPI-SCVT's SaveVertices and RegionList.

@@ -14,8 +14,7 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   auto source = std::make_shared<MeshSource>();
   command
       .add_option(names, source->path,
-                  "Input mesh; .txt and .tri require --points. Names: " +
-                      std::string(mesh_suffixes) + ", SaveVertices (MPI-SCVT), or .txt and .tri")
+                  "Input mesh: " + names_of_read_meshes() + "; or .txt and .tri")
       ->type_name("FILE")
       ->required();
   command.add_option("--points", source->points, "Points to which a .txt or .tri file refers")

@@ -18,7 +18,7 @@ struct PointFile {
 };
 
 /// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
-/// mesh_suffixes, which have no lines.
+/// names_of_read_meshes(), which have no lines.
 /// \throws Error as read_points() and read_sites(); invalid_argument for a mesh in longitude and
 /// latitude.
 PointFile read_point_file(const std::string& path, bool lonlat);

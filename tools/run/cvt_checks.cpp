@@ -60,12 +60,12 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   const Format format = format_of(request.mesh, options.format);
   if (request.part.limited_area)
     require_mpas_name(request.mesh);
-  const bool triangles = format == Format::vtp || format == Format::vtu || format == Format::off ||
-                         format == Format::ply || format == Format::triangles ||
-                         format == Format::msh || format == Format::ugrid_triangles;
-  if (!request.part.limited_area && !triangles)
+  if (!request.part.limited_area && info_of(format).cells)
     refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
                           "give --limited-area, or a file of triangles such as .vtp");
+  if (format == Format::fesom)
+    refuse(request.mesh + ": FESOM takes no triangle with a single neighbour, as a boundary may "
+                          "have; write a .vtp file, and convert it to nod2d.out");
 }
 
 /// The name of the file that is written beside a full MPAS file; empty for other formats.

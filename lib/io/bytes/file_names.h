@@ -3,8 +3,6 @@
 
 #include "io/bytes/room.h"
 
-#include <calotte/io.h>
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,17 +28,9 @@ inline constexpr std::string_view fesom_depths_name = "aux3d.out";
 /// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);
 
-bool is_netcdf(Format format);
-
-/// The format of a mesh file by its name, if the name determines it.
-std::optional<Format> format_of_name(const std::string& path);
-
 /// Replaces the start `stem` of the file name by `other`; none if the name does not start with
 /// `stem`.
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,
                                    std::string_view other);
-
-/// \throws Error invalid_argument, always, with the names that determine a format.
-[[noreturn]] void refuse_name(const std::string& path);
 
 } // namespace calotte::io_detail

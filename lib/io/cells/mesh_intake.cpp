@@ -3,6 +3,7 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
+#include "domain/surface.h"
 #include "io/cells/dual.h"
 #include "io/cells/field_order.h"
 #include "io/cells/polygons.h"
@@ -273,6 +274,75 @@ void require_places(const std::string& name, const Points3& points) {
   }
 }
 
+MeshFile spherical_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
+  require_sphere(name, raw.points);
+  require_directions(name, raw.points);
+  MeshFile file = rest_of(format, raw);
+  const bool has_cells = raw.polygons.size() > 0;
+  if (has_cells)
+    turn_cells(name, raw.polygons, raw.turns_each, file);
+  if (raw.triangles.cols() > 0) {
+    require_ids(name, raw.triangles, raw.points.cols());
+    Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
+    complete(name, mesh, file, &raw.polygons);
+    settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
+    file.mesh = std::move(mesh);
+    if (has_cells)
+      settle_polygons(name, std::move(raw), file);
+  } else if (!has_cells) {
+    file.mesh = named(name, [&] { return delaunay(raw.points); });
+    merge_values(*file.mesh, file);
+    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
+  } else {
+    settle_cells(name, std::move(raw), file);
+  }
+  if (file.mesh)
+    file.sphere_radius = radius_of(file.mesh->points);
+  return file;
+}
+
+/// With z = 0 at all points.
+MeshFile planar_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
+  require_places(name, raw.points);
+  raw.points.row(2).setZero(); // not -0
+  MeshFile file = rest_of(format, raw);
+  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
+    throw Error(ErrorCode::invalid_argument,
+                name + ": it holds cells of the sphere; of a plane only triangles are read");
+  if (raw.triangles.cols() == 0) {
+    file.mesh = named(name, [&] { return delaunay(raw.points, Surface::plane()); });
+    if (raw.polygons.size() > 0)
+      settle_clipped(name, std::move(raw.polygons), file);
+    return file;
+  }
+  require_ids(name, raw.triangles, raw.points.cols());
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, Surface::plane()};
+  complete(name, mesh, file);
+  file.mesh = std::move(mesh);
+  return file;
+}
+
+/// It has a boundary where there are polygons, one for each point. \pre the points are within the
+/// periods.
+MeshFile periodic_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
+  MeshFile file = rest_of(format, raw);
+  Mesh mesh{std::move(raw.points),
+            std::move(raw.triangles),
+            {},
+            {},
+            domain_detail::UncheckedSurface::of_plane({}, raw.period)};
+  complete(name, mesh, file);
+  settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
+  file.mesh = std::move(mesh);
+  if (raw.polygons.size() > 0) {
+    turn_cells(name, raw.polygons, false, file);
+    require_no_overlap(raw.polygons, name);
+    file.not_voronoi = "the mesh is open";
+    file.polygons = std::move(raw.polygons);
+  }
+  return file;
+}
+
 } // namespace
 
 bool lies_in_plane(const Points3& points) {
@@ -307,50 +377,10 @@ double radius_of(const Points3& points) {
 }
 
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
-  require_sphere(name, raw.points);
-  require_directions(name, raw.points);
-  MeshFile file = rest_of(format, raw);
-  const bool has_cells = raw.polygons.size() > 0;
-  if (has_cells)
-    turn_cells(name, raw.polygons, raw.turns_each, file);
-  if (raw.triangles.cols() > 0) {
-    require_ids(name, raw.triangles, raw.points.cols());
-    Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
-    complete(name, mesh, file, &raw.polygons);
-    settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
-    file.mesh = std::move(mesh);
-    if (has_cells)
-      settle_polygons(name, std::move(raw), file);
-  } else if (!has_cells) {
-    file.mesh = named(name, [&] { return delaunay(raw.points); });
-    merge_values(*file.mesh, file);
-    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
-  } else {
-    settle_cells(name, std::move(raw), file);
-  }
-  if (file.mesh)
-    file.sphere_radius = radius_of(file.mesh->points);
-  return file;
-}
-
-MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
-  require_places(name, raw.points);
-  raw.points.row(2).setZero(); // not -0
-  MeshFile file = rest_of(format, raw);
-  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
-    throw Error(ErrorCode::invalid_argument,
-                name + ": it holds cells of the sphere; of a plane only triangles are read");
-  if (raw.triangles.cols() == 0) {
-    file.mesh = named(name, [&] { return delaunay(raw.points, Surface::plane()); });
-    if (raw.polygons.size() > 0)
-      settle_clipped(name, std::move(raw.polygons), file);
-    return file;
-  }
-  require_ids(name, raw.triangles, raw.points.cols());
-  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, Surface::plane()};
-  complete(name, mesh, file);
-  file.mesh = std::move(mesh);
-  return file;
+  if (raw.period.maxCoeff() > 0)
+    return periodic_mesh_file(name, format, std::move(raw));
+  return raw.planar ? planar_mesh_file(name, format, std::move(raw))
+                    : spherical_mesh_file(name, format, std::move(raw));
 }
 
 namespace {
@@ -376,20 +406,6 @@ MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Tr
   require_directions(name, points);
   file.mesh = mesh_of_columns_in_order(name, points, triangles, {}, file);
   file.sphere_radius = radius_of(points);
-  return file;
-}
-
-MeshFile periodic_mesh_file_of(const std::string& name, Mesh mesh, RawMesh rest) {
-  MeshFile file = rest_of("MPAS", rest);
-  complete(name, mesh, file);
-  settle_edge_fields(mesh.triangles, rest.edges, file.fields, file.changes, file.ignored);
-  file.mesh = std::move(mesh);
-  if (rest.polygons.size() > 0) {
-    turn_cells(name, rest.polygons, false, file);
-    require_no_overlap(rest.polygons, name);
-    file.not_voronoi = "the mesh is open";
-    file.polygons = std::move(rest.polygons);
-  }
   return file;
 }
 

@@ -13,22 +13,16 @@
 /// counter-clockwise, from their lowest vertex on and sorted, each edge of two triangles at most.
 namespace calotte::io_detail {
 
-/// A mesh of the sphere, of triangles, cells or both. \param format for messages.
+/// A mesh of triangles, cells or both, on the surface that the raw mesh says. In a plane z is 0 at
+/// all points. \param format for messages.
 /// \throws Error parse, for a file that contradicts itself; invalid_argument, for a mesh of the
-/// plane; what delaunay() throws, with the file's name.
+/// plane that shall be one of the sphere, and the reverse; what delaunay() throws, with the file's
+/// name.
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw);
-
-/// A mesh of the plane, with z = 0 at all points. \throws Error as above; invalid_argument, where z
-/// is not 0.
-MeshFile planar_mesh_file_of(const std::string& name, const std::string& format, RawMesh raw);
 
 /// A mesh whose triangles refer to columns of points that a caller has, of the plane if z is 0 at
 /// all of them. \throws Error parse.
 MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles);
-
-/// A mesh in a periodic plane, whose points are within the periods. It has a boundary where `rest`
-/// has polygons, one for each point. \throws Error parse.
-MeshFile periodic_mesh_file_of(const std::string& name, Mesh mesh, RawMesh rest);
 
 /// Whether z is 0 at all of three or more points: a mesh of the plane.
 bool lies_in_plane(const Points3& points);

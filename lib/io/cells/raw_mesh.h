@@ -21,7 +21,9 @@ struct RawMesh {
   bool turns_each = false;
   /// How far a corner may be from its place by the file's digits alone, radians.
   double corner_rounding = 0;
-  DoubleVector density = {}; ///< by site, or empty
+  bool planar = false;          ///< in a plane, where z is 0
+  Eigen::Vector2d period{0, 0}; ///< of a plane whose triangles are joined across it
+  DoubleVector density = {};    ///< by site, or empty
   std::vector<MeshField> fields = {};
   Pairs edges = {};                      ///< the sites of the edges that fields have; -1 for none
   std::vector<std::string> ignored = {}; ///< variables that are neither the mesh's nor fields

@@ -17,8 +17,9 @@
 #include <string>
 #include <vector>
 
-/// The formats. A writer's mesh is numbered as its file shall be; a reader checks that the file is
-/// whole and leaves the rest to read_mesh.
+/// The writers and readers of formats, which the table of formats (format_table.cpp) has. A
+/// writer's mesh is numbered as its file shall be; a reader checks that the file is whole and
+/// leaves the rest to read_mesh.
 namespace calotte::io_detail {
 
 // ---- Streams
@@ -49,14 +50,6 @@ RawMesh get_geojson(std::istream& in, const std::string& name);
 
 /// Triangles of `points` columns.
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
-
-/// Whether a format has a place for a field; all that have a place for fields at all have one for
-/// those with one number for each cell.
-bool holds_field(Format format, const MeshField& field);
-
-/// The format that holds polygons where one of triangles is asked for: vtp and vtu have a kind of
-/// their own for cells. none for a format that holds no other faces than triangles.
-std::optional<Format> polygon_format(Format format);
 
 // ---- Files of their own making. \throws Error invalid_argument, file.
 

@@ -2,6 +2,7 @@
 #include "io/cells/cell_outline.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
+#include "io/formats/format_table.h"
 #include "io/formats/formats.h"
 
 #include "base/points.h"

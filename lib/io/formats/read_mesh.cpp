@@ -4,12 +4,14 @@
 #include "io/cells/cell_rows.h"
 #include "io/cells/mesh_intake.h"
 #include "io/command.h"
+#include "io/formats/format_table.h"
 #include "io/formats/formats.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -38,32 +40,6 @@ bool holds_netcdf(const std::string& path) {
 
 // ---- Files of each kind
 
-/// Formats that hold points in space may hold a mesh of the plane.
-MeshFile mesh_file_of_any(const std::string& path, const std::string& format, RawMesh raw) {
-  return lies_in_plane(raw.points) ? planar_mesh_file_of(path, format, std::move(raw))
-                                   : mesh_file_of(path, format, std::move(raw));
-}
-
-MeshFile read_netcdf(const std::string& path, FieldChoice choice) {
-  const NetcdfReader file(path);
-  if (is_mpas(file))
-    return is_planar_mpas(file) ? read_planar_mpas(file, choice)
-                                : mesh_file_of(path, "MPAS", read_mpas(file, choice));
-  if (is_ugrid(file))
-    return mesh_file_of_any(path, "UGRID", read_ugrid(file, choice));
-  if (is_scrip(file))
-    return mesh_file_of(path, "SCRIP", read_scrip(file, choice));
-  if (is_esmf(file))
-    return mesh_file_of(path, "ESMF", read_esmf(file, choice));
-  if (is_exodus(file))
-    return mesh_file_of(path, "Exodus", read_exodus(file, choice));
-  if (is_icon(file))
-    return mesh_file_of(path, "ICON", read_icon(file, choice));
-  if (const std::optional<CellRows> rows = cell_rows_of(file))
-    return mesh_file_of(path, "CF", read_cells(file, *rows, choice));
-  refuse_netcdf(file);
-}
-
 /// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
 /// that either file stands for both. Nothing where the name is none of the two.
 std::optional<RawMesh> read_centres(const std::string& path) {
@@ -80,99 +56,60 @@ std::optional<RawMesh> read_centres(const std::string& path) {
   return RawMesh{read_points(*centres)};
 }
 
-RawMesh read_stream(const std::string& path, Format format) {
-  std::ifstream in = open_input(path);
-  switch (format) {
-  case Format::vtp:
-  case Format::vtu:
-    return get_vtk_xml(in, path);
-  case Format::vtk:
-    return get_vtk_legacy(in, path);
-  case Format::off:
-    return get_off(in, path);
-  case Format::ply:
-    return get_ply(in, path);
-  case Format::msh:
-    return get_msh(in, path);
-  default:
-    return get_geojson(in, path);
+/// The row that reads a file, and the file, open if it is NetCDF.
+struct OpenFile {
+  explicit OpenFile(const std::string& path) {
+    if (!holds_netcdf(path)) {
+      row = &row_of(*format_of_name(path));
+      return;
+    }
+    netcdf.emplace(path);
+    const auto table = format_table();
+    const auto is = [&](const FormatRow& of) { return of.is != nullptr && of.is(*netcdf); };
+    const auto found = std::find_if(table.begin(), table.end(), is);
+    if (found == table.end())
+      refuse_netcdf(*netcdf);
+    row = &*found;
   }
-}
 
-std::string name_of(Format format) {
-  switch (format) {
-  case Format::vtp:
-  case Format::vtu:
-  case Format::vtk:
-    return "VTK";
-  case Format::off:
-    return "OFF";
-  case Format::ply:
-    return "PLY";
-  case Format::msh:
-    return "MSH";
-  case Format::mpi_scvt:
-    return "MPI-SCVT";
-  default:
-    return "GeoJSON";
+  InputFile input(const std::string& path, FieldChoice fields) const {
+    return {path, netcdf ? &*netcdf : nullptr, fields};
   }
-}
+
+  const FormatRow* row = nullptr;
+  std::optional<NetcdfReader> netcdf;
+};
 
 MeshFile read_any(const std::string& path, FieldChoice choice) {
   if (std::optional<RawMesh> centres = read_centres(path))
-    return mesh_file_of(path, name_of(Format::mpi_scvt), *std::move(centres));
-  if (holds_netcdf(path))
-    return read_netcdf(path, choice);
-  const std::optional<Format> format = format_of_name(path);
-  if (*format == Format::triangles)
+    return mesh_file_of(path, row_of(Format::mpi_scvt).label, *std::move(centres));
+  const OpenFile file(path);
+  if (file.row->read == nullptr)
     refuse_triangles_alone(path);
-  if (*format == Format::fesom)
-    return mesh_file_of(path, "FESOM", read_fesom(path));
-  return mesh_file_of_any(path, name_of(*format),
-                          *format == Format::mpi_scvt ? read_mpi_scvt(path)
-                                                      : read_stream(path, *format));
+  RawMesh raw = file.row->read(file.input(path, choice));
+  raw.planar |= file.row->reads_planes && lies_in_plane(raw.points);
+  return mesh_file_of(path, file.row->label, std::move(raw));
 }
 
 // ---- Points alone
 
+/// Without what goes with them where that costs a look or may fail.
 /// \throws Error invalid_argument, for cells without centres.
-Points3 sites_of(const std::string& path, RawMesh raw) {
+Points3 sites_of(const std::string& path) {
+  if (std::optional<RawMesh> centres = read_centres(path))
+    return std::move(centres->points);
+  const OpenFile file(path);
+  const InputFile input = file.input(path, FieldChoice::none);
+  if (file.row->read_sites != nullptr)
+    return file.row->read_sites(input);
+  if (file.row->read == nullptr)
+    refuse_triangles_alone(path);
+  RawMesh raw = file.row->read(input);
   if (raw.points.cols() == 0 && raw.polygons.size() > 0)
     throw Error(ErrorCode::invalid_argument, path +
                                                  ": its cells have no centres, so it has no sites; "
                                                  "read them with read_mesh_file()");
   return std::move(raw.points);
-}
-
-/// Without what goes with them where that costs a look or may fail.
-Points3 sites_of(const std::string& path) {
-  if (std::optional<RawMesh> centres = read_centres(path))
-    return std::move(centres->points);
-  const std::optional<Format> format = format_of_name(path);
-  if (format == Format::mpi_scvt)
-    return read_points(path);
-  if (format == Format::fesom)
-    return read_fesom(path).points;
-  if (format == Format::triangles)
-    refuse_triangles_alone(path);
-  if (!holds_netcdf(path))
-    return sites_of(path, read_stream(path, *format));
-  const NetcdfReader file(path);
-  if (is_mpas(file))
-    return read_mpas_sites(file);
-  if (is_ugrid(file))
-    return sites_of(path, read_ugrid(file, FieldChoice::none));
-  if (is_scrip(file))
-    return sites_of(path, read_scrip(file, FieldChoice::none));
-  if (is_esmf(file))
-    return sites_of(path, read_esmf(file, FieldChoice::none));
-  if (is_exodus(file))
-    return sites_of(path, read_exodus(file, FieldChoice::none));
-  if (is_icon(file))
-    return sites_of(path, read_icon(file, FieldChoice::none));
-  if (const std::optional<CellRows> rows = cell_rows_of(file))
-    return sites_of(path, read_cells(file, *rows, FieldChoice::none));
-  refuse_netcdf(file);
 }
 
 } // namespace

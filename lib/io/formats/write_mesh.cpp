@@ -25,6 +25,30 @@
 #include <utility>
 
 namespace calotte {
+namespace io_detail {
+
+void refuse_to_write(const std::string& path, const std::string& problem) {
+  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
+}
+
+void require_options(const std::string& path, const WriteOptions& options) {
+  if (!(options.sphere_radius > 0 && std::isfinite(options.sphere_radius)))
+    refuse_to_write(path, "the sphere's radius is " + std::to_string(options.sphere_radius) +
+                              "; give a positive number");
+  evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
+}
+
+ProgressCallback rest_of(const ProgressCallback& progress, double from) {
+  if (!progress)
+    return {};
+  return [&progress, from](const Progress& part) {
+    constexpr double end = 0.99; // the file has yet to be brought to the disk
+    return progress({part.stage, from + (end - from) * part.fraction});
+  };
+}
+
+} // namespace io_detail
+
 namespace {
 
 using namespace io_detail;
@@ -45,65 +69,15 @@ void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   if (holds_cells(format) && !mesh.closed())
     refuse_to_write(
         path, "the mesh is open, and its outer cells would reach round the far side of the "
-              "sphere; write its triangles (.vtp, .vtu, .off, .ply, .msh), cut a limited area "
-              "out of a wider grid, or add sites all around the sphere");
+              "sphere; write its triangles (" +
+                  triangle_formats(", ") +
+                  "), cut a limited area out of a wider grid, or add sites all around the sphere");
 }
 
 Numbering numbering_of(const WriteOptions& options) {
   if (options.numbering != Numbering::by_format)
     return options.numbering;
   return is_netcdf(options.format) ? Numbering::curve : Numbering::input;
-}
-
-void put_mesh(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
-  switch (options.format) {
-  case Format::vtp:
-    return put_vtp(sink, mesh, options);
-  case Format::vtu:
-    return put_vtu(sink, mesh, options);
-  case Format::vtp_cells:
-    return put_vtp_cells(sink, mesh, options);
-  case Format::vtu_cells:
-    return put_vtu_cells(sink, mesh, options);
-  case Format::geojson:
-    return put_geojson(sink, mesh, options);
-  case Format::off:
-    return put_off(sink, mesh);
-  case Format::ply:
-    return put_ply(sink, mesh);
-  case Format::msh:
-    return put_msh(sink, mesh);
-  default:
-    return put_triangles_text(sink, mesh);
-  }
-}
-
-/// \param mesh `const Mesh&`; or `Mesh`, which MPAS formats consume.
-template <class AnyMesh>
-void write_numbered(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
-  switch (options.format) {
-  case Format::mpas:
-    return write_mpas(path, std::forward<AnyMesh>(mesh), options);
-  case Format::mpas_minimal:
-    return write_mpas_minimal(path, std::forward<AnyMesh>(mesh), options);
-  case Format::ugrid:
-    return write_ugrid(path, cell_grid(mesh), options);
-  case Format::ugrid_triangles:
-    return write_ugrid_triangles(path, mesh, options);
-  case Format::scrip:
-    return write_scrip(path, cell_grid(mesh), options);
-  case Format::esmf:
-    return write_esmf(path, cell_grid(mesh), options);
-  case Format::exodus:
-    return write_exodus(path, cell_grid(mesh), options);
-  case Format::fesom:
-    return write_fesom(path, mesh, options);
-  case Format::mpi_scvt:
-    return write_mpi_scvt(path, mesh, options);
-  default:
-    put_file(path, options.progress, expected_bytes(options.format) * mesh.points.cols(),
-             [&](const Sink& sink) { put_mesh(sink, mesh, options); });
-  }
 }
 
 /// The mesh in a file's numbering, and the options' values with it.
@@ -122,30 +96,30 @@ void require_input_numbering(const std::string& path, Numbering numbering) {
     refuse_to_write(path, "the cells of a planar mesh keep their numbers; leave the order out");
 }
 
-/// \param mesh `const Mesh&`; or an rvalue, which is freed as early as the format allows.
-template <class AnyMesh>
-void write_sphere(const std::string& path, AnyMesh&& mesh, const WriteOptions& options) {
+/// \param mesh its own is freed as early as the format allows.
+void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
   constexpr double numbered = 0.2; // of the time, where the cells are numbered anew
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
-  require_mesh(path, mesh, resolved.format);
-  require_values(path, sizes_of(mesh), resolved);
+  require_mesh(path, mesh.mesh, resolved.format);
+  require_values(path, sizes_of(mesh.mesh), resolved);
   if (is_netcdf(resolved.format))
     replace_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
   const Numbering numbering = numbering_of(resolved);
-  const bool stays =
-      numbering == Numbering::input || (numbering == Numbering::curve && is_in_curve_order(mesh));
+  const bool stays = numbering == Numbering::input ||
+                     (numbering == Numbering::curve && is_in_curve_order(mesh.mesh));
   resolved.progress = rest_of(options.progress, stays ? 0 : numbered);
+  const FormatRow& format = row_of(resolved.format);
   if (stays) {
-    write_numbered(path, std::forward<AnyMesh>(mesh), resolved);
+    format.write_mesh(path, mesh, resolved);
   } else {
-    Mesh other = renumbered_with_values(mesh, numbering, resolved);
-    if constexpr (!std::is_lvalue_reference_v<AnyMesh>)
-      mesh = {};
-    write_numbered(path, std::move(other), resolved);
+    Mesh other = renumbered_with_values(mesh.mesh, numbering, resolved);
+    if (mesh.own != nullptr)
+      *mesh.own = {};
+    format.write_mesh(path, {other, &other}, resolved);
   }
   monitor.finish("write");
 }
@@ -165,7 +139,8 @@ void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
   if (options.format != Format::ugrid)
     add_cell_fields(cells, options);
   DoubleVector area = std::move(cells.cell_area);
-  write_polygons(path, {polygons_of(std::move(cells)), std::move(area), {}}, options);
+  const CellGrid grid{polygons_of(std::move(cells)), std::move(area), {}};
+  row_of(options.format).write_polygons(path, grid, options);
 }
 
 void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
@@ -188,7 +163,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
                   [](const MeshField& field) { return field.location != Location::cells; });
     write_cells(path, voronoi(mesh), resolved);
   } else {
-    write_numbered(path, mesh, resolved);
+    row_of(resolved.format).write_mesh(path, {mesh}, resolved);
   }
   Monitor(options.progress).finish("write");
 }
@@ -197,37 +172,31 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
 
 void require_planar_format(const std::string& path, const Surface& plane, Format format) {
   const bool periodic = plane.period().maxCoeff() > 0, bounded = plane.is_bounded();
-  const bool mpas = format == Format::mpas || format == Format::mpas_minimal;
-  const bool cells = format == Format::mpas || format == Format::ugrid ||
-                     format == Format::vtp_cells || format == Format::vtu_cells ||
-                     format == Format::geojson;
-  const bool places = format == Format::vtp || format == Format::vtu || format == Format::off ||
-                      format == Format::ply || format == Format::msh;
-  if (format == Format::triangles || (periodic ? mpas : places || (bounded && cells)))
+  const Planes& planes = row_of(format).planes;
+  if (periodic ? planes.periodic : planes.whole || (bounded && planes.clipped))
     return;
+  const std::string triangles = triangle_formats();
   if (bounded)
-    refuse_to_write(path,
-                    "the cells of a bounded plane are written as mpas (.nc), ugrid, vtp-cells, "
-                    "vtu-cells or geojson, its triangles as .vtp, .vtu, .off, .ply or .msh; "
-                    "give one of these formats");
+    refuse_to_write(path, "the cells of a bounded plane are written as " + clipped_formats() +
+                              ", its triangles as " + triangles + "; give one of these formats");
   refuse_to_write(
       path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
                        "that ends in .nc, .txt or .tri"
-                     : "a plane is written as triangles, .vtp, .vtu, .off, .ply or .msh, and as "
-                       "cells only within a domain, which clips them; give a name that ends so, or "
-                       "convert that file with its domain");
+                     : "a plane is written as triangles, " + triangles +
+                           ", and as cells only within a domain, which clips them; give a name "
+                           "that ends so, or convert that file with its domain");
 }
 
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
   if (mesh.surface.is_sphere())
-    write_sphere(path, mesh, options);
+    write_sphere(path, {mesh}, options);
   else
     write_plane(path, mesh, options);
 }
 
 void write(const std::string& path, Mesh&& mesh, const WriteOptions& options) {
   if (mesh.surface.is_sphere())
-    write_sphere(path, std::move(mesh), options);
+    write_sphere(path, {mesh, &mesh}, options);
   else
     write_plane(path, mesh, options);
   mesh = {};

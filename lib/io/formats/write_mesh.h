@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/bytes/file.h"
-#include "io/formats/formats.h"
+#include "io/formats/format_table.h"
 #include "io/formats/room.h"
 
 #include <calotte/voronoi.h>
@@ -18,27 +18,17 @@ namespace calotte::io_detail {
 /// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 
-/// A file from front to back.
+/// A file from front to back. \param sites their number, or that of the cells.
 template <class Put>
-void put_file(const std::string& path, const ProgressCallback& progress, std::int64_t expected,
+void put_file(const std::string& path, const WriteOptions& options, std::int64_t sites,
               const Put& put) {
   OutputFile file(path);
-  file.watch(progress, expected);
+  file.watch(options.progress, row_of(options.format).bytes_a_site * sites);
   put([&](std::string_view bytes) { file.append(bytes); });
   file.commit();
 }
 
-/// A site's share of a file, roughly: progress alone depends on it.
-std::int64_t expected_bytes(Format format);
-
 /// A caller's callback for the part of a run from one fraction on.
 ProgressCallback rest_of(const ProgressCallback& progress, double from);
-
-/// Polygons in a format of cells other than MPAS.
-/// \throws Error invalid_argument, for polygons of a plane in a format of longitudes and latitudes.
-void write_polygons(const std::string& path, const CellGrid& grid, const WriteOptions& options);
-
-/// The names of the formats of cells that hold any polygons, for messages.
-std::string formats_of_polygons(bool on_sphere);
 
 } // namespace calotte::io_detail

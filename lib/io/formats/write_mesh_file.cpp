@@ -7,8 +7,9 @@
 #include "io/cells/open_cells.h"
 #include "io/cells/polygons.h"
 #include "io/cells/written_fields.h"
-#include "io/formats/formats.h"
+#include "io/formats/format_table.h"
 #include "io/formats/write_mesh.h"
+#include "io/mpas/mpas.h"
 
 #include "base/monitor.h"
 
@@ -27,11 +28,11 @@ using namespace io_detail;
 
 /// \throws Error invalid_argument, where the format does not hold cells of any shape.
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
-  const std::string others = "; write " + formats_of_polygons(file.polygons->on_sphere);
+  const std::string others = "; write " + polygon_formats(file.polygons->on_sphere);
   if (format == Format::mpas_minimal)
     refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
                               file.not_voronoi + others);
-  if (!polygon_format(format))
+  if (!row_of(format).polygons_as)
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
                               file.not_voronoi + others);
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
@@ -39,7 +40,8 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
       refuse_to_write(
           path, "cell " + std::to_string(i) +
                     " has an incomplete boundary, which no format of cells can hold; write the "
-                    "triangles (.vtp, .vtu, .off, .ply, .msh)");
+                    "triangles (" +
+                    triangle_formats(", ") + ")");
 }
 
 /// The points of the cells where these have the polygons' places, which keeps their bits; none in a
@@ -56,7 +58,7 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   const OpenCells cells = open_cells(file);
   if (!cells.problem.empty())
     refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem + "; write " +
-                              formats_of_polygons(file.polygons->on_sphere));
+                              polygon_formats(file.polygons->on_sphere));
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
@@ -87,7 +89,11 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
     Polygons polygons = unwrapped(*file.polygons);
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
       polygons.centres = centroids_of(polygons);
-    write_polygons(path, cell_grid(polygons), options);
+    const FormatRow& format = row_of(options.format);
+    if (!polygons.on_sphere && !format.planes.clipped && format.info.cells)
+      refuse_to_write(path, "the format holds cells of the sphere, but the mesh is planar; write " +
+                                polygon_formats(false) + ", or mpas");
+    format.write_polygons(path, cell_grid(polygons), options);
   }
   Monitor(options.progress).finish("write");
 }
@@ -119,12 +125,12 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
     return;
   const EdgeCounts edges = count_edges(mesh);
   if (edges.not_delaunay > 0)
-    refuse_to_write(
-        path, "the mesh has " + std::to_string(edges.not_delaunay) +
-                  " edges that are not Delaunay (the first is from site " +
-                  std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]) +
-                  "), so it has no Voronoi cells; write its triangles (.vtp, .vtu, .off, .ply, "
-                  ".msh), or triangulate its points anew");
+    refuse_to_write(path, "the mesh has " + std::to_string(edges.not_delaunay) +
+                              " edges that are not Delaunay (the first is from site " +
+                              std::to_string(edges.first[0]) + " to " +
+                              std::to_string(edges.first[1]) +
+                              "), so it has no Voronoi cells; write its triangles (" +
+                              triangle_formats(", ") + "), or triangulate its points anew");
 }
 
 /// Whether a field stands at the corners of the file's cells, of which only some are triangles.
@@ -162,7 +168,7 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
     std::erase_if(resolved.fields,
                   [&](const MeshField& field) { return is_at_corners(file, field); });
   if (polygons) {
-    resolved.format = polygon_format(resolved.format).value_or(resolved.format);
+    resolved.format = row_of(resolved.format).polygons_as.value_or(resolved.format);
     write_polygons_of(path, file, resolved);
   } else if (triangles) {
     write(path, *triangles, resolved);

@@ -92,6 +92,5 @@ bool is_mpas(const NetcdfReader& file);
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
 bool is_planar_mpas(const NetcdfReader& file);
-MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 
 } // namespace calotte::io_detail

@@ -191,16 +191,31 @@ Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
 }
 
 /// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
-MeshFile read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
+RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  RawMesh raw{.points = places_of(file, "Cell")};
+  RawMesh raw{.points = places_of(file, "Cell"), .planar = true};
   Points3 vertices = finite_places_of(file, "Vertex");
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   raw.polygons = cells_of(file, raw.points, std::move(vertices));
   raw.polygons.on_sphere = false;
-  return planar_mesh_file_of(file.path(), "MPAS", std::move(raw));
+  return raw;
+}
+
+RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
+  const Eigen::Vector2d period = periods_of(file);
+  RawMesh raw{.points = finite_places_of(file, "Cell"), .planar = true, .period = period};
+  wrap(raw.points, period);
+  CompleteVertices complete = complete_vertices(file, raw.points.cols());
+  read_density_and_fields(file, raw.points.cols(), choice, raw);
+  require_walls(file, period, complete.all);
+  if (!complete.all) {
+    raw.polygons = cells_between_walls(file, raw.points, period);
+    select_vertices(raw.fields, complete.vertex);
+  }
+  raw.triangles = std::move(complete.triangles);
+  return raw;
 }
 
 } // namespace
@@ -221,6 +236,9 @@ Points3 read_mpas_sites(const NetcdfReader& file) {
 }
 
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
+  if (is_planar_mpas(file))
+    return file.text("", "is_periodic").starts_with("NO") ? read_bounded_plane(file, choice)
+                                                          : read_periodic_plane(file, choice);
   RawMesh raw{.points = read_mpas_sites(file)};
   require_directions(file.path(), raw.points);
   const std::int64_t cells = raw.points.cols();
@@ -236,26 +254,6 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
     select_vertices(raw.fields, complete.vertex);
   raw.triangles = std::move(complete.triangles);
   return raw;
-}
-
-MeshFile read_planar_mpas(const NetcdfReader& file, FieldChoice choice) {
-  if (file.text("", "is_periodic").starts_with("NO"))
-    return read_bounded_plane(file, choice);
-  const Eigen::Vector2d period = periods_of(file);
-  Mesh mesh;
-  mesh.surface = domain_detail::UncheckedSurface::of_plane({}, period);
-  mesh.points = finite_places_of(file, "Cell");
-  wrap(mesh.points, period);
-  CompleteVertices complete = complete_vertices(file, mesh.points.cols());
-  mesh.triangles = std::move(complete.triangles);
-  RawMesh rest;
-  read_density_and_fields(file, mesh.points.cols(), choice, rest);
-  require_walls(file, period, complete.all);
-  if (!complete.all) {
-    rest.polygons = cells_between_walls(file, mesh.points, period);
-    select_vertices(rest.fields, complete.vertex);
-  }
-  return periodic_mesh_file_of(file.path(), std::move(mesh), std::move(rest));
 }
 
 } // namespace calotte::io_detail

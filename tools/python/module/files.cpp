@@ -404,10 +404,12 @@ Format format_named(const std::string& name) {
   if (name == "by-name")
     return Format::by_name;
   std::string names = "by-name";
-  for (const auto& [word, format] : format_words()) {
-    if (name == word)
-      return format;
-    names += ", " + word;
+  for (const FormatInfo& info : formats()) {
+    if (info.word.empty())
+      continue;
+    if (name == info.word)
+      return info.format;
+    names += ", " + info.word;
   }
   throw Error(ErrorCode::invalid_argument, "no format " + name + "; give one of: " + names);
 }

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/formats/format_table.h"
+
+#include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/cells/cell_rows.h"
+#include "io/cells/model_grid.h"
+#include "io/cells/written_fields.h"
+#include "io/formats/formats.h"
+#include "io/formats/write_mesh.h"
+#include "io/netcdf/netcdf_reader.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace calotte::io_detail {
+namespace {
+
+// ---- Writers as the table has them
+
+template <void (*put)(const Sink&, const Mesh&, const WriteOptions&)>
+void to_stream(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
+  put_file(path, options, mesh.mesh.points.cols(),
+           [&](const Sink& sink) { put(sink, mesh.mesh, options); });
+}
+
+template <void (*put)(const Sink&, const Mesh&)>
+void to_stream(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
+  put_file(path, options, mesh.mesh.points.cols(), [&](const Sink& sink) { put(sink, mesh.mesh); });
+}
+
+template <void (*put)(const Sink&, const Polygons&, const WriteOptions&)>
+void polygons_to_stream(const std::string& path, const CellGrid& grid,
+                        const WriteOptions& options) {
+  put_file(path, options, grid.polygons.size(),
+           [&](const Sink& sink) { put(sink, grid.polygons, options); });
+}
+
+template <void (*put)(const Sink&, const Polygons&)>
+void polygons_to_stream(const std::string& path, const CellGrid& grid,
+                        const WriteOptions& options) {
+  put_file(path, options, grid.polygons.size(),
+           [&](const Sink& sink) { put(sink, grid.polygons); });
+}
+
+template <void (*write)(const std::string&, const Mesh&, const WriteOptions&)>
+void to_files(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
+  write(path, mesh.mesh, options);
+}
+
+template <void (*write)(const std::string&, Mesh, const WriteOptions&)>
+void used_up(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
+  write(path, mesh.take(), options);
+}
+
+template <void (*write)(const std::string&, const CellGrid&, const WriteOptions&)>
+void as_grid(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
+  write(path, cell_grid(mesh.mesh), options);
+}
+
+// ---- Readers
+
+template <RawMesh (*get)(std::istream&, const std::string&)>
+RawMesh from_stream(const InputFile& file) {
+  std::ifstream in = open_input(file.path);
+  return get(in, file.path);
+}
+
+template <RawMesh (*read)(const NetcdfReader&, FieldChoice)>
+RawMesh from_netcdf(const InputFile& file) {
+  return read(*file.netcdf, file.fields);
+}
+
+template <RawMesh (*read)(const std::string&)> RawMesh from_files(const InputFile& file) {
+  return read(file.path);
+}
+
+bool has_cell_rows(const NetcdfReader& file) { return cell_rows_of(file).has_value(); }
+
+RawMesh read_cell_rows_of(const InputFile& file) {
+  return read_cells(*file.netcdf, *cell_rows_of(*file.netcdf), file.fields);
+}
+
+Points3 mpas_sites(const InputFile& file) { return read_mpas_sites(*file.netcdf); }
+
+Points3 vertex_lines(const InputFile& file) { return read_points(file.path); }
+
+// ---- Fields
+
+bool in_mpas(const MeshField& field) { return can_hold(mpas_names(), field); }
+bool in_minimal_mpas(const MeshField& field) {
+  return field.location != Location::edges && in_mpas(field);
+}
+bool in_ugrid(const MeshField& field) { return can_hold(ugrid_names(true), field); }
+bool in_ugrid_triangles(const MeshField& field) { return can_hold(ugrid_names(false), field); }
+bool in_scrip(const MeshField& field) { return can_hold(scrip_names(), field); }
+bool in_esmf(const MeshField& field) { return can_hold(esmf_names(), field); }
+bool in_exodus(const MeshField& field) { return can_hold(exodus_names(), field); }
+
+/// Whether formats of pictures make data of that name at all cells. Those that they make at Voronoi
+/// cells alone are derived from the mesh.
+bool is_own_property(const std::string& name) { return name == "area" || name == "site"; }
+
+bool in_vtk(const MeshField& field) {
+  return field.location != Location::edges && field.count() == 1 &&
+         !(field.location == Location::cells && is_own_property(field.name));
+}
+
+bool in_geojson(const MeshField& field) {
+  const std::string& name = field.name;
+  return field.location == Location::cells && field.count() == 1 && !is_own_property(name) &&
+         name != "id" && name != "x" && name != "y" && name != "z";
+}
+
+std::vector<FormatRow> make_table() {
+  constexpr Planes flat{.whole = true}, clipped{.clipped = true};
+  std::vector<FormatRow> rows{
+      {.info = {Format::mpas, "mpas", {".nc"}, "MPAS, complete, with NAME.graph.info", true, true},
+       .label = "MPAS",
+       .planes = {.clipped = true, .periodic = true},
+       .holds_field = in_mpas,
+       .write_mesh = used_up<write_mpas>,
+       .polygons_as = Format::mpas,
+       .is = is_mpas,
+       .read = from_netcdf<read_mpas>,
+       .read_sites = mpas_sites},
+      {.info = {Format::mpas_minimal,
+                "mpas-minimal",
+                {".nc"},
+                "MPAS, minimal, for MpasMeshConverter.x",
+                true,
+                true},
+       .label = "MPAS",
+       .planes = {.periodic = true},
+       .holds_field = in_minimal_mpas,
+       .write_mesh = used_up<write_mpas_minimal>},
+      {.info = {Format::ugrid, "ugrid", {".nc"}, "UGRID of cells", true, true},
+       .label = "UGRID",
+       .planes = clipped,
+       .holds_field = in_ugrid,
+       .write_mesh = as_grid<write_ugrid>,
+       .write_polygons = write_ugrid,
+       .is = is_ugrid,
+       .read = from_netcdf<read_ugrid>,
+       .reads_planes = true},
+      {.info =
+           {Format::ugrid_triangles, "ugrid-triangles", {".nc"}, "UGRID of triangles", false, true},
+       .label = "UGRID",
+       .holds_field = in_ugrid_triangles,
+       .write_mesh = to_files<write_ugrid_triangles>},
+      {.info = {Format::scrip, "scrip", {".nc"}, "SCRIP", true, true},
+       .label = "SCRIP",
+       .holds_field = in_scrip,
+       .write_mesh = as_grid<write_scrip>,
+       .write_polygons = write_scrip,
+       .is = is_scrip,
+       .read = from_netcdf<read_scrip>},
+      {.info = {Format::esmf, "esmf", {".nc"}, "ESMF", true, true},
+       .label = "ESMF",
+       .holds_field = in_esmf,
+       .write_mesh = as_grid<write_esmf>,
+       .write_polygons = write_esmf,
+       .is = is_esmf,
+       .read = from_netcdf<read_esmf>},
+      {.info = {Format::exodus, "exodus", {".g", ".exo"}, "Exodus of cells", true, true},
+       .label = "Exodus",
+       .holds_field = in_exodus,
+       .write_mesh = as_grid<write_exodus>,
+       .write_polygons = write_exodus,
+       .is = is_exodus,
+       .read = from_netcdf<read_exodus>},
+      {.info = {Format::icon, "", {".nc"}, "ICON", false, true},
+       .label = "ICON",
+       .is = is_icon,
+       .read = from_netcdf<read_icon>},
+      {.info = {Format::cf, "", {".nc"}, "cells with bounds (CF, OASIS)", true, true},
+       .label = "CF",
+       .is = has_cell_rows,
+       .read = read_cell_rows_of},
+      {.info = {Format::vtp, "vtp", {".vtp"}, "VTK PolyData of triangles"},
+       .label = "VTK",
+       .planes = flat,
+       .holds_field = in_vtk,
+       .write_mesh = to_stream<put_vtp>,
+       .polygons_as = Format::vtp_cells,
+       .read = from_stream<get_vtk_xml>,
+       .reads_planes = true},
+      {.info = {Format::vtu, "vtu", {".vtu"}, "VTK UnstructuredGrid of triangles"},
+       .label = "VTK",
+       .planes = flat,
+       .holds_field = in_vtk,
+       .write_mesh = to_stream<put_vtu>,
+       .polygons_as = Format::vtu_cells,
+       .read = from_stream<get_vtk_xml>,
+       .reads_planes = true},
+      {.info = {Format::vtp_cells, "vtp-cells", {".vtp"}, "VTK PolyData of cells", true},
+       .label = "VTK",
+       .planes = clipped,
+       .bytes_a_site = 200,
+       .holds_field = in_vtk,
+       .write_mesh = to_stream<put_vtp_cells>,
+       .write_polygons = polygons_to_stream<put_vtp_cells>},
+      {.info = {Format::vtu_cells, "vtu-cells", {".vtu"}, "VTK UnstructuredGrid of cells", true},
+       .label = "VTK",
+       .planes = clipped,
+       .bytes_a_site = 200,
+       .holds_field = in_vtk,
+       .write_mesh = to_stream<put_vtu_cells>,
+       .write_polygons = polygons_to_stream<put_vtu_cells>},
+      {.info = {Format::vtk, "", {".vtk"}, "legacy VTK"},
+       .label = "VTK",
+       .read = from_stream<get_vtk_legacy>,
+       .reads_planes = true},
+      {.info = {Format::off, "off", {".off"}, "OFF"},
+       .label = "OFF",
+       .planes = flat,
+       .write_mesh = to_stream<put_off>,
+       .write_polygons = polygons_to_stream<put_off>,
+       .read = from_stream<get_off>,
+       .reads_planes = true},
+      {.info = {Format::ply, "ply", {".ply"}, "PLY"},
+       .label = "PLY",
+       .planes = flat,
+       .bytes_a_site = 50,
+       .write_mesh = to_stream<put_ply>,
+       .write_polygons = polygons_to_stream<put_ply>,
+       .read = from_stream<get_ply>,
+       .reads_planes = true},
+      {.info = {Format::msh, "msh", {".msh"}, "JIGSAW; Gmsh 2 and 4 are read"},
+       .label = "MSH",
+       .planes = flat,
+       .write_mesh = to_stream<put_msh>,
+       .read = from_stream<get_msh>,
+       .reads_planes = true},
+      {.info = {Format::geojson, "geojson", {".geojson"}, "GeoJSON of cells", true},
+       .label = "GeoJSON",
+       .planes = clipped,
+       .bytes_a_site = 600,
+       .holds_field = in_geojson,
+       .write_mesh = to_stream<put_geojson>,
+       .write_polygons = polygons_to_stream<put_geojson>,
+       .read = from_stream<get_geojson>,
+       .reads_planes = true},
+      {.info = {Format::triangles,
+                "triangles",
+                {".txt", ".tri"},
+                "triangles without points",
+                false,
+                false,
+                true,
+                false},
+       .label = "triangles",
+       .planes = {.whole = true, .clipped = true, .periodic = true},
+       .bytes_a_site = 50,
+       .write_mesh = to_stream<put_triangles_text>},
+      {.info = {Format::mpi_scvt, "mpi-scvt", {std::string(vertices_name)}, "MPI-SCVT"},
+       .label = "MPI-SCVT",
+       .write_mesh = to_files<write_mpi_scvt>,
+       .read = from_files<read_mpi_scvt>,
+       .reads_planes = true,
+       .read_sites = vertex_lines},
+      {.info = {Format::fesom, "fesom", {std::string(fesom_nodes_name)}, "FESOM"},
+       .label = "FESOM",
+       .write_mesh = to_files<write_fesom>,
+       .read = from_files<read_fesom>}};
+  for (FormatRow& row : rows)
+    if (row.write_polygons != nullptr)
+      row.polygons_as = row.info.format;
+  return rows;
+}
+
+} // namespace
+
+std::span<const FormatRow> format_table() {
+  static const std::vector<FormatRow> table = make_table();
+  return table;
+}
+
+const FormatRow& row_of(Format format) {
+  const std::span<const FormatRow> table = format_table();
+  return *std::find_if(table.begin(), table.end(),
+                       [&](const FormatRow& row) { return row.info.format == format; });
+}
+
+bool is_netcdf(Format format) { return row_of(format).info.netcdf; }
+bool holds_cells(Format format) { return row_of(format).info.cells; }
+
+bool holds_field(Format format, const MeshField& field) {
+  const FormatRow& row = row_of(format);
+  return row.holds_field != nullptr && row.holds_field(field);
+}
+
+std::string listed(const std::vector<std::string>& names, const std::string& last) {
+  std::string list;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    list += (k == 0 ? "" : k + 1 < names.size() ? ", " : last) + names[k];
+  return list;
+}
+
+std::string triangle_formats(const std::string& last) {
+  std::vector<std::string> names;
+  for (const FormatRow& row : format_table())
+    if (row.planes.whole && row.info.points)
+      names.push_back(row.info.names[0]);
+  return listed(names, last);
+}
+
+std::string polygon_formats(bool on_sphere) {
+  std::vector<std::string> words;
+  for (const FormatRow& row : format_table())
+    if (row.info.cells && row.write_polygons != nullptr && (on_sphere || row.planes.clipped))
+      words.push_back(row.info.word);
+  return listed(words);
+}
+
+std::string clipped_formats() {
+  std::vector<std::string> words;
+  for (const FormatRow& row : format_table())
+    if (row.info.cells && row.planes.clipped)
+      words.push_back(row.info.word);
+  return listed(words);
+}
+
+} // namespace calotte::io_detail
