@@ -52,7 +52,8 @@ void check_closed(const Voronoi& voronoi, double radius, DoubleVector density,
   check_mpas_lists(check);
   check_mpas_measures(check);
   check_mpas_weights(check);
-  check_mpas_quality(check);
+  check_mpas_values(check);
+  check_mpas_density(check);
 }
 
 void check_sphere(MeshFile& file, Deviations& deviations) {
@@ -71,6 +72,34 @@ double MpasCheck::rounding(const std::string& variable) const {
       voronoi.on_sphere ? 1
                         : std::max(voronoi.period.maxCoeff(), voronoi.cells.cwiseAbs().maxCoeff());
   return file.is_float(variable) || file.is_float("xCell") ? float_digits * size : 0;
+}
+
+bool MpasCheck::has(const std::string& variable) const {
+  const MpasVariable& row = mpas_variable(variable);
+  std::vector<std::int64_t> shape;
+  for (const MpasDimension dimension : {row.rows, row.columns})
+    switch (dimension) {
+    case MpasDimension::none:
+      break;
+    case MpasDimension::cells:
+      shape.push_back(voronoi.cells.cols());
+      break;
+    case MpasDimension::edges:
+      shape.push_back(voronoi.cells_on_edge.cols());
+      break;
+    case MpasDimension::vertices:
+      shape.push_back(voronoi.cells_on_vertex.cols());
+      break;
+    case MpasDimension::two:
+      shape.push_back(2);
+      break;
+    case MpasDimension::degree:
+      shape.push_back(3);
+      break;
+    default:
+      shape.push_back(-1);
+    }
+  return deviations.has(variable, shape);
 }
 
 void check_mpas_attributes(Deviations& deviations, bool on_sphere) {
@@ -97,8 +126,8 @@ void check_mpas(MeshFile file, Deviations& deviations) {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::invalid_argument)
       throw;
-    deviations.add("cellsOnVertex", "cellsOnVertex: the vertices have no tessellation: " +
-                                        std::string(error.what()));
+    deviations.add(mpas::cells_on_vertex, "cellsOnVertex: the vertices have no tessellation: " +
+                                              std::string(error.what()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "io/cells/deviations.h"
 #include "io/check/room.h"
 #include "io/mpas/mpas_numbering.h"
+#include "io/mpas/mpas_variables.h"
 
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
@@ -24,6 +25,13 @@ struct MpasCheck {
   /// Rounding of a variable's places, in the unit of voronoi.
   double rounding(const std::string& variable) const;
 
+  /// Whether the file has a variable of the table; another shape is a deviation.
+  bool has(const std::string& variable) const;
+  /// Adds a deviation if there are differences in a variable of the table.
+  void add(const std::string& variable, const Differences& differences,
+           const std::string& fault = {}) const {
+    deviations.add(variable, differences, mpas_variable(variable).rule, fault);
+  }
   bool has_vertices() const { return numbering.vertex.size() > 0; }
   /// Whether a vertex of the tessellation has three cells and three edges.
   bool has_triangle(std::int32_t v) const {
@@ -43,7 +51,8 @@ void check_mpas_places(const MpasCheck& check);
 void check_mpas_lists(const MpasCheck& check); ///< of ids
 void check_mpas_measures(const MpasCheck& check);
 void check_mpas_weights(const MpasCheck& check);
-void check_mpas_quality(const MpasCheck& check);
+void check_mpas_values(const MpasCheck& check); ///< those that the table has a function for
+void check_mpas_density(const MpasCheck& check);
 
 /// Of an open mesh: the relations between the lists of ids, and what present cells determine.
 void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations);

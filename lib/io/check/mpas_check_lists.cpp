@@ -24,7 +24,7 @@ std::int32_t stored_id(const Array<std::int32_t>& of_file, std::int32_t id) {
 
 /// One of the lists around cells, in the numbering of the file.
 struct CellLists {
-  std::string variable, rule;
+  std::string variable;
   const IdLists& ids;
   const Array<std::int32_t>* of_file; ///< null for cells, which keep their numbers
 
@@ -57,7 +57,7 @@ std::int32_t index_of(const CellLists& lists, std::int64_t cell, std::int32_t id
 
 /// \param starts of each cell's lists; unknown ones are set from this variable.
 void check_cell_lists(const MpasCheck& check, const CellLists& lists, Array<std::int32_t>& starts) {
-  if (!check.deviations.has(lists.variable, {check.voronoi.cells.cols(), -1}))
+  if (!check.has(lists.variable))
     return;
   const std::int64_t width = check.deviations.width(lists.variable);
   const Differences differences = check.deviations.visit_rows<std::int32_t>(
@@ -66,44 +66,21 @@ void check_cell_lists(const MpasCheck& check, const CellLists& lists, Array<std:
           starts[cell] = index_of(lists, cell, row[0]);
         compare_row(lists, cell, std::max(starts[cell], 0), row, width, out);
       });
-  check.deviations.add(lists.variable, differences, lists.rule);
-}
-
-void check_degrees(const MpasCheck& check) {
-  const Voronoi& voronoi = check.voronoi;
-  if (!check.deviations.has("nEdgesOnCell", {voronoi.cells.cols()}))
-    return;
-  check.deviations.add("nEdgesOnCell",
-                       check.deviations.visit_rows<std::int32_t>(
-                           "nEdgesOnCell",
-                           [&](std::int64_t i, const std::int32_t* count, Differences& out) {
-                             out.compare(i, *count,
-                                         static_cast<std::int32_t>(voronoi.edges_on_cell.count(i)));
-                           }),
-                       "the number of neighbours of each cell");
+  check.add(lists.variable, differences);
 }
 
 void check_around_cells(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
-  check_degrees(check);
   Array<std::int32_t> starts(voronoi.cells.cols());
   std::fill(starts.begin(), starts.end(), unknown);
   if (check.has_edges())
-    check_cell_lists(check,
-                     {"edgesOnCell", "the edges of each cell, counter-clockwise, then 0",
-                      voronoi.edges_on_cell, &check.numbering.file_edge},
-                     starts);
+    check_cell_lists(
+        check, {mpas::edges_on_cell, voronoi.edges_on_cell, &check.numbering.file_edge}, starts);
   if (check.has_vertices())
-    check_cell_lists(check,
-                     {"verticesOnCell",
-                      "the vertices of each cell, counter-clockwise from the end of its first edge "
-                      "on, then 0",
-                      voronoi.vertices_on_cell, &check.numbering.file_vertex},
-                     starts);
-  check_cell_lists(check,
-                   {"cellsOnCell", "the neighbours of each cell across its edges, then 0",
-                    voronoi.cells_on_cell, nullptr},
-                   starts);
+    check_cell_lists(
+        check, {mpas::vertices_on_cell, voronoi.vertices_on_cell, &check.numbering.file_vertex},
+        starts);
+  check_cell_lists(check, {mpas::cells_on_cell, voronoi.cells_on_cell, nullptr}, starts);
 }
 
 // ---- At edges and vertices
@@ -111,36 +88,30 @@ void check_around_cells(const MpasCheck& check) {
 void check_vertices_on_edges(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
   const MpasNumbering& numbering = check.numbering;
-  if (!check.has_vertices() || !check.has_edges() ||
-      !check.deviations.has("verticesOnEdge", {voronoi.cells_on_edge.cols(), 2}))
+  if (!check.has_vertices() || !check.has_edges() || !check.has(mpas::vertices_on_edge))
     return;
-  check.deviations.add(
-      "verticesOnEdge",
+  check.add(
+      mpas::vertices_on_edge,
       check.deviations.visit_rows<std::int32_t>(
-          "verticesOnEdge",
-          [&](std::int64_t row, const std::int32_t* ids, Differences& out) {
+          mpas::vertices_on_edge, [&](std::int64_t row, const std::int32_t* ids, Differences& out) {
             const std::int32_t e = numbering.edge[row];
             for (int k = 0; e >= 0 && k < 2; ++k)
               out.compare(
                   2 * row + k, ids[k],
                   stored_id(numbering.file_vertex,
                             voronoi.vertices_on_edge(numbering.reversed[e] ? 1 - k : k, e)));
-          }),
-      "the vertices to the right and to the left of the way from the first to the second cell of "
-      "each edge");
+          }));
 }
 
 void check_edges_on_vertices(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
   const MpasNumbering& numbering = check.numbering;
-  if (!check.has_vertices() || !check.has_edges() ||
-      !check.deviations.has("edgesOnVertex", {voronoi.cells_on_vertex.cols(), 3}))
+  if (!check.has_vertices() || !check.has_edges() || !check.has(mpas::edges_on_vertex))
     return;
-  check.deviations.add(
-      "edgesOnVertex",
+  check.add(
+      mpas::edges_on_vertex,
       check.deviations.visit_rows<std::int32_t>(
-          "edgesOnVertex",
-          [&](std::int64_t row, const std::int32_t* ids, Differences& out) {
+          mpas::edges_on_vertex, [&](std::int64_t row, const std::int32_t* ids, Differences& out) {
             const int start = numbering.vertex_start[row];
             for (int k = 0; start >= 0 && k < 3; ++k) {
               const std::int32_t e =
@@ -148,18 +119,7 @@ void check_edges_on_vertices(const MpasCheck& check) {
               if (numbering.file_edge[e] >= 0)
                 out.compare(3 * row + k, ids[k], stored_id(numbering.file_edge, e));
             }
-          }),
-      "the edges at each vertex, counter-clockwise, edge j before cell j of cellsOnVertex");
-}
-
-void check_boundary(const MpasCheck& check) {
-  if (!check.deviations.has("boundaryVertex", {check.voronoi.cells_on_vertex.cols()}))
-    return;
-  check.deviations.add("boundaryVertex",
-                       check.deviations.visit_rows<std::int32_t>(
-                           "boundaryVertex", [](std::int64_t row, const std::int32_t* flag,
-                                                Differences& out) { out.compare(row, *flag, 0); }),
-                       "0, though the mesh has no boundary");
+          }));
 }
 
 // ---- Weights
@@ -224,63 +184,39 @@ Differences visit_weights(const MpasCheck& check, const std::string& variable,
       });
 }
 
-void check_weight_counts(const MpasCheck& check) {
-  if (!check.deviations.has("nEdgesOnEdge", {check.voronoi.cells_on_edge.cols()}))
-    return;
-  check.deviations.add("nEdgesOnEdge",
-                       check.deviations.visit_rows<std::int32_t>(
-                           "nEdgesOnEdge",
-                           [&](std::int64_t row, const std::int32_t* count, Differences& out) {
-                             const std::int32_t e = check.numbering.edge[row];
-                             if (e >= 0 && check.has_weights(e))
-                               out.compare(row, *count,
-                                           static_cast<std::int32_t>(
-                                               voronoi_detail::weight_count(check.voronoi, e)));
-                           }),
-                       "the number of other edges of both cells of each edge");
-}
-
 } // namespace
 
 void check_mpas_lists(const MpasCheck& check) {
   check_around_cells(check);
   check_vertices_on_edges(check);
   check_edges_on_vertices(check);
-  check_boundary(check);
 }
 
 void check_mpas_weights(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
-  const std::vector<std::int64_t> shape{voronoi.cells_on_edge.cols(), -1};
   if (!check.has_edges())
     return;
-  check_weight_counts(check);
-  if (check.deviations.has("edgesOnEdge", shape))
-    check.deviations.add(
-        "edgesOnEdge",
-        visit_weights<std::int32_t>(check, "edgesOnEdge",
-                                    [&](std::int64_t place, std::int32_t stored,
-                                        const Weights& weights, std::int64_t k, Differences& out) {
-                                      const std::int32_t e =
-                                          check.numbering.file_edge[weights.edge(k)];
-                                      if (e >= 0)
-                                        out.compare(place, stored, e + 1);
-                                    }),
-        "the other edges of the first cell of each edge, counter-clockwise from it on, then of the "
-        "second, then 0");
-  if (check.deviations.has("weightsOnEdge", shape))
-    check.deviations.add(
-        "weightsOnEdge",
-        visit_weights<double>(check, "weightsOnEdge",
-                              [&](std::int64_t place, double stored, const Weights& weights,
-                                  std::int64_t k, Differences& out) {
-                                const std::int32_t other = weights.edge(k);
-                                out.compare(place, stored, weights.weight(check, k),
-                                            (voronoi.dv[other] + voronoi.dc[other]) /
-                                                voronoi.dc[weights.own],
-                                            check.tolerance);
-                              }),
-        "the tangential weights of each edge");
+  if (check.has(mpas::edges_on_edge))
+    check.add(mpas::edges_on_edge,
+              visit_weights<std::int32_t>(
+                  check, mpas::edges_on_edge,
+                  [&](std::int64_t place, std::int32_t stored, const Weights& weights,
+                      std::int64_t k, Differences& out) {
+                    const std::int32_t e = check.numbering.file_edge[weights.edge(k)];
+                    if (e >= 0)
+                      out.compare(place, stored, e + 1);
+                  }));
+  if (check.has(mpas::weights_on_edge))
+    check.add(mpas::weights_on_edge,
+              visit_weights<double>(check, mpas::weights_on_edge,
+                                    [&](std::int64_t place, double stored, const Weights& weights,
+                                        std::int64_t k, Differences& out) {
+                                      const std::int32_t other = weights.edge(k);
+                                      out.compare(place, stored, weights.weight(check, k),
+                                                  (voronoi.dv[other] + voronoi.dc[other]) /
+                                                      voronoi.dc[weights.own],
+                                                  check.tolerance);
+                                    }));
 }
 
 } // namespace calotte::io_detail

@@ -36,7 +36,7 @@ struct Kind {
 template <class T, class Compare>
 void check_kind(const MpasCheck& check, const Kind& kind, const std::string& variable,
                 const std::string& rule, const Compare& compare) {
-  if (!check.deviations.has(variable, {kind.points.cols()}))
+  if (!check.has(variable))
     return;
   check.deviations.add(
       variable,
@@ -52,7 +52,7 @@ void check_kind(const MpasCheck& check, const Kind& kind, const std::string& var
 /// x, y and z.
 void check_coordinates(const MpasCheck& check, const Kind& kind) {
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = std::string(1, "xyz"[axis]) + kind.names.name;
+    const std::string name = kind.names.axis(axis);
     const double period = !check.voronoi.on_sphere && axis < 2 ? check.voronoi.period[axis] : 0.0;
     const double rounding = check.deviations.file().has_variable(name) ? check.rounding(name) : 0.0;
     check_kind<double>(check, kind, name, kind.rule,
@@ -76,7 +76,7 @@ void check_angles(const MpasCheck& check, const Kind& kind) {
     return rounding_of_others * check.width + arc_sine_rounding +
            (check.deviations.file().has_variable(name) ? 2 * pi * check.rounding(name) : 0);
   };
-  const std::string latitude = "lat" + kind.names.name, longitude = "lon" + kind.names.name;
+  const std::string latitude = kind.names.latitude(), longitude = kind.names.longitude();
   const double of_latitude = tolerance(latitude), of_longitude = tolerance(longitude);
   check_kind<double>(
       check, kind, latitude, on_sphere ? "the latitude of x, y and z" : "0, as in a plane",
@@ -97,7 +97,7 @@ void check_angles(const MpasCheck& check, const Kind& kind) {
 
 void check_numbers(const MpasCheck& check, const Kind& kind) {
   check_kind<std::int32_t>(
-      check, kind, "indexTo" + kind.names.name + "ID", "numbers from 1 on",
+      check, kind, kind.names.numbers(), mpas_variable(kind.names.numbers()).rule,
       [](std::int64_t row, std::int32_t, std::int32_t stored, Differences& out) {
         out.compare(row, stored, static_cast<std::int32_t>(row + 1));
       });
@@ -126,33 +126,27 @@ double circumradius(const Voronoi& voronoi, std::int64_t v) {
 /// Visits the edges, or vertices, of a variable.
 template <class Compare>
 void check_rows(const MpasCheck& check, const Array<std::int32_t>& numbers,
-                const std::string& variable, const std::vector<std::int64_t>& shape,
-                const std::string& rule, const Compare& compare) {
-  if (!check.deviations.has(variable, shape))
+                const std::string& variable, const Compare& compare) {
+  if (!check.has(variable))
     return;
-  check.deviations.add(variable,
-                       check.deviations.visit_rows<double>(
-                           variable,
-                           [&](std::int64_t row, const double* stored, Differences& out) {
-                             if (numbers[row] >= 0)
-                               compare(row, numbers[row], stored, out);
-                           }),
-                       rule);
+  check.add(variable, check.deviations.visit_rows<double>(
+                          variable, [&](std::int64_t row, const double* stored, Differences& out) {
+                            if (numbers[row] >= 0)
+                              compare(row, numbers[row], stored, out);
+                          }));
 }
 
 void check_lengths(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
-  const std::vector<std::int64_t> shape{voronoi.dc.size()};
-  const auto compare = [&](const std::string& name, const DoubleVector& lengths,
-                           const std::string& rule) {
-    check_rows(check, check.numbering.edge, name, shape, rule,
+  const auto compare = [&](const std::string& name, const DoubleVector& lengths) {
+    check_rows(check, check.numbering.edge, name,
                [&](std::int64_t row, std::int32_t e, const double* stored, Differences& out) {
                  out.compare(row, *stored, check.radius * lengths[e], check.radius * voronoi.dc[e],
                              check.tolerance);
                });
   };
-  compare("dcEdge", voronoi.dc, "the distance of the cells on each edge");
-  compare("dvEdge", voronoi.dv, "the distance of the vertices at the ends of each edge");
+  compare(mpas::dc_edge, voronoi.dc);
+  compare(mpas::dv_edge, voronoi.dv);
 }
 
 /// The formula of MpasMeshConverter, the rise of the edge over its length, is an approximation.
@@ -174,11 +168,11 @@ bool is_angle_of_converter(const Voronoi& voronoi, std::int32_t e, bool reversed
 
 void check_edge_angles(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
-  if (!check.deviations.has("angleEdge", {voronoi.angle.size()}))
+  if (!check.has(mpas::angle_edge))
     return;
-  const double digits = 0x1p-50 + check.rounding("angleEdge");
+  const double digits = 0x1p-50 + check.rounding(mpas::angle_edge);
   const Differences differences = check.deviations.visit_rows<double>(
-      "angleEdge", [&](std::int64_t row, const double* stored, Differences& out) {
+      mpas::angle_edge, [&](std::int64_t row, const double* stored, Differences& out) {
         const std::int32_t e = check.numbering.edge[row];
         if (e < 0)
           return;
@@ -193,19 +187,18 @@ void check_edge_angles(const MpasCheck& check) {
         if (!is_angle_of_converter(voronoi, e, reversed, *stored, exact))
           ++out.unlike_fault;
       });
-  check.deviations.add("angleEdge", differences,
-                       voronoi.on_sphere ? "the angle of the normal of each edge from east"
-                                         : "the angle of the normal of each edge from the x axis",
-                       "MpasMeshConverter takes the rise of each edge over its length");
+  check.add(mpas::angle_edge, differences,
+            "MpasMeshConverter takes the rise of each edge over its length");
 }
 
 /// By row: the area of a triangle of which cells are missing, if its kites have those of the mesh
 /// that the file was cut from; empty for a closed mesh. Other programs give missing cells none.
 std::vector<double> sums_of_kites(const MpasCheck& check) {
   const std::int64_t vertices = check.voronoi.vertex_area.size();
-  if (check.closed || !check.deviations.has("kiteAreasOnVertex", {vertices, 3}))
+  if (check.closed || !check.has(mpas::kite_areas_on_vertex))
     return {};
-  const std::vector<double> kites = check.deviations.file().doubles("kiteAreasOnVertex", {-1, 3});
+  const std::vector<double> kites =
+      check.deviations.file().doubles(mpas::kite_areas_on_vertex, {-1, 3});
   std::vector<double> sums(static_cast<std::size_t>(vertices));
   for (std::size_t v = 0; v < sums.size(); ++v)
     sums[v] = kites[3 * v] + kites[3 * v + 1] + kites[3 * v + 2];
@@ -214,8 +207,7 @@ std::vector<double> sums_of_kites(const MpasCheck& check) {
 
 void check_triangles(const MpasCheck& check, const std::function<double(std::int32_t)>& scale) {
   const std::vector<double> sums = sums_of_kites(check);
-  check_rows(check, check.numbering.vertex, "areaTriangle", {check.voronoi.vertex_area.size()},
-             "the area of the triangle of cells around each vertex",
+  check_rows(check, check.numbering.vertex, mpas::area_triangle,
              [&](std::int64_t row, std::int32_t t, const double* stored, Differences& out) {
                double area = check.radius * check.radius * check.voronoi.vertex_area[t];
                if (!sums.empty() && !check.has_triangle(t) &&
@@ -231,8 +223,7 @@ void check_triangle_areas(const MpasCheck& check) {
   const double factor = check.radius * check.radius;
   const auto scale = [&](std::int32_t t) { return factor * voronoi.kites.col(t).cwiseAbs().sum(); };
   check_triangles(check, scale);
-  check_rows(check, check.numbering.vertex, "kiteAreasOnVertex", {voronoi.vertex_area.size(), 3},
-             "the signed areas of the parts of each triangle in its cells",
+  check_rows(check, check.numbering.vertex, mpas::kite_areas_on_vertex,
              [&](std::int64_t row, std::int32_t t, const double* stored, Differences& out) {
                const int start = check.numbering.vertex_start[row];
                for (int j = 0; start >= 0 && j < 3; ++j)
@@ -241,20 +232,6 @@ void check_triangle_areas(const MpasCheck& check) {
                    out.compare(3 * row + j, stored[j], factor * voronoi.kites(k, t), scale(t),
                                check.tolerance);
              });
-}
-
-void check_cell_areas(const MpasCheck& check) {
-  const DoubleVector& areas = check.voronoi.cell_area;
-  if (!check.deviations.has("areaCell", {areas.size()}))
-    return;
-  check.deviations.add("areaCell",
-                       check.deviations.visit_rows<double>(
-                           "areaCell",
-                           [&](std::int64_t i, const double* stored, Differences& out) {
-                             const double derived = check.radius * check.radius * areas[i];
-                             out.compare(i, *stored, derived, std::abs(derived), check.tolerance);
-                           }),
-                       "the sum of the kites of each cell");
 }
 
 } // namespace
@@ -282,7 +259,6 @@ void check_mpas_measures(const MpasCheck& check) {
   }
   if (check.has_vertices())
     check_triangle_areas(check);
-  check_cell_areas(check);
 }
 
 } // namespace calotte::io_detail

@@ -81,7 +81,7 @@ Points3 stored_places(const MpasKind& kind, std::int64_t count, bool on_sphere,
                       Deviations& deviations) {
   Points3 places(3, std::max<std::int64_t>(count, 0));
   for (int row = 0; row < 3; ++row) {
-    const std::string name = std::string(1, "xyz"[row]) + kind.name;
+    const std::string name = kind.axis(row);
     if (!deviations.has(name, {count}))
       return {};
     const std::vector<double> values = deviations.file().doubles(name, {count});
@@ -109,9 +109,9 @@ Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
   constexpr double halves_agree = 1e-5; // the edge is half way to the missing cell
   const std::int64_t edges = part.cells_on_edge.cols();
   Points3 places = stored_places(mpas_edge, edges, part.on_sphere, deviations);
-  if (places.cols() == 0 || !deviations.has("dcEdge", {edges}))
+  if (places.cols() == 0 || !deviations.has(mpas::dc_edge, {edges}))
     return {};
-  const std::vector<double> lengths = deviations.file().doubles("dcEdge", {edges});
+  const std::vector<double> lengths = deviations.file().doubles(mpas::dc_edge, {edges});
   for (std::int64_t e = 0; e < edges; ++e) {
     const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
@@ -148,8 +148,9 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   part.on_sphere = file.sphere() != nullptr;
   part.period = file.mesh->surface.period();
   part.cells = cells_of(file);
-  Points3 vertices = stored_places(mpas_vertex, deviations.file().dimension("nVertices"),
-                                   part.on_sphere, deviations);
+  Points3 vertices =
+      stored_places(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
+                    part.on_sphere, deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (whole && !check_open_lists(lists, deviations))
@@ -172,7 +173,8 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     return;
   check_mpas_measures(check);
   check_mpas_weights(check);
-  check_mpas_quality(check);
+  check_mpas_values(check);
+  check_mpas_density(check);
 }
 
 } // namespace calotte::io_detail

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "io/bytes/file.h"
 #include "io/mpas/mpas_cull.h"
+#include "io/mpas/mpas_variables.h"
 #include "voronoi/cell_walk.h"
 
 #include <calotte/error.h>
@@ -54,7 +55,7 @@ struct Ground {
 Ground ground_of(const MpasSource& source, const CullOptions& options) {
   if (options.coast.rings.empty() && options.raster.land.size() == 0 && options.passages.empty() &&
       options.barriers.empty() && options.seeds.cols() == 0)
-    return {source.lists("cellsOnCell", source.cells()), {}};
+    return {source.lists(mpas::cells_on_cell, source.cells()), {}};
   Voronoi cells = tessellation_of(source);
   if (!options.coast.rings.empty() || options.raster.land.size() > 0)
     require_global(source, cells);
@@ -133,22 +134,23 @@ void require_passages(const Ground& ground, const Land& land, const Ids& sea,
 }
 
 void add_maps(const MpasPart& part, NetcdfSubset& subset) {
-  const auto add = [&](const std::string& kind, const std::string& dimension, const Kept& kept) {
-    const std::string name = "mapCulledToBase" + kind;
+  const auto add = [&](const MpasKind& kind, const Kept& kept) {
+    const std::string name = "mapCulledToBase" + kind.name;
     subset.left_out.push_back(name); // of an earlier cull
-    subset.added.push_back({name, dimension, "0-based id in the mesh before culling",
+    subset.added.push_back({name, kind.dimension(), "0-based id in the mesh before culling",
                             [&kept](std::int64_t i) { return kept.old[i]; }});
   };
-  add("Cell", "nCells", part.cells);
-  add("Edge", "nEdges", part.edges);
-  add("Vertex", "nVertices", part.vertices);
+  add(mpas_cell, part.cells);
+  add(mpas_edge, part.edges);
+  add(mpas_vertex, part.vertices);
 }
 
 // ---- Files beside the grid
 
 /// The masks that MPAS-Tools culls by.
 void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file) {
-  const int cells = file.dimension("nCells", sea.size()), regions = file.dimension("nRegions", 1);
+  const int cells = file.dimension(mpas_cell.dimension(), sea.size()),
+            regions = file.dimension("nRegions", 1);
   const auto define = [&](const std::string& name, NetcdfType type, std::vector<int> dimensions,
                           const std::string& long_name) {
     return file.variable(name, type, dimensions,

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "io/mpas/mpas_cut.h"
 #include "io/mpas/mpas_subset.h"
+#include "io/mpas/mpas_variables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ std::vector<std::uint8_t> flags_of(const Points3& places,
 
 Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
             int rings) {
-  return limited_area_mask(source.lists("cellsOnCell", source.cells()),
+  return limited_area_mask(source.lists(mpas::cells_on_cell, source.cells()),
                            flags_of(source.places(), inside), rings);
 }
 
@@ -45,18 +46,18 @@ Masks masks_of(const MpasPart& part, const Ids& of_all) {
 }
 
 void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
-  const auto add = [&](const std::string& kind, const std::string& dimension, const Ids& mask,
-                       const std::string& meaning) {
-    const std::string name = "bdyMask" + kind;
+  const auto add = [&](const MpasKind& kind, const Ids& mask, const std::string& meaning) {
+    const std::string name = "bdyMask" + kind.name;
     subset.left_out.push_back(name); // of an earlier cut
-    subset.added.push_back({name, dimension, meaning, [&mask](std::int64_t i) { return mask[i]; }});
+    subset.added.push_back(
+        {name, kind.dimension(), meaning, [&mask](std::int64_t i) { return mask[i]; }});
   };
-  add("Cell", "nCells", masks.cells,
+  add(mpas_cell, masks.cells,
       rings == 0
           ? "0 in the region"
           : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
-  add("Edge", "nEdges", masks.edges, "least bdyMaskCell of the cells on each edge");
-  add("Vertex", "nVertices", masks.vertices, "least bdyMaskCell of the cells on each vertex");
+  add(mpas_edge, masks.edges, "least bdyMaskCell of the cells on each edge");
+  add(mpas_vertex, masks.vertices, "least bdyMaskCell of the cells on each vertex");
 }
 
 // ---- Density
@@ -76,19 +77,20 @@ DoubleVector kept_values(const MpasSource& source, const std::string& name, cons
 /// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
 void add_density(const MpasSource& source, const MpasPart& part, double radius, Nominal nominal,
                  NetcdfSubset& subset) {
-  DoubleVector density = kept_values(source, "meshDensity", part.cells);
+  DoubleVector density = kept_values(source, mpas::mesh_density, part.cells);
   const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
   if (!(greatest > 0 && std::isfinite(greatest)))
     return;
   density /= greatest;
-  add_division(source, "meshDensity", greatest, subset);
-  if (nominal == Nominal::of_source && source.netcdf().find("nominalMinDc") >= 0)
-    return add_division(source, "nominalMinDc", std::pow(greatest, 0.25), subset);
-  subset.left_out.emplace_back("nominalMinDc");
-  const DoubleVector area = kept_values(source, "areaCell", part.cells);
+  add_division(source, mpas::mesh_density, greatest, subset);
+  if (nominal == Nominal::of_source && source.netcdf().find(mpas::nominal_min_dc) >= 0)
+    return add_division(source, mpas::nominal_min_dc, std::pow(greatest, 0.25), subset);
+  subset.left_out.emplace_back(mpas::nominal_min_dc);
+  const DoubleVector area = kept_values(source, mpas::area_cell, part.cells);
   if (area.size() > 0)
     subset.numbers.push_back(
-        {"nominalMinDc", "m", "nominal distance of neighbouring generators where meshDensity is 1",
+        {mpas::nominal_min_dc, "m",
+         "nominal distance of neighbouring generators where meshDensity is 1",
          nominal_spacing({area, density, {}, {}, {}}) * radius / source.radius()});
 }
 

@@ -5,8 +5,10 @@
 
 #include <calotte/version.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -69,14 +71,6 @@ Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int
 
 } // namespace
 
-NetcdfAttributes described(const std::string& units, const std::string& long_name,
-                           const std::string& standard_name) {
-  NetcdfAttributes attributes{{"units", units}, {"long_name", long_name}};
-  if (!standard_name.empty())
-    attributes.push_back({"standard_name", standard_name});
-  return attributes;
-}
-
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
     : GridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
   const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.maxCoeff() > 0;
@@ -88,6 +82,45 @@ MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOpt
   netcdf().attribute({"file_id", fingerprint(mesh)});
   netcdf().attribute({"parent_id", std::string()});
   netcdf().attribute({"source", std::string("calotte " CALOTTE_VERSION)});
+}
+
+void MpasFile::define(MpasDimension dimension, std::int64_t size) {
+  ids_[dimension] = netcdf().dimension(name_of(dimension), size);
+}
+
+GridFile::Announced MpasFile::announced(const std::string& name) const {
+  const MpasVariable& row = mpas_variable(name);
+  std::vector<int> dimensions;
+  for (const MpasDimension dimension : {row.rows, row.columns})
+    if (dimension != MpasDimension::none)
+      dimensions.push_back(id_of(dimension));
+  NetcdfAttributes attributes{{"units", row.units}, {"long_name", row.long_name}};
+  if (!row.standard_name.empty())
+    attributes.push_back({"standard_name", row.standard_name});
+  return {row.name, dimensions, attributes, row.integer};
+}
+
+void MpasFile::put_values(const MpasMesh& mesh) {
+  for (const MpasVariable& row : mpas_variables()) {
+    if (row.values == nullptr)
+      continue;
+    const double factor = std::pow(mesh.radius, radius_power(row));
+    const auto fill = [&voronoi = mesh.voronoi, values = row.values,
+                       factor](std::int64_t begin, std::int64_t end, double* out) {
+      values(voronoi, begin, end, out);
+      for (std::int64_t k = 0; k < end - begin; ++k)
+        out[k] *= factor;
+    };
+    if (row.integer)
+      put<std::int32_t>(row.name, [fill](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+        Array<double> values(end - begin);
+        fill(begin, end, values.begin());
+        std::transform(values.begin(), values.end(), out,
+                       [](double value) { return static_cast<std::int32_t>(value); });
+      });
+    else
+      put<double>(row.name, fill);
+  }
 }
 
 std::string fingerprint(const MpasMesh& mesh) {
@@ -108,30 +141,6 @@ std::string fingerprint(const Array<std::int32_t>& kept, const std::string& pare
   for (const char c : parent)
     word = mixed(word ^ static_cast<unsigned char>(c));
   return hexadecimal(word);
-}
-
-const NetcdfMeshNames& mpas_names() {
-  static const NetcdfMeshNames names{
-      .cells = "nCells",
-      .vertices = "nVertices",
-      .variables = {"latCell",        "lonCell",         "xCell",
-                    "yCell",          "zCell",           "indexToCellID",
-                    "latEdge",        "lonEdge",         "xEdge",
-                    "yEdge",          "zEdge",           "indexToEdgeID",
-                    "latVertex",      "lonVertex",       "xVertex",
-                    "yVertex",        "zVertex",         "indexToVertexID",
-                    "boundaryVertex", "cellsOnEdge",     "nEdgesOnCell",
-                    "nEdgesOnEdge",   "edgesOnCell",     "edgesOnEdge",
-                    "weightsOnEdge",  "dvEdge",          "dcEdge",
-                    "angleEdge",      "areaCell",        "areaTriangle",
-                    "cellsOnCell",    "verticesOnCell",  "verticesOnEdge",
-                    "edgesOnVertex",  "cellsOnVertex",   "kiteAreasOnVertex",
-                    "meshDensity",    "nominalMinDc",    "cellQuality",
-                    "gridSpacing",    "triangleQuality", "triangleAngleQuality",
-                    "obtuseTriangle"},
-      .edges = "nEdges",
-      .lists = {"advCells", "advCellsForEdge"}};
-  return names;
 }
 
 std::string graph_path(const std::string& path) {

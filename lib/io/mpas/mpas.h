@@ -5,6 +5,7 @@
 #include "io/bytes/text.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/raw_mesh.h"
+#include "io/mpas/mpas_variables.h"
 #include "io/mpas/room.h"
 #include "io/netcdf/netcdf_reader.h"
 
@@ -14,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 
 /// What the full and the minimal MPAS file have in common.
@@ -36,30 +38,28 @@ struct MpasMesh {
   }
 };
 
-/// One of the three kinds of places.
-struct MpasKind {
-  std::string name;  ///< ends the names of its variables
-  std::string word;  ///< for one of it
-  std::string place; ///< where it is
-};
-inline const MpasKind mpas_cell{"Cell", "cell", "the cells' generators"};
-inline const MpasKind mpas_edge{"Edge", "edge",
-                                "the edges, where those between cells and vertices cross"};
-inline const MpasKind mpas_vertex{"Vertex", "vertex", "the vertices"};
-
-/// The attributes of a variable. \param standard_name of the CF conventions, or "".
-NetcdfAttributes described(const std::string& units, const std::string& long_name,
-                           const std::string& standard_name = "");
-
-/// A file with the attributes of its kind and those that tell of the mesh.
+/// A file with the attributes of its kind and those that tell of the mesh. Its variables are rows
+/// of the table of MPAS's variables.
 class MpasFile : public GridFile {
 public:
   /// \throws Error file.
   MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options);
-};
 
-/// The dimensions, and the variables that describe a mesh.
-const NetcdfMeshNames& mpas_names();
+  void define(MpasDimension dimension, std::int64_t size);
+  int id_of(MpasDimension dimension) const { return ids_.at(dimension); }
+
+  Announced announced(const std::string& name) const;
+  template <class T> void put(const std::string& name, const NetcdfWriter::Fill<T>& contents) {
+    const Announced row = announced(name);
+    variable(name, row.integer ? NetcdfType::int32 : NetcdfType::float64, row.dimensions,
+             row.attributes, contents);
+  }
+  /// Those that have a function for their values. The mesh must outlive the file.
+  void put_values(const MpasMesh& mesh);
+
+private:
+  std::map<MpasDimension, int> ids_;
+};
 
 /// 16 hexadecimal digits that differ where meshes do.
 std::string fingerprint(const MpasMesh& mesh);

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "io/bytes/big_endian.h"
+#include "io/mpas/mpas_variables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +103,30 @@ void exchange_pairs(const MpasSource& source, const std::string& variable,
       });
 }
 
+/// Pairs change places, and what depends on the normal turns with it.
+void add_reversal(const MpasSource& source, const MpasVariable& variable,
+                  const ReversedEdges& reversed, NetcdfSubset& subset) {
+  const auto is_reversed = [&reversed](std::int64_t e) {
+    return reversed[static_cast<std::size_t>(e)] != 0;
+  };
+  if (variable.columns == MpasDimension::two)
+    exchange_pairs(source, variable.name, reversed, subset);
+  else if (variable.numbers == MpasNumbers::angle)
+    add_row_change(source, variable.name, subset,
+                   [=](std::int64_t e, char* bytes, std::int64_t size) {
+                     if (is_reversed(e))
+                       change_value(bytes, size, [](double angle) {
+                         return angle > 0 ? angle - std::numbers::pi : angle + std::numbers::pi;
+                       });
+                   });
+  else if (variable.numbers == MpasNumbers::normal)
+    add_row_change(source, variable.name, subset,
+                   [=](std::int64_t e, char* bytes, std::int64_t size) {
+                     for (std::int64_t k = 0; is_reversed(e) && k < 3; ++k)
+                       change_value(bytes + k * size, size, [](double x) { return -x; });
+                   });
+}
+
 /// By kept edge: 1 if a cell there has or may have a reversed edge.
 std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdges& reversed) {
   std::vector<std::uint8_t> near(reversed.size(), 0);
@@ -121,10 +146,11 @@ std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdge
 /// A weight leads from the normal velocity of one edge to the tangential one of another.
 void add_weights(const MpasSource& source, const MpasPart& part, const ReversedEdges& reversed,
                  NetcdfSubset& subset) {
-  if (source.netcdf().find("edgesOnEdge") < 0 || source.netcdf().find("weightsOnEdge") < 0)
+  if (source.netcdf().find(mpas::edges_on_edge) < 0 ||
+      source.netcdf().find(mpas::weights_on_edge) < 0)
     return;
-  const IdRows edges(source, subset, "edgesOnEdge", part.edges);
-  add_row_change(source, "weightsOnEdge", subset,
+  const IdRows edges(source, subset, mpas::edges_on_edge, part.edges);
+  add_row_change(source, mpas::weights_on_edge, subset,
                  [edges, &reversed, near = near_reversed(part, reversed)](
                      std::int64_t e, char* bytes, std::int64_t size) {
                    if (near[static_cast<std::size_t>(e)] == 0)
@@ -143,10 +169,11 @@ void add_weights(const MpasSource& source, const MpasPart& part, const ReversedE
 
 ReversedEdges reversed_edges(const MpasSource& source, const MpasPart& part) {
   const NetcdfSource& file = source.netcdf();
-  const int v = file.find("cellsOnEdge");
+  const int v = file.find(mpas::cells_on_edge);
   if (v < 0)
     file.reader().fail("it has no cellsOnEdge; make the file again");
-  const std::vector<std::int32_t> cells = file.reader().ints("cellsOnEdge", {source.edges(), 2});
+  const std::vector<std::int32_t> cells =
+      file.reader().ints(mpas::cells_on_edge, {source.edges(), 2});
   ReversedEdges reversed(static_cast<std::size_t>(part.edges.count()));
   for_each_block(part.edges.count(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end; ++e) {
@@ -160,34 +187,21 @@ ReversedEdges reversed_edges(const MpasSource& source, const MpasPart& part) {
 
 void add_reversals(const MpasSource& source, const MpasPart& part, const ReversedEdges& reversed,
                    NetcdfSubset& subset) {
-  exchange_pairs(source, "cellsOnEdge", reversed, subset);
-  exchange_pairs(source, "verticesOnEdge", reversed, subset);
-  add_row_change(source, "angleEdge", subset,
-                 [&reversed](std::int64_t e, char* bytes, std::int64_t size) {
-                   if (reversed[static_cast<std::size_t>(e)] != 0)
-                     change_value(bytes, size, [](double angle) {
-                       return angle > 0 ? angle - std::numbers::pi : angle + std::numbers::pi;
-                     });
-                 });
-  add_row_change(source, "edgeNormalVectors", subset,
-                 [&reversed](std::int64_t e, char* bytes, std::int64_t size) {
-                   for (std::int64_t k = 0; reversed[static_cast<std::size_t>(e)] != 0 && k < 3;
-                        ++k)
-                     change_value(bytes + k * size, size, [](double x) { return -x; });
-                 });
+  for (const MpasVariable& variable : mpas_variables())
+    add_reversal(source, variable, reversed, subset);
   add_weights(source, part, reversed, subset);
 }
 
 void add_kites(const MpasSource& source, const MpasPart& part, NetcdfSubset& subset) {
   const NetcdfSource& file = source.netcdf();
-  const int kites = file.find("kiteAreasOnVertex");
-  if (file.find("cellsOnVertex") < 0 || kites < 0)
+  const int kites = file.find(mpas::kite_areas_on_vertex);
+  if (file.find(mpas::cells_on_vertex) < 0 || kites < 0)
     return;
-  const IdRows cells(source, subset, "cellsOnVertex", part.vertices);
+  const IdRows cells(source, subset, mpas::cells_on_vertex, part.vertices);
   const auto is_complete = [&part](std::int64_t v) {
     return part.cells_at_vertex[static_cast<std::size_t>(v)] >= 3;
   };
-  add_row_change(source, "kiteAreasOnVertex", subset,
+  add_row_change(source, mpas::kite_areas_on_vertex, subset,
                  [=](std::int64_t v, char* bytes, std::int64_t size) {
                    if (is_complete(v))
                      return;
@@ -199,7 +213,7 @@ void add_kites(const MpasSource& source, const MpasPart& part, NetcdfSubset& sub
                                    static_cast<std::size_t>(size));
                  });
   const std::int64_t kite_bytes = value_bytes(file, kites);
-  add_row_change(source, "areaTriangle", subset,
+  add_row_change(source, mpas::area_triangle, subset,
                  [=, &file, &part](std::int64_t v, char* bytes, std::int64_t size) {
                    if (is_complete(v))
                      return;

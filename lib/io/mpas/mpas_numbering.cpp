@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_numbering.h"
+#include "io/mpas/mpas_variables.h"
 
 #include <algorithm>
 #include <utility>
@@ -75,7 +76,8 @@ FoundVertex found_vertex(const Finder& finder, const std::int32_t* ids) {
 
 void number_vertices(const Finder& finder, Deviations& deviations, MpasNumbering& out) {
   const Differences clockwise = deviations.visit_rows<std::int32_t>(
-      "cellsOnVertex", [&](std::int64_t row, const std::int32_t* ids, Differences& differences) {
+      mpas::cells_on_vertex,
+      [&](std::int64_t row, const std::int32_t* ids, Differences& differences) {
         const FoundVertex found = found_vertex(finder, ids);
         out.vertex[row] = found.vertex;
         out.vertex_start[row] = found.start;
@@ -84,7 +86,7 @@ void number_vertices(const Finder& finder, Deviations& deviations, MpasNumbering
         if (found.start < 0)
           differences.note(3 * row + 1, ids[1], ids[2], 1);
       });
-  deviations.add("cellsOnVertex", clockwise, "cells of a vertex, counter-clockwise");
+  deviations.add(mpas::cells_on_vertex, clockwise, mpas_variable(mpas::cells_on_vertex).rule);
 }
 
 // ---- Edges
@@ -93,7 +95,8 @@ void number_vertices(const Finder& finder, Deviations& deviations, MpasNumbering
 Differences find_edges(const Finder& finder, const Deviations& deviations,
                        Array<std::int32_t>& edge) {
   return deviations.visit_rows<std::int32_t>(
-      "cellsOnEdge", [&](std::int64_t row, const std::int32_t* ids, Differences& differences) {
+      mpas::cells_on_edge,
+      [&](std::int64_t row, const std::int32_t* ids, Differences& differences) {
         const bool cells = are_cells(ids, 2, finder.voronoi.cells.cols());
         edge[row] = cells ? finder.edge(ids[0] - 1, ids[1] - 1) : -1;
         if (edge[row] < 0)
@@ -126,7 +129,7 @@ Differences place_edges(const Voronoi& voronoi, MpasNumbering& out) {
 void number_edges(const Finder& finder, Deviations& deviations, MpasNumbering& out) {
   Differences differences = find_edges(finder, deviations, out.edge);
   differences.take(place_edges(finder.voronoi, out));
-  deviations.add("cellsOnEdge", differences, "pairs of neighbouring cells, each pair once");
+  deviations.add(mpas::cells_on_edge, differences, mpas_variable(mpas::cells_on_edge).rule);
 }
 
 /// Whether a dimension of the file is that of the mesh.
@@ -145,14 +148,15 @@ MpasNumbering numbering_of(const Voronoi& voronoi, Deviations& deviations) {
                      edges = voronoi.cells_on_edge.cols();
   const Finder finder{voronoi};
   MpasNumbering out;
-  if (is_whole("nVertices", vertices, deviations) &&
-      deviations.has("cellsOnVertex", {vertices, 3})) {
+  if (is_whole(mpas_vertex.dimension(), vertices, deviations) &&
+      deviations.has(mpas::cells_on_vertex, {vertices, 3})) {
     out.vertex = unknown_ids(vertices);
     out.vertex_start = Array<std::int8_t>(vertices);
     out.file_vertex = unknown_ids(vertices);
     number_vertices(finder, deviations, out);
   }
-  if (is_whole("nEdges", edges, deviations) && deviations.has("cellsOnEdge", {edges, 2})) {
+  if (is_whole(mpas_edge.dimension(), edges, deviations) &&
+      deviations.has(mpas::cells_on_edge, {edges, 2})) {
     out.edge = unknown_ids(edges);
     out.file_edge = unknown_ids(edges);
     out.reversed = Array<std::uint8_t>(edges);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_open.h"
+#include "io/mpas/mpas_variables.h"
 
 #include "io/bytes/broken.h"
 
@@ -86,14 +87,14 @@ Verdict vertex_verdict(const OpenLists& lists, std::int64_t v) {
 
 bool check_edges(const OpenLists& lists, Deviations& deviations) {
   const std::int64_t edges = lists.cells_on_edge.rows();
-  const bool pairs = check_law("cellsOnEdge", "edges", "have no cell, or one cell twice",
+  const bool pairs = check_law(mpas::cells_on_edge, "edges", "have no cell, or one cell twice",
                                broken(edges,
                                       [&](std::int64_t e) {
                                         return verdict_of(lists.cells_on_edge.at(e, 0) !=
                                                           lists.cells_on_edge.at(e, 1));
                                       }),
                                deviations);
-  return check_law("verticesOnEdge", "edges",
+  return check_law(mpas::vertices_on_edge, "edges",
                    "do not run, with their first cell to the left, between two vertices of both "
                    "cells",
                    broken(edges, [&](std::int64_t e) { return edge_verdict(lists, e); }),
@@ -168,30 +169,19 @@ bool check_cells(const OpenLists& lists, Deviations& deviations) {
                        const auto& verdict_at) {
     return check_law(variable, "cells", problem, broken(lists.cells, verdict_at), deviations);
   };
-  const bool counts =
-      law("nEdgesOnCell", "have another number of edges in cellsOnEdge", [&](std::int64_t i) {
-        const auto cell = static_cast<std::size_t>(i);
-        return verdict_of(count[cell] == lists.edge_count[cell]);
-      });
+  const bool counts = law(mpas::n_edges_on_cell, "have another number of edges in cellsOnEdge",
+                          [&](std::int64_t i) {
+                            const auto cell = static_cast<std::size_t>(i);
+                            return verdict_of(count[cell] == lists.edge_count[cell]);
+                          });
   return counts &&
-         law("edgesOnCell", "do not list their edges, each once, then 0",
+         law(mpas::edges_on_cell, "do not list their edges, each once, then 0",
              [&](std::int64_t i) { return edges_verdict(lists, i); }) &&
-         law("verticesOnCell", "do not list the ends of their edges, counter-clockwise, then 0",
+         law(mpas::vertices_on_cell,
+             "do not list the ends of their edges, counter-clockwise, then 0",
              [&](std::int64_t i) { return corners_verdict(lists, i); }) &&
-         law("cellsOnCell", "do not list the cells across their edges, then 0",
+         law(mpas::cells_on_cell, "do not list the cells across their edges, then 0",
              [&](std::int64_t i) { return neighbours_verdict(lists, i); });
-}
-
-void check_boundary(const OpenLists& lists, Deviations& deviations) {
-  if (!deviations.has("boundaryVertex", {lists.cells_on_vertex.rows()}))
-    return;
-  deviations.add("boundaryVertex",
-                 deviations.visit_rows<std::int32_t>(
-                     "boundaryVertex",
-                     [&](std::int64_t v, const std::int32_t* flag, Differences& out) {
-                       out.compare(v, *flag, lists.cells_on_vertex.has(v, -1) ? 1 : 0);
-                     }),
-                 "1 at vertices that lack a cell, and 0 elsewhere");
 }
 
 } // namespace
@@ -203,30 +193,30 @@ bool IdTable::has(std::int64_t row, std::int32_t id) const {
 
 bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
-  const std::int64_t vertices = file.dimension("nVertices"), edges = file.dimension("nEdges");
+  const std::int64_t vertices = file.dimension(mpas_vertex.dimension()),
+                     edges = file.dimension(mpas_edge.dimension());
   const auto read = [&](const std::string& name, std::int64_t rows, std::int64_t width,
                         std::int64_t bound, IdTable& table) {
     return rows >= 0 && read_table(name, rows, width, bound, table, deviations);
   };
   lists.cells = cells;
-  if (!read("cellsOnVertex", vertices, 3, cells, lists.cells_on_vertex) ||
-      !read("edgesOnVertex", vertices, 3, edges, lists.edges_on_vertex) ||
-      !read("cellsOnEdge", edges, 2, cells, lists.cells_on_edge) ||
-      !read("verticesOnEdge", edges, 2, vertices, lists.vertices_on_edge) ||
-      !read("edgesOnCell", cells, -1, edges, lists.edges_on_cell) ||
-      !read("verticesOnCell", cells, -1, vertices, lists.vertices_on_cell) ||
-      !read("cellsOnCell", cells, -1, cells, lists.cells_on_cell) ||
-      !deviations.has("nEdgesOnCell", {cells}))
+  if (!read(mpas::cells_on_vertex, vertices, 3, cells, lists.cells_on_vertex) ||
+      !read(mpas::edges_on_vertex, vertices, 3, edges, lists.edges_on_vertex) ||
+      !read(mpas::cells_on_edge, edges, 2, cells, lists.cells_on_edge) ||
+      !read(mpas::vertices_on_edge, edges, 2, vertices, lists.vertices_on_edge) ||
+      !read(mpas::edges_on_cell, cells, -1, edges, lists.edges_on_cell) ||
+      !read(mpas::vertices_on_cell, cells, -1, vertices, lists.vertices_on_cell) ||
+      !read(mpas::cells_on_cell, cells, -1, cells, lists.cells_on_cell) ||
+      !deviations.has(mpas::n_edges_on_cell, {cells}))
     return false;
-  lists.edge_count = file.ints("nEdgesOnCell", {cells});
+  lists.edge_count = file.ints(mpas::n_edges_on_cell, {cells});
   return true;
 }
 
 bool check_open_lists(const OpenLists& lists, Deviations& deviations) {
-  check_boundary(lists, deviations);
   const bool edges = check_edges(lists, deviations);
   const bool vertices =
-      check_law("edgesOnVertex", "vertices",
+      check_law(mpas::edges_on_vertex, "vertices",
                 "do not list edges that end there, edge j before cell j of cellsOnVertex",
                 broken(lists.cells_on_vertex.rows(),
                        [&](std::int64_t v) { return vertex_verdict(lists, v); }),

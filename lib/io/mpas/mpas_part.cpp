@@ -24,20 +24,21 @@ void require_lists(const NetcdfSource& file) {
   if (is_planar_mpas(file.reader()))
     throw Error(ErrorCode::invalid_argument,
                 path + " holds a mesh of the plane, not of the sphere; give another");
-  for (const char* name : {"nEdgesOnCell", "cellsOnCell", "edgesOnCell", "verticesOnCell"})
+  for (const char* name :
+       {mpas::n_edges_on_cell, mpas::cells_on_cell, mpas::edges_on_cell, mpas::vertices_on_cell})
     if (file.find(name) < 0)
       throw Error(ErrorCode::invalid_argument,
                   path + " holds no " + name + "; complete it with calotte convert IN OUT.nc");
-  for (const char* name : {"nCells", "nEdges", "nVertices"})
-    if (file.reader().dimension(name) < 0)
-      file.reader().fail("it has no dimension " + std::string(name) + "; make the file again");
+  for (const MpasKind& kind : {mpas_cell, mpas_edge, mpas_vertex})
+    if (file.reader().dimension(kind.dimension()) < 0)
+      file.reader().fail("it has no dimension " + kind.dimension() + "; make the file again");
 }
 
 /// \throws Error parse, unless the generators are on the sphere of the attribute.
 double radius_of(const NetcdfReader& file) {
   std::array<double, 3> place{};
   for (std::size_t k = 0; k < 3; ++k)
-    file.rows(std::string(1, "xyz"[k]) + "Cell", 0, 1, &place[k]);
+    file.rows(mpas_cell.axis(k), 0, 1, &place[k]);
   const double norm = std::hypot(place[0], place[1], place[2]),
                radius = file.number("", "sphere_radius", norm);
   if (!(std::abs(radius - norm) <= 1e-3 * norm))
@@ -47,10 +48,10 @@ double radius_of(const NetcdfReader& file) {
   return radius;
 }
 
-Points3 read_places(const NetcdfReader& file, const std::string& kind, std::int64_t count) {
+Points3 read_places(const NetcdfReader& file, const MpasKind& kind, std::int64_t count) {
   Points3 places(3, count);
   for (int row = 0; row < 3; ++row) {
-    const std::vector<double> values = file.doubles(std::string(1, "xyz"[row]) + kind, {count});
+    const std::vector<double> values = file.doubles(kind.axis(row), {count});
     places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
   }
   return places;
@@ -121,22 +122,22 @@ void renumber(const Kept& kept, Ids& ids) {
 MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
   require_lists(netcdf_);
   const NetcdfReader& file = netcdf_.reader();
-  cells_ = file.dimension("nCells");
-  edges_ = file.dimension("nEdges");
-  vertices_ = file.dimension("nVertices");
+  cells_ = file.dimension(mpas_cell.dimension());
+  edges_ = file.dimension(mpas_edge.dimension());
+  vertices_ = file.dimension(mpas_vertex.dimension());
   radius_ = radius_of(file);
-  counts_ = file.ints("nEdgesOnCell", {cells_});
-  const std::int64_t width = netcdf_.product(netcdf_.find("cellsOnCell"), 1, 2);
+  counts_ = file.ints(mpas::n_edges_on_cell, {cells_});
+  const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   for (const std::int32_t count : counts_)
     if (count < 0 || count > width)
       file.fail("nEdgesOnCell is " + std::to_string(count) + " at a cell, but cellsOnCell holds " +
                 std::to_string(width) + "; make the file again");
 }
 
-Points3 MpasSource::places() const { return read_places(netcdf_.reader(), "Cell", cells_); }
+Points3 MpasSource::places() const { return read_places(netcdf_.reader(), mpas_cell, cells_); }
 
 Points3 MpasSource::vertex_places() const {
-  return read_places(netcdf_.reader(), "Vertex", vertices_);
+  return read_places(netcdf_.reader(), mpas_vertex, vertices_);
 }
 
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
@@ -149,7 +150,7 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const Kept& kept) const {
   const int v = netcdf_.find(variable);
   const NetcdfReader& file = netcdf_.reader();
-  const std::int64_t width = netcdf_.product(netcdf_.find("cellsOnCell"), 1, 2);
+  const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   if (file.shape_of(variable) != std::vector<std::int64_t>{cells_, width})
     file.fail(variable + " has another shape than cellsOnCell; make the file again");
   const std::optional<NetcdfType> type = netcdf_.variables()[static_cast<std::size_t>(v)].type;
@@ -186,9 +187,9 @@ Voronoi tessellation_of(const MpasSource& source) {
   for (Points3* places : {&cells.cells, &cells.vertices})
     for (auto place : places->colwise())
       place /= place.norm();
-  cells.edges_on_cell = source.lists("edgesOnCell", source.edges());
-  cells.vertices_on_cell = source.lists("verticesOnCell", source.vertices());
-  cells.cells_on_cell = source.lists("cellsOnCell", source.cells());
+  cells.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges());
+  cells.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices());
+  cells.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells());
   require_edges(source.netcdf().reader(), source.edges(), cells);
   return cells;
 }
@@ -196,9 +197,9 @@ Voronoi tessellation_of(const MpasSource& source) {
 MpasPart part_of(const MpasSource& source, const Ids& keep) {
   MpasPart part;
   part.cells = kept_of(keep);
-  part.edges_on_cell = source.lists("edgesOnCell", source.edges(), part.cells);
-  part.vertices_on_cell = source.lists("verticesOnCell", source.vertices(), part.cells);
-  part.cells_on_cell = source.lists("cellsOnCell", source.cells(), part.cells);
+  part.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges(), part.cells);
+  part.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices(), part.cells);
+  part.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells(), part.cells);
   part.edges = named(part.edges_on_cell.items, source.edges(), part.cells_at_edge);
   part.vertices = named(part.vertices_on_cell.items, source.vertices(), part.cells_at_vertex);
   renumber(part.edges, part.edges_on_cell.items);

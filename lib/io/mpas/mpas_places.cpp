@@ -105,46 +105,34 @@ void fill_edges(const MpasMesh& mesh, std::int64_t begin, std::int64_t end,
 
 // ---- Variables
 
-std::vector<Announced> coordinates(const MpasKind& kind, int dimension) {
+std::vector<Announced> coordinates(const MpasFile& file, const MpasKind& kind) {
   std::vector<Announced> out;
-  for (const char c : {'x', 'y', 'z'}) {
-    const std::string axis(1, c);
-    std::string long_name = axis;
-    long_name.append(" coordinate of ").append(kind.place);
-    out.push_back({axis + kind.name, {dimension}, described("m", long_name)});
-  }
+  for (int k = 0; k < 3; ++k)
+    out.push_back(file.announced(kind.axis(k)));
   return out;
 }
 
 /// In the order of fill_places(), the numbers last.
-std::vector<Announced> places_of(const MpasKind& kind, int dimension) {
-  std::vector<Announced> out = coordinates(kind, dimension);
-  out.insert(out.begin(), {{"lat" + kind.name,
-                            {dimension},
-                            described("radians", "latitude of " + kind.place, "latitude")},
-                           {"lon" + kind.name,
-                            {dimension},
-                            described("radians", "longitude of " + kind.place, "longitude")}});
-  out.push_back({.name = "indexTo" + kind.name + "ID",
-                 .dimensions = {dimension},
-                 .attributes = described("1", "number of each " + kind.word),
-                 .integer = true});
+std::vector<Announced> places_of(const MpasFile& file, const MpasKind& kind) {
+  std::vector<Announced> out{file.announced(kind.latitude()), file.announced(kind.longitude())};
+  for (Announced& row : coordinates(file, kind))
+    out.push_back(std::move(row));
+  out.push_back(file.announced(kind.numbers()));
   return out;
 }
 
 } // namespace
 
-void put_coordinates(MpasFile& file, const MpasKind& kind, int dimension, const Points3& points,
-                     double factor) {
-  file.together(coordinates(kind, dimension),
+void put_coordinates(MpasFile& file, const MpasKind& kind, const Points3& points, double factor) {
+  file.together(coordinates(file, kind),
                 [&points, factor](std::int64_t begin, std::int64_t end, std::int32_t* const*,
                                   double* const* xyz) {
                   fill_coordinates(columns(points, begin), factor, end - begin, xyz);
                 });
 }
 
-void put_cells(MpasFile& file, int cells, const MpasMesh& mesh) {
-  file.together(places_of(mpas_cell, cells),
+void put_cells(MpasFile& file, const MpasMesh& mesh) {
+  file.together(places_of(file, mpas_cell),
                 [&mesh](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
                         double* const* doubles) {
                   const Voronoi& voronoi = mesh.voronoi;
@@ -153,30 +141,18 @@ void put_cells(MpasFile& file, int cells, const MpasMesh& mesh) {
                 });
 }
 
-void put_vertices(MpasFile& file, int vertices, int degree, const MpasMesh& mesh) {
-  std::vector<Announced> variables = places_of(mpas_vertex, vertices);
-  variables.push_back({"areaTriangle",
-                       {vertices},
-                       described("m2", "area of the triangle of generators around each vertex")});
-  variables.push_back(
-      {"kiteAreasOnVertex",
-       {vertices, degree},
-       described("m2", "signed area of the part of each triangle in each of its cells")});
+void put_vertices(MpasFile& file, const MpasMesh& mesh) {
+  std::vector<Announced> variables = places_of(file, mpas_vertex);
+  variables.push_back(file.announced(mpas::area_triangle));
+  variables.push_back(file.announced(mpas::kite_areas_on_vertex));
   file.together(variables, [&mesh](auto... arguments) { fill_vertices(mesh, arguments...); });
 }
 
-void put_edges(MpasFile& file, int edges, const MpasMesh& mesh) {
-  std::vector<Announced> variables = places_of(mpas_edge, edges);
-  variables.push_back(
-      {"dcEdge", {edges}, described("m", "distance of the generators of the cells on each edge")});
-  variables.push_back(
-      {"dvEdge", {edges}, described("m", "distance of the vertices at the ends of each edge")});
-  variables.push_back(
-      {"angleEdge",
-       {edges},
-       described("radians", mesh.voronoi.on_sphere
-                                ? "angle of the normal of each edge from east"
-                                : "angle of the normal of each edge from the x axis")});
+void put_edges(MpasFile& file, const MpasMesh& mesh) {
+  std::vector<Announced> variables = places_of(file, mpas_edge);
+  variables.push_back(file.announced(mpas::dc_edge));
+  variables.push_back(file.announced(mpas::dv_edge));
+  variables.push_back(file.announced(mpas::angle_edge));
   file.together(variables, [&mesh](auto... arguments) { fill_edges(mesh, arguments...); });
 }
 

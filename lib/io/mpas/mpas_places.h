@@ -12,17 +12,15 @@
 namespace calotte::io_detail {
 
 /// x, y and z: a factor times the points, which must outlive the file.
-void put_coordinates(MpasFile& file, const MpasKind& kind, int dimension, const Points3& points,
-                     double factor);
+void put_coordinates(MpasFile& file, const MpasKind& kind, const Points3& points, double factor);
 
 /// Places and numbers.
-void put_cells(MpasFile& file, int cells, const MpasMesh& mesh);
+void put_cells(MpasFile& file, const MpasMesh& mesh);
 
 /// The same, and areaTriangle and kiteAreasOnVertex. Sets the kites.
-/// \param degree the dimension vertexDegree.
-void put_vertices(MpasFile& file, int vertices, int degree, const MpasMesh& mesh);
+void put_vertices(MpasFile& file, const MpasMesh& mesh);
 
 /// The same, and dcEdge, dvEdge and angleEdge, after put_vertices(). Sets dc and dv.
-void put_edges(MpasFile& file, int edges, const MpasMesh& mesh);
+void put_edges(MpasFile& file, const MpasMesh& mesh);
 
 } // namespace calotte::io_detail

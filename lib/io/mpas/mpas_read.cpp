@@ -22,11 +22,11 @@
 namespace calotte::io_detail {
 namespace {
 
-/// One row of coordinates a call, which all have the same length. \param kind "Cell" or "Vertex".
-Points3 places_of(const NetcdfReader& file, const std::string& kind) {
+/// One row of coordinates a call, which all have the same length. \param kind of places.
+Points3 places_of(const NetcdfReader& file, const MpasKind& kind) {
   Points3 places;
   for (int row = 0; row < 3; ++row) {
-    const std::string name = std::string(1, "xyz"[row]) + kind;
+    const std::string name = kind.axis(row);
     const std::vector<double> values =
         file.doubles(name, {row == 0 ? std::int64_t{-1} : std::int64_t{places.cols()}});
     if (row == 0)
@@ -61,7 +61,7 @@ struct CompleteVertices {
 
 CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells) {
   const std::vector<std::int32_t> ids =
-      ids_of(file, "cellsOnVertex", {-1, 3}, "vertex", 3, "cell", cells);
+      ids_of(file, mpas::cells_on_vertex, {-1, 3}, "vertex", 3, "cell", cells);
   const Eigen::Map<const Triangles> around(ids.data(), 3, std::ssize(ids) / 3);
   CompleteVertices complete{Triangles(3, around.cols()), {}, true};
   for (std::int32_t v = 0; v < around.cols(); ++v)
@@ -84,10 +84,10 @@ bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Po
 /// The cells as the file has them. A cell with a missing vertex has none here.
 Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
   const std::int64_t cells = sites.cols();
-  const std::vector<std::int32_t> counts = file.ints("nEdgesOnCell", {cells});
-  const std::int64_t width = file.shape_of("verticesOnCell").back();
+  const std::vector<std::int32_t> counts = file.ints(mpas::n_edges_on_cell, {cells});
+  const std::int64_t width = file.shape_of(mpas::vertices_on_cell).back();
   const std::vector<std::int32_t> rows =
-      ids_of(file, "verticesOnCell", {cells, -1}, "cell", width, "vertex", vertices.cols());
+      ids_of(file, mpas::vertices_on_cell, {cells, -1}, "cell", width, "vertex", vertices.cols());
   Polygons polygons{std::move(vertices), {Offsets(cells + 1), {}}, std::move(sites)};
   std::vector<std::int32_t> ids;
   for (std::int64_t i = 0; i < cells; ++i) {
@@ -135,10 +135,11 @@ bool has_edge_fields(const RawMesh& raw) {
 
 /// The cells of the edges, which fields need that are at edges.
 void read_edges(const NetcdfReader& file, std::int64_t cells, RawMesh& raw) {
-  if (!has_edge_fields(raw) || !file.has_variable("cellsOnEdge"))
+  if (!has_edge_fields(raw) || !file.has_variable(mpas::cells_on_edge))
     return;
   const std::vector<std::int32_t> ids =
-      ids_of(file, "cellsOnEdge", {file.dimension("nEdges"), 2}, "edge", 2, "cell", cells);
+      ids_of(file, mpas::cells_on_edge, {file.dimension(mpas_edge.dimension()), 2}, "edge", 2,
+             "cell", cells);
   raw.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
 }
 
@@ -146,20 +147,20 @@ void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Field
                              RawMesh& raw) {
   read_fields(file, mpas_names(), choice, raw);
   read_edges(file, cells, raw);
-  if (file.has_variable("meshDensity") &&
-      file.shape_of("meshDensity") == std::vector<std::int64_t>{cells})
-    raw.density = values_with_fill(file, "meshDensity");
+  if (file.has_variable(mpas::mesh_density) &&
+      file.shape_of(mpas::mesh_density) == std::vector<std::int64_t>{cells})
+    raw.density = values_with_fill(file, mpas::mesh_density);
 }
 
 bool has_cells(const NetcdfReader& file) {
-  return file.has_variable("verticesOnCell") && file.has_variable("nEdgesOnCell") &&
+  return file.has_variable(mpas::vertices_on_cell) && file.has_variable(mpas::n_edges_on_cell) &&
          file.has_variable("xVertex");
 }
 
-Points3 finite_places_of(const NetcdfReader& file, const std::string& kind) {
+Points3 finite_places_of(const NetcdfReader& file, const MpasKind& kind) {
   Points3 places = places_of(file, kind);
   if (!places.allFinite())
-    file.fail("a coordinate x" + kind + " or y" + kind +
+    file.fail("a coordinate " + kind.axis(0) + " or " + kind.axis(1) +
               " is NaN or infinite; make the file again");
   places.row(2).setZero();
   return places;
@@ -182,7 +183,7 @@ Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
   if (!has_cells(file))
     file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
               "xVertex); make the file again");
-  Points3 vertices = finite_places_of(file, "Vertex");
+  Points3 vertices = finite_places_of(file, mpas_vertex);
   wrap(vertices, period);
   Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
   polygons.on_sphere = false;
@@ -195,8 +196,8 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  RawMesh raw{.points = places_of(file, "Cell"), .planar = true};
-  Points3 vertices = finite_places_of(file, "Vertex");
+  RawMesh raw{.points = places_of(file, mpas_cell), .planar = true};
+  Points3 vertices = finite_places_of(file, mpas_vertex);
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   raw.polygons = cells_of(file, raw.points, std::move(vertices));
   raw.polygons.on_sphere = false;
@@ -205,7 +206,7 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
 
 RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
   const Eigen::Vector2d period = periods_of(file);
-  RawMesh raw{.points = finite_places_of(file, "Cell"), .planar = true, .period = period};
+  RawMesh raw{.points = finite_places_of(file, mpas_cell), .planar = true, .period = period};
   wrap(raw.points, period);
   CompleteVertices complete = complete_vertices(file, raw.points.cols());
   read_density_and_fields(file, raw.points.cols(), choice, raw);
@@ -232,7 +233,7 @@ Points3 read_mpas_sites(const NetcdfReader& file) {
   if (is_planar_mpas(file))
     throw Error(ErrorCode::invalid_argument, file.path() + " holds a mesh of the plane, not of the "
                                                            "sphere; read it with read_mesh()");
-  return places_of(file, "Cell");
+  return places_of(file, mpas_cell);
 }
 
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
@@ -245,7 +246,7 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
   CompleteVertices complete = complete_vertices(file, cells);
   read_density_and_fields(file, cells, choice, raw);
   if (has_cells(file)) {
-    const Points3 vertices = places_of(file, "Vertex");
+    const Points3 vertices = places_of(file, mpas_vertex);
     require_directions(file.path() + ": of the vertices", vertices);
     if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
       raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));

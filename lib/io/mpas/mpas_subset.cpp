@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_subset.h"
+#include "io/mpas/mpas_variables.h"
 
 #include "io/bytes/big_endian.h"
 #include "io/bytes/file.h"
@@ -11,31 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 
 namespace calotte::io_detail {
 namespace {
 
 // ---- Ids
-
-/// A variable of ids, and what these stand for.
-struct IdVariable {
-  const char* name;
-  Kept MpasPart::*of;
-};
-
-constexpr IdVariable id_variables[] = {
-    {"cellsOnCell", &MpasPart::cells},       {"cellsOnEdge", &MpasPart::cells},
-    {"cellsOnVertex", &MpasPart::cells},     {"edgesOnCell", &MpasPart::edges},
-    {"edgesOnEdge", &MpasPart::edges},       {"edgesOnVertex", &MpasPart::edges},
-    {"verticesOnCell", &MpasPart::vertices}, {"verticesOnEdge", &MpasPart::vertices}};
-
-constexpr IdVariable number_variables[] = {{"indexToCellID", &MpasPart::cells},
-                                           {"indexToEdgeID", &MpasPart::edges},
-                                           {"indexToVertexID", &MpasPart::vertices}};
-
-/// Lists of cells that start with their length.
-constexpr const char* made_by_models[] = {"advCells", "advCellsForEdge"};
 
 /// work(values, count) on values of the machine's order in place of those of the file.
 template <class T, class Work> void on_values(char* bytes, std::int64_t count, const Work& work) {
@@ -117,7 +98,7 @@ ChangeRows boundary_of(const NetcdfSource& source, int variable, const MpasPart&
 
 /// Weights of edges that are left out become 0: only edges with one kept cell have such.
 ChangeRows weights_of(const NetcdfSource& source, int variable, const MpasPart& part) {
-  const int ids = source.find("edgesOnEdge");
+  const int ids = source.find(mpas::edges_on_edge);
   const std::int64_t width = width_of(source, variable),
                      size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type),
                      id_size = size_of(*source.variables()[static_cast<std::size_t>(ids)].type);
@@ -143,34 +124,6 @@ void add_change(const NetcdfSource& source, const std::string& variable, NetcdfS
     subset.changes[variable].push_back(make(v));
 }
 
-/// How a quantity depends on the radius of the sphere: with this power.
-struct Power {
-  const char* name;
-  int power;
-};
-
-constexpr Power powers[] = {{"xCell", 1},
-                            {"yCell", 1},
-                            {"zCell", 1},
-                            {"xEdge", 1},
-                            {"yEdge", 1},
-                            {"zEdge", 1},
-                            {"xVertex", 1},
-                            {"yVertex", 1},
-                            {"zVertex", 1},
-                            {"dcEdge", 1},
-                            {"dvEdge", 1},
-                            {"gridSpacing", 1},
-                            {"nominalMinDc", 1},
-                            {"areaCell", 2},
-                            {"areaTriangle", 2},
-                            {"kiteAreasOnVertex", 2},
-                            {"defc_a", -1},
-                            {"defc_b", -1},
-                            {"deriv_two", -2},
-                            {"cell_gradient_coef_x", -1},
-                            {"cell_gradient_coef_y", -1}};
-
 template <class T> ChangeRows scaling(std::int64_t width, double factor, double divisor) {
   return [=](std::int64_t begin, std::int64_t end, char* bytes) {
     on_values<T>(bytes, (end - begin) * width, [=](T* values, std::int64_t n) {
@@ -193,21 +146,35 @@ void add_scaling(const NetcdfSource& source, const std::string& variable, double
   });
 }
 
+/// What the ids of a variable stand for; null for other variables.
+const Kept* things_of(MpasNumbers numbers, const MpasPart& part) {
+  return numbers == MpasNumbers::cells      ? &part.cells
+         : numbers == MpasNumbers::edges    ? &part.edges
+         : numbers == MpasNumbers::vertices ? &part.vertices
+                                            : nullptr;
+}
+
 } // namespace
 
 NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
   const NetcdfSource& file = source.netcdf();
   NetcdfSubset subset;
-  subset.kept = {{"nCells", &part.cells}, {"nEdges", &part.edges}, {"nVertices", &part.vertices}};
-  for (const IdVariable& ids : id_variables)
-    add_change(file, ids.name, subset,
-               [&](int v) { return renumbering_of(file, v, part.*(ids.of)); });
-  for (const IdVariable& numbers : number_variables)
-    add_change(file, numbers.name, subset, [&](int v) { return numbers_of(file, v); });
-  add_change(file, "boundaryVertex", subset, [&](int v) { return boundary_of(file, v, part); });
-  subset.left_out.assign(std::begin(made_by_models), std::end(made_by_models));
-  if (file.find("edgesOnEdge") >= 0)
-    add_change(file, "weightsOnEdge", subset, [&](int v) { return weights_of(file, v, part); });
+  subset.kept = {{name_of(MpasDimension::cells), &part.cells},
+                 {name_of(MpasDimension::edges), &part.edges},
+                 {name_of(MpasDimension::vertices), &part.vertices}};
+  for (const MpasVariable& variable : mpas_variables()) {
+    if (const Kept* const ids = things_of(variable.numbers, part))
+      add_change(file, variable.name, subset, [&](int v) { return renumbering_of(file, v, *ids); });
+    else if (variable.numbers == MpasNumbers::own)
+      add_change(file, variable.name, subset, [&](int v) { return numbers_of(file, v); });
+    else if (variable.numbers == MpasNumbers::lists_of_ids)
+      subset.left_out.push_back(variable.name);
+  }
+  add_change(file, mpas::boundary_vertex, subset,
+             [&](int v) { return boundary_of(file, v, part); });
+  if (file.find(mpas::edges_on_edge) >= 0)
+    add_change(file, mpas::weights_on_edge, subset,
+               [&](int v) { return weights_of(file, v, part); });
   return subset;
 }
 
@@ -215,9 +182,11 @@ void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset) {
   const double from = source.radius();
   if (from == radius)
     return;
-  for (const auto& [name, power] : powers)
-    add_scaling(source.netcdf(), name, std::pow(power > 0 ? radius : from, std::abs(power)),
-                std::pow(power > 0 ? from : radius, std::abs(power)), subset);
+  for (const MpasVariable& variable : mpas_variables())
+    if (const int power = radius_power(variable); power != 0)
+      add_scaling(source.netcdf(), variable.name,
+                  std::pow(power > 0 ? radius : from, std::abs(power)),
+                  std::pow(power > 0 ? from : radius, std::abs(power)), subset);
 }
 
 void add_division(const MpasSource& source, const std::string& variable, double divisor,
@@ -259,9 +228,9 @@ std::vector<std::string> write_part(const MpasSource& source, const MpasPart& pa
     commit_others();
   graph.commit();
   file.commit();
-  for (const char* name : made_by_models)
-    if (source.netcdf().find(name) >= 0)
-      refused.emplace_back(name);
+  for (const std::string& name : subset.left_out)
+    if (mpas_names().lists.contains(name) && source.netcdf().find(name) >= 0)
+      refused.push_back(name);
   return refused;
 }
 
