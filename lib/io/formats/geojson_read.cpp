@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "base/points.h"
-#include "io/bytes/json_stream.h"
 #include "io/bytes/text.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
 #include "io/formats/formats.h"
+#include "io/shapes/geojson.h"
 #include "io/shapes/geojson_corners.h"
 
 #include <calotte/error.h>
@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <istream>
 #include <limits>
 #include <map>
@@ -35,12 +34,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array axes{"x", "y", "z"};
+constexpr const char* no_collection = ": no GeoJSON FeatureCollection; give one of the cells";
 
-std::string text_in(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
+constexpr std::array axes{"x", "y", "z"};
 
 /// Numbers for each feature under one name; NaN where a feature has none.
 struct Column {
@@ -60,9 +56,10 @@ class Features {
 public:
   explicit Features(const std::string& name) : name_(name) {}
 
-  void take(const json& feature) {
-    const json properties = feature.value("properties", json()),
-               geometry = feature.value("geometry", json());
+  void take(const GeoFeature& feature) {
+    if (feature.number < 0)
+      throw Error(ErrorCode::parse, name_ + no_collection);
+    const json &properties = feature.properties, &geometry = feature.geometry;
     take_properties(properties);
     const std::optional<Vec3> site = site_of(properties);
     const std::string type = geometry.is_object() ? text_in(geometry, "type") : "";
@@ -161,9 +158,8 @@ private:
     return has_numbers(properties, std::array{"area", "spacing", "quality", "degree"});
   }
 
-  static bool is_position(const json& place) {
-    return place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number() &&
-           std::abs(place[1].get<double>()) <= 90;
+  static bool is_place(const json& place) {
+    return is_position(place) && std::abs(place[1].get<double>()) <= 90;
   }
 
   static Vec3 on_sphere_at(const json& place) {
@@ -172,7 +168,7 @@ private:
 
   Vec3 place_of_point(const json& geometry, const std::string& type) const {
     const json place = type == "Point" ? geometry.value("coordinates", json()) : json();
-    if (!is_position(place))
+    if (!is_place(place))
       fail("is neither a polygon nor a point that is the site of its cell; give it a geometry, or "
            "numbers x, y and z as properties");
     return on_sphere_at(place);
@@ -203,7 +199,7 @@ private:
     CornerRing ring;
     std::int32_t cut = -1; // the corner at which the way to a pole begins and ends
     for (const json& place : rings[0]) {
-      if (!is_position(place))
+      if (!is_place(place))
         fail("has a position that is no longitude and latitude in degrees; correct it");
       const std::int32_t corner = corners_.id_of(place[0].get<double>(), place[1].get<double>());
       if (corners_.push(corner, ring))
@@ -281,41 +277,13 @@ private:
   std::set<std::string> ignored_;
 };
 
-/// The whole file without its features, of which each is shown to `take` as soon as it is read.
-json parse(std::istream& in, const std::string& name,
-           const std::function<void(const json& feature)>& take) {
-  bool in_features = false;
-  const auto keep = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::key && depth == 1)
-      in_features = parsed == "features";
-    if (event != json::parse_event_t::object_end || depth != 2 || !in_features)
-      return true;
-    take(parsed);
-    return false;
-  };
-  try {
-    JsonBuffer buffer(in, name);
-    std::istream checked(&buffer);
-    return json::parse(checked, keep);
-  } catch (const json::parse_error& error) {
-    throw Error(ErrorCode::parse, name + ": invalid or incomplete JSON at byte " +
-                                      std::to_string(error.byte) + "; make the file again");
-  } catch (const json::exception&) {
-    throw Error(ErrorCode::parse, name + ": a number is out of range; make the file again");
-  }
-}
-
 } // namespace
 
 RawMesh get_geojson(std::istream& in, const std::string& name) {
   Features features(name);
-  const json rest = parse(in, name, [&](const json& feature) { features.take(feature); });
-  if (!rest.is_object() || text_in(rest, "type") != "FeatureCollection")
-    throw Error(ErrorCode::parse, name + ": no GeoJSON FeatureCollection; give one of the cells");
-  const json others = rest.value("features", json());
-  if (features.count() == 0 || !others.is_array() || !others.empty())
-    throw Error(ErrorCode::parse, name + ": \"features\" is empty or holds other values than "
-                                         "objects; give one feature for each cell");
+  read_features(in, name, [&](const GeoFeature& feature) { features.take(feature); });
+  if (features.count() == 0)
+    throw Error(ErrorCode::parse, name + ": \"features\" is empty; give one feature for each cell");
   return features.raw();
 }
 

@@ -22,12 +22,13 @@ public:
   Collector(std::string name, const PolygonWidths& widths)
       : name_(std::move(name)), widths_(widths) {}
 
-  CellWidth read(const Json& root) {
-    outer_width(root, "insideWidth", widths_.inside, false);
-    outer_width(root, "outsideWidth", widths_.outside, true);
-    outer_width(root, "transition", widths_.transition, true);
-    for (const GeoGeometry& geometry :
-         geojson_polygons(root, name_, {"[longitude, latitude]", "give degrees"})) {
+  CellWidth read(std::istream& in) {
+    const GeoPolygons polygons =
+        read_polygons(in, name_, {"[longitude, latitude]", "give degrees"});
+    outer_width(polygons.members, "insideWidth", widths_.inside, false);
+    outer_width(polygons.members, "outsideWidth", widths_.outside, true);
+    outer_width(polygons.members, "transition", widths_.transition, true);
+    for (const GeoGeometry& geometry : polygons.geometries) {
       where_ = geometry.where;
       regions_.push_back(region_of(geometry));
     }
@@ -122,7 +123,7 @@ CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths) {
   if (!(widths.radius_km > 0) || !std::isfinite(widths.radius_km))
     throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
-  return Collector(name, widths).read(read_geojson(in, name));
+  return Collector(name, widths).read(in);
 }
 
 } // namespace calotte::io_detail

@@ -9,8 +9,6 @@
 
 #include <calotte/error.h>
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -60,7 +58,7 @@ Coast read_coast(const std::string& path) {
     return read_gshhg(NetcdfReader(path));
   std::ifstream in = open_input(path);
   Coast coast;
-  for (const GeoArea& area : geojson_areas(read_geojson(in, path), path))
+  for (const GeoArea& area : read_areas(in, path))
     add_land(area.rings, coast);
   return coast;
 }

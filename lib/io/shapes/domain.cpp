@@ -81,8 +81,8 @@ Rings rings_of_text(std::istream& in, const std::string& name) {
 
 Rings rings_of_geojson(std::istream& in, const std::string& name) {
   Rings rings;
-  for (const GeoGeometry& geometry :
-       geojson_polygons(read_geojson(in, name), name, {"[x, y]", "give two numbers"})) {
+  const GeoPolygons polygons = read_polygons(in, name, {"[x, y]", "give two numbers"});
+  for (const GeoGeometry& geometry : polygons.geometries) {
     std::int64_t number = 0;
     for (const GeoPolygon& polygon : geometry.polygons)
       for (const GeoRing& ring : polygon) {

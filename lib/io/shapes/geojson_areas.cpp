@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -55,9 +54,8 @@ GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
 
 void require_degrees(const GeoPosition& position, const std::string& name,
                      const std::string& what) {
-  const auto [longitude, latitude] = position;
-  if (!(std::abs(longitude) <= 720) || !(std::abs(latitude) <= 90))
-    fail(name, what + " is [" + Json(longitude).dump() + ", " + Json(latitude).dump() +
+  if (!are_degrees(position))
+    fail(name, what + " is [" + Json(position[0]).dump() + ", " + Json(position[1]).dump() +
                    "], no longitude and latitude in degrees; correct it");
 }
 
@@ -66,17 +64,17 @@ std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::str
     return std::nullopt;
   const Json& given = geometry.properties["inside"];
   const std::string what = geometry.where + "its property \"inside\"";
-  if (!given.is_array() || given.size() < 2 || !given[0].is_number() || !given[1].is_number())
+  if (!is_position(given))
     fail(name, what + " is not a position [longitude, latitude]; give degrees");
-  const GeoPosition position{given[0].get<double>(), given[1].get<double>()};
+  const GeoPosition position = position_of(given);
   require_degrees(position, name, what);
   return position;
 }
 
-std::vector<GeoArea> geojson_areas(const Json& root, const std::string& name) {
+std::vector<GeoArea> read_areas(std::istream& in, const std::string& name) {
   std::vector<GeoArea> areas;
-  for (const GeoGeometry& geometry :
-       geojson_polygons(root, name, {"[longitude, latitude]", "give degrees"}))
+  const GeoPolygons polygons = read_polygons(in, name, {"[longitude, latitude]", "give degrees"});
+  for (const GeoGeometry& geometry : polygons.geometries)
     areas.push_back(area_of(geometry, name));
   return areas;
 }

@@ -27,10 +27,10 @@ struct GeoArea {
   std::vector<WrittenRing> rings;
 };
 
-/// The areas of all geometries. An outer ring encloses its polygon, and a hole what is left out of
-/// it (see enclose_left()), unless the feature names a place inside: then its rings, joined, are
-/// those around this place.
-/// \throws Error parse, naming the feature and its ring; of a place inside, as region_around().
-std::vector<GeoArea> geojson_areas(const nlohmann::json& root, const std::string& name);
+/// The areas of all geometries of a file. An outer ring encloses its polygon, and a hole what is
+/// left out of it (see enclose_left()), unless the feature names a place inside: then its rings,
+/// joined, are those around this place. \throws Error parse, naming the feature and its ring; of a
+/// place inside, as region_around().
+std::vector<GeoArea> read_areas(std::istream& in, const std::string& name);
 
 } // namespace calotte::io_detail

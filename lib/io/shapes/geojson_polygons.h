@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/shapes/geojson.h"
 #include "io/shapes/room.h"
 
-#include <nlohmann/json.hpp>
-
-#include <array>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -13,7 +11,6 @@
 /// Polygons of GeoJSON (RFC 7946) for any use.
 namespace calotte::io_detail {
 
-using GeoPosition = std::array<double, 2>;
 using GeoRing = std::vector<GeoPosition>; ///< its first position is not repeated at the end
 using GeoPolygon = std::vector<GeoRing>;  ///< the outer ring first, then holes
 
@@ -30,14 +27,15 @@ struct GeoPair {
   std::string remedy; ///< "give degrees"
 };
 
-/// Parses a file.
-/// \throws Error parse if it is no JSON or no object; file.
-nlohmann::json read_geojson(std::istream& in, const std::string& name);
+/// What a file of polygons holds.
+struct GeoPolygons {
+  std::vector<GeoGeometry> geometries;
+  nlohmann::json members; ///< of the file's object, besides its features
+};
 
-/// All polygons of a geometry, a feature, or a collection of either. Coordinates must be numbers,
-/// of any value; rings have at least three places.
-/// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon.
-std::vector<GeoGeometry> geojson_polygons(const nlohmann::json& root, const std::string& name,
-                                          const GeoPair& pair);
+/// All polygons of a file. Coordinates must be numbers, of any value; rings have at least three
+/// places.
+/// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon; file.
+GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPair& pair);
 
 } // namespace calotte::io_detail

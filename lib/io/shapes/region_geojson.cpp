@@ -2,8 +2,6 @@
 #include "io/shapes/geojson_areas.h"
 #include "io/shapes/region_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <utility>
 
 namespace calotte::io_detail {
@@ -27,7 +25,7 @@ std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string&
 } // namespace
 
 Surface read_region_geojson(std::istream& in, const std::string& name) {
-  std::vector<WrittenRing> rings = rings_of(geojson_areas(read_geojson(in, name), name), name);
+  std::vector<WrittenRing> rings = rings_of(read_areas(in, name), name);
   return named(name, [&] {
     rings = joined(std::move(rings));
     if (rings.empty())

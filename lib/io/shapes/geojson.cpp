@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/shapes/geojson.h"
+
+#include "io/bytes/json_stream.h"
+
+#include <calotte/error.h>
+
+#include <cmath>
+#include <istream>
+
+namespace calotte::io_detail {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* as_rfc = "; give GeoJSON as RFC 7946 has it";
+constexpr int deepest = 8; ///< geometry collections within each other
+
+/// The file's object without its features, of which each is shown to `take`.
+Json parse(std::istream& in, const std::string& name,
+           const std::function<void(const Json& feature)>& take) {
+  bool in_features = false;
+  const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::key && depth == 1)
+      in_features = parsed == "features";
+    if (event != Json::parse_event_t::object_end || depth != 2 || !in_features)
+      return true;
+    take(parsed);
+    return false;
+  };
+  JsonBuffer buffer(in, name);
+  std::istream checked(&buffer);
+  try {
+    return Json::parse(checked, keep);
+  } catch (const Json::parse_error& error) {
+    throw Error(ErrorCode::parse, name + ": no JSON from byte " + std::to_string(error.byte) +
+                                      " on; the file was cut short or damaged");
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::parse, name + ": a number that no double can hold; correct it");
+  }
+}
+
+const Json& array(const Json& object, const char* key, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array())
+    throw Error(ErrorCode::parse, where + "no array \"" + key + "\"" + as_rfc);
+  return *found;
+}
+
+void take_feature(const Json& object, std::int64_t number, const std::string& name,
+                  const std::function<void(const GeoFeature&)>& take) {
+  const std::string where = number < 0 ? "" : "feature " + std::to_string(number) + ": ";
+  if (text_in(object, "type") != "Feature" && !object.contains("geometry"))
+    throw Error(ErrorCode::parse,
+                name + ": " + where + "no object of the type \"Feature\"" + as_rfc);
+  take({number, where, object.value("properties", Json()), object.value("geometry", Json())});
+}
+
+void visit_geometry(
+    const Json& object, int depth, const std::string& where,
+    const std::function<void(const std::string& type, const Json& coordinates)>& visit) {
+  const std::string type = object.is_object() ? text_in(object, "type") : "";
+  const bool is_collection = type == "GeometryCollection";
+  if (is_collection && depth < deepest)
+    for (const Json& part : array(object, "geometries", where))
+      visit_geometry(part, depth + 1, where, visit);
+  else
+    visit(type, type.empty() || is_collection ? Json() : array(object, "coordinates", where));
+}
+
+} // namespace
+
+Json read_features(std::istream& in, const std::string& name,
+                   const std::function<void(const GeoFeature&)>& take) {
+  std::int64_t count = 0;
+  Json rest =
+      parse(in, name, [&](const Json& feature) { take_feature(feature, count++, name, take); });
+  if (!rest.is_object())
+    throw Error(ErrorCode::parse, name + ": no GeoJSON object; give features or a geometry");
+  const std::string type = text_in(rest, "type");
+  if (type == "FeatureCollection") {
+    if (!array(rest, "features", name + ": ").empty())
+      throw Error(ErrorCode::parse,
+                  name + ": \"features\" holds other values than objects" + as_rfc);
+  } else if (type == "Feature") {
+    take_feature(rest, -1, name, take);
+  } else {
+    take({-1, "", Json(), rest});
+  }
+  return rest;
+}
+
+void for_each_geometry(
+    const GeoFeature& feature, const std::string& name,
+    const std::function<void(const std::string& type, const Json& coordinates)>& visit) {
+  if (!feature.geometry.is_null())
+    visit_geometry(feature.geometry, 0, name + ": " + feature.where, visit);
+}
+
+std::string text_in(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+bool is_position(const Json& value) {
+  return value.is_array() && value.size() >= 2 && value[0].is_number() && value[1].is_number();
+}
+
+GeoPosition position_of(const Json& value) {
+  return {value[0].get<double>(), value[1].get<double>()};
+}
+
+bool are_degrees(const GeoPosition& position) {
+  constexpr double two_turns = 720;
+  return std::abs(position[0]) <= two_turns && std::abs(position[1]) <= 90;
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/shapes/room.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+/// GeoJSON (Butler et al., RFC 7946, 2016): one parse for all that read it.
+namespace calotte::io_detail {
+
+using GeoPosition = std::array<double, 2>;
+
+/// A feature, or a geometry that stands for one.
+struct GeoFeature {
+  std::int64_t number; ///< in its collection; -1 if it is all of the file
+  std::string where;   ///< "feature 3: " or nothing, for messages
+  const nlohmann::json& properties;
+  const nlohmann::json& geometry; ///< null where it has none
+};
+
+/// Shows each feature to `take` as soon as it is read, so that a file need not fit into memory.
+/// \returns the other members of the file's object.
+/// \throws Error parse if it is no JSON or no object, or if a feature is none; file; what take
+/// throws.
+nlohmann::json read_features(std::istream& in, const std::string& name,
+                             const std::function<void(const GeoFeature&)>& take);
+
+/// Calls visit(type, coordinates) for the feature's geometry, or for each of a collection. The
+/// coordinates are an array, unless the type is "" or, nested too deep, a collection.
+/// \throws Error parse for a geometry without coordinates.
+void for_each_geometry(
+    const GeoFeature& feature, const std::string& name,
+    const std::function<void(const std::string& type, const nlohmann::json& coordinates)>& visit);
+
+/// The text of a member; "" where there is none.
+std::string text_in(const nlohmann::json& object, const char* key);
+
+/// Whether a value is an array that starts with two numbers.
+bool is_position(const nlohmann::json& value);
+/// \pre it is.
+GeoPosition position_of(const nlohmann::json& value);
+/// Whether a position is a longitude and a latitude, degrees.
+bool are_degrees(const GeoPosition& position);
+
+} // namespace calotte::io_detail
