@@ -3,11 +3,31 @@
 # find_package(calotte) and pkg-config read.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-target_include_directories(calotte PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS calotte EXPORT calotteTargets
-  LIBRARY COMPONENT library NAMELINK_COMPONENT development
-  ARCHIVE COMPONENT development)
-install(DIRECTORY include/calotte TYPE INCLUDE COMPONENT development)
+set(calotte_targets core)
+set(calotte_target_of_core calotte_core)
+set(calotte_target_of_io calotte)
+set(calotte_name_of_core core)
+set(calotte_name_of_io calotte) # and calotte::io
+if(CALOTTE_BUILD_IO)
+  set(calotte_targets core io)
+  if(calotte_type STREQUAL "SHARED_LIBRARY") # it has the core's objects
+    set(calotte_targets io)
+  endif()
+endif()
+foreach(part ${calotte_targets})
+  set(target ${calotte_target_of_${part}})
+  target_include_directories(${target} PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${calotte_name_of_${part}})
+  install(TARGETS ${target} EXPORT calotte_${part}
+    LIBRARY COMPONENT library NAMELINK_COMPONENT development
+    ARCHIVE COMPONENT development)
+endforeach()
+include(cmake/io_headers.cmake)
+if(NOT CALOTTE_BUILD_IO)
+  list(JOIN calotte_io_headers "|" left_out)
+  set(left_out REGEX "/(c|${left_out})\\.h$" EXCLUDE)
+endif()
+install(DIRECTORY include/calotte TYPE INCLUDE COMPONENT development ${left_out})
 if(TARGET calotte_command)
   install(TARGETS calotte_command COMPONENT command)
   if(calotte_type STREQUAL "SHARED_LIBRARY") # found wherever the prefix is moved
@@ -29,15 +49,26 @@ endif()
 set(calotte_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/calotte)
 configure_package_config_file(cmake/calotteConfig.cmake.in calotteConfig.cmake INSTALL_DESTINATION ${calotte_package_dir})
 write_basic_package_version_file(calotteConfigVersion.cmake COMPATIBILITY SameMajorVersion)
-install(EXPORT calotteTargets NAMESPACE calotte:: DESTINATION ${calotte_package_dir} COMPONENT development)
+foreach(part ${calotte_targets})
+  install(EXPORT calotte_${part} NAMESPACE calotte:: DESTINATION ${calotte_package_dir} COMPONENT development)
+endforeach()
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/calotteConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/calotteConfigVersion.cmake
         DESTINATION ${calotte_package_dir} COMPONENT development)
 
 # A shared library brings its own libraries along; an archive leaves them to `pkg-config --static`.
 if(calotte_type STREQUAL "STATIC_LIBRARY")
-  set(calotte_pc_requires_private "tbb, gmp, netcdf, expat, zlib")
+  set(calotte_pc_requires_private "tbb, gmp")
   set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
+  if(CALOTTE_BUILD_IO)
+    string(APPEND calotte_pc_requires_private ", netcdf, expat, zlib")
+  endif()
 endif()
+set(calotte_pc_libs "")
+foreach(part io core) # an archive stands before those that it needs
+  if(part IN_LIST calotte_targets)
+    string(APPEND calotte_pc_libs " -l${calotte_target_of_${part}}")
+  endif()
+endforeach()
 foreach(kind LIB INCLUDE) # found from where the .pc file stands
   file(RELATIVE_PATH calotte_pc_${kind} ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_FULL_${kind}DIR})
 endforeach()

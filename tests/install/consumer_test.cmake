@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds and runs a program of another project, which uses the library in one way. Warnings in public headers are errors.
-# Called with WAY (find_package, pkg_config, add_subdirectory or fetch_content), CXX (a compiler), TYPE (of the
+# Called with WAY (find_package, find_core, pkg_config, add_subdirectory or fetch_content, of the core alone), CXX (a compiler), TYPE (of the
 # installed library), ROOT (the project), PREFIX (where it is installed), SCRATCH and GENERATOR.
 cmake_minimum_required(VERSION 3.25)
 if(NOT CXX)
@@ -9,10 +9,19 @@ if(NOT CXX)
 endif()
 file(REMOVE_RECURSE ${SCRATCH})
 set(warnings -Wall -Wextra -Wconversion -Wshadow -Werror)
-set(sources ${CMAKE_CURRENT_LIST_DIR}/consumer/main.cpp ${SCRATCH}/headers.cpp)
+set(name calotte)
+if(WAY STREQUAL "find_core" OR WAY STREQUAL "fetch_content")
+  set(name core)
+endif()
+set(sources ${CMAKE_CURRENT_LIST_DIR}/consumer/main_${name}.cpp ${SCRATCH}/headers.cpp)
 
 # Every public header.
 file(GLOB headers RELATIVE ${ROOT}/include ${ROOT}/include/calotte/*.h)
+if(name STREQUAL "core")
+  include(${ROOT}/cmake/io_headers.cmake)
+  list(JOIN calotte_io_headers "|" files)
+  list(FILTER headers EXCLUDE REGEX "^calotte/(c|${files})\\.h$")
+endif()
 foreach(header ${headers})
   file(APPEND ${SCRATCH}/headers.cpp "#include <${header}>\n")
 endforeach()
@@ -28,7 +37,7 @@ endfunction()
 
 function(build_with_cmake folder)
   run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${folder} -B ${SCRATCH}/build -G ${GENERATOR}
-      "-DSOURCES=${sources}" "-DWARNINGS=${warnings}" -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
+      "-DSOURCES=${sources}" -DTARGET_NAME=calotte::${name} "-DWARNINGS=${warnings}" -DCMAKE_CXX_COMPILER=${CXX} ${ARGN})
   run(${CMAKE_COMMAND} --build ${SCRATCH}/build --parallel 2)
 endfunction()
 
@@ -50,13 +59,30 @@ function(build_with_pkg_config)
   run(${CXX} -std=c++20 ${warnings} ${sources} ${flags} ${rpath} -o ${SCRATCH}/build/consumer)
 endfunction()
 
-if(WAY STREQUAL "find_package")
+# As on a machine without NetCDF, Expat, zlib and nlohmann-json.
+function(hide_libraries_of_files)
+  file(MAKE_DIRECTORY ${SCRATCH}/pkgconfig)
+  run(pkg-config --variable=pcfiledir gmp)
+  string(STRIP "${output}" folder)
+  file(COPY ${folder}/gmp.pc DESTINATION ${SCRATCH}/pkgconfig)
+  set(ENV{PKG_CONFIG_LIBDIR} ${SCRATCH}/pkgconfig)
+  set(hidden -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON PARENT_SCOPE)
+endfunction()
+
+set(hidden "")
+if(name STREQUAL "core" AND TYPE STREQUAL "STATIC_LIBRARY")
+  hide_libraries_of_files()
+endif()
+if(WAY STREQUAL "find_package" OR WAY STREQUAL "find_core")
   build_with_cmake(consumer -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
-                   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON)
+                   -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON ${hidden})
 elseif(WAY STREQUAL "pkg_config")
   build_with_pkg_config()
 else()
-  build_with_cmake(subdirectory -DCALOTTE=${ROOT} -DWAY=${WAY} -DCALOTTE_PRECOMPILE=ON)
+  if(name STREQUAL "core")
+    list(APPEND hidden -DCALOTTE_BUILD_IO=OFF)
+  endif()
+  build_with_cmake(subdirectory -DCALOTTE=${ROOT} -DWAY=${WAY} -DCALOTTE_PRECOMPILE=ON ${hidden})
   run(${CMAKE_COMMAND} --install ${SCRATCH}/build --prefix ${SCRATCH}/prefix)
   if(EXISTS ${SCRATCH}/prefix)
     message(FATAL_ERROR "the library is installed with the project that it is a part of")
