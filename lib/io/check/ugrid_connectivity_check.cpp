@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/cells/id_table.h"
 #include "io/check/grid_check.h"
 
 #include <algorithm>
@@ -11,16 +12,9 @@
 namespace calotte::io_detail {
 namespace {
 
-/// A table of ids as a file holds it, 0-based; -1 where there is none.
-struct Connectivity {
+/// A table of ids of the file.
+struct Connectivity : IdTable {
   std::string name;
-  std::int64_t width = 0;
-  std::vector<std::int32_t> ids;
-
-  std::int64_t rows() const { return width > 0 ? std::ssize(ids) / width : 0; }
-  std::int32_t at(std::int64_t row, std::int64_t k) const {
-    return ids[static_cast<std::size_t>(row * width + k)];
-  }
 };
 
 /// The table that an attribute of the mesh variable names; nothing without one, or of another
@@ -28,7 +22,7 @@ struct Connectivity {
 Connectivity read_connectivity(const std::string& mesh, const std::string& attribute,
                                std::int64_t rows, std::int64_t bound, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
-  Connectivity table{file.text(mesh, attribute), 0, {}};
+  Connectivity table{{}, file.text(mesh, attribute)};
   if (table.name.empty() || !file.has_variable(table.name))
     return table; // reported with the attributes
   const std::vector<std::int64_t> shape = file.shape_of(table.name);

@@ -186,11 +186,6 @@ bool check_cells(const OpenLists& lists, Deviations& deviations) {
 
 } // namespace
 
-bool IdTable::has(std::int64_t row, std::int32_t id) const {
-  const auto begin = ids.begin() + row * width;
-  return std::find(begin, begin + width, id) != begin + width;
-}
-
 bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   const std::int64_t vertices = file.dimension(mpas_vertex.dimension()),

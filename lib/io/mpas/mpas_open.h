@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/cells/deviations.h"
+#include "io/cells/id_table.h"
 #include "io/mpas/room.h"
 
 #include <calotte/types.h>
@@ -13,18 +14,6 @@
 
 /// Open MPAS meshes, of which cells are missing.
 namespace calotte::io_detail {
-
-/// Rows of ids, 0-based; -1 for a missing one.
-struct IdTable {
-  std::int64_t width = 0;
-  std::vector<std::int32_t> ids;
-
-  std::int64_t rows() const { return width > 0 ? std::ssize(ids) / width : 0; }
-  std::int32_t at(std::int64_t row, std::int64_t k) const {
-    return ids[static_cast<std::size_t>(row * width + k)];
-  }
-  bool has(std::int64_t row, std::int32_t id) const;
-};
 
 /// The lists of an MPAS file.
 struct OpenLists {
