@@ -124,7 +124,7 @@ TEST_CASE("uniform moments: masses sum to 4 pi, first moments to 0, energies fol
 
 /// Twelve directions, with four points within `size` of each: the cells reach far beyond their
 /// cluster. \param flat whether the points of a cluster lie on one arc.
-Points3 clusters(double size, bool flat) {
+static Points3 clusters(double size, bool flat) {
   const Points3 centres = random_sphere(12, 11), offsets = random_sphere(48, 13);
   Points3 points(3, 48);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {

@@ -295,7 +295,7 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
 
 /// The mean of the gradient of the interpolated widths over the square of a cell's width in the
 /// corner of a box, from many differences; the largest of all corners.
-double largest_mean_gradient(const CellWidth& width, double radius) {
+static double largest_mean_gradient(const CellWidth& width, double radius) {
   constexpr int parts = 24;
   double largest = 0;
   const Eigen::Index columns = width.longitudes.size(), rows = width.latitudes.size();

@@ -496,20 +496,6 @@ TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
         }
 }
 
-/// The area of a triangle of nearest copies, twice and signed: of integers, without rounding.
-double twice_area(const PlanarMesh& mesh, std::int64_t t) {
-  const auto way = [&](int to) {
-    Eigen::Vector2d out =
-        mesh.points.col(mesh.triangles(to, t)) - mesh.points.col(mesh.triangles(0, t));
-    for (int k = 0; k < 2; ++k)
-      if (mesh.period[k] > 0)
-        out[k] -= mesh.period[k] * std::round(out[k] / mesh.period[k]);
-    return out;
-  };
-  const Eigen::Vector2d p = way(1), q = way(2);
-  return p.x() * q.y() - p.y() * q.x();
-}
-
 TEST_CASE("in the plane the other diagonals of cocircular sites are counted, and are no fault") {
   for (const PlanarMesh& mesh : {planar_delaunay(square_lattice(6)),
                                  periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)),

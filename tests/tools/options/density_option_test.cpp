@@ -253,7 +253,7 @@ TEST_CASE("options of widths that do not go together are refused") {
 }
 
 /// The message of a rejection of a word of --region.
-std::string refused_region(const std::string& word) {
+static std::string refused_region(const std::string& word) {
   try {
     region_of(word, "");
   } catch (const Error& error) {
