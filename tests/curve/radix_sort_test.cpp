@@ -126,6 +126,7 @@ TEST_CASE("by a traversal most neighbours are visited soon after each other") {
   CHECK(far < triangles / 20);
 }
 
+// Slow: a mesh counts as scattered from half a million triangles on.
 TEST_CASE("small meshes and those along a curve are not scattered, large ones of random sites are "
           "[slow]") {
   CHECK_FALSE(are_scattered(Triangles(3, 0)));

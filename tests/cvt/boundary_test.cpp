@@ -156,6 +156,7 @@ TEST_CASE("boundary: its generators lie on it, at the demanded distances, and ke
   CHECK(boundary_points(Region{}, 100).cols() == 0);
 }
 
+// Slow: a run of 1 500 cells for each region.
 TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
   for (const Case& here : cases()) {
     CAPTURE(here.name);
@@ -197,6 +198,7 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
   }
 }
 
+// Slow: a run for each number of threads and of regions.
 TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
   const Case here = cases().back();
   const Run run = run_of(here, 900);

@@ -140,6 +140,7 @@ TEST_CASE("fixed generators only: nothing moves") {
   CHECK(grid.mesh.points == all);
 }
 
+// Slow: all stages of a run, on the sphere and in a region.
 TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") {
   const std::int64_t cells = 3000;
   const Points3 fixed = stations(cells);
@@ -160,6 +161,7 @@ TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") 
   }
 }
 
+// Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE("fixed generators: the same bits for all threads and regions, and resumed [slow]") {
   const std::int64_t cells = 1200;
   const Points3 fixed = stations(cells);
@@ -305,6 +307,7 @@ TEST_CASE("fixed generators: all free ones find a place where no gap is left") {
   CHECK(grids_detail::cells_beside(fixed, 642, Density{}, {}) == 642);
 }
 
+// Slow: 10 242 generators, with a finish.
 TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   const Points3 fixed = kept_cells(10242);
   CvtOptions options;

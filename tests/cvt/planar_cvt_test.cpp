@@ -312,6 +312,7 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
   }
 }
 
+// Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE("the same bits for any threads and regions, and after any interruption [slow]") {
   for (const PlanarDomain& domain : {lake(), periodic_box({1, 1})})
     for (const Method method : {Method::lloyd, Method::automatic}) {
@@ -544,6 +545,7 @@ TEST_CASE("bad input ends in one clear error") {
         ErrorCode::invalid_argument);
 }
 
+// Slow: up to 3 000 iterations for 10 000 generators.
 TEST_CASE("10 000 generators of the unit square come near the hexagons' energy [slow]") {
   CvtOptions options;
   options.tolerance = 1e-4;

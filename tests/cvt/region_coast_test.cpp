@@ -124,6 +124,7 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
   CHECK(equal(grid, with(2, 1)));
 }
 
+// Slow: a run for each number of threads and of regions.
 TEST_CASE("Australia: a graded grid has the same bits for all threads and regions [slow]") {
   const Region australia = land_around(gshhg('i'), at(134, -25));
   CvtOptions options;

@@ -156,6 +156,7 @@ TEST_CASE("region: uniform density by closed forms and by quadrature") {
   CHECK((exact.mesh.points - ruled.mesh.points).cwiseAbs().maxCoeff() < 1e-11);
 }
 
+// Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE(
     "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
   const Region region = circle(at(20, 40), 14 * degree);

@@ -113,6 +113,7 @@ TEST_CASE("stages: insertion reaches any number of cells, from any start") {
   }
 }
 
+// Slow: two descents to 4 000 cells.
 TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]") {
   CvtOptions options = graded(4000, 2, x8());
   options.well_centred = false;
@@ -125,6 +126,7 @@ TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]")
   CHECK(with > 0);
 }
 
+// Slow: eight descents to 3 001 cells with a finish.
 TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
   for (const Density& density : {x8(), ellipse(), two_bumps(), Density{}})
     for (const std::uint64_t seed : {1, 2}) {
@@ -232,6 +234,7 @@ TEST_CASE("stages: a least spacing is kept, or the report says that it is not") 
   CHECK_THROWS_AS(spherical_cvt(start, options), Error);
 }
 
+// Slow: descents with a finish in two domains.
 TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
   PlanarDomain box;

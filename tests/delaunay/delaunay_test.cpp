@@ -256,16 +256,19 @@ TEST_CASE("small sets: the laws, one mesh for any regions, threads, overlap and 
     require_one_mesh(cloud, all_runs());
 }
 
+// Slow: large sets, triangulated with each combination of options.
 TEST_CASE("large sets: the laws, one mesh for any regions, threads, overlap and centres [slow]") {
   for (const Cloud& cloud : large_clouds())
     require_one_mesh(cloud, all_runs());
 }
 
+// Slow: large sets with ties, each triangulated seven times.
 TEST_CASE("clusters, fine lattices, weather stations: the same [slow]") {
   for (const Cloud& cloud : slow_clouds(CALOTTE_FIXTURES))
     require_one_mesh(cloud, {{1, 2}, {2, 2}, {12, 1}, {12, 2}, {12, 4}, {42, 2}, {200, 2}});
 }
 
+// Slow: 3 000 sets, each by several options.
 TEST_CASE("small sets at random, in special position, any options: one mesh [slow]") {
   int closed = 0, open = 0, triangles = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
@@ -305,10 +308,12 @@ TEST_CASE(
   require_invariance(small_clouds());
 }
 
+// Slow: large sets, each triangulated several times.
 TEST_CASE("large sets: a permuted input permutes the mesh, factors change no triangle [slow]") {
   require_invariance(large_clouds());
 }
 
+// Slow: CGAL's triangulation on the sphere takes most of the time.
 TEST_CASE("without ties the triangles are those of CGAL's triangulation on the sphere [slow]") {
   const auto require_agreement = [](const std::vector<Cloud>& clouds) {
     for (const Cloud& cloud : clouds) {

@@ -159,6 +159,7 @@ TEST_CASE("a callable's bound is raised only around values found above it") {
   CHECK(mass(envelope) - before < 4 * spike);
 }
 
+// Slow: a search for a cap of 0.001 radians samples a fine lattice.
 TEST_CASE("a density that is zero is refused, one in a cap of 0.001 radians is found [slow]") {
   Density density;
   density.kind = Density::Kind::callable;

@@ -234,6 +234,7 @@ TEST_CASE("a callable that is zero except in a cap of 0.01 radians") {
   CHECK(fits_quadrants(points, centre));
 }
 
+// Slow: one in 160 000 proposals meets the spike, so that 1.5 million points are drawn.
 TEST_CASE("a callable's spike that only proposals find gets its share of points [slow]") {
   // Around the middle of a box of the lattice on which the bound is first built, and so small that
   // the lattice misses it; one in 160 000 proposals meets it.
@@ -305,6 +306,7 @@ TEST_CASE("random: a density that cannot be drawn gives an error of one line wit
   says(10, nothing, "no bump");
 }
 
+// Slow: both are refused only after many rounds of proposals.
 TEST_CASE("a callable without a maximum, or that grows from call to call, is refused [slow]") {
   const Eigen::Vector3d centre(0.36, 0.48, 0.8);
   Density density;
@@ -320,6 +322,7 @@ TEST_CASE("a callable without a maximum, or that grows from call to call, is ref
   CHECK_THROWS_WITH_AS(random_sphere(100000, density), doctest::Contains("without bound"), Error);
 }
 
+// Slow: it is refused only after the largest number of proposals.
 TEST_CASE("a region narrower than rounding is refused, not its density [slow]") {
   Points3 ring(3, 3);
   ring << 1, 0.6, 0.8, 0, 0.8, 0.6, 0, 0, 1e-14;

@@ -310,6 +310,7 @@ TEST_CASE("a cull that fails leaves no file, whichever output fails") {
   CHECK(out.files() == 5); // the grid, its graph, the mask and two maps
 }
 
+// Slow: 163 842 cells.
 TEST_CASE(
     "an ocean file at 60 km: the fractions sum to GSHHG's land, the sea is connected [slow]") {
   const Scratch scratch;

@@ -648,6 +648,7 @@ TEST_CASE("so does that of a periodic plane") {
   }
 }
 
+// Slow: a descent on 40 962 cells, and each rule for each cell.
 TEST_CASE("the full file of 40 962 cells, x8, obeys every rule [slow]") {
   const Scratch scratch;
   WriteOptions options;

@@ -662,6 +662,7 @@ TEST_CASE("large meshes are checked patch by patch if their sites are in random 
   check_neighbours_exchanged(mesh, 4);
 }
 
+// Slow: a mesh counts as scattered from half a million triangles on.
 TEST_CASE("the same of periodic boxes of any size [slow]") {
   for (const double scale : {1e-29, 1.0, 1e29}) {
     const PlanarMesh box =

@@ -451,6 +451,7 @@ TEST_CASE("rings of the sphere have no effect on a closed mesh") {
   CHECK(measures(quality(mesh)) == whole);
 }
 
+// Slow: full descents on up to 40 962 generators.
 TEST_CASE("uniform grids by continuation from the icosahedron have the known quality [slow]") {
   struct Known {
     double sigma_min, sigma_mean, cell_min, cell_mean, q_min, q_mean, angle_min, angle_max,

@@ -275,6 +275,7 @@ TEST_CASE("options of convert and delaunay from a file") {
                 "convert.toml line 1: unknown option \"input\"; see calotte delaunay --help");
 }
 
+// Slow: the file is large, so that a signal meets the writing.
 TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
   const Bench bench;
   REQUIRE(bench.run("points fibonacci 100000 -o points.txt").code == 0);

@@ -601,6 +601,7 @@ TEST_CASE("a checkpoint knows its command: --resume alone continues to the same 
   CHECK((bench.file("other.vtp") == whole));
 }
 
+// Slow: a run of 10 000 cells is interrupted and resumed in each phase.
 TEST_CASE("a graded run resumes to the same bits after a signal in any of its phases [slow]") {
   const Bench bench;
   const std::string run = "cvt --cells 10000 --density "
@@ -1012,6 +1013,7 @@ TEST_CASE("a graded run reaches its number of cells and ends with good shapes") 
   CHECK(!has(pure.out, "from their centroids"));
 }
 
+// Slow: the time left appears only in a run that lasts.
 TEST_CASE("on a terminal a line shows the level and a range of the time left [slow]") {
   const Bench bench; // script(1) gives the command a terminal
   const Outcome outcome =
