@@ -8,6 +8,7 @@
 #include "integrals/moments.h"
 #include "support/densities.h"
 #include "support/planes.h"
+#include "support/sanitizer.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -54,10 +55,11 @@ constexpr std::array<Method, 4> methods{Method::lloyd, Method::lbfgs, Method::lb
 /// Runs one method from a random start.
 void check_random_start(const Density& density, Method method) {
   CAPTURE(static_cast<int>(method));
+  constexpr int iterations = test::sanitized ? 15 : 40;
   CvtOptions options;
   options.density = density;
   options.method = method;
-  options.max_iterations = 40;
+  options.max_iterations = iterations;
   const auto with = [&](std::size_t threads, int regions, Overlap overlap) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
@@ -66,7 +68,7 @@ void check_random_start(const Density& density, Method method) {
   };
   const Cvt one = with(1, 1, Overlap::halo);
   CHECK(!one.report.converged);
-  CHECK(one.report.iterations.size() >= 40);
+  CHECK(one.report.iterations.size() >= iterations);
   CHECK(check(one.mesh).failure == "");
   check_descent(one.report);
   for (const Cvt& other : {with(4, 12, Overlap::halo), with(2, 42, Overlap::distance),
@@ -89,7 +91,7 @@ TEST_CASE("every method takes uniform bisected grids to the known optimum withou
   options.tolerance = 1e-8;
   options.max_iterations = 3000;
   const std::array<double, 2> energies{25.44900, 25.44443}; // E n for n = 2562 and 10 242
-  for (const int level : {4, 5}) {
+  for (int level = 4; level <= (test::sanitized ? 4 : 5); ++level) {
     double lowest = 0;
     for (const Method method : methods) {
       CAPTURE(static_cast<int>(method));
@@ -136,7 +138,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
     if (method != Method::lloyd) // smaller than before
       CHECK(whole.report.iterations.back().rule == options.final_rule);
-    for (std::size_t k = 0; k < states.size(); k += 9) {
+    for (std::size_t k = 0; k < states.size(); k += test::sanitized ? 27 : 9) {
       const Cvt rest = spherical_cvt(states[k], options);
       CAPTURE(k);
       CHECK((rest.mesh.points == whole.mesh.points));

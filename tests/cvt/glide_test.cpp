@@ -8,6 +8,7 @@
 #include "cvt/shape.h"
 #include "mesh/canonical_order.h"
 #include "support/densities.h"
+#include "support/sanitizer.h"
 #include "support/starts.h"
 
 #include <calotte/check.h>
@@ -96,7 +97,7 @@ Moved moved(const Points3& points, const CvtOptions& options,
 
 TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is lower") {
   for (const Density& density : {Density{}, x8()})
-    for (const std::uint64_t seed : {1, 2}) {
+    for (std::uint64_t seed = 1; seed <= (test::sanitized ? 1 : 2); ++seed) {
       CAPTURE(seed);
       const Points3 before = refined(10000, density, seed);
       CvtOptions options;

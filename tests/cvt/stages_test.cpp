@@ -5,6 +5,7 @@
 
 #include "support/densities.h"
 #include "support/files.h"
+#include "support/sanitizer.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -184,7 +185,8 @@ TEST_CASE("stages: threads and regions have no effect on insertion and finish") 
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);
   CHECK(one.report.well_centred);
-  CHECK(equal(one, with(2, 12)));
+  if (!test::sanitized)
+    CHECK(equal(one, with(2, 12)));
   CHECK(equal(one, with(4, 42)));
 }
 
@@ -199,7 +201,8 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
   });
   REQUIRE(cvt_detail::State::of(states.back()).penalty > 0);
   REQUIRE(states.size() > 40);
-  for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? 19 : 1) {
+  constexpr std::size_t stride = test::sanitized ? 38 : 19;
+  for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? stride : 1) {
     CAPTURE(k);
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
     CHECK(equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), options), whole));

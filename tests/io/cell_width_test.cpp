@@ -26,6 +26,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -308,23 +309,27 @@ static double largest_mean_gradient(const CellWidth& width, double radius) {
                    height = width.latitudes[j + 1] - south;
       for (const bool upper : {false, true})
         for (const bool eastern : {false, true}) {
-          const double h = width.widths((i + (eastern ? 1 : 0)) % columns, j + (upper ? 1 : 0)) /
-                           radius / degree;
-          const double tall = std::min(h, height),
+          const double size = width.widths((i + (eastern ? 1 : 0)) % columns, j + (upper ? 1 : 0)) /
+                              radius / degree;
+          const double tall = std::min(size, height),
                        cosine = std::cos((upper ? south + height - tall / 2 : south + tall / 2) *
                                          degree),
-                       wide = std::min(h / cosine, length);
+                       wide = std::min(size / cosine, length);
           const double x = eastern ? west + length - wide : west,
                        y = upper ? south + height - tall : south;
-          Eigen::Vector2d sum(0, 0);
+          std::vector<std::pair<double, double>> sides; // east, west, north and south of each part
           for (int k = 0; k < parts; ++k) {
             const double part = (k + 0.5) / parts;
-            sum.x() +=
-                (width_at(width, x + wide, y + part * tall) - width_at(width, x, y + part * tall)) /
-                (wide * degree * cosine);
-            sum.y() +=
-                (width_at(width, x + part * wide, y + tall) - width_at(width, x + part * wide, y)) /
-                (tall * degree);
+            sides.insert(sides.end(), {{x + wide, y + part * tall},
+                                       {x, y + part * tall},
+                                       {x + part * wide, y + tall},
+                                       {x + part * wide, y}});
+          }
+          const Eigen::VectorXd h = evaluate(width, points_at(sides));
+          Eigen::Vector2d sum(0, 0);
+          for (int k = 0; k < parts; ++k) {
+            sum.x() += (h[4 * k] - h[4 * k + 1]) / (wide * degree * cosine);
+            sum.y() += (h[4 * k + 2] - h[4 * k + 3]) / (tall * degree);
           }
           largest = std::max(largest, sum.norm() / parts / radius);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/planes.h"
+#include "support/sanitizer.h"
 
 #include <calotte/error.h>
 #include <calotte/types.h>
@@ -58,12 +59,8 @@ template <class Work> Error error_of(Work work) {
   std::abort();
 }
 
-/// The steps of done_when_cut(): sanitizers make reading ten times as slow.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr std::size_t cut_step = 5;
-#else
-inline constexpr std::size_t cut_step = 1;
-#endif
+/// From one byte of a file to the next at which a test cuts or damages it.
+inline constexpr std::size_t cut_step = sanitized ? 5 : 1;
 
 /// Truncates a file at every length, except for the last byte, and checks that the function either
 /// throws an Error or succeeds.
