@@ -410,7 +410,7 @@ TEST_CASE("files of other formats have no variables to check") {
 
 TEST_CASE("a variable that is spoilt alone is found") { check_corruptions(40, 3); }
 
-// Slow: the file is checked for up to 270 positions of each variable.
+// Slow: the file is checked for up to 400 positions of each variable.
 TEST_CASE("a variable that is spoilt alone anywhere is found [slow]") {
-  check_corruptions(40, 270);
+  check_corruptions(60, 400);
 }

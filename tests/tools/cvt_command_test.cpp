@@ -81,7 +81,7 @@ void wait_for_handler(pid_t process, int signal) {
 /// every iteration.
 const std::string long_run = "cvt --cells 162 --start random --seed 5 --iterations 3000";
 const std::string long_levels =
-    "cvt --cells 162 --start icosahedron --bisections 2 --method lbfgs --iterations 500";
+    "cvt --cells 162 --start icosahedron --bisections 2 --method lbfgs --iterations 1500";
 const std::string long_bump =
     "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
