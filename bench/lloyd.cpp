@@ -104,7 +104,8 @@ void read_triangles(Serial& serial) {
 /// Lloyd's step: to M/|M|, M the integral of rho x over the cell.
 void step(Serial& serial, const integrals_detail::Integrand& integrand, Points3& next) {
   serial.suspects.clear();
-  integrals_detail::integrate(integrand, serial.cells, serial.x, serial.moments, nullptr,
+  const integrals_detail::Generators<exact_detail::Sphere> sphere{{}, nullptr, serial.x.size()};
+  integrals_detail::integrate(integrand, sphere, serial.cells, serial.x, {serial.moments},
                               serial.suspects);
   for (Eigen::Index i = 0; i < next.cols(); ++i) {
     const base_detail::Vec3& first = serial.moments[i].first;
