@@ -24,7 +24,9 @@ namespace calotte::bench {
 namespace {
 
 const std::map<std::string, Method> methods = {{"automatic", Method::automatic},
-                                               {"lloyd", Method::lloyd}};
+                                               {"lloyd", Method::lloyd},
+                                               {"lbfgs", Method::lbfgs},
+                                               {"lbfgs-laplacian", Method::lbfgs_laplacian}};
 
 struct Options : RoundOptions {
   std::vector<std::string> sets = {"uniform"};
@@ -119,7 +121,7 @@ void register_all(const Options& options) {
 
 void add_options(CLI::App& app, Options& options) {
   add_grid_options(app, options.sets, options.sizes);
-  app.add_option("--methods", options.methods, "automatic, lloyd")
+  app.add_option("--methods", options.methods, "automatic, lloyd, lbfgs, lbfgs-laplacian")
       ->delimiter(',')
       ->check(CLI::IsMember(methods))
       ->capture_default_str();

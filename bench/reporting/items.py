@@ -353,25 +353,4 @@ def others(results):
             mine = [row for row in rows if row.set == set_name]
             text += f"\n**{title}: {set_name}, {sites_text(mine[0].sites)}**\n\n"
             text += compared(mine, base)
-    return text + methods(results)
-
-
-def methods(results):
-    goals = ("1e-6", "1e-8", "1e-10")
-    rows = step_rows(results, "others-methods")
-    if not rows:
-        return ""
-    lines = []
-    for row in rows:
-        cells = [
-            f"{row.median('evaluations ' + goal):.0f} ({row.median('seconds ' + goal):.2f} s)"
-            if "evaluations " + goal in row.counters
-            else NONE
-            for goal in goals
-        ]
-        lines.append([f"{row.set}, {sites_text(row.sites)}", row.name, *cells, row.step])
-    return (
-        "\n**Evaluations (and seconds) until the rms distance between generators and centroids is "
-        "below a bound; one run from the bisected optimum of the coarser level**\n\n"
-        + table(["cells", "method", *goals, "step"], lines)
-    )
+    return text

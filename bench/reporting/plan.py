@@ -157,8 +157,6 @@ def others(threads, quick):
     common = options(rounds=3 if quick else 5, threads=threads)
     yield "plane", "plane", options(size=100000 if quick else 1000000) + common
     yield "files", "files", options(level=7 if quick else 8) + common
-    if not quick:
-        yield "methods", "methods", options(limit=3000)
 
 
 SECTIONS = {
