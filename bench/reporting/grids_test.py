@@ -40,10 +40,10 @@ class Thresholds(unittest.TestCase):
         found = grids.bounds("x4", THEIRS, THEIRS, 1.0)
         self.assertEqual(
             [bound.title for bound in found if not bound.met],
-            ["obtuse", "time", "tangential l2", "tangential max"]
+            ["JIGSAW / Calotte", "obtuse", "tangential l2", "tangential max"]
             + ["divergence l2", "Laplacian l2", "kinetic energy l2"],
         )
-        for bound in found[2:]:
+        for bound in found[3:]:
             self.assertEqual(bound.value, 1, bound.title)
 
     def test_a_grid_within_all_meets_all(self):
@@ -76,25 +76,19 @@ class Thresholds(unittest.TestCase):
         for title, change in changes.items():
             self.assertEqual(missed("x4", change), [title])
         titles = {bound.title for bound in grids.bounds("x4", THEIRS, THEIRS, 1.0)}
-        self.assertEqual(titles, changes.keys() | {"time"})
+        self.assertEqual(titles, changes.keys() | {"JIGSAW / Calotte"})
 
     def test_coasts_may_take_longer(self):
-        self.assertEqual(missed("x4", lambda info: None, ratio=5.5), ["time"])
+        self.assertEqual(missed("x4", lambda info: None, ratio=5.5), ["JIGSAW / Calotte"])
         self.assertEqual(missed("coast", lambda info: None, ratio=5.5), [])
-        self.assertEqual(missed("coast", lambda info: None, ratio=4.5), ["time"])
+        self.assertEqual(missed("coast", lambda info: None, ratio=4.5), ["JIGSAW / Calotte"])
 
-    def test_verdicts_name_what_is_missed_on_judged_rasters_only(self):
+    def test_what_is_missed_is_bold(self):
         bad = better()
         bad["obtuse"] = 2
-        text = grids.comparison([("x4", better(), THEIRS, 10.0), ("x8", bad, THEIRS, 10.0),
-                                 ("noise", bad, THEIRS, 10.0)])  # fmt: skip
-        self.assertEqual(
-            text.splitlines()[-3:],
-            ["- x4, 10 237 cells: all thresholds met"]
-            + ["- x8, 10 237 cells: missed: obtuse 2 (at most 0)"]
-            + ["- noise, 10 237 cells: no thresholds"],
-        )
-        self.assertEqual(text.count("**2**"), 2)
+        text = grids.comparison([("x4", better(), THEIRS, (1, 10), 10.0), ("x8", bad, THEIRS, (1, 10), 10.0)])
+        self.assertEqual(["**" in row for row in text.splitlines()[2:]], [False, True])
+        self.assertIn("| x8 | 10 237 | 1 | 10 | 10.00 | **2** | 0.25 |", text)
 
 
 class Tables(unittest.TestCase):
@@ -105,7 +99,7 @@ class Tables(unittest.TestCase):
         for text in (
             grids.shapes_head() + "\n" + grids.shapes_row("x4", "JIGSAW", 2.0, None, THEIRS, ""),
             grids.operators_head() + "\n" + grids.operators_row("x4", "JIGSAW", THEIRS),
-            grids.comparison([("x4", better(), THEIRS, 10.0)]),
+            grids.comparison([("x4", better(), THEIRS, (1.0, 10.0), 10.0)]),
         ):
             self.assertEqual(len(columns(text)), 1, text)
 

@@ -3,7 +3,6 @@
 their files: NetCDF as MPAS-Tools writes it, and JIGSAW's .msh."""
 
 import math
-import random
 import sys
 from pathlib import Path
 
@@ -23,10 +22,6 @@ def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def angle(a, b):
     return math.acos(max(-1.0, min(1.0, dot(a, b))))
 
@@ -43,32 +38,6 @@ CENTRE = unit(270, 30)
 
 def bump(ratio):
     return lambda x, _: 20 * step(angle(x, CENTRE), math.pi / 6, 0.2, ratio) ** -0.25
-
-
-def ellipse(stretch):
-    """A bump of 4:1 whose long axis points north-east."""
-    north = cross(CENTRE, cross((0, 0, 1), CENTRE))
-    east = cross((0, 0, 1), CENTRE)
-    scale = math.sqrt(0.5 / dot(north, north))
-    major = tuple(scale * (n + e) for n, e in zip(north, east))
-    minor = cross(CENTRE, major)
-
-    def width(x, _):
-        away = math.hypot(dot(x, major) / stretch, dot(x, minor))
-        return 20 * step(math.atan2(away, dot(x, CENTRE)), 0.25, 0.15, 4) ** -0.25
-
-    return width
-
-
-def two_bumps():
-    """Overlapping, of 4:1 and 3:1."""
-    other = unit(312, 12)
-
-    def width(x, _):
-        density = max(step(angle(x, CENTRE), 0.5, 0.2, 4), step(angle(x, other), 0.35, 0.25, 3))
-        return 20 * density**-0.25
-
-    return width
 
 
 def by_latitude(_, latitude):
@@ -103,34 +72,13 @@ def coast():
     return width
 
 
-def sharp_step():
-    """40 km in a cap and 160 km beyond it, within 120 km: no grid can follow."""
-
-    def width(x, _):
-        distance = RADIUS * (angle(x, CENTRE) - 0.5)
-        return 100 + 60 * math.tanh(distance / 60)
-
-    return width
-
-
-def noisy(width):
-    """With noise of 10% at each node."""
-    noise = random.Random(1)
-    return lambda x, latitude: width(x, latitude) * (1 + 0.1 * noise.uniform(-1, 1))
-
-
 WIDTHS = {
     "x4": bump(4),
     "x8": bump(8),
-    "x16": bump(16),
-    "ellipse": ellipse(3),
-    "two-bumps": two_bumps(),
     "latitude": by_latitude,
     "band": tropical_band,
     "rossby": rossby,
     "coast": coast(),
-    "step": sharp_step(),
-    "noise": noisy(bump(8)),
 }
 
 

@@ -29,14 +29,9 @@ class Laws(unittest.TestCase):
                 self.assertGreater(min(row), 0, name)
 
     def test_bumps_are_as_fine_as_their_names(self):
-        for ratio in (4, 8, 16):
+        for ratio in (4, 8):
             widths = [h for row in make_raster(f"x{ratio}", 5).rows for h in row]
             self.assertAlmostEqual(max(widths) / min(widths) / ratio, 1, 1)
-
-    def test_the_ellipse_is_longer_north_eastwards(self):
-        width = rasters.WIDTHS["ellipse"]
-        along, across = (width(rasters.unit(270 + dx, 30 + 20), 50) for dx in (25, -25))
-        self.assertLess(along, across / 1.5)
 
 
 class Files(unittest.TestCase):
