@@ -6,11 +6,8 @@
 
 #include "clouds.h"
 #include "cvt/cvt.h"
-#include "cvt_tables.h"
-#include "density_cost.h"
 #include "lloyd.h"
 #include "program.h"
-#include "report.h"
 #include "stripack.h"
 
 #include <calotte/cvt.h>
@@ -19,10 +16,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <numbers>
-#include <thread>
+#include <sstream>
 
 namespace calotte::bench {
 
@@ -43,9 +39,7 @@ struct Options : RoundOptions {
   std::string order = "natural";
   std::vector<int> sweep;
   int iterations = 12;
-  int rule = 3;
   std::int64_t stripack_limit = 200000;
-  int density_samples = 101;
 };
 
 /// One set of sites and the data of its iterations; computed at first use.
@@ -58,8 +52,8 @@ struct Workload {
   Points3 before, after; ///< the library's generators around the first iteration that is timed
 };
 
-std::shared_ptr<Workload> make_workload(const std::string& set, std::int64_t n, int rule) {
-  Workload work{set, n, {named_density(set), rule}, {}, {}, {}, {}};
+std::shared_ptr<Workload> make_workload(const std::string& set, std::int64_t n) {
+  Workload work{set, n, {named_density(set)}, {}, {}, {}, {}};
   return std::make_shared<Workload>(std::move(work));
 }
 
@@ -106,10 +100,10 @@ void run_serial(benchmark::State& state, Workload& work, const Options& options)
     const double difference = largest_distance(outcome.points, work.after);
     state.counters["difference"] = difference;
     if (const double most = tolerance(work.n); !(difference <= most)) {
-      const std::string message = "generators differ from the library's by " +
-                                  scientific(difference) + ", where rounding explains " +
-                                  scientific(most);
-      state.SkipWithError(message.c_str());
+      std::ostringstream message;
+      message << "generators differ from the library's by " << difference
+              << ", where rounding explains " << most;
+      state.SkipWithError(message.str().c_str());
     }
   }
 }
@@ -137,33 +131,24 @@ void register_all(const Options& options) {
   std::vector<std::shared_ptr<Workload>> works;
   for (const std::int64_t n : options.sizes)
     for (const std::string& set : options.sets)
-      works.push_back(make_workload(set, n, options.rule));
+      works.push_back(make_workload(set, n));
   for (int round = 0; round < options.rounds; ++round)
     for (const auto& work : works)
       register_round(work->set, work->n, round, make_rows(options, work));
 }
 
-void add_set_options(CLI::App& app, Options& options) {
+void add_options(CLI::App& app, Options& options) {
   add_grid_options(app, options.sets, options.sizes);
   app.add_option("--order", options.order,
                  "of the start: natural, coarse levels first, or shuffled; the library sorts them "
                  "anyway, STRIPACK is slower on shuffled ones")
       ->check(CLI::IsMember({"natural", "shuffled"}))
       ->capture_default_str();
-  app.add_option("--rule", options.rule, "quadrature points on each half kite, for x8")
-      ->check(CLI::IsMember({3, 6}))
-      ->capture_default_str();
-}
-
-void add_run_options(CLI::App& app, Options& options) {
-  app.add_option("--rows", options.rows, "what to time: calotte, one-thread, stripack, or none")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"calotte", "one-thread", "stripack", "none"}))
-      ->capture_default_str();
+  add_list_option(app, "--rows", options.rows, "what to time: calotte, one-thread, stripack",
+                  CLI::IsMember({"calotte", "one-thread", "stripack"}));
   add_round_options(app, options);
-  app.add_option("--sweep", options.sweep, "also time the library on these numbers of threads")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+  add_list_option(app, "--sweep", options.sweep,
+                  "also time the library on these numbers of threads", CLI::PositiveNumber);
   app.add_option("--iterations", options.iterations,
                  "of each of the library's runs; the first " + std::to_string(warm_up) +
                      " are left out, and the median of the others counts")
@@ -172,39 +157,6 @@ void add_run_options(CLI::App& app, Options& options) {
   app.add_option("--stripack-limit", options.stripack_limit,
                  "most sites that STRIPACK is given; it is slow beyond")
       ->capture_default_str();
-  app.add_option("--density-samples", options.density_samples,
-                 "how often the evaluation of the x8 bump is timed; 0 for not at all")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-}
-
-void print_head(std::ostream& out, const Options& options) {
-  const bool natural = options.order == "natural";
-  out << "# One iteration of a centroidal Voronoi tessellation: seconds and paired ratios\n\n"
-      << "calotte on " << options.threads << " threads of " << std::thread::hardware_concurrency()
-      << ", STRIPACK on one; compiler " << __VERSION__ << "; " << options.rounds
-      << " rounds, each runs every row once.\n"
-      << "The start is a bisected icosahedron "
-      << (natural ? "in its own order, coarse levels first: STRIPACK is faster so than on a "
-                    "shuffled one.\n"
-                  : "in random order, as STRIPACK's documentation recommends; it is faster in the "
-                    "natural one.\n")
-      << "calotte's seconds are the median of its iterations " << warm_up + 1 << " to "
-      << options.iterations << ", STRIPACK's those of iteration " << warm_up + 1
-      << " alone: triangulation, lists, moments and step,\nx8 by the rule of " << options.rule
-      << " points in both. The generators after that iteration must agree to 1e-13, or where "
-         "rounding is larger to 8 roundoffs\nover h = sqrt(4 pi / n).\nA ratio is the row's "
-         "seconds over calotte's of the same round. Where CPU seconds of a "
-         "row with one thread are less than its seconds, the machine was busy.\n";
-  if (!has_stripack())
-    out << "STRIPACK is left out: this program was built without libncarg-dev.\n";
-}
-
-void print_results(std::ostream& out, const std::vector<SetResults>& results,
-                   const Options& options) {
-  print_iterations(out, results, "calotte");
-  if (options.density_samples > 0)
-    print_density_costs(out, density_costs({32, 512}, options.density_samples));
 }
 
 } // namespace
@@ -218,12 +170,7 @@ int main(int argc, char** argv) {
       argc, argv,
       {"Times one iteration of a centroidal Voronoi tessellation, interleaved with one of a serial "
        "program around STRIPACK.",
-       {},
-       [&](CLI::App& app) {
-         add_set_options(app, options);
-         add_run_options(app, options);
-       },
-       [&] { register_all(options); },
-       [&](std::ostream& out) { print_head(out, options); },
-       [&](std::ostream& out, const auto& results) { print_results(out, results, options); }});
+       has_stripack() ? std::map<std::string, std::string>{{"STRIPACK", ""}}
+                      : std::map<std::string, std::string>{},
+       [&](CLI::App& app) { add_options(app, options); }, [&] { register_all(options); }});
 }

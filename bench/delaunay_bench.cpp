@@ -7,7 +7,6 @@
 #include "fresh.h"
 #include "peers.h"
 #include "program.h"
-#include "report.h"
 #include "stripack.h"
 
 #include <CGAL/version.h>
@@ -28,7 +27,6 @@ struct Options : RoundOptions {
   std::vector<std::string> sets = {"random"};
   std::vector<std::int64_t> sizes = {163842, 2621442};
   std::vector<std::string> rows = {"calotte", "one-thread", "one-region", "cgal", "stripack"};
-  std::vector<int> regions;
   std::vector<int> sweep;
   std::int64_t stripack_limit = 200000, qhull_limit = 200000;
   bool warm = false, fresh = false;
@@ -53,7 +51,7 @@ struct Row {
 
 const std::vector<std::string> row_names = {"calotte",          "one-thread", "one-region",
                                             "side-by-side",     "cgal",       "stripack",
-                                            "stripack-natural", "qhull",      "none"};
+                                            "stripack-natural", "qhull"};
 
 /// TRMESH on the sites of the set bisection, coarse levels first.
 Outcome run_stripack_natural(const Points3& shuffled) {
@@ -92,12 +90,8 @@ std::vector<Row> make_rows(const Options& options) {
       rows.push_back({"Qhull", run_qhull, true, options.qhull_limit});
     }
   }
-  for (const int threads : options.sweep) {
+  for (const int threads : options.sweep)
     rows.push_back(library_row(threads_row(threads), threads));
-  }
-  for (const int regions : options.regions) {
-    rows.push_back(library_row("calotte " + std::to_string(regions) + " regions", 1, regions));
-  }
   return rows;
 }
 
@@ -107,48 +101,27 @@ std::vector<Row> make_rows(const Options& options) {
 /// peers' triangles are only counted there.
 std::string fault(const Outcome& outcome, const Row& row, const std::string& set, std::int64_t n,
                   const std::optional<Outcome>& reference) {
-  if (!outcome.failure.empty()) {
+  if (!outcome.failure.empty())
     return outcome.failure;
-  }
   const std::int64_t expected = 2 * n - 4;
   if (outcome.triangles != expected) {
     return std::to_string(outcome.triangles) + " triangles with " + std::to_string(outcome.sites) +
            " vertices, where " + std::to_string(expected) + " are due";
   }
   const bool same_decisions = !row.peer || set != "bisection";
-  if (same_decisions && reference && outcome.digest != reference->digest) {
+  if (same_decisions && reference && outcome.digest != reference->digest)
     return "another set of triangles than the library's first run gave";
-  }
   return {};
-}
-
-void add_counters(benchmark::State& state, const Outcome& outcome) {
-  state.counters["cpu"] = outcome.cpu_seconds;
-  const DelaunayReport& report = outcome.report;
-  if (report.seconds.total == 0) {
-    return; // a peer
-  }
-  state.counters["sites"] = report.seconds.sites;
-  state.counters["regions"] = report.seconds.regions;
-  state.counters["triangulate"] = report.seconds.triangulate;
-  state.counters["unite"] = report.seconds.unite;
-  state.counters["total"] = report.seconds.total;
-  state.counters["region count"] = report.regions;
-  state.counters["overlap"] = report.overlap;
-  state.counters["exact"] = static_cast<double>(report.exact_predicates);
 }
 
 /// Runs a row as the options say: in a new process, or here, perhaps after a run that is not timed.
 Outcome run_once(Workload& work, std::int64_t n, const Row& row, const Options& options) {
-  if (options.fresh) {
+  if (options.fresh)
     return run_in_new_process([&] { return row.run(cloud(work.set, n)); });
-  }
-  if (work.points.cols() == 0) {
+  if (work.points.cols() == 0)
     work.points = cloud(work.set, n);
-  }
-  if (options.warm && !row.peer) {
+  if (options.warm && !row.peer)
     row.run(work.points);
-  }
   return row.run(work.points);
 }
 
@@ -162,10 +135,9 @@ void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row&
       state.SkipWithError(message.c_str());
       return;
     }
-    if (!row.peer && !work.reference) {
+    if (!row.peer && !work.reference)
       work.reference = outcome;
-    }
-    add_counters(state, outcome);
+    state.counters["cpu"] = outcome.cpu_seconds;
   }
 }
 
@@ -173,9 +145,8 @@ std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_pt
                               std::int64_t n, const Options& options) {
   std::vector<RoundRow> result;
   for (const Row& row : rows) {
-    if (!row.only_set.empty() && row.only_set != work->set) {
+    if (!row.only_set.empty() && row.only_set != work->set)
       continue;
-    }
     const auto run = [work, n, row, options](benchmark::State& state) {
       run_row(state, *work, n, row, options);
     };
@@ -190,36 +161,22 @@ void register_all(const Options& options) {
   const std::vector<Row> rows = make_rows(options);
   for (const std::int64_t n : options.sizes) {
     std::vector<std::shared_ptr<Workload>> works;
-    for (const std::string& set : options.sets) {
+    for (const std::string& set : options.sets)
       works.push_back(std::make_shared<Workload>(Workload{set, {}, {}}));
-    }
-    for (int round = 0; round < options.rounds; ++round) {
-      for (const auto& work : works) {
+    for (int round = 0; round < options.rounds; ++round)
+      for (const auto& work : works)
         register_round(work->set, n, round, rows_of(rows, work, n, options));
-      }
-    }
   }
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--sets", options.sets, "sets of sites: random, bisection, x8")
-      ->delimiter(',')
-      ->check(CLI::IsMember(cloud_names()))
-      ->capture_default_str();
-  app.add_option("--sizes", options.sizes, "numbers of sites")
-      ->delimiter(',')
-      ->check(CLI::Range(4, 300000000))
-      ->capture_default_str();
-  app.add_option("--rows", options.rows, "what to time: " + CLI::detail::join(row_names, ", "))
-      ->delimiter(',')
-      ->check(CLI::IsMember(row_names))
-      ->capture_default_str();
-  app.add_option("--regions", options.regions, "also time these numbers of regions on one thread")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  app.add_option("--sweep", options.sweep, "also time the library on these numbers of threads")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+  add_list_option(app, "--sets", options.sets, "sets of sites: random, bisection, x8",
+                  CLI::IsMember(cloud_names()));
+  add_list_option(app, "--sizes", options.sizes, "numbers of sites", CLI::Range(4, 300000000));
+  add_list_option(app, "--rows", options.rows,
+                  "what to time: " + CLI::detail::join(row_names, ", "), CLI::IsMember(row_names));
+  add_list_option(app, "--sweep", options.sweep,
+                  "also time the library on these numbers of threads", CLI::PositiveNumber);
   add_round_options(app, options);
   app.add_option("--stripack-limit", options.stripack_limit,
                  "most sites that STRIPACK is given; it is slow beyond")
@@ -235,26 +192,11 @@ void add_options(CLI::App& app, Options& options) {
 
 std::map<std::string, std::string> peers() {
   std::map<std::string, std::string> versions = {{"CGAL", CGAL_VERSION_STR}};
-  if (has_qhull()) {
+  if (has_stripack())
+    versions["STRIPACK"] = "";
+  if (has_qhull())
     versions["Qhull"] = qhull_version();
-  }
   return versions;
-}
-
-void print_head(std::ostream& out, const Options& options) {
-  out << "# Delaunay triangulations of the sphere: seconds and paired ratios\n\n"
-      << "calotte on " << options.threads << " threads of " << std::thread::hardware_concurrency()
-      << ", peers on one; CGAL " << CGAL_VERSION_STR << "; compiler " << __VERSION__ << "; "
-      << options.rounds
-      << " rounds, each runs every row once on the same sites.\nA ratio is the row's seconds over "
-         "calotte's of the same round. Where CPU seconds of a row with one thread are "
-         "less than its seconds, the machine was busy.\n";
-  if (!has_stripack()) {
-    out << "STRIPACK is left out: this program was built without libncarg-dev.\n";
-  }
-  if (!has_qhull()) {
-    out << "Qhull is left out: this program was built without libqhull-dev.\n";
-  }
 }
 
 } // namespace
@@ -266,7 +208,5 @@ int main(int argc, char** argv) {
   return run_program(
       argc, argv,
       {"Times the library's Delaunay triangulation of the sphere and its peers, interleaved.",
-       peers(), [&](CLI::App& app) { add_options(app, options); }, [&] { register_all(options); },
-       [&](std::ostream& out) { print_head(out, options); },
-       [](std::ostream& out, const auto& results) { print_tables(out, results, "calotte"); }});
+       peers(), [&](CLI::App& app) { add_options(app, options); }, [&] { register_all(options); }});
 }

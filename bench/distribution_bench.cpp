@@ -8,7 +8,6 @@
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "program.h"
-#include "report.h"
 #include "stopwatch.h"
 #include "support/starts.h"
 
@@ -26,16 +25,14 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <ostream>
 #include <stdexcept>
 
 namespace calotte::bench {
 
 namespace {
 
-const std::vector<std::string> decompositions = {"default", "fibonacci", "uniform", "x8"};
+const std::vector<std::string> decompositions = {"default", "uniform", "x8"};
 const std::map<std::string, Overlap> sorts = {
     {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
 
@@ -108,9 +105,7 @@ Partition partition_of(const Cut& cut) {
   options.overlap = sorts.at(cut.sort);
   if (cut.regions > 0)
     options.regions = cut.regions;
-  if (cut.decomposition == "fibonacci")
-    options.centres = Centres::fibonacci;
-  else if (cut.decomposition != "default")
+  if (cut.decomposition != "default")
     options.given_centres = centres_of(cut.decomposition, cut.regions);
   return options;
 }
@@ -122,15 +117,16 @@ struct Lists {
 
 constexpr double position_bytes = 3 * sizeof(double);
 
-void add_lists(Lists lists) {
+void add_lists(benchmark::State& state, Lists lists) {
   for (const double halo : lists.halo)
     lists.received.push_back(position_bytes * halo);
-  add_list("seconds", std::move(lists.seconds));
-  add_list("owned", std::move(lists.owned));
-  add_list("halo", std::move(lists.halo));
-  add_list("received", std::move(lists.received));
-  if (!lists.sent.empty())
-    add_list("sent", std::move(lists.sent));
+  if (lists.sent.empty())
+    lists.sent = lists.received;
+  set_lists(state, {{"seconds", lists.seconds},
+                    {"owned", lists.owned},
+                    {"halo", lists.halo},
+                    {"received", lists.received},
+                    {"sent", lists.sent}});
 }
 
 /// For lists with one value per region: the median for each region, without the first
@@ -183,7 +179,6 @@ public:
     for (std::size_t k = 0; k < regions_.size(); ++k)
       seconds.push_back(regions_[k].seconds - before.at(k).seconds);
     points_.swap(evaluation_.centroids);
-    flips_ += static_cast<double>(evaluation_.iteration.flips);
     return timed.seconds;
   }
 
@@ -195,8 +190,6 @@ public:
     count_halos(points_, partition_, lists);
     return lists;
   }
-
-  double flips() const { return flips_; }
 
   static constexpr int warm_up = 2;
 
@@ -214,7 +207,6 @@ private:
   cvt_detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;
   std::vector<std::vector<double>> seconds_; ///< of each iteration, by region
-  double flips_ = 0;
 };
 
 void run_iterations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
@@ -223,8 +215,7 @@ void run_iterations(benchmark::State& state, const Workload& work, const Cut& cu
   for (int i = 0; i < count; ++i)
     seconds.push_back(iterations.step());
   state.SetIterationTime(median({seconds.begin() + Iterations::warm_up, seconds.end()}));
-  state.counters["flips"] = iterations.flips();
-  add_lists(iterations.lists());
+  add_lists(state, iterations.lists());
 }
 
 /// Triangulations. The seconds of a region (gather, project, triangulate, cull and certify) are the
@@ -272,21 +263,16 @@ private:
 void run_triangulations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
   Triangulations triangulations(work, cut);
   DelaunayReport report;
-  std::vector<double> total, triangulate;
+  std::vector<double> total;
   std::vector<std::vector<double>> seconds;
   for (int i = 0; i < count; ++i) {
     const auto turn = static_cast<std::size_t>(i);
     report = triangulations.step(turn * triangulations.regions() / static_cast<std::size_t>(count));
     total.push_back(report.seconds.total);
-    triangulate.push_back(report.seconds.triangulate);
     seconds.push_back(report.seconds_per_region);
   }
   const int without = Triangulations::warm_up;
   state.SetIterationTime(median({total.begin() + without, total.end()}));
-  state.counters["triangulate"] = median({triangulate.begin() + without, triangulate.end()});
-  state.counters["overlap"] = report.overlap;
-  state.counters["certified by query"] = static_cast<double>(report.certified_by_query);
-  state.counters["halo insertions"] = static_cast<double>(report.halo_insertions);
   Lists lists;
   lists.seconds = medians(seconds, without);
   for (std::size_t k = 0; k < report.owned_per_region.size(); ++k) {
@@ -294,7 +280,7 @@ void run_triangulations(benchmark::State& state, const Workload& work, const Cut
     lists.owned.push_back(owned);
     lists.halo.push_back(static_cast<double>(report.sites_per_region[k]) - owned);
   }
-  add_lists(std::move(lists));
+  add_lists(state, lists);
 }
 
 void run_cut(benchmark::State& state, Workload& work, const Cut& cut, const Options& options) {
@@ -338,23 +324,14 @@ void register_all(const Options& options) {
 
 void add_options(CLI::App& app, Options& options) {
   add_grid_options(app, options.sets, options.sizes);
-  app.add_option("--works", options.works, "iteration, triangulation")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"iteration", "triangulation"}))
-      ->capture_default_str();
-  app.add_option("--regions", options.regions, "numbers of regions; 0 for the library's own")
-      ->delimiter(',')
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  app.add_option("--sorts", options.sorts, "halo, distance, voronoi")
-      ->delimiter(',')
-      ->check(CLI::IsMember(sorts))
-      ->capture_default_str();
-  app.add_option("--decompositions", options.decompositions,
-                 "centres: default, fibonacci, uniform (42, 162 ... regions), x8")
-      ->delimiter(',')
-      ->check(CLI::IsMember(decompositions))
-      ->capture_default_str();
+  add_list_option(app, "--works", options.works, "iteration, triangulation",
+                  CLI::IsMember({"iteration", "triangulation"}));
+  add_list_option(app, "--regions", options.regions, "numbers of regions; 0 for the library's own",
+                  CLI::NonNegativeNumber);
+  add_list_option(app, "--sorts", options.sorts, "halo, distance, voronoi", CLI::IsMember(sorts));
+  add_list_option(app, "--decompositions", options.decompositions,
+                  "centres: default, uniform (42, 162 ... regions), x8",
+                  CLI::IsMember(decompositions));
   app.add_option("--iterations", options.iterations, "of each run; the first two count for nothing")
       ->check(CLI::Range(Iterations::warm_up + 1, 10000))
       ->capture_default_str();
@@ -365,24 +342,6 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--rounds", options.rounds, "how often every row runs")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-}
-
-void print_results(std::ostream& out, const std::vector<SetResults>& results) {
-  out << "| set | run | regions | sum s | longest s | longest / mean | halo sites / sites |\n"
-      << "| --- | --- | --: | --: | --: | --: | --: |\n";
-  for (const SetResults& set : results)
-    for (const std::string& name : set.order) {
-      const Series& row = set.rows.at(name);
-      const std::vector<double> seconds = medians(row.lists.at("seconds"), 0);
-      const std::vector<double>& halo = row.lists.at("halo").front();
-      const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-      const double longest = *std::max_element(seconds.begin(), seconds.end());
-      const double halos = std::accumulate(halo.begin(), halo.end(), 0.0);
-      out << "| " << title(set) << " | " << name << " | " << seconds.size() << " | "
-          << seconds_text(sum) << " | " << seconds_text(longest) << " | "
-          << fixed(longest / sum * static_cast<double>(seconds.size()), 3) << " | "
-          << fixed(halos / static_cast<double>(set.sites), 3) << " |\n";
-    }
 }
 
 } // namespace
@@ -397,9 +356,5 @@ int main(int argc, char** argv) {
                      {"Measures what each region of a decomposition takes, on one thread.",
                       {},
                       [&](CLI::App& app) { add_options(app, options); },
-                      [&] { register_all(options); },
-                      [](std::ostream& out) {
-                        out << "# Regions one by one, one thread: medians of the rounds\n\n";
-                      },
-                      [](std::ostream& out, const auto& results) { print_results(out, results); }});
+                      [&] { register_all(options); }});
 }

@@ -9,7 +9,6 @@
 #include "delaunay/delaunay.h"
 #include "io/bytes/file.h"
 #include "program.h"
-#include "report.h"
 #include "stopwatch.h"
 
 #include <calotte/delaunay.h>
@@ -29,7 +28,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <ostream>
 #include <random>
 #include <string>
 #include <system_error>
@@ -204,14 +202,5 @@ int main(int argc, char** argv) {
                      {"Times writing a full MPAS mesh beside the triangulation it is of.",
                       {},
                       [&](CLI::App& app) { add_options(app, options); },
-                      [&] { register_all(options, work); },
-                      [&](std::ostream& out) {
-                        out << "# A full MPAS mesh: " << work.files.bytes
-                            << " bytes; seconds and ratios to its triangulation, "
-                            << options.threads << " threads\n";
-                      },
-                      [&](std::ostream& out, const auto& results) {
-                        for (const SetResults& set : results)
-                          print_times(out, set, "delaunay");
-                      }});
+                      [&] { register_all(options, work); }});
 }

@@ -2,7 +2,7 @@
 #include "lloyd.h"
 #include "cvt/cvt.h"
 
-#include "report.h"
+#include "program.h"
 #include "stripack.h"
 
 #include "base/clock.h"
@@ -25,7 +25,6 @@ double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 /// Measurements of an iteration, summed over those after the warm-up.
 struct Sums {
   double seconds = 0, exchange = 0, repair = 0, moments = 0;
-  double flipped = 0, flips = 0;
 };
 
 Sums sums_of(const std::vector<CvtIteration>& iterations) {
@@ -36,8 +35,6 @@ Sums sums_of(const std::vector<CvtIteration>& iterations) {
     sums.exchange += iteration.seconds_exchange;
     sums.repair += iteration.seconds_repair;
     sums.moments += iteration.seconds_moments;
-    sums.flipped += iteration.flips > 0 || iteration.rebuilt ? 1 : 0;
-    sums.flips += static_cast<double>(iteration.flips);
   }
   return sums;
 }
@@ -56,12 +53,9 @@ void measure(const std::vector<CvtIteration>& iterations, const std::vector<doub
   const double all = threads * sums.seconds;
   out.counters = {{"cpu", median(cpu_seconds)},
                   {"median ns", ns * out.seconds},
-                  {"mean ns", ns * sums.seconds / static_cast<double>(seconds.size())},
                   {"exchange", sums.exchange / all},
                   {"repair", sums.repair / all},
-                  {"moments", sums.moments / all},
-                  {"flipped", sums.flipped},
-                  {"flips", sums.flips}};
+                  {"moments", sums.moments / all}};
 }
 
 /// The data of a serial program between iterations.

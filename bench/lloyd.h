@@ -38,9 +38,7 @@ struct Iterated {
 /// after the warm-up. Counters, all of these iterations:
 ///   cpu               median of the CPU seconds of all threads;
 ///   median ns         seconds times threads over sites, in nanoseconds: of a site and core;
-///   mean ns           the same of the mean, which takes in what happens now and then;
-///   exchange, repair, moments   shares in threads times seconds;
-///   flipped, flips    iterations with flips or a new mesh, and flips in all.
+///   exchange, repair, moments   shares in threads times seconds.
 Iterated run_cvt(const Points3& start, const Target& target, int iterations, int threads);
 
 /// One iteration as a serial program would make it: STRIPACK's triangulation of the points as they

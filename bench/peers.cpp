@@ -32,9 +32,8 @@ std::uint64_t mix(std::uint64_t x) {
 } // namespace
 
 void Digest::add(std::int32_t a, std::int32_t b, std::int32_t c) {
-  while (a > b || a > c) {
+  while (a > b || a > c)
     std::tie(a, b, c) = std::tuple(b, c, a);
-  }
   const auto word = [](std::int32_t i) { return static_cast<std::uint64_t>(i) + 1; };
   sum_ += mix(mix(mix(word(a)) + word(b)) + word(c));
 }
@@ -49,19 +48,16 @@ Outcome run_calotte(const Points3& points, int threads, const DelaunayOptions& o
   const Stopwatch watch;
   arena.execute([&] { result = triangulate(std::move(own), Surface::sphere(), options); });
   watch.stop(outcome);
-  outcome.report = std::move(result.report);
   const Mesh& mesh = result.mesh;
   outcome.sites = mesh.points.cols();
   outcome.triangles = mesh.triangles.cols();
-  if (mesh.points.cols() != points.cols()) {
+  if (mesh.points.cols() != points.cols())
     outcome.failure = "the set holds equal directions; a comparison needs distinct ones";
-  } else if (!mesh.closed()) {
+  else if (!mesh.closed())
     outcome.failure = "the mesh is not closed";
-  }
   Digest digest;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     digest.add(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t));
-  }
   outcome.digest = digest.value();
   return outcome;
 }
@@ -93,9 +89,8 @@ using Point = Kernel::Point_3;
 struct PointHash {
   std::size_t operator()(const std::array<double, 3>& p) const {
     std::uint64_t sum = 0;
-    for (const double x : p) {
+    for (const double x : p)
       sum = mix(sum + std::bit_cast<std::uint64_t>(x));
-    }
     return sum;
   }
 };
@@ -104,14 +99,12 @@ struct PointHash {
 std::uint64_t digest_of(const Triangulation& triangulation, const Points3& points) {
   std::unordered_map<std::array<double, 3>, std::int32_t, PointHash> ids;
   ids.reserve(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
     ids.emplace(std::array{points(0, i), points(1, i), points(2, i)}, static_cast<std::int32_t>(i));
-  }
   Digest digest;
   for (const Triangulation::Face_handle face : triangulation.all_face_handles()) {
-    if (face->is_ghost()) {
+    if (face->is_ghost())
       continue;
-    }
     std::array<std::int32_t, 3> corner{};
     for (int i = 0; i < 3; ++i) {
       const Point& p = face->vertex(i)->point();
@@ -127,9 +120,8 @@ std::uint64_t digest_of(const Triangulation& triangulation, const Points3& point
 Outcome run_cgal(const Points3& points) {
   std::vector<Point> input;
   input.reserve(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
     input.emplace_back(points(0, i), points(1, i), points(2, i));
-  }
   Outcome outcome;
   const Stopwatch watch;
   Triangulation triangulation(Point(0, 0, 0), 1);

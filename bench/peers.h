@@ -27,7 +27,6 @@ struct Outcome : Timed {
   std::int64_t triangles = 0;
   std::uint64_t digest = 0; ///< Digest of the triangles in the ids of the input
   std::string failure;      ///< describes a failure; empty if the run gave a triangulation
-  DelaunayReport report;    ///< of the library's own runs
 };
 
 /// calotte::delaunay from points that it takes over to the mesh, on `threads` threads; copying the

@@ -5,7 +5,6 @@
 #include "delaunay/delaunay.h"
 #include "peers.h"
 #include "program.h"
-#include "report.h"
 
 #include <calotte/delaunay.h>
 
@@ -60,7 +59,6 @@ Outcome run_library(const Points2& points, int threads) {
   const Stopwatch watch;
   arena.execute([&] { result = triangulate(points, Surface::plane()); });
   watch.stop(outcome);
-  outcome.report = std::move(result.report);
   const Mesh& mesh = result.mesh;
   outcome.triangles = mesh.triangles.cols();
   Digest digest;
@@ -140,20 +138,12 @@ void register_all(const Options& options) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--sets", options.sets, "uniform, clusters, line")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"uniform", "clusters", "line"}))
-      ->capture_default_str();
+  add_list_option(app, "--sets", options.sets, "uniform, clusters, line",
+                  CLI::IsMember({"uniform", "clusters", "line"}));
   app.add_option("--size", options.size, "number of sites")
       ->check(CLI::Range(3, 300000000))
       ->capture_default_str();
   add_round_options(app, options);
-}
-
-void print_head(std::ostream& out, const Options& options) {
-  out << "# Delaunay triangulations of the plane: seconds and paired ratios\n\n"
-      << "calotte on " << options.threads << " threads, CGAL " << CGAL_VERSION_STR << " on one; "
-      << options.rounds << " rounds; compiler " << __VERSION__ << ".\n";
 }
 
 } // namespace
@@ -162,12 +152,9 @@ void print_head(std::ostream& out, const Options& options) {
 int main(int argc, char** argv) {
   using namespace calotte::bench;
   Options options;
-  return run_program(
-      argc, argv,
-      {"Times the library's Delaunay triangulation of the plane beside CGAL's.",
-       {{"CGAL", CGAL_VERSION_STR}},
-       [&](CLI::App& app) { add_options(app, options); },
-       [&] { register_all(options); },
-       [&](std::ostream& out) { print_head(out, options); },
-       [](std::ostream& out, const auto& results) { print_tables(out, results, "calotte"); }});
+  return run_program(argc, argv,
+                     {"Times the library's Delaunay triangulation of the plane beside CGAL's.",
+                      {{"CGAL", CGAL_VERSION_STR}},
+                      [&](CLI::App& app) { add_options(app, options); },
+                      [&] { register_all(options); }});
 }

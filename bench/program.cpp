@@ -2,17 +2,12 @@
 #include "program.h"
 
 #include "clouds.h"
-#include "stripack.h"
 
-#include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <stdexcept>
-#include <thread>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -22,58 +17,37 @@ namespace calotte::bench {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// One line a run on the error stream.
+class Progress : public benchmark::BenchmarkReporter {
+public:
+  bool ReportContext(const Context&) override { return true; }
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      const std::string name = run.benchmark_name();
+      std::cerr << name.substr(0, name.find("/iterations")) << ": ";
+      if (run.error_occurred)
+        std::cerr << run.error_message << '\n';
+      else
+        std::cerr << run.GetAdjustedRealTime() << " s\n";
+      failed_ |= run.error_occurred;
+    }
+  }
+
+  bool failed() const { return failed_; }
+
+private:
+  bool failed_ = false;
+};
 
 bool start_google_benchmark(char* program, std::vector<std::string> arguments) {
   std::vector<char*> argv = {program};
-  for (std::string& argument : arguments) {
+  for (std::string& argument : arguments)
     argv.push_back(argument.data());
-  }
   int argc = static_cast<int>(argv.size());
   argv.push_back(nullptr);
   benchmark::Initialize(&argc, argv.data());
   return !benchmark::ReportUnrecognizedArguments(argc, argv.data());
-}
-
-Json row_json(const std::string& name, const Series& series) {
-  Json row = {{"row", name}, {"rounds", Json::array()}, {"seconds", Json::array()}};
-  for (const auto& [round, seconds] : series.seconds) {
-    row["rounds"].push_back(round);
-    row["seconds"].push_back(seconds);
-  }
-  row["counters"] = series.counters;
-  row["lists"] = series.lists;
-  return row;
-}
-
-Json set_json(const SetResults& set) {
-  Json rows = Json::array();
-  for (const std::string& name : set.order) {
-    rows.push_back(row_json(name, set.rows.at(name)));
-  }
-  return {{"set", set.set}, {"sites", set.sites}, {"rows", std::move(rows)}};
-}
-
-/// All samples of a run, with the information to repeat it.
-void write_json(const std::string& file, const std::vector<std::string>& arguments,
-                const Program& program, const RoundReporter& reporter) {
-  Json sets = Json::array();
-  for (const SetResults& set : reporter.results()) {
-    sets.push_back(set_json(set));
-  }
-  const Json all = {{"program", std::filesystem::path(arguments.front()).filename().string()},
-                    {"arguments", std::vector(arguments.begin() + 1, arguments.end())},
-                    {"compiler", __VERSION__},
-                    {"hardware_threads", std::thread::hardware_concurrency()},
-                    {"stripack", has_stripack()},
-                    {"peers", program.peers},
-                    {"failures", reporter.failures()},
-                    {"sets", std::move(sets)}};
-  std::ofstream out(file);
-  out << all.dump(1) << '\n';
-  if (!out.flush()) {
-    throw std::runtime_error(file + " cannot be written");
-  }
 }
 
 /// Keeps freed memory for the next round, for the peers and the library alike. Otherwise the system
@@ -90,9 +64,7 @@ void keep_memory() {
 
 int run(int argc, char** argv, const Program& program) {
   CLI::App app{program.purpose};
-  std::string json;
   program.add_options(app);
-  app.add_option("--json", json, "also write the samples of every round to this file");
   app.allow_extras();
   app.footer("Google Benchmark's own options work too: --benchmark_filter, --benchmark_out, "
              "--benchmark_list_tests.\nExit codes: 0 done, 1 a result was wrong, 2 bad usage.");
@@ -101,20 +73,17 @@ int run(int argc, char** argv, const Program& program) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (!start_google_benchmark(argv[0], app.remaining())) {
+  if (!start_google_benchmark(argv[0], app.remaining()))
     return 2;
-  }
+  benchmark::AddCustomContext("compiler", __VERSION__);
+  for (const auto& [name, version] : program.peers)
+    benchmark::AddCustomContext("peer " + name, version);
   keep_memory();
   program.register_rows();
-  program.print_head(std::cout);
-  RoundReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  Progress progress;
+  benchmark::RunSpecifiedBenchmarks(&progress);
   benchmark::Shutdown();
-  program.print_results(std::cout, reporter.results());
-  if (!json.empty()) {
-    write_json(json, {argv, argv + argc}, program, reporter);
-  }
-  return reporter.failures().empty() ? 0 : 1;
+  return progress.failed() ? 1 : 0;
 }
 
 } // namespace
@@ -130,14 +99,37 @@ void add_round_options(CLI::App& app, RoundOptions& options) {
 
 void add_grid_options(CLI::App& app, std::vector<std::string>& sets,
                       std::vector<std::int64_t>& sizes) {
-  app.add_option("--sets", sets, "densities: uniform, x8")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"uniform", "x8"}))
-      ->capture_default_str();
-  app.add_option("--sizes", sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2")
-      ->delimiter(',')
-      ->check(CLI::IsMember(bisected_sizes()))
-      ->capture_default_str();
+  add_list_option(app, "--sets", sets, "densities: uniform, x8", CLI::IsMember({"uniform", "x8"}));
+  add_list_option(app, "--sizes", sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2",
+                  CLI::IsMember(bisected_sizes()));
+}
+
+std::string threads_row(int threads) {
+  return "calotte " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+void register_round(const std::string& set, std::int64_t n, int round,
+                    const std::vector<RoundRow>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const RoundRow& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
+    if (n > row.limit)
+      continue;
+    const std::string name =
+        set + "/n:" + std::to_string(n) + "/round:" + std::to_string(round) + "/" + row.name;
+    benchmark::RegisterBenchmark(name.c_str(), row.run)
+        ->Iterations(1)
+        ->UseManualTime()
+        ->Unit(benchmark::kSecond);
+  }
+}
+
+void set_lists(benchmark::State& state, const std::map<std::string, std::vector<double>>& lists) {
+  state.SetLabel(nlohmann::json(lists).dump());
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values.at((values.size() - 1) / 2) + values.at(values.size() / 2)) / 2;
 }
 
 int run_program(int argc, char** argv, const Program& program) {

@@ -5,7 +5,6 @@
 #include "clouds.h"
 #include "cvt/cvt.h"
 #include "program.h"
-#include "report.h"
 #include "support/starts.h"
 
 #include <calotte/cvt.h>
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ostream>
 
 namespace calotte::bench {
 
@@ -50,10 +48,8 @@ CvtOptions cvt_options(const std::string& set, const std::string& method, const 
 /// The cost of the finest level's evaluations, and the result of the run.
 void add_counters(benchmark::State& state, const CvtReport& report, std::int64_t n, int threads) {
   std::vector<double> seconds;
-  double exchange = 0, repair = 0, moments = 0, solver = 0, sum = 0, flips = 0;
+  double exchange = 0, repair = 0, moments = 0, sum = 0;
   for (const CvtIteration& iteration : report.iterations) {
-    solver += iteration.seconds_solver;
-    flips += static_cast<double>(iteration.flips);
     if (iteration.cells != n)
       continue;
     seconds.push_back(iteration.seconds);
@@ -68,8 +64,6 @@ void add_counters(benchmark::State& state, const CvtReport& report, std::int64_t
   state.counters["exchange"] = exchange / sum;
   state.counters["repair"] = repair / sum;
   state.counters["moments"] = moments / sum;
-  state.counters["solver seconds"] = solver;
-  state.counters["flips"] = flips;
   state.counters["converged"] = report.converged ? 1 : 0;
   state.counters["l2"] = report.residual;
 }
@@ -121,10 +115,8 @@ void register_all(const Options& options) {
 
 void add_options(CLI::App& app, Options& options) {
   add_grid_options(app, options.sets, options.sizes);
-  app.add_option("--methods", options.methods, "automatic, lloyd, lbfgs, lbfgs-laplacian")
-      ->delimiter(',')
-      ->check(CLI::IsMember(methods))
-      ->capture_default_str();
+  add_list_option(app, "--methods", options.methods, "automatic, lloyd, lbfgs, lbfgs-laplacian",
+                  CLI::IsMember(methods));
   app.add_option("--tolerance", options.tolerance, "rms distance from the centroids, unit sphere")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -135,24 +127,6 @@ void add_options(CLI::App& app, Options& options) {
                  "most cells that are started from random places")
       ->capture_default_str();
   add_round_options(app, options);
-}
-
-void print_results(std::ostream& out, const std::vector<SetResults>& results) {
-  out << "| set | start, method | median s | evaluations | of the finest level | s each | rms at "
-         "the end |\n| --- | --- | --: | --: | --: | --: | --: |\n";
-  for (const SetResults& set : results)
-    for (const std::string& name : set.order) {
-      const Series& row = set.rows.at(name);
-      const auto value = [&](const char* counter) { return median(row.counters.at(counter)); };
-      std::vector<double> seconds;
-      for (const auto& [round, s] : row.seconds)
-        seconds.push_back(s);
-      out << "| " << title(set) << " | " << name << " | " << seconds_text(median(seconds)) << " | "
-          << fixed(value("evaluations"), 0) << " | "
-          << fixed(value("evaluations of the finest level"), 0) << " | "
-          << seconds_text(value("seconds an evaluation")) << " | " << scientific(value("l2"))
-          << " |\n";
-    }
 }
 
 } // namespace
@@ -167,11 +141,5 @@ int main(int argc, char** argv) {
                      {"Times whole runs to a CVT from bisected and from Monte Carlo starts.",
                       {},
                       [&](CLI::App& app) { add_options(app, options); },
-                      [&] { register_all(options); },
-                      [&](std::ostream& out) {
-                        out << "# Whole runs to a CVT, " << options.threads
-                            << " threads, to an rms distance of " << scientific(options.tolerance)
-                            << "\n\n";
-                      },
-                      [](std::ostream& out, const auto& results) { print_results(out, results); }});
+                      [&] { register_all(options); }});
 }

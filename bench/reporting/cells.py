@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cells and tables of Markdown."""
 
-from reporting.samples import is_disturbed, quantile
+from reporting.samples import is_disturbed, quartiles
 
 NONE = "-"
 
@@ -11,41 +11,54 @@ def seconds_text(value):
     return f"{value:.{digits}f}"
 
 
-def spread_text(values, digits=2):
-    """The median and, in brackets, the quartiles."""
-    low, middle, high = (quantile(values, p) for p in (0.25, 0.5, 0.75))
-    return f"{middle:.{digits}f} ({low:.{digits}f} - {high:.{digits}f})"
-
-
 def refused(text, disturbed):
     """The text for a row that was measured while the machine was disturbed."""
     return f"disturbed: {text}" if disturbed else text
 
 
 def values_cell(values, rows, digits=2):
-    """Values with their spread; rows: those that they are made of."""
-    return refused(spread_text(values, digits), is_disturbed(values, rows))
+    """The median and, in brackets, the quartiles; rows: those that the values are made of."""
+    low, middle, high = (f"{value:.{digits}f}" for value in quartiles(values))
+    return refused(f"{middle} ({low} - {high})", is_disturbed(values, rows))
 
 
-def ratio_cell(row, base, digits=2):
+def ratio_cell(row, base):
     """How many times longer a row takes than another."""
-    return values_cell(row.ratios(base), (row, base), digits) if row and base else NONE
-
-
-def seconds_cell(row):
-    return seconds_text(row.median()) if row else NONE
+    if row is base:
+        return "1"
+    return values_cell(row.ratios(base), (row, base)) if row and base else NONE
 
 
 def percent(value):
     return f"{100 * value:.1f}%"
 
 
-def table(heads, rows):
-    """Markdown; the first column is text, the others numbers."""
-    lines = ["| " + " | ".join(heads) + " |", "| --- |" + " --: |" * (len(heads) - 1)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
-
-
 def sites_text(sites):
     return f"{sites:,}".replace(",", " ")
+
+
+def set_text(row):
+    return f"{row.set}, {sites_text(row.sites)}"
+
+
+def table(heads, rows):
+    """Markdown; the first column is text, the others numbers."""
+    lines = [heads, ["---"] + ["--:"] * (len(heads) - 1), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+def compared(rows, base, columns):
+    """Rows, and how many times longer they take than the one called base of the same step and set, if
+    there is one. columns: of further heads a function of a row."""
+    bases = {(row.step, row.set, row.sites): row for row in rows if row.name == base}
+    if bases:
+        ratio = lambda row: ratio_cell(row, bases.get((row.step, row.set, row.sites)))
+        columns = {f"time / {base}": ratio} | columns
+    return table(
+        ["sites", "run", "rounds", "median s", *columns],
+        [
+            [set_text(row), row.name, len(row.seconds), seconds_text(row.median())]
+            + [column(row) for column in columns.values()]
+            for row in rows
+        ],
+    )

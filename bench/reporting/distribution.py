@@ -3,12 +3,10 @@
 
 from dataclasses import dataclass
 
-from reporting.makespan import Network, efficiency, imbalance, makespan
+from reporting.makespan import imbalance, makespan
 from reporting.samples import Row, is_disturbed
 
 WORKERS = (1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 384, 512, 1024)
-# A triangulation alone ends without a sum over all workers.
-REDUCTIONS = {"iteration": 1, "triangulation": 0}
 
 
 @dataclass(frozen=True)
@@ -23,9 +21,8 @@ class Decomposition:
 
     @staticmethod
     def of(row):
-        received = row.by_region("received")
-        sent = row.by_region("sent") if "sent" in row.lists else received
-        bytes_each = [max(pair) for pair in zip(sent, received, strict=True)]
+        exchanged = zip(row.by_region("sent"), row.by_region("received"), strict=True)
+        bytes_each = list(map(max, exchanged))
         return Decomposition(
             row, row.by_region("seconds"), bytes_each, row.by_region("owned"), row.by_region("halo")
         )
@@ -39,6 +36,11 @@ class Decomposition:
         return sum(self.seconds)
 
     @property
+    def points(self):
+        """Owned sites and halo sites, by region."""
+        return [owned + halo for owned, halo in zip(self.owned, self.halo, strict=True)]
+
+    @property
     def imbalance(self):
         return imbalance(self.seconds)
 
@@ -48,20 +50,13 @@ class Decomposition:
 
 
 class Grid:
-    """All decompositions by the library's own centres and sort of one set of sites, for one kind of
-    work: iteration or triangulation."""
+    """All decompositions by the library's own centres and sort of one set of sites, of an iteration."""
 
-    def __init__(self, results, work, set_name, sites, network):
-        sections = ("distribution", "fine")
-        rows = [row for name in sections for row in results.find(name, set=set_name, sites=sites)]
-        mine = [row for row in rows if row.name.startswith(work + ", ")]
-        self.by_count, self.default = {}, None
-        for row in mine:
-            found = Decomposition.of(row)
-            self.by_count.setdefault(found.count, found)
-            if ", default regions" in row.name:
-                self.default = self.default or found
-        self.network = Network(network.latency, network.bandwidth, REDUCTIONS[work])
+    def __init__(self, results, set_name, sites, network):
+        rows = results.find("distribution", set=set_name, sites=sites)
+        found = [Decomposition.of(row) for row in rows]
+        self.by_count = {decomposition.count: decomposition for decomposition in found}
+        self.network = network
 
     def __bool__(self):
         return bool(self.by_count)
@@ -84,8 +79,3 @@ class Grid:
             if count >= workers
         ]
         return min(times, default=(None, None))
-
-    def efficiency(self, workers):
-        """Of list scheduling, and the number of regions."""
-        seconds, count = self.scheduled(workers)
-        return seconds and efficiency(self.serial, workers, seconds), count

@@ -56,7 +56,7 @@ class Watch:
 def commit():
     """Of the sources, with a + where they were changed; a published report is none of them."""
     short = output_of("git", "rev-parse", "--short=12", "HEAD") or "unknown"
-    sources = (".", ":!bench/RESULTS.md", ":!bench/plots")
+    sources = (".", ":!bench/RESULTS.md", ":!bench/reporting/*.md")
     tracked = output_of("git", "status", "--porcelain", "--untracked-files=no", "--", *sources)
     return short + ("+" if tracked else "")
 

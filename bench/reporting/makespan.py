@@ -53,8 +53,3 @@ def makespan(seconds, sent, workers, network=Network()):
 def imbalance(loads):
     """The longest over the mean."""
     return max(loads) * len(loads) / sum(loads)
-
-
-def efficiency(serial, workers, parallel):
-    """Of the workers' time the part that a serial run would need."""
-    return serial / (workers * parallel)

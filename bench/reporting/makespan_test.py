@@ -5,7 +5,7 @@ import itertools
 import random
 import unittest
 
-from reporting.makespan import Network, efficiency, imbalance, list_schedule, makespan
+from reporting.makespan import Network, imbalance, list_schedule, makespan
 
 FREE = Network(latency=0, bandwidth=float("inf"), reductions=0)
 
@@ -59,13 +59,6 @@ class Laws(unittest.TestCase):
             self.assertGreaterEqual(took, best)
             self.assertLessEqual(took, (4 / 3 - 1 / 9) * best)
 
-    def test_falls_with_workers_but_for_that_third(self):
-        for seed in range(100):
-            seconds, sent = random_regions(seed)
-            times = [makespan(seconds, sent, p, FREE) for p in range(1, 80)]
-            for earlier, later in itertools.combinations(times, 2):
-                self.assertLessEqual(later, 4 / 3 * earlier)
-
     def test_equal_regions_are_dealt_out_evenly(self):
         for regions, workers in ((12, 4), (12, 5), (7, 7), (1, 3)):
             took = makespan([2.0] * regions, [0] * regions, workers, FREE)
@@ -76,16 +69,6 @@ class Laws(unittest.TestCase):
         network = Network(latency=0.25, bandwidth=1e9, reductions=2)
         self.assertAlmostEqual(makespan(seconds, sent, 2, network), 1 + 3 + 0.25 * (1 + 2 * 1))
         self.assertAlmostEqual(makespan(seconds, sent, 5, network), 1 + 3 + 0.25 * (1 + 2 * 3))
-
-    def test_slower_networks_take_longer(self):
-        for seed in range(100):
-            seconds, sent = random_regions(seed)
-            for workers in (2, 5, 100):
-                free = makespan(seconds, sent, workers, FREE)
-                fast = makespan(seconds, sent, workers, Network())
-                slow = makespan(seconds, sent, workers, Network(latency=1e-3))
-                self.assertLessEqual(free, fast * 4 / 3)
-                self.assertLess(fast, slow)
 
     def test_order_of_regions_does_not_matter(self):
         for seed in range(50):
@@ -100,15 +83,9 @@ class Laws(unittest.TestCase):
             with self.assertRaises(ValueError):
                 makespan(seconds, sent, workers)
 
-    def test_imbalance_and_efficiency(self):
+    def test_imbalance_is_the_longest_over_the_mean(self):
         self.assertEqual(imbalance([3.0, 3.0, 3.0]), 1)
         self.assertEqual(imbalance([1.0, 3.0]), 1.5)
-        self.assertEqual(efficiency(8.0, 4, 2.0), 1)
-        for seed in range(100):
-            seconds, sent = random_regions(seed)
-            for workers in (1, 2, 9):
-                took = makespan(seconds, sent, workers)
-                self.assertLessEqual(efficiency(sum(seconds), workers, took), 1 + 1e-12)
 
 
 if __name__ == "__main__":

@@ -4,9 +4,11 @@
 from dataclasses import dataclass
 
 COARSE, MEDIUM, FINE = 40962, 163842, 2621442  # the paper's grids
-EVERY_SIZE = (2562, 10242, 40962, 163842, 655362, 2621442)
+SMALLER = (2562, 10242, 40962)
+EVERY_SIZE = (*SMALLER, 163842, 655362, 2621442)
 EVERY_SITE = "3000000"  # a limit above all sizes
 SIDE_BY_SIDE = "calotte side by side"  # a row of as many triangulations as threads
+EVERYONE = ("calotte", "one-thread", "one-region", "cgal", "stripack", "qhull")
 
 
 @dataclass(frozen=True)
@@ -33,35 +35,20 @@ def options(**named):
     return tuple(arguments)
 
 
-def between(threads):
-    """Powers of two above 1 and below the machine's number of threads."""
-    return tuple(2**k for k in range(1, 12) if 2**k < threads)
-
-
 def on_threads(threads):
-    """Options of a program that runs on all threads, and on fewer beside that."""
-    sweep = {"sweep": between(threads)} if between(threads) else {}
-    return options(threads=threads, **sweep)
+    """Options of a program that runs on all threads, and on powers of two below."""
+    fewer = tuple(2**k for k in range(1, 12) if 2**k < threads)
+    return options(threads=threads, **({"sweep": fewer} if fewer else {}))
 
 
 def triangulation(threads, quick):
-    everyone = ("calotte", "one-thread", "one-region", "cgal", "stripack", "qhull")
     yield "delaunay", "medium", options(
-        rows=everyone + ("side-by-side",), sizes=MEDIUM, rounds=3 if quick else 21
+        rows=EVERYONE + ("side-by-side",), sizes=MEDIUM, rounds=3 if quick else 21
     ) + on_threads(threads)
     orders = ("calotte", "cgal", "stripack", "stripack-natural", "qhull")
     yield "delaunay", "orders", options(
-        rows=orders, sets="bisection", sizes=MEDIUM, rounds=3 if quick else 9
+        rows=orders, sets="bisection", sizes=MEDIUM, rounds=3 if quick else 9, threads=threads
     )
-    for size in (2562, 10242, 40962) if quick else (2562, 10242, 40962, 655362):
-        rounds = 5 if quick else {2562: 61, 10242: 41, 40962: 31, 655362: 5}[size]
-        yield "delaunay", str(size), options(
-            rows=everyone,
-            sizes=size,
-            rounds=rounds,
-            stripack_limit=EVERY_SITE,
-            qhull_limit=EVERY_SITE,
-        ) + on_threads(threads)
 
 
 def large(threads, quick):
@@ -92,19 +79,16 @@ def fresh(threads, quick):
     ) + common
 
 
+def iterations(threads, size, rounds):
+    return options(sizes=size, rounds=rounds, stripack_limit=EVERY_SITE) + on_threads(threads)
+
+
 def iteration(threads, quick):
-    rounds = {2562: 41, 10242: 31, 40962: 15, 163842: 21, 655362: 5, 2621442: 3}
-    for size in EVERY_SIZE[:4] if quick else EVERY_SIZE:
-        yield "cvt", str(size), options(
-            sizes=size,
-            rounds=3 if quick else rounds[size],
-            stripack_limit=EVERY_SITE,
-            density_samples=0,
-        ) + on_threads(threads)
-    if not quick:
-        yield "cvt", "shuffled", options(
-            sizes=MEDIUM, order="shuffled", rounds=7, density_samples=0
-        ) + options(threads=threads)
+    yield "cvt", str(MEDIUM), iterations(threads, MEDIUM, 3 if quick else 21)
+    if quick:
+        return
+    yield "cvt", str(FINE), iterations(threads, FINE, 3)
+    yield "cvt", "shuffled", options(sizes=MEDIUM, order="shuffled", rounds=7, threads=threads)
 
 
 def starts(threads, quick):
@@ -128,44 +112,49 @@ def sorts(threads, quick):
     )
 
 
-def distribution(threads, quick):
-    few = (0, 1, 4, 16, 64, 96, 192, 256, 1024)
-    many = (0, 1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 384, 512, 1024, 2048)
-    if quick:
-        yield "distribution", "medium", options(sizes=MEDIUM, regions=few, rounds=1)
-        return
-    yield "distribution", "coarse", options(sizes=COARSE, regions=many, rounds=5)
-    yield "distribution", "medium", options(sizes=MEDIUM, regions=many, rounds=5, iterations=15)
-
-
-def fine(threads, quick):
-    if quick:
-        return
-    default, regions = 0, (1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048)
-    yield "distribution", "iteration", options(
-        sizes=FINE, works="iteration", regions=(default, *regions), rounds=3, iterations=6
-    )
-    common = options(sizes=FINE, works="triangulation")
-    yield "distribution", "triangulation", common + options(regions=regions, rounds=3)
-    # The longest of 160 regions of a few milliseconds each: more runs until its median is quiet.
-    yield "distribution", "default", common + options(
-        regions=default, rounds=5, triangulations=7
-    )
-
-
 def others(threads, quick):
     common = options(rounds=3 if quick else 5, threads=threads)
     yield "plane", "plane", options(size=100000 if quick else 1000000) + common
     yield "files", "files", options(level=7 if quick else 8) + common
 
 
-SECTIONS = {
-    make.__name__: make
-    for make in (triangulation, large, fresh, iteration, starts, sorts, distribution, fine, others)
-}
+def sizes(threads, quick):
+    """For Figures 6 to 9, beside the sections triangulation, large and iteration."""
+    for size in SMALLER if quick else (*SMALLER, 655362):
+        rounds = 5 if quick else {2562: 61, 10242: 41, 40962: 31, 655362: 5}[size]
+        yield "delaunay", f"triangulation-{size}", options(
+            rows=EVERYONE, sizes=size, rounds=rounds, stripack_limit=EVERY_SITE,
+            qhull_limit=EVERY_SITE,
+        ) + on_threads(threads)  # fmt: skip
+        rounds = 3 if quick else {2562: 41, 10242: 31, 40962: 15, 655362: 5}[size]
+        yield "cvt", f"iteration-{size}", iterations(threads, size, rounds)
 
 
-def steps(threads, quick, sections=tuple(SECTIONS), names=()):
+def distribution(threads, quick):
+    """For Figures 9 and 10."""
+    many = (1, 2, 4, 8, 16, 32, 64, 96, 128, 192, 256, 384, 512, 1024, 2048)
+    if quick:
+        few = (1, 4, 16, 64, 96, 192, 256, 1024)
+        yield "distribution", "medium", options(
+            sizes=MEDIUM, works="iteration", regions=few, rounds=1
+        )
+        return
+    for name, size, rounds, count in (
+        ("coarse", COARSE, 5, 9),
+        ("medium", MEDIUM, 5, 15),
+        ("fine", FINE, 3, 6),
+    ):
+        yield "distribution", name, options(
+            sizes=size, works="iteration", regions=many, rounds=rounds, iterations=count
+        )
+
+
+TABLES = (triangulation, large, fresh, iteration, starts, sorts, others)
+FIGURES = (sizes, distribution)
+SECTIONS = {make.__name__: make for make in TABLES + FIGURES}
+
+
+def steps(threads, quick, sections, names=()):
     """The steps of these sections, in order; where names are given, only those.
     LookupError: there is no section or step of a name."""
     for section in sections:

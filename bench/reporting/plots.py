@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The paper's figures from the samples: PNG by matplotlib."""
+"""The paper's figures from the samples: PNG by matplotlib, and their points as CSV."""
+
+import csv
 
 import matplotlib
 
@@ -8,9 +10,8 @@ from matplotlib import pyplot  # noqa: E402: the backend comes first
 
 from reporting.cells import sites_text
 from reporting.distribution import WORKERS, Decomposition, Grid
-from reporting.items import GRIDS, SETS, size_rows, sort_of, step_rows
-from reporting.plan import EVERY_SIZE
-
+from reporting.items import SETS, sort_of
+from reporting.plan import COARSE, FINE, MEDIUM
 
 COLORS = {"halo": "C0", "distance": "C1", "voronoi": "C2"}
 
@@ -21,7 +22,7 @@ def axes(count, **options):
 
 
 def finish(figure, places, file):
-    """Writes the figure where anything was drawn in it, or takes an older one away."""
+    """Writes the figure and its points where anything was drawn in it, or takes an older one away."""
     # Rows that were not run leave empty lines.
     for line in [line for place in places for line in place.lines if not len(line.get_xdata())]:
         line.remove()
@@ -33,10 +34,29 @@ def finish(figure, places, file):
                 place.legend(fontsize=7)
         figure.tight_layout()
         figure.savefig(file, dpi=110)
+        with open(file.with_suffix(".csv"), "w", encoding="utf-8", newline="") as out:
+            for place in places:
+                for line in place.lines:
+                    for point in zip(*line.get_data()):
+                        csv.writer(out).writerow([place.get_title(), line.get_label(), *point])
     else:
         file.unlink(missing_ok=True)
     pyplot.close(figure)
-    return drawn
+
+
+def rows_by_size(results, set_name):
+    """By size and name, the rows of triangulations of random sites, or of iterations of a set."""
+    found = {}
+    for section in ("triangulation", "large", "iteration", "sizes"):
+        for row in results.find(section, set=set_name):
+            if row.step != "iteration-shuffled":
+                found.setdefault(row.sites, {}).setdefault(row.name, row)
+    return dict(sorted(found.items()))
+
+
+def named(results, set_name, name):
+    """Of those, the rows of that name."""
+    return [rows[name] for rows in rows_by_size(results, set_name).values() if name in rows]
 
 
 def by_size(place, title, ylabel):
@@ -53,42 +73,35 @@ def figure_3(results, _, file):
             regions, sort, of = sort_of(row)
             if (row.set, of) != (set_name, decomposition):
                 continue
-            cut = Decomposition.of(row)
-            points = sorted((o + h for o, h in zip(cut.owned, cut.halo)), reverse=True)
+            points = sorted(Decomposition.of(row).points, reverse=True)
             rank = [(k + 1) / regions for k in range(regions)]
             style = {"color": COLORS[sort], "linestyle": "-" if regions < 100 else "--"}
             place.plot(rank, points, label=f"{sort}, {regions} regions", **style)
         title = f"{set_name} sites, {decomposition} decomposition"
         place.set(title=title, xlabel="region, by rank", ylabel="points", yscale="log")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
 def figure_6(results, _, file):
     figure, places = axes(len(SETS), sharey=True)
     for place, name in zip(places, SETS):
-        rows = [
-            row
-            for size in EVERY_SIZE
-            for row in step_rows(results, f"iteration-{size}")
-            if row.set == name and row.name == "STRIPACK"
-        ]
+        rows = named(results, name, "STRIPACK")
         sizes = [row.sites for row in rows]
         for part, label in (("triangulate", "triangulation"), ("moments", "integration")):
             place.plot(sizes, [r.median(part) * r.median() for r in rows], "o-", label=label)
         place.plot(sizes, [row.median() for row in rows], "k.--", label="iteration")
         by_size(place, f"STRIPACK-based SCVT, {name}", "seconds")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
 def figure_7(results, _, file):
     figure, places = axes(1)
-    found = {size: size_rows(results, size) for size in EVERY_SIZE}
     for name in ("STRIPACK", "Qhull", "CGAL", "calotte one region", "calotte 1 thread", "calotte"):
-        points = [(size, rows[name].median()) for size, rows in found.items() if name in rows]
+        points = [(row.sites, row.median()) for row in named(results, "random", name)]
         if points:
             places[0].plot(*zip(*points), "o-", label=name)
     by_size(places[0], "triangulation of random sites", "seconds")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
 def figure_8(results, _, file):
@@ -96,21 +109,17 @@ def figure_8(results, _, file):
     runs = (("STRIPACK", "serial, on STRIPACK's triangles"), ("calotte 1 thread", "1 thread"))
     for place, name in zip(places, SETS):
         for run, label in (*runs, ("calotte", "all threads")):
-            rows = [
-                row
-                for size in EVERY_SIZE
-                for row in step_rows(results, f"iteration-{size}")
-                if (row.set, row.name) == (name, run)
-            ]
+            rows = named(results, name, run)
             seconds = [row.median("moments") * row.median() for row in rows]
             place.plot([row.sites for row in rows], seconds, "o-", label=label)
         by_size(place, f"integration, {name}", "seconds")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
-def grids(results, network, work, set_name):
+def grids(results, network, set_name):
     """By size, those that were measured."""
-    found = {size: Grid(results, work, set_name, size, network) for size in GRIDS}
+    sizes = (COARSE, MEDIUM, FINE)
+    found = {size: Grid(results, set_name, size, network) for size in sizes}
     return {size: grid for size, grid in found.items() if grid}
 
 
@@ -129,46 +138,39 @@ def figure_9(results, network, file):
     """Modelled seconds, and the measured ones of this machine's threads."""
     figure, places = axes(len(SETS), sharey=True)
     for place, set_name in zip(places, SETS):
-        for size, grid in grids(results, network, "iteration", set_name).items():
+        for size, grid in grids(results, network, set_name).items():
             modelled_lines(place, grid, size, lambda grid, workers, seconds: seconds)
             color = place.lines[-1].get_color()
-            for row in step_rows(results, f"iteration-{size}"):
-                if row.set == set_name and row.name.startswith("calotte"):
+            for name, row in rows_by_size(results, set_name).get(size, {}).items():
+                if name.startswith("calotte"):
                     whole = results.steps[row.step].threads
-                    threads = whole if row.name == "calotte" else int(row.name.split()[1])
-                    place.plot(threads, row.median(), "o", color=color)
+                    threads = whole if name == "calotte" else int(name.split()[1])
+                    place.plot(threads, row.median(), "o", color=color, label=f"_{size}, measured")
         title = f"iteration, {set_name}: modelled; dots measured"
         place.set(title=title, xlabel="workers or threads", ylabel="seconds")
         place.set(xscale="log", yscale="log")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
 def figure_10(results, network, file):
     """Modelled speed-up."""
     figure, places = axes(len(SETS), sharey=True)
     for place, set_name in zip(places, SETS):
-        for size, grid in grids(results, network, "iteration", set_name).items():
+        for size, grid in grids(results, network, set_name).items():
             modelled_lines(place, grid, size, lambda grid, workers, seconds: grid.serial / seconds)
         if place.lines:
             place.plot(WORKERS, WORKERS, "k--", linewidth=0.8, label="ideal")
         title = f"iteration, {set_name}: modelled speed-up"
         place.set(title=title, xlabel="workers", ylabel="times the best serial run")
         place.set(xscale="log", yscale="log")
-    return finish(figure, places, file)
+    finish(figure, places, file)
 
 
-FIGURES = {
-    "figure-3": figure_3,
-    "figure-6": figure_6,
-    "figure-7": figure_7,
-    "figure-8": figure_8,
-    "figure-9": figure_9,
-    "figure-10": figure_10,
-}
+FIGURES = (figure_3, figure_6, figure_7, figure_8, figure_9, figure_10)
 
 
 def draw_all(results, network, folder):
-    """The names of those that there were samples for."""
+    """Those that there are samples for: figure-3.png and figure-3.csv in the folder, and so on."""
     folder.mkdir(parents=True, exist_ok=True)
-    drawn = {name: draw(results, network, folder / f"{name}.png") for name, draw in FIGURES.items()}
-    return [name for name, has_samples in drawn.items() if has_samples]
+    for draw in FIGURES:
+        draw(results, network, folder / (draw.__name__.replace("_", "-") + ".png"))

@@ -1,21 +1,42 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thresholds for the library, with the measured or modelled values."""
+"""The thresholds for the library, with the measured values."""
 
+from statistics import median
 from typing import NamedTuple
 
-from reporting.cells import NONE, percent, sites_text, table, values_cell
-from reporting.distribution import Grid
+from reporting.cells import NONE, sites_text, table, values_cell
 from reporting.plan import FINE, MEDIUM, SIDE_BY_SIDE
-from reporting.samples import is_disturbed, median
+from reporting.samples import is_disturbed
 
-WORKERS = 96
 EFFICIENCY = 0.92  # of two threads, or more
-EMULATED = {MEDIUM: 0.6, FINE: 0.85}
-IMBALANCE = 1.25
+
+RATIOS = (  # peer, step, set, sites, threshold, target
+    ("STRIPACK", "triangulation-medium", "random", MEDIUM, 12.33, 14),
+    ("CGAL", "triangulation-medium", "random", MEDIUM, 3, 3.5),
+    ("STRIPACK", "large-stripack", "random", FINE, 40, 60),
+    ("CGAL", "large-cgal", "random", FINE, 3, 3.5),
+    ("STRIPACK", "fresh-medium", "random", MEDIUM, 11, 14),
+    ("CGAL", "fresh-medium", "random", MEDIUM, 2.5, 3.3),
+    ("STRIPACK", "fresh-stripack", "random", FINE, 40, 60),
+    ("CGAL", "fresh-fine", "random", FINE, 2.5, 3.3),
+    ("STRIPACK", f"iteration-{MEDIUM}", "uniform", MEDIUM, 60, None),
+    ("STRIPACK", f"iteration-{MEDIUM}", "x8", MEDIUM, 15, None),
+)
+PARALLEL = (  # step, set, sites
+    ("triangulation-medium", "random", MEDIUM),
+    ("large-cgal", "random", FINE),
+    *((f"iteration-{n}", name, n) for n in (MEDIUM, FINE) for name in ("uniform", "x8")),
+)
+
+
+UNJUDGED = (  # step, set, row, base, quantity
+    ("others-plane", "uniform", "CGAL", "calotte", "triangulation of the plane, CGAL's time / Calotte's"),
+    ("others-files", "bisection", "write", "delaunay", "complete MPAS file, time / triangulation's"),
+)
 
 
 class Requirement(NamedTuple):
-    """A line of the table of thresholds: texts, and whether the summary repeats it."""
+    """A line of the table of thresholds."""
 
     what: str
     measured: str
@@ -23,7 +44,6 @@ class Requirement(NamedTuple):
     target: str
     met: str
     step: str
-    main: bool = False
 
 
 def verdict(value, threshold, target, disturbed):
@@ -36,64 +56,47 @@ def verdict(value, threshold, target, disturbed):
     return "yes, and the target" if value >= target else "yes, but not the target"
 
 
-def ratio_line(what, row, base, threshold, target):
-    """How many times longer the row takes than the base, in the same rounds."""
-    if not row or not base:
-        return []
-    values = row.ratios(base)
-    met = verdict(median(values), threshold, target, is_disturbed(values, (row, base)))
-    measured = values_cell(values, (row, base))
-    return [Requirement(what, measured, f">= {threshold}", target, met, row.step, main=True)]
-
-
-def pair(results, peer, step, **where):
-    """A peer's row and the library's of the same step."""
-    section = step.split("-")[0]
-    return [results.one(section, step=step, name=name, **where) for name in (peer, "calotte")]
-
-
-RATIOS = (  # peer, step, sites, threshold, target
-    ("STRIPACK", "triangulation-medium", MEDIUM, 12.33, 14),
-    ("CGAL", "triangulation-medium", MEDIUM, 3, 3.5),
-    ("STRIPACK", "large-stripack", FINE, 40, 60),
-    ("CGAL", "large-cgal", FINE, 3, 3.5),
-    ("STRIPACK", "fresh-medium", MEDIUM, 11, 14),
-    ("CGAL", "fresh-medium", MEDIUM, 2.5, 3.3),
-    ("STRIPACK", "fresh-stripack", FINE, 40, 60),
-    ("CGAL", "fresh-fine", FINE, 2.5, 3.3),
-)
+def judged(what, values, rows, threshold, target=None, digits=2):
+    """rows: those that the values are made of."""
+    met = verdict(median(values), threshold, target, is_disturbed(values, rows))
+    return Requirement(what, values_cell(values, rows, digits), f">= {threshold}",
+                       target or NONE, met, rows[0].step)  # fmt: skip
 
 
 def speed(results):
     lines = []
-    for peer, step, sites, threshold, target in RATIOS:
-        process = ", in a new process" if step.startswith("fresh") else ""
-        lines += ratio_line(
-            f"triangulation, {sites_text(sites)} random sites{process}, {peer}'s time / Calotte's",
-            *pair(results, peer, step), threshold, target,
-        )
-    for name, threshold in (("uniform", 60), ("x8", 15)):
-        lines += ratio_line(
-            f"iteration, {name}, {sites_text(MEDIUM)} cells, STRIPACK-based time / Calotte's",
-            *pair(results, "STRIPACK", f"iteration-{MEDIUM}", set=name), threshold, None,
-        )
+    for peer, step, name, sites, threshold, target in RATIOS:
+        row, ours = (results.one(step, run, set=name) for run in (peer, "calotte"))
+        if not row or not ours:
+            continue
+        if step.startswith("iteration"):
+            what = f"iteration, {name}, {sites_text(sites)} cells, STRIPACK-based time / Calotte's"
+        else:
+            process = ", in a new process" if step.startswith("fresh") else ""
+            what = f"triangulation, {sites_text(sites)} random sites{process}, {peer}'s time / Calotte's"
+        lines.append(judged(what, row.ratios(ours), (row, ours), threshold, target))
     return lines
 
 
-def side_by_side(results, section, ours, alone, threads):
+def unjudged(results):
+    lines = []
+    for step, name, run, other, what in UNJUDGED:
+        row, base = (results.one(step, found, set=name) for found in (run, other))
+        if row and base:
+            measured = values_cell(row.ratios(base), (row, base))
+            what = what.replace(",", f", {sites_text(row.sites)} {name} sites,")
+            lines.append(Requirement(what, measured, NONE, NONE, NONE, step))
+    return lines
+
+
+def side_by_side(ours, alone, apart, threads):
     """The efficiency of independent runs, and the library's relative to it. It shows what the machine
     allows; it is no bound, because independent runs use more memory."""
-    apart = results.one(
-        section, set=ours.set, sites=ours.sites, name=SIDE_BY_SIDE, step=ours.step
-    )
-    if not apart:
-        return []
-    theirs = alone.ratios(apart)
     relative = [ratio / threads for ratio in apart.ratios(ours)]
     return [
         Requirement(what, values_cell(values, (apart, row), 3), NONE, NONE, NONE, ours.step)
         for what, values, row in (
-            (f"- {threads} independent runs at the same time, 1 thread each", theirs, alone),
+            (f"- {threads} independent runs at the same time, 1 thread each", alone.ratios(apart), alone),
             ("- the library's efficiency / that of independent runs", relative, ours),
         )
     ]
@@ -102,72 +105,38 @@ def side_by_side(results, section, ours, alone, threads):
 def parallel(results):
     """1 thread over all threads, over their number."""
     lines = []
-    places = [("triangulation", "random", MEDIUM), ("large", "random", FINE)]
-    places += [("iteration", name, size) for size in (MEDIUM, FINE) for name in ("uniform", "x8")]
-    for section, set_name, size in places:
-        ours = results.one(section, set=set_name, sites=size, name="calotte")
-        alone = ours and results.one(
-            section, set=set_name, sites=size, name="calotte 1 thread", step=ours.step
-        )
-        if not alone:
+    for step, name, sites in PARALLEL:
+        runs = ("calotte", "calotte 1 thread", SIDE_BY_SIDE)
+        ours, alone, apart = (results.one(step, run, set=name) for run in runs)
+        if not ours or not alone:
             continue
-        threads = results.steps[ours.step].threads
+        threads = results.steps[step].threads
         values = [ratio / threads for ratio in alone.ratios(ours)]
-        work = "iteration" if section == "iteration" else "triangulation"
-        met = verdict(median(values), EFFICIENCY, None, is_disturbed(values, (alone, ours)))
-        what = f"parallel efficiency on {threads} threads, {work}, {set_name}, {sites_text(size)}"
-        measured = values_cell(values, (alone, ours), 3)
-        lines.append(
-            Requirement(what, measured, f">= {EFFICIENCY}", NONE, met, ours.step, main=True)
-        )
-        lines += side_by_side(results, section, ours, alone, threads)
+        work = "iteration" if step.startswith("iteration") else "triangulation"
+        what = f"parallel efficiency on {threads} threads, {work}, {name}, {sites_text(sites)}"
+        lines.append(judged(what, values, (ours, alone), EFFICIENCY, digits=3))
+        if apart:
+            lines += side_by_side(ours, alone, apart, threads)
     return lines
 
 
-def emulated(results, network):
-    lines = []
-    for size, threshold in EMULATED.items():
-        for set_name in ("uniform", "x8"):
-            grid = Grid(results, "iteration", set_name, size, network)
-            value, count = grid.efficiency(WORKERS) if grid else (None, None)
-            if value is None:
-                continue
-            cut = grid.by_count[count]
-            met = verdict(value, threshold, None, cut.disturbed)
-            what = f"modelled efficiency, {WORKERS} workers, iteration, {set_name}, "
-            what += sites_text(size)
-            measured = f"{percent(value)}, {count} regions"
-            lines.append(
-                Requirement(what, measured, f">= {percent(threshold)}", NONE, met, cut.row.step)
-            )
-    return lines
-
-
-def balance(results, network):
-    lines = []
-    for work in ("iteration", "triangulation"):
-        for size in EMULATED:
-            for set_name in ("uniform", "x8"):
-                cut = Grid(results, work, set_name, size, network).default
-                if cut is None:
-                    continue
-                met = verdict(-cut.imbalance, -IMBALANCE, None, cut.disturbed)
-                what = f"imbalance of the default decomposition, {work}, {set_name}, "
-                what += f"{sites_text(size)}: longest / mean of {cut.count} regions"
-                measured = f"{cut.imbalance:.2f}"
-                lines.append(
-                    Requirement(what, measured, f"<= {IMBALANCE}", NONE, met, cut.row.step)
-                )
-    return lines
-
-
-def requirements(results, network):
+def requirements(results):
     """All of which there are samples."""
-    measured = speed(results) + parallel(results)
-    return measured + emulated(results, network) + balance(results, network)
+    return speed(results) + parallel(results) + unjudged(results)
 
 
 def required(lines):
     """Markdown."""
-    heads = ["quantity", "measured", "threshold", "target", "met", "step"]
-    return table(heads, [line[: len(heads)] for line in lines])
+    return table(["quantity", "measured", "threshold", "target", "met", "step"], lines)
+
+
+def verdicts(lines):
+    """How many thresholds are met, and which are not."""
+    lines = [line for line in lines if line.threshold != NONE]
+    if not lines:
+        return "none was measured"
+    missed = [line for line in lines if not line.met.startswith("yes")]
+    if not missed:
+        return f"all {len(lines)} are met"
+    names = "; ".join(f"{line.what} ({line.met})" for line in missed)
+    return f"{len(lines) - len(missed)} of {len(lines)} are met. Not met: {names}"

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples of the benchmark programs, as their --json writes them, and what is said of them."""
+"""Samples of the benchmark programs, as Google Benchmark writes them, and their statistics.
+
+A benchmark is called set/n:SITES/round:ROUND/row. Its label holds lists as JSON, such as one number
+a region.
+"""
 
 import json
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median, quantiles
 
 # A row is disturbed when the quartiles of its measured ratio lie further apart than this part of
 # their median; when, being serial, it had less than this part of a core; or when other programs, or
@@ -12,23 +18,18 @@ WIDEST_SPREAD = 0.15
 LEAST_CORE = 0.9
 MOST_OTHERS = 0.05
 
-
-def quantile(values, p):
-    """Linear between neighbours."""
-    values = sorted(values)
-    place = p * (len(values) - 1)
-    below = int(place)
-    above = min(below + 1, len(values) - 1)
-    return values[below] + (place - below) * (values[above] - values[below])
+NAME = re.compile(r"(?P<set>[^/]+)/n:(?P<sites>\d+)/round:(?P<round>\d+)/(?P<row>[^/]+)")
 
 
-def median(values):
-    return quantile(values, 0.5)
+def quartiles(values):
+    """The lower, the median and the upper one."""
+    return quantiles(values, n=4, method="inclusive") if len(values) > 1 else 3 * list(values)
 
 
 def spread(values):
     """The distance of the quartiles, in medians."""
-    return (quantile(values, 0.75) - quantile(values, 0.25)) / median(values)
+    low, middle, high = quartiles(values)
+    return (high - low) / middle
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,9 @@ class Row:
     set: str
     sites: int
     name: str
-    seconds: dict  # by round
-    counters: dict  # by name, a list of one value a round
-    lists: dict  # by name, a list of one list a round
+    seconds: dict = field(default_factory=dict)  # by round
+    counters: dict = field(default_factory=dict)  # by name, a list of one value a round
+    lists: dict = field(default_factory=dict)  # by name, a list of one list a round
     others: float = 0.0  # the part of all cores that others took while the step ran
 
     @property
@@ -50,13 +51,9 @@ class Row:
         ours = self.name.startswith("calotte")
         return not ours or self.name.endswith(("1 thread", "one region"))
 
-    @property
-    def values(self):
-        return list(self.seconds.values())
-
     def median(self, counter=None):
         """Of the seconds, or of a counter."""
-        return median(self.values if counter is None else self.counters[counter])
+        return median(self.counters[counter] if counter else self.seconds.values())
 
     def by_region(self, name):
         """A list's medians over the rounds, one for each of its places."""
@@ -73,13 +70,43 @@ class Row:
             return True
         if not self.serial or "cpu" not in self.counters:
             return False
-        shares = [c / s for c, s in zip(self.counters["cpu"], self.values, strict=True)]
-        return median(shares) < LEAST_CORE
+        shares = zip(self.counters["cpu"], self.seconds.values(), strict=True)
+        return median(cpu / seconds for cpu, seconds in shares) < LEAST_CORE
+
+    def add(self, number, run):
+        """Adds a run, as Google Benchmark reports it, of a round."""
+        self.seconds[number] = run["real_time"]
+        for name, values in json.loads(run.get("label") or "{}").items():
+            self.lists.setdefault(name, []).append(values)
+        own = list(run)[list(run).index("time_unit") + 1 :]
+        for name in own:
+            if name != "label":
+                self.counters.setdefault(name, []).append(run[name])
 
 
 def is_disturbed(values, rows):
     """rows: those that the values are made of."""
     return spread(values) > WIDEST_SPREAD or any(row.starved for row in rows)
+
+
+def rows_of(output, step="", others=0.0):
+    """The rows of a program's output, in the order of their first run, and a line for each failure."""
+    rows, failures = {}, []
+    for run in output["benchmarks"]:
+        name = NAME.match(run["name"])
+        if run.get("error_occurred"):
+            failures.append(f"{name[0]}: {run['error_message']}")
+            continue
+        key = (name["set"], int(name["sites"]), name["row"])
+        row = rows.setdefault(key, Row(step, *key, others=others))
+        row.add(int(name["round"]), run)
+    return list(rows.values()), failures
+
+
+def peers_of(context):
+    """The programs compared, with their versions, of the context of an output."""
+    names = (name for name in context if name.startswith("peer "))
+    return [f"{name.removeprefix('peer ')} {context[name]}".strip() for name in names]
 
 
 @dataclass(frozen=True)
@@ -100,10 +127,7 @@ class Step:
     @property
     def threads(self):
         """Those of the library's rows that do not say it."""
-        arguments = self.output["arguments"]
-        if "--threads" in arguments:
-            return int(arguments[arguments.index("--threads") + 1])
-        return self.output["hardware_threads"]
+        return int(self.machine["threads"])
 
 
 class BadSamples(Exception):
@@ -112,31 +136,20 @@ class BadSamples(Exception):
 
 def load_step(file):
     try:
-        return Step(**json.loads(file.read_text()))
-    except (TypeError, ValueError):
+        step = Step(**json.loads(file.read_text()))
+        return step, *rows_of(step.output, step.name, step.others)
+    except (AttributeError, KeyError, TypeError, ValueError):
         raise BadSamples(f"{file} holds no complete samples of this bench/report; remove it") from None
 
 
 class Results:
-    """All that was run: steps by name, and their rows."""
+    """All that was run: steps by name, their rows and their failures."""
 
     def __init__(self, steps):
-        self.steps = {step.name: step for step in steps}
-        self.rows = [
-            Row(
-                step.name,
-                group["set"],
-                group["sites"],
-                row["row"],
-                dict(zip(row["rounds"], row["seconds"], strict=True)),
-                row["counters"],
-                row["lists"],
-                step.others,
-            )
-            for step in steps
-            for group in step.output["sets"]
-            for row in group["rows"]
-        ]
+        """steps: of each its rows and failures, too."""
+        self.steps = {step.name: step for step, _, _ in steps}
+        self.rows = [row for _, rows, _ in steps for row in rows]
+        self.failures = [line for _, _, lines in steps for line in lines]
 
     @staticmethod
     def load(folder):
@@ -152,9 +165,12 @@ class Results:
             and all(getattr(row, key) == value for key, value in wanted.items())
         ]
 
-    def one(self, section, **wanted):
-        """The only such row, the one with most rounds where several steps made it, or None."""
-        return max(self.find(section, **wanted), key=lambda row: len(row.seconds), default=None)
+    def of_step(self, step):
+        return [row for row in self.rows if row.step == step]
 
-    def failures(self):
-        return [line for step in self.steps.values() for line in step.output["failures"]]
+    def one(self, step, name, **wanted):
+        """The only such row of a step, or None."""
+        for row in self.of_step(step):
+            if all(getattr(row, key) == value for key, value in (wanted | {"name": name}).items()):
+                return row
+        return None

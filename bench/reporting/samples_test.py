@@ -1,36 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the statistics of samples: python3 -m unittest reporting.samples_test (in bench/)."""
 
+import json
 import random
 import tempfile
 import unittest
 from pathlib import Path
 
-from reporting.samples import BadSamples, Results, Row, Step, is_disturbed, median, quantile, spread
+from reporting.samples import BadSamples, Results, Row, Step, is_disturbed, rows_of, spread
 
 
-def make_row(name, seconds, cpu=None, lists=None, others=0.0):
-    counters = {"cpu": cpu} if cpu else {}
-    return Row("step", "random", 10, name, seconds, counters, lists or {}, others)
+def make_row(name, seconds, cpu=None, others=0.0):
+    return Row("step", "random", 10, name, seconds, {"cpu": cpu} if cpu else {}, others=others)
+
+
+def make_run(row, number, seconds, **more):
+    """As Google Benchmark writes it."""
+    name = f"random/n:10/round:{number}/{row}/iterations:1/manual_time"
+    return {"name": name, "iterations": 1, "real_time": seconds, "time_unit": "s", **more}
 
 
 class Laws(unittest.TestCase):
-    def test_quantiles_are_between_the_least_and_the_greatest_and_ascend(self):
-        for seed in range(50):
-            engine = random.Random(seed)
-            values = [engine.random() for _ in range(engine.randint(1, 20))]
-            found = [quantile(values, p / 10) for p in range(11)]
-            self.assertEqual(found, sorted(found))
-            self.assertEqual((found[0], found[-1]), (min(values), max(values)))
-
-    def test_a_median_has_as_many_on_either_side(self):
-        self.assertEqual(median([5, 1, 3]), 3)
-        self.assertEqual(median([4, 1, 3, 2]), 2.5)
-
     def test_a_spread_knows_no_unit(self):
-        values = [random.Random(1).random() + 1 for _ in range(9)]
+        values = [random.Random(seed).random() + 1 for seed in range(9)]
         self.assertAlmostEqual(spread(values), spread([1000 * v for v in values]))
         self.assertEqual(spread([2, 2, 2]), 0)
+        self.assertEqual(spread([2]), 0)
 
     def test_ratios_are_of_the_same_round(self):
         row, base = make_row("a", {0: 2.0, 1: 9.0, 3: 8.0}), make_row("b", {0: 1.0, 3: 2.0, 2: 5.0})
@@ -52,28 +47,34 @@ class Laws(unittest.TestCase):
             row = make_row("calotte", {0: 1.0}, others=others)
             self.assertEqual(is_disturbed([1, 1], [row]), disturbed)
 
-    def test_regions_have_their_own_medians(self):
-        row = make_row("a", {0: 1.0}, lists={"seconds": [[1, 20], [3, 10], [2, 30]]})
+
+class Samples(unittest.TestCase):
+    def test_rows_are_made_of_rounds_counters_and_lists(self):
+        runs = [
+            make_run("a", number, seconds, cpu=0.5, label=json.dumps({"seconds": values}))
+            for number, seconds, values in ((0, 2.0, [1, 20]), (1, 3.0, [3, 10]), (2, 4.0, [2, 30]))
+        ]
+        (row,), failures = rows_of({"benchmarks": runs})
+        self.assertEqual((row.set, row.sites, row.name), ("random", 10, "a"))
+        self.assertEqual(row.seconds, {0: 2.0, 1: 3.0, 2: 4.0})
+        self.assertEqual(row.counters, {"cpu": [0.5] * 3})
         self.assertEqual(row.by_region("seconds"), [2, 20])
+        self.assertEqual((row.median(), row.median("cpu"), failures), (3.0, 0.5, []))
+
+    def test_a_wrong_result_is_a_failure_and_no_row(self):
+        run = make_run("CGAL", 1, 0.0, error_occurred=True, error_message="other triangles")
+        rows, failures = rows_of({"benchmarks": [run, make_run("calotte", 1, 1.0)]})
+        self.assertEqual([row.name for row in rows], ["calotte"])
+        self.assertEqual(failures, ["random/n:10/round:1/CGAL: other triangles"])
 
     def test_rows_are_found_by_what_they_are(self):
-        output = {
-            "failures": [],
-            "sets": [
-                {
-                    "set": "random",
-                    "sites": 10,
-                    "rows": [
-                        {"row": name, "rounds": [0], "seconds": [1.0], "counters": {}, "lists": {}}
-                        for name in ("calotte", "CGAL")
-                    ],
-                }
-            ],
-        }
-        results = Results([Step("s", "sizes", "run", "c", {}, "d", 1.0, 0.3, output)])
-        self.assertEqual(results.one("sizes", name="CGAL").name, "CGAL")
-        self.assertTrue(results.one("sizes", name="CGAL").starved)
-        self.assertIsNone(results.one("sizes", name="CGAL", sites=11))
+        output = {"benchmarks": [make_run(name, 0, 1.0) for name in ("calotte", "CGAL")]}
+        step = Step("s", "sizes", "run", "c", {}, "d", 1.0, 0.3, output)
+        results = Results([(step, *rows_of(output, step.name, step.others))])
+        self.assertEqual(results.one("s", "CGAL").name, "CGAL")
+        self.assertTrue(results.one("s", "CGAL", set="random").starved)
+        self.assertIsNone(results.one("s", "CGAL", sites=11))
+        self.assertEqual(len(results.find("sizes", set="random")), 2)
         self.assertEqual(results.find("others"), [])
 
     def test_a_file_that_holds_no_samples_is_named(self):

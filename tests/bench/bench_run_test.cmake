@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bench/run with programs that print their arguments: its help builds nothing, and scaling is a sweep over threads.
+# bench/run with programs that print their arguments: its help builds nothing, scaling is a sweep over threads, and a
+# table is made of each program's samples.
 # Called with ROOT (the project) and SCRATCH.
 
 cmake_minimum_required(VERSION 3.25)
@@ -43,10 +44,18 @@ if(NOT code EQUAL 2)
 endif()
 
 add_script(${SCRATCH}/bench/build "echo built: $@")
+add_script(${SCRATCH}/bin/python3 "echo table: $@")
 add_script(${programs}/delaunay_bench "echo delaunay: $@")
 add_script(${programs}/cvt_bench "echo cvt: $@")
-run(scaling --rounds 3)
-expect_text("delaunay: --threads=8 --rows=one-thread,calotte --sweep=2,4 --rounds 3\n")
-expect_text("cvt: --threads=8 --rows=one-thread,calotte --sweep=2,4 --density-samples=0 --rounds 3\n")
+foreach(program delaunay cvt)
+  run(scaling --rounds 3)
+  expect_text("table: -B -m reporting.show build/bench/${program}_bench.json\n")
+  set(out "${err}")
+  set(samples --benchmark_out=build/bench/${program}_bench.json)
+  expect_text("${program}: ${samples} --threads=8 --rows=one-thread,calotte --sweep=2,4 --rounds 3\n")
+endforeach()
+run(--quick)
+set(out "${err}")
+expect_text("--rounds 5 --sizes 163842\n")
 run(cvt --help)
 expect_text("cvt: --help\n")
