@@ -33,9 +33,8 @@ Points3 nearest_bisection(std::int64_t n) {
   const auto distance = [n](int l) {
     return std::abs(n - (10 * (std::int64_t{1} << (2 * l)) + 2));
   };
-  while (distance(level + 1) < distance(level)) {
+  while (distance(level + 1) < distance(level))
     ++level;
-  }
   return shuffled(bisected_icosahedron(level));
 }
 
@@ -54,9 +53,8 @@ Points3 x8(std::int64_t n) {
   for (std::int64_t i = 0; i < n;) {
     const double z = 2 * uniform(engine) - 1;
     const double longitude = 2 * std::numbers::pi * uniform(engine);
-    if (uniform(engine) >= x8_number_density(std::acos(z))) {
+    if (uniform(engine) >= x8_number_density(std::acos(z)))
       continue;
-    }
     const double r = std::sqrt((1 - z) * (1 + z));
     // The centre of the cap lies on no axis, which avoids accidental alignment.
     const Eigen::Vector3d local(r * std::cos(longitude), r * std::sin(longitude), z);
@@ -75,24 +73,20 @@ const std::vector<std::string>& cloud_names() {
 }
 
 Points3 cloud(const std::string& name, std::int64_t n) {
-  if (name == "random") {
+  if (name == "random")
     return random_sphere(n, 20130923);
-  }
-  if (name == "bisection") {
+  if (name == "bisection")
     return nearest_bisection(n);
-  }
-  if (name == "x8") {
+  if (name == "x8")
     return x8(n);
-  }
   throw std::invalid_argument("no set of sites is called " + name);
 }
 
 const std::vector<std::int64_t>& bisected_sizes() {
   static const std::vector<std::int64_t> sizes = [] {
     std::vector<std::int64_t> result;
-    for (int level = 1; level <= 12; ++level) {
+    for (int level = 1; level <= 12; ++level)
       result.push_back(10 * (std::int64_t{1} << (2 * level)) + 2);
-    }
     return result;
   }();
   return sizes;
@@ -104,9 +98,8 @@ Points3 natural_bisection(std::int64_t n) {
   const Eigen::Vector3d normal =
       Eigen::Vector3d(points.col(0)).cross(Eigen::Vector3d(points.col(1)));
   Eigen::Index third = 2;
-  while (std::abs(normal.dot(points.col(third))) < 0.1) {
+  while (std::abs(normal.dot(points.col(third))) < 0.1)
     ++third;
-  }
   points.col(2).swap(points.col(third));
   return points;
 }
@@ -118,12 +111,10 @@ Density x8_density() {
 }
 
 Density named_density(const std::string& name) {
-  if (name == "uniform") {
+  if (name == "uniform")
     return {};
-  }
-  if (name == "x8") {
+  if (name == "x8")
     return x8_density();
-  }
   throw std::invalid_argument("no density is called " + name);
 }
 

@@ -44,9 +44,8 @@ public:
         const auto* vertex = static_cast<const vertexT*>(facet->vertices->e[i].p);
         corner[i] = static_cast<std::int32_t>(qh_pointid(&qh, vertex->point));
       }
-      if (facet->toporient != qh_ORIENTclock) {
+      if (facet->toporient != qh_ORIENTclock)
         std::swap(corner[1], corner[2]);
-      }
       body(corner[0], corner[1], corner[2]);
     }
   }
