@@ -76,6 +76,11 @@ struct Start {
 Start start_of(bool bisected, std::int64_t n, const Density& density) {
   if (!bisected)
     return {random_sphere(n, site_density(density)), 0};
+  if (density.uniform()) { // the library itself starts such a run on its finest level
+    const auto& sizes = bisected_sizes();
+    const auto level = std::find(sizes.begin(), sizes.end(), n) - sizes.begin();
+    return {bisected_icosahedron(1), static_cast<int>(level)};
+  }
   const test::FirstGenerators from = test::continuation(n, density);
   return {from.start, from.bisections};
 }
