@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of grids from cell widths, out of the reports of calotte info --operators: shapes, what a
-model's operators make of them, and Calotte's numbers over JIGSAW's with thresholds."""
+"""Tables of grids from cell widths, out of the reports of calotte info --operators: shapes, and Calotte's
+numbers over JIGSAW's with thresholds."""
 
 import re
 
@@ -9,8 +9,6 @@ SHAPES = ["s", "ratio", "excess, %", "5- / 7-sided", "cell quality min, mean", "
           "triangle quality min", "angles, degrees", "obtuse", "dc/h min, max", "dv/dc min", "remark"]
 ERRORS = {"divergence": "divergence", "gradient": "gradient", "laplacian": "Laplacian",
           "kinetic_energy": "kinetic energy", "tangential": "tangential velocity", "curl": "curl"}
-STEPS = ["step x speed of waves, km", "step x viscosity of vorticity, km^2",
-         "largest eigenvalue, dual Laplacian", "off centroid rms, max"]
 
 
 def line(cells):
@@ -25,11 +23,6 @@ def head(columns):
 
 def shapes_head():
     return head(GENERAL + SHAPES)
-
-
-def operators_head():
-    return head(GENERAL + [f"{name} l2, max" for name in ERRORS.values()]
-                + STEPS)
 
 
 def spaced(count):
@@ -62,16 +55,6 @@ def shapes_row(name, program, seconds, ratio, info, remark):
                  f"{info['triangle_quality']['min']:.3f}",
                  f"{angles['min']:.1f} - {angles['max']:.1f}", str(info["obtuse"]),
                  f"{fit['min']:.3f}, {fit['max']:.3f}", f"{info['dv_over_dc']['min']:.3f}", remark])
-
-
-def operators_row(name, program, info):
-    found, radius = info["operators"], info["radius_km"]
-    away = found["off_centroid"]
-    return line([name, spaced(info["cells"]), program]
-                + [f"{found[key]['l2']:.3g}, {found[key]['max']:.3g}" for key in ERRORS]
-                + [f"{radius * found['wave_step_times_speed']:.4g}",
-                   f"{radius**2 * found['vorticity_step_times_viscosity']:.4g}",
-                   f"{found['dual_eigenvalue']:.4g}", f"{away['rms']:.3g}, {away['max']:.3g}"])
 
 
 class Bound:
