@@ -175,7 +175,7 @@ void draw_mesh(const DrawArguments& arguments) {
   require_distinct(arguments.output, arguments.source->points);
   require_density(arguments);
   const bool plane = arguments.source->plane;
-  const std::optional<Surface> domain = surface_of(*arguments.domain);
+  std::optional<Surface> domain = surface_of(*arguments.domain);
   const Density density = density_of(*arguments.density, plane);
   MeshFile file =
       read_mesh_file(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
@@ -189,6 +189,9 @@ void draw_mesh(const DrawArguments& arguments) {
   if (!plane && file.polygons && !(file.mesh && !file.mesh->closed())) {
     draw_cells(arguments, file);
     return;
+  }
+  if (plane && !domain) {
+    domain = filled_surface(file);
   }
   if (domain) {
     set_domain(*file.mesh, *domain);

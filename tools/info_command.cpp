@@ -195,8 +195,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 /// The numbers of one cell, a line each.
 std::string cell_table(const Request& request, const MeshFile& file) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
-                                  {.surface = filled_surface(file),
-                                   .density = density_of(*request.density, request.source->plane),
+                                  {.density = density_of(*request.density, request.source->plane),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
                                    .operators = request.operators,

@@ -84,7 +84,6 @@ struct DrawOptions {
   std::string name = {};                ///< of the mesh, such as its file's, for the title
   std::optional<double> radius_km = {}; ///< of the sphere; without it lengths are in degrees
   /// The cells of an open mesh, one for each site, if known: also those at the boundary are drawn.
-  /// Of those of a plane only the boundary counts, where it is periodic: the walls.
   const Polygons* cells = nullptr;
 };
 
@@ -93,8 +92,8 @@ struct DrawOptions {
 ///
 /// On the sphere the points may have any norm. In the plane, of the look, only size, palette, range
 /// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise a box
-/// slightly larger than the sites does; triangles are not clipped. Of a periodic plane the box is
-/// drawn, with the Delaunay triangles of its own sites.
+/// slightly larger than the sites does. Triangles are not clipped, but those with their
+/// circumcentre outside the surface are left out. Of a periodic direction one period is drawn.
 /// \throws Error invalid_argument, also for cells' area or quality of an open mesh, and for a
 ///         density or field that does not fit; file.
 void draw(const std::string& path, const Mesh& mesh, const DrawOptions& options = {});

@@ -67,8 +67,16 @@ void for_each_visible(const Painting& painting, const Layer& layer, const MapWin
       continue;
     }
     outline_of(painting.scene, layer.shapes, static_cast<std::int64_t>(shape), corners);
-    if (Map::shows_some(corners) && Map::may_show(corners, window)) {
-      visit(shape, corners);
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& copy : painting.scene.copies) {
+      for (Eigen::Vector3d& corner : corners) {
+        corner += copy - at;
+      }
+      at = copy;
+      if (Map::shows_some(corners) && Map::may_show(corners, window) &&
+          may_show(painting.scene, corners)) {
+        visit(shape, corners);
+      }
     }
   }
 }

@@ -10,57 +10,137 @@
 #include "draw/values.h"
 #include "draw/vector.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/quality.h>
 #include <calotte/surface.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <map>
+#include <utility>
 
 namespace calotte::tools {
 
 namespace {
 
 using Eigen::Vector2d;
+using Side = std::array<Vector2d, 2>;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+// ---- The cells
 
-/// Omits lines of triangles with a far site.
-void hide_far_triangles(const Drawn& drawn, std::vector<float>& widths) {
-  for (std::size_t t = 0; t < widths.size(); ++t) {
-    for (const std::int32_t place : drawn.mesh.triangles.col(static_cast<Eigen::Index>(t))) {
-      if (drawn.site[static_cast<std::size_t>(place)] < 0) {
-        widths[t] = 0;
-      }
-    }
+/// Whether a side of two cells is at least partly inside; tests some points of it.
+bool reaches(const Surface& part, const Side& side) {
+  constexpr int steps = 16;
+  for (int i = 0; i <= steps && part.is_bounded(); ++i) {
+    const Vector2d point = side[0] + (i / double(steps)) * (side[1] - side[0]);
+    if (part.contains({point.x(), point.y(), 0}))
+      return true;
   }
+  return !part.is_bounded();
 }
 
-/// Whose cells lack a neighbour.
-std::vector<bool> sites_at_walls(const Mesh& mesh) {
-  std::vector<bool> at_wall(static_cast<std::size_t>(mesh.points.cols()), true);
-  for (const std::int32_t site : mesh.triangles.reshaped()) {
-    at_wall[static_cast<std::size_t>(site)] = false;
-  }
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      for (int end = 1; mesh.neighbours(i, t) < 0 && end < 3; ++end) {
-        at_wall[static_cast<std::size_t>(mesh.triangles((i + end) % 3, t))] = true;
-      }
+/// Calls visit(side, cell, other) for each side of the cells, with the cell across it, or -1.
+template <class Visit> void each_side(const Polygons& cells, const Visit& visit) {
+  const auto between = [&](std::int32_t from, std::int32_t to) -> Side {
+    const Vector2d start = cells.corners.col(from).head<2>();
+    Vector2d way = cells.corners.col(to).head<2>() - start;
+    for (int k = 0; k < 2; ++k)
+      if (const double period = cells.period[k]; period > 0)
+        way[k] = std::remainder(way[k], period);
+    return {start, start + way};
+  };
+  std::map<std::array<std::int32_t, 2>, std::int64_t> open;
+  for (std::int64_t i = 0; i < cells.size(); ++i) {
+    const auto ids = cells.ids[i];
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::int32_t from = ids[k], to = ids[(k + 1) % ids.size()];
+      if (const auto other = open.extract({to, from}))
+        visit(between(from, to), i, other.mapped());
+      else
+        open.insert({{from, to}, i});
     }
   }
-  return at_wall;
+  for (const auto& [ids, cell] : open)
+    visit(between(ids[0], ids[1]), cell, std::int64_t{-1});
 }
 
-/// Whose cells the boundary clips. Without one, the box around the sites does.
+/// For each site the mean distance to the neighbours: sites whose cells meet its own inside the
+/// mesh's part of the plane, as triangles reach across bays and islands. NaN for a cell that meets
+/// no other.
+std::vector<double> spacings(const Mesh& mesh, const Polygons& cells) {
+  const auto n = static_cast<std::size_t>(mesh.points.cols());
+  const Vector2d period = mesh.surface.period();
+  std::vector<double> sums(n), counts(n);
+  each_side(cells, [&](const Side& side, std::int64_t cell, std::int64_t other) {
+    if (other < 0 || !reaches(mesh.surface, side))
+      return;
+    Vector2d way = (mesh.points.col(other) - mesh.points.col(cell)).head<2>();
+    for (int k = 0; k < 2; ++k)
+      way[k] = period[k] > 0 ? std::remainder(way[k], period[k]) : way[k];
+    for (const std::int64_t end : {cell, other}) {
+      sums[static_cast<std::size_t>(end)] += way.norm();
+      ++counts[static_cast<std::size_t>(end)];
+    }
+  });
+  std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::divides<>());
+  return sums;
+}
+
+/// The tessellation of the whole plane, in a rectangle that holds the window and the sites.
+Voronoi cut_off(const Mesh& mesh, const Window& window) {
+  const auto sites = mesh.points.topRows<2>();
+  return voronoi(
+      delaunay(mesh.points, rectangle(window.low.cwiseMin(sites.rowwise().minCoeff()),
+                                      window.high.cwiseMax(sites.rowwise().maxCoeff()))));
+}
+
+// ---- The scene
+
+/// The triangles whose circumcentre lies outside the mesh's part of the plane, such as those across
+/// bays and islands: they have no corner of a cell there.
+std::vector<bool> triangles_outside(const Mesh& mesh) {
+  std::vector<bool> outside;
+  for (Eigen::Index t = 0; mesh.surface.is_bounded() && t < mesh.triangles.cols(); ++t) {
+    const auto corner = [&](int k) -> Vector2d {
+      return mesh.points.col(mesh.triangles(k, t)).head<2>();
+    };
+    Eigen::Matrix2d sides;
+    sides << (corner(1) - corner(0)).transpose(), (corner(2) - corner(0)).transpose();
+    const Vector2d centre = corner(0) + sides.inverse() * sides.rowwise().squaredNorm() / 2;
+    outside.push_back(!mesh.surface.contains({centre.x(), centre.y(), 0}));
+  }
+  return outside;
+}
+
+/// Where shapes are drawn again: a period away in each direction that has one.
+std::vector<Vector3d> copies_of(const Vector2d& period) {
+  std::vector<Vector3d> shifts;
+  for (const int i : {-1, 0, 1})
+    for (const int j : {-1, 0, 1})
+      if ((i == 0 || period.x() > 0) && (j == 0 || period.y() > 0))
+        shifts.emplace_back(i * period.x(), j * period.y(), 0);
+  return shifts;
+}
+
+Scene scene_of(const Mesh& mesh, Shapes shapes, const Window& window, const Polygons& cells) {
+  Scene scene = make_flat_scene(
+      mesh, shapes, (mesh.points.topRows<2>().colwise() - window.middle()) / window.half(),
+      mesh.surface.period() / window.half(), cells);
+  scene.reach = window.extent() / (2 * window.half());
+  scene.copies = copies_of(scene.period);
+  scene.outside = triangles_outside(mesh);
+  return scene;
+}
+
+/// The sites whose cells the boundary clips, or without one the box around the sites.
 std::vector<bool> sites_at_boundary(const Mesh& mesh) {
-  if (has_walls(mesh)) {
-    return sites_at_walls(mesh);
-  }
-  if (mesh.surface.is_bounded()) {
+  if (mesh.surface.is_bounded())
     return clipped_cells(mesh);
-  }
   Mesh boxed;
   boxed.points = mesh.points;
   boxed.surface = rectangle(mesh.points.topRows<2>().rowwise().minCoeff(),
@@ -68,128 +148,14 @@ std::vector<bool> sites_at_boundary(const Mesh& mesh) {
   return clipped_cells(boxed);
 }
 
-Painting make_painting(const Mesh& mesh, const Drawn& drawn, const DrawOptions& options,
-                       const Surface& part, const Window& window) {
-  Painting painting;
-  painting.scene = scene_of(drawn, options.shapes, window);
-  std::vector<bool> clipped;
-  if (options.colouring == Colouring::valence && !mesh.closed()) {
-    clipped = sites_at_boundary(mesh);
-  }
-  if (options.shapes == Shapes::triangles) {
-    painting.values = values_of_triangles(mesh, options, clipped, drawn, painting.scene, window);
-  } else {
-    const std::vector<double> values =
-        values_of_cells(mesh, options, part, clipped, painting.scene, window);
-    for (const std::int32_t site : drawn.site) {
-      painting.values.push_back(site < 0 ? nothing : values[static_cast<std::size_t>(site)]);
-    }
-  }
-  painting.widths = widths_of(painting.scene, painting.scene.shapes);
-  if (options.shapes == Shapes::both) {
-    painting.triangle_widths = widths_of(painting.scene, Shapes::triangles);
-    hide_far_triangles(drawn, painting.triangle_widths);
-  }
-  if (options.colouring == Colouring::valence) {
-    std::vector<double> valences = site_valences(painting.scene, by_place(drawn, clipped));
-    valences.resize(static_cast<std::size_t>(mesh.points.cols())); // without copies and far sites
-    painting.markers =
-        markers_of(painting.scene, valences, widths_of(painting.scene, Shapes::cells));
-  }
-  return painting;
+/// The power of the scene's unit in a quantity: 1 for lengths, 2 for areas, otherwise 0.
+int power_of(Colouring colouring) {
+  return colouring == Colouring::spacing ? 1 : colouring == Colouring::area ? 2 : 0;
 }
 
-/// The values of the mesh's own shapes, without those of copies beside the period: cells of its
-/// sites, and triangles with their middle within the window.
-std::vector<double> own_values(const Mesh& mesh, const Painting& painting, const Drawn& drawn,
-                               const Window& window) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < painting.values.size(); ++i) {
-    const auto shape = static_cast<Eigen::Index>(i);
-    if (painting.scene.shapes == Shapes::triangles) {
-      Vector2d sum = Vector2d::Zero();
-      for (const std::int32_t place : drawn.mesh.triangles.col(shape)) {
-        sum += drawn.mesh.points.col(place).head<2>();
-      }
-      const auto inside =
-          sum.array() / 3 >= window.low.array() && sum.array() / 3 < window.high.array();
-      if (!(mesh.surface.period().array() == 0 || inside).all()) {
-        continue;
-      }
-    } else if (shape >= mesh.points.cols()) {
-      break;
-    }
-    values.push_back(painting.values[i]);
-  }
+std::vector<double> in_unit(std::vector<double> values, double unit) {
+  std::for_each(values.begin(), values.end(), [unit](double& value) { value *= unit; });
   return values;
-}
-
-/// The spacing is that of the cells for triangles too, as some of these reach across bays.
-std::string title_of(const Mesh& mesh, const DrawOptions& asked, const Surface& part,
-                     const Window& window) {
-  DrawOptions options = asked;
-  options.colouring = Colouring::spacing;
-  const Drawn drawn = drawn_of(mesh, Shapes::cells, window);
-  const Scene scene = scene_of(drawn, Shapes::cells, window);
-  const std::string parts =
-      grouped(mesh.points.cols()) + " cells" +
-      (options.shapes == Shapes::triangles ? ", " + grouped(mesh.triangles.cols()) + " triangles"
-                                           : "") +
-      (mesh.surface.period().maxCoeff() > 0 ? ", periodic" : "");
-  return mesh_title(options, parts, "spacing",
-                    values_of_cells(mesh, options, part, {}, scene, window), true);
-}
-
-// ---- The map
-
-void add_window(cairo_t* context, const Window& window, double scale) {
-  const Vector2d extent = scale * window.extent();
-  cairo_rectangle(context, -extent.x() / 2, -extent.y() / 2, extent.x(), extent.y());
-}
-
-/// The rings of a part of the plane, or the window's sides, as a path.
-void add_outline(cairo_t* context, const Surface& part, const Window& window, double scale) {
-  if (!part.is_bounded()) {
-    add_window(context, window, scale);
-  }
-  for (const DoubleMatrix& ring : part.rings()) {
-    cairo_new_sub_path(context);
-    for (const auto& corner : ring.colwise()) {
-      const Vector2d place = scale * (corner - window.middle());
-      cairo_line_to(context, place.x(), -place.y());
-    }
-    cairo_close_path(context);
-  }
-}
-
-/// \param cut clips by the rings of the part.
-void paint_plane(cairo_t* context, const Page& page, const Painting& painting, const Surface& part,
-                 const Window& window, bool cut) {
-  const double scale = page.map.width / window.extent().x();
-  cairo_save(context);
-  cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
-  add_window(context, window, scale);
-  cairo_clip(context);
-  add_outline(context, cut ? part : Surface::plane(), window, scale);
-  set_colour(context, globe_colour);
-  cairo_fill_preserve(context);
-  cairo_clip(context);
-  const double unit = scale * window.extent().maxCoeff() / 2; // of the scene
-  flat_map(context, painting, unit);
-  draw_flat_markers(context, painting, unit, scale * scale * window.extent().prod(),
-                    marker_radius(page));
-  cairo_restore(context);
-  cairo_save(context);
-  if (part.is_bounded()) { // walls go on beyond the window
-    add_window(context, window, scale);
-    cairo_clip(context);
-  }
-  add_outline(context, part, window, scale);
-  set_colour(context, part.is_bounded() ? text_colour : map_border_colour);
-  cairo_set_line_width(context, std::max(0.8, 0.06 * page.text));
-  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  cairo_stroke(context);
-  cairo_restore(context);
 }
 
 } // namespace
@@ -203,22 +169,181 @@ void set_domain(Mesh& mesh, const Surface& domain) {
   mesh.surface = domain;
 }
 
-void draw_plane(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
-  const Surface part =
-      has_walls(mesh) && options.cells != nullptr ? walls_of(*options.cells) : mesh.surface;
-  const Window window = window_of(mesh, part);
-  const Drawn drawn = drawn_of(mesh, options.shapes, window);
-  Painting painting = make_painting(mesh, drawn, options, part, window);
-  Legend legend = make_legend(painting, options);
-  if (options.colouring == Colouring::valence && mesh.surface.period().maxCoeff() > 0) {
-    legend.classes = valence_classes(own_values(mesh, painting, drawn, window));
+Polygons polygons_of(Voronoi cells) {
+  return {std::move(cells.vertices), std::move(cells.vertices_on_cell), std::move(cells.cells),
+          cells.on_sphere, cells.period};
+}
+
+Window window_of(const Mesh& mesh, const Polygons* cells) {
+  Points2 places = mesh.points.topRows<2>();
+  if (cells != nullptr) {
+    places = cells->corners.topRows<2>();
+  } else if (mesh.surface.is_bounded()) {
+    places.resize(2, 0);
+    for (const DoubleMatrix& ring : mesh.surface.rings()) {
+      places.conservativeResize(Eigen::NoChange, places.cols() + ring.cols());
+      places.rightCols(ring.cols()) = ring;
+    }
   }
-  const std::string title = title_of(mesh, options, part, window);
-  const Page page = page_of_plane(options.look.size, window.extent().y() / window.extent().x(),
+  Window window{places.rowwise().minCoeff(), places.rowwise().maxCoeff()};
+  const double share = cells != nullptr || mesh.surface.is_bounded() ? 0.01 : 0.04;
+  const Vector2d margin = Vector2d::Constant(share * window.extent().maxCoeff());
+  const Eigen::Array2d period = mesh.surface.period();
+  window.low = (period > 0).select(Vector2d::Zero(), window.low - margin);
+  window.high = (period > 0).select(period.matrix(), window.high + margin);
+  return window;
+}
+
+PlaneMap::PlaneMap(const Mesh& mesh, const DrawOptions& options)
+    : given(mesh.closed() ? nullptr : options.cells), window(window_of(mesh, given)) {
+  const bool cut = given == nullptr && !mesh.closed();
+  const bool by_triangles = options.shapes == Shapes::triangles;
+  if (cut && !by_triangles)
+    require_closed_cells(options.colouring);
+  cells = given != nullptr ? *given : polygons_of(cut ? cut_off(mesh, window) : voronoi(mesh));
+  spacing = spacings(mesh, cells);
+  cells = unwrapped(std::move(cells));
+  const Vector2d middle = window.middle();
+  cells.corners.topRows<2>() = (cells.corners.topRows<2>().colwise() - middle) / window.half();
+  painting.scene = scene_of(mesh, options.shapes, window, cells);
+  const Scene& scene = painting.scene;
+  const bool clips = cut && options.colouring == Colouring::valence;
+  const std::vector<bool> clipped = clips ? sites_at_boundary(mesh) : std::vector<bool>();
+  painting.values =
+      options.colouring == Colouring::spacing && !by_triangles
+          ? spacing
+          : in_unit(values_of(scene, options.colouring, by_site(mesh, options), clipped),
+                    std::pow(window.half(), power_of(options.colouring)));
+  painting.widths = widths_of(scene, scene.shapes);
+  if (options.shapes == Shapes::both)
+    painting.triangle_widths = widths_of(scene, Shapes::triangles);
+  if (options.colouring == Colouring::valence)
+    painting.markers =
+        markers_of(scene, site_valences(scene, clipped), widths_of(scene, Shapes::cells));
+}
+
+namespace {
+
+// ---- The picture
+
+/// A map around the origin, with these pixels per unit of the scene.
+struct Sheet {
+  const Page& page;
+  const PlaneMap& map;
+  const Mesh& mesh;
+  const DrawOptions& options;
+  double unit = 0;
+
+  Vector2d at(const Vector2d& point) const {
+    const Vector2d place = unit / map.window.half() * (point - map.window.middle());
+    return {place.x(), -place.y()};
+  }
+};
+
+/// \param margin pixels.
+void add_window(cairo_t* context, const Sheet& sheet, double margin = 0) {
+  const Vector2d low = sheet.at(sheet.map.window.low) + margin * Vector2d(-1, 1),
+                 high = sheet.at(sheet.map.window.high) + margin * Vector2d(1, -1);
+  cairo_rectangle(context, low.x(), high.y(), high.x() - low.x(), low.y() - high.y());
+}
+
+void add_rings(cairo_t* context, const Sheet& sheet) {
+  for (const DoubleMatrix& ring : sheet.mesh.surface.rings()) {
+    cairo_new_sub_path(context);
+    for (const auto& corner : ring.colwise())
+      cairo_line_to(context, sheet.at(corner).x(), sheet.at(corner).y());
+    cairo_close_path(context);
+  }
+}
+
+/// The sides that belong to one cell: walls, or the boundary of a domain.
+void add_open_sides(cairo_t* context, const Sheet& sheet) {
+  each_side(*sheet.map.given, [&](const Side& side, std::int64_t, std::int64_t other) {
+    if (other >= 0)
+      return;
+    for (const Vector3d& copy : sheet.map.painting.scene.copies) {
+      const Vector2d shift = sheet.map.window.half() * copy.head<2>();
+      const Vector2d from = sheet.at(side[0] + shift), to = sheet.at(side[1] + shift);
+      cairo_move_to(context, from.x(), from.y());
+      cairo_line_to(context, to.x(), to.y());
+    }
+  });
+}
+
+/// White beyond the mesh's part of the plane. A clip path of the rings would stand in an SVG file
+/// once for each shape.
+void cover_outside(cairo_t* context, const Sheet& sheet) {
+  cairo_set_fill_rule(context, CAIRO_FILL_RULE_EVEN_ODD);
+  add_window(context, sheet, 1);
+  add_rings(context, sheet);
+  set_colour(context, {1, 1, 1});
+  cairo_fill(context);
+}
+
+/// Cells end at the mesh's part of the plane; triangles may reach beyond it.
+void paint_shapes(cairo_t* context, const Sheet& sheet) {
+  const bool cells = sheet.options.shapes != Shapes::triangles;
+  cairo_save(context);
+  add_window(context, sheet);
+  cairo_clip(context);
+  if (!cells || sheet.map.given == nullptr) { // those of a file leave no gap
+    set_colour(context, globe_colour);
+    cairo_paint(context);
+  }
+  const Vector2d extent = sheet.unit / sheet.map.window.half() * sheet.map.window.extent();
+  flat_map(context, sheet.map.painting, sheet.unit);
+  draw_flat_markers(context, sheet.map.painting, sheet.unit, extent.prod(),
+                    marker_radius(sheet.page));
+  cairo_restore(context);
+  if (cells && sheet.mesh.surface.is_bounded())
+    cover_outside(context, sheet);
+}
+
+void stroke_boundary(cairo_t* context, const Sheet& sheet) {
+  const bool bounded = sheet.mesh.surface.is_bounded();
+  if (bounded)
+    add_rings(context, sheet);
+  else if (sheet.map.given != nullptr)
+    add_open_sides(context, sheet);
+  else
+    add_window(context, sheet);
+  set_colour(context, bounded || sheet.map.given != nullptr ? text_colour : map_border_colour);
+  cairo_set_line_width(context, std::max(0.8, 0.06 * sheet.page.text));
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  cairo_stroke(context);
+}
+
+/// The spacing is that of the cells for triangles too.
+std::string title_of(const Sheet& sheet) {
+  const Mesh& mesh = sheet.mesh;
+  const std::string parts = grouped(mesh.points.cols()) + " cells" +
+                            (sheet.options.shapes == Shapes::triangles
+                                 ? ", " + grouped(mesh.triangles.cols()) + " triangles"
+                                 : "") +
+                            (mesh.surface.period().maxCoeff() > 0 ? ", periodic" : "");
+  return mesh_title(sheet.options, parts, "spacing", sheet.map.spacing, true);
+}
+
+} // namespace
+
+void draw_plane(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
+  PlaneMap map(mesh, options);
+  const Legend legend = make_legend(map.painting, options);
+  const Vector2d extent = map.window.extent();
+  const Page page = page_of_plane(options.look.size, extent.y() / extent.x(),
                                   options.colouring != Colouring::none);
+  const Sheet sheet{page, map, mesh, options, page.map.width * map.window.half() / extent.x()};
   write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, title, legend, [&] {
-      paint_plane(context, page, painting, part, window, options.shapes != Shapes::triangles);
+    draw_page(context, page, title_of(sheet), legend, [&] {
+      paint_shapes(context, sheet);
+      cairo_save(context);
+      if (map.given != nullptr) { // walls go on beyond the window
+        add_window(context, sheet);
+        cairo_clip(context);
+      }
+      stroke_boundary(context, sheet);
+      cairo_restore(context);
     });
   });
 }

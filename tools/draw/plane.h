@@ -2,14 +2,14 @@
 #pragma once
 
 #include "draw/draw.h"
-#include "draw/shapes.h"
+#include "draw/painting.h"
 
-#include <numeric>
+#include <calotte/voronoi.h>
+
 #include <string>
-#include <utility>
 #include <vector>
 
-/// Parts of the pictures of meshes of the plane.
+/// Pictures of meshes of the plane.
 namespace calotte::tools {
 
 /// Whether the plane is periodic in a direction, and the mesh has a boundary.
@@ -17,14 +17,12 @@ inline bool has_walls(const Mesh& mesh) {
   return mesh.surface.period().maxCoeff() > 0 && !mesh.closed();
 }
 
-/// The part of the plane that the cells of such a mesh fill, as far as the window and two periods
-/// beyond it: its rings are the sides that belong to one cell. All of the plane for a box with
-/// walls along a period.
-Surface walls_of(const Polygons& cells);
-
 /// Sets the part of the plane that clips the cells of a mesh.
 /// \throws Error invalid_argument for a domain with another period.
 void set_domain(Mesh& mesh, const Surface& domain);
+
+/// The cells of a tessellation as polygons.
+Polygons polygons_of(Voronoi cells);
 
 /// The visible part of the plane.
 struct Window {
@@ -32,43 +30,29 @@ struct Window {
 
   Eigen::Vector2d middle() const { return low + (high - low) / 2; }
   Eigen::Vector2d extent() const { return high - low; }
+  double half() const { return extent().maxCoeff() / 2; } ///< the unit of the scene
 };
 
-/// The box of a periodic mesh, otherwise its part of the plane or its sites with a margin.
-/// \param part the mesh's surface, or its walls.
-Window window_of(const Mesh& mesh, const Surface& part);
+/// The period in a direction that has one. Otherwise the extent of the cells, of the mesh's part of
+/// the plane, or of its sites, with a margin.
+/// \param cells of the mesh, or null.
+Window window_of(const Mesh& mesh, const Polygons* cells = nullptr);
 
-/// The mesh to draw, or a larger one that contains it.
-struct Drawn {
-  Mesh mesh;
-  std::vector<std::int32_t> site; ///< of each of its points, or -1
+/// What a picture of a mesh of the plane shows. Its cells are those of the options, those of a box,
+/// or else those of the whole plane, which the window cuts off.
+struct PlaneMap {
+  /// \throws Error invalid_argument for a density or field that does not fit, and for the area or
+  ///         quality of cells that the window cuts off.
+  PlaneMap(const Mesh& mesh, const DrawOptions& options);
+  PlaneMap(const PlaneMap&) = delete; // the scene refers to `cells`
+  PlaneMap& operator=(const PlaneMap&) = delete;
 
-  explicit Drawn(Mesh from)
-      : mesh(std::move(from)), site(static_cast<std::size_t>(mesh.points.cols())) {
-    std::iota(site.begin(), site.end(), 0);
-  }
+  const Polygons* given; ///< the options' cells; null for a box, which has its own
+  Window window;
+  Polygons cells;              ///< in the scene's unit
+  std::vector<double> spacing; ///< by site: mean distance to the neighbours, in the mesh's unit
+  Painting painting;           ///< its values are in the mesh's unit
 };
-
-/// The mesh, with the sites beyond it that close the cells in the window. Triangles without a
-/// period need no further sites.
-Drawn drawn_of(const Mesh& mesh, Shapes shapes, const Window& window);
-
-Scene scene_of(const Drawn& drawn, Shapes shapes, const Window& window);
-
-/// The values of a list for the sites, for each place; true for a far site. Empty if that is.
-std::vector<bool> by_place(const Drawn& drawn, const std::vector<bool>& by_site);
-
-/// The values of the mesh's own cells, in the unit of the mesh.
-/// \param clipped by site, the cells at the boundary for Colouring::valence; otherwise empty.
-/// \param part whose rings clip the cells; \param scene of cells.
-std::vector<double> values_of_cells(const Mesh& mesh, const DrawOptions& options,
-                                    const Surface& part, const std::vector<bool>& clipped,
-                                    const Scene& scene, const Window& window);
-
-/// The values of the scene's triangles, in the unit of the mesh.
-std::vector<double> values_of_triangles(const Mesh& mesh, const DrawOptions& options,
-                                        const std::vector<bool>& clipped, const Drawn& drawn,
-                                        const Scene& scene, const Window& window);
 
 /// The picture of a mesh of the plane. \pre the path and the options are checked.
 void draw_plane(const std::string& path, const Mesh& mesh, const DrawOptions& options);

@@ -30,16 +30,8 @@ double angle_at(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return flat_angle(u, v);
 }
 
-/// The centre of the circle through a triangle's corners.
-Vector3d flat_circumcentre(const Corners& c) {
-  const Vector3d p = c.at[1] - c.at[0];
-  const Vector3d q = c.at[2] - c.at[0];
-  const Vector3d across = p.squaredNorm() * q - q.squaredNorm() * p;
-  return c.at[0] + Vector3d(across.y(), -across.x(), 0) / (2 * p.cross(q).z());
-}
-
-/// Sets the values that follow from the places of the sites: a triangle for each, and the
-/// circumcentres.
+/// Sets the values that follow from the places of the sites: a triangle for each, and on the sphere
+/// the circumcentres.
 void link(Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   scene.triangle_of.assign(static_cast<std::size_t>(scene.sites.cols()), -1);
@@ -48,15 +40,14 @@ void link(Scene& scene) {
       scene.triangle_of[static_cast<std::size_t>(site)] = static_cast<std::int32_t>(t);
     }
   }
-  if (scene.shapes != Shapes::cells) {
+  if (scene.shapes != Shapes::cells || scene.flat) {
     return;
   }
   scene.circumcentres.resize(3, mesh.triangles.cols());
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Corners c(scene, t);
     scene.circumcentres.col(t) =
-        scene.flat ? flat_circumcentre(c)
-                   : direction_of(Vector3d((c.at[1] - c.at[0]).cross(c.at[2] - c.at[0])));
+        direction_of(Vector3d((c.at[1] - c.at[0]).cross(c.at[2] - c.at[0])));
   }
 }
 
@@ -65,7 +56,11 @@ void link(Scene& scene) {
 Corners::Corners(const Scene& scene, Eigen::Index triangle)
     : id(scene.mesh->triangles.col(triangle)), at{scene.sites.col(id[0]), scene.sites.col(id[1]),
                                                   scene.sites.col(id[2])},
-      flat(scene.flat) {}
+      flat(scene.flat) {
+  for (int k = 0; k < 2; ++k)
+    for (int i = 1; i < 3 && scene.period[k] > 0; ++i)
+      at[i][k] = at[0][k] + std::remainder(at[i][k] - at[0][k], scene.period[k]);
+}
 
 double Corners::side(int i) const {
   const Vector3d& a = at[i];
@@ -171,15 +166,29 @@ Scene make_scene(const Polygons& polygons, const LonLat& view) {
   return scene;
 }
 
-Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places) {
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places,
+                      const Eigen::Vector2d& period, const Polygons& cells) {
   Scene scene;
   scene.flat = true;
   scene.mesh = &mesh;
   scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
   scene.sites = Points3::Zero(3, places.cols());
   scene.sites.topRows<2>() = places;
+  scene.period = period;
   link(scene);
+  if (scene.shapes == Shapes::cells) {
+    scene.polygons = &cells;
+    scene.circumcentres = cells.corners;
+  }
   return scene;
+}
+
+bool may_show(const Scene& scene, const std::vector<Vector3d>& corners) {
+  const auto beyond = [&](int k, double sign) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vector3d& p) { return sign * p[k] > scene.reach[k]; });
+  };
+  return !scene.flat || !(beyond(0, 1) || beyond(0, -1) || beyond(1, 1) || beyond(1, -1));
 }
 
 LonLat lonlat_of(const Vector3d& direction) {
@@ -199,9 +208,8 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
                 std::vector<Vector3d>& corners) {
   corners.clear();
   if (shapes == Shapes::triangles) {
-    for (const std::int32_t site : scene.mesh->triangles.col(shape)) {
-      corners.emplace_back(scene.sites.col(site));
-    }
+    const Corners triangle(scene, shape);
+    corners.assign(triangle.at, triangle.at + 3);
     return;
   }
   if (const Polygons* polygons = scene.polygons) {
@@ -229,7 +237,8 @@ std::vector<float> widths_of(const Scene& scene, Shapes shapes) {
     const double area =
         0.5 * (corners.at[1] - corners.at[0]).cross(corners.at[2] - corners.at[0]).norm();
     if (triangles) {
-      areas[static_cast<std::size_t>(t)] = area;
+      const bool drawn = scene.outside.empty() || !scene.outside[static_cast<std::size_t>(t)];
+      areas[static_cast<std::size_t>(t)] = drawn ? area : 0;
       continue;
     }
     for (const int id : corners.id) {

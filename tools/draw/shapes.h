@@ -22,6 +22,12 @@ struct Scene {
   Shapes shapes = Shapes::triangles;  ///< that are filled: triangles or cells
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
 
+  // Of a plane, in the unit of the scene:
+  Eigen::Vector2d period{0, 0}; ///< as Surface has it
+  Eigen::Vector2d reach{0, 0};  ///< the window ends at these x and y, and at minus these
+  std::vector<Eigen::Vector3d> copies = {Eigen::Vector3d::Zero()}; ///< shifts of all shapes
+  std::vector<bool> outside = {}; ///< triangles that are not drawn; empty if all are
+
   std::int64_t count() const { ///< shapes: triangles, or sites
     return polygons                  ? polygons->size()
            : shapes == Shapes::cells ? sites.cols()
@@ -37,8 +43,13 @@ Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view,
 /// Cells of any shape in the same view.
 Scene make_scene(const Polygons& polygons, const LonLat& view);
 
-/// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites.
-Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places);
+/// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites and
+/// \param period in the unit of the scene; \param cells likewise, without a period.
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places,
+                      const Eigen::Vector2d& period, const Polygons& cells);
+
+/// False if a shape of a plane is known to lie beyond the window.
+bool may_show(const Scene& scene, const std::vector<Eigen::Vector3d>& corners);
 
 /// Its rows are the viewer's right, up and towards.
 Eigen::Matrix3d frame_of(const LonLat& view);
@@ -62,7 +73,7 @@ void outline_of(const Scene& scene, Shapes shapes, std::int64_t shape,
 /// For each triangle or cell the approximate side of a square of its area on the unit sphere.
 std::vector<float> widths_of(const Scene& scene, Shapes shapes);
 
-/// The corners of one triangle, and measures of it.
+/// The corners of one triangle, in a periodic plane near the first, and measures of it.
 struct Corners {
   Corners(const Scene& scene, Eigen::Index triangle);
   double side(int i) const; ///< from corner i to the next

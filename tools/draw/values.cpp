@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace calotte::tools {
 
@@ -57,14 +56,18 @@ double triangle_value(const Corners& corners, Colouring colouring,
   return oddest_valence(corners, valence);
 }
 
+bool is_outside(const Scene& scene, Eigen::Index triangle) {
+  return !scene.outside.empty() && scene.outside[static_cast<std::size_t>(triangle)];
+}
+
 std::vector<double> smallest_angles(const Scene& scene) {
-  std::vector<double> values(static_cast<std::size_t>(scene.sites.cols()), std::numbers::pi);
+  std::vector<double> values(static_cast<std::size_t>(scene.sites.cols()), nothing);
   for (Eigen::Index t = 0; t < scene.mesh->triangles.cols(); ++t) {
     const Corners corners(scene, t);
-    const double smallest = corners.smallest_angle();
+    const double smallest = is_outside(scene, t) ? nothing : corners.smallest_angle();
     for (const int id : corners.id) {
       double& value = values[static_cast<std::size_t>(id)];
-      value = std::min(value, smallest);
+      value = std::fmin(value, smallest);
     }
   }
   return values;
@@ -80,9 +83,7 @@ std::vector<double> tessellation_values(const Scene& scene, Colouring colouring)
     return area ? as_vector(areas(*scene.polygons)) : as_vector(side_ratios(*scene.polygons));
   }
   if (!scene.mesh->closed()) {
-    throw Error(ErrorCode::invalid_argument,
-                std::string("the mesh has an open boundary, so that its cells have no ") +
-                    (area ? "area" : "quality") + "; colour its triangles, or cells by spacing");
+    require_closed_cells(colouring);
   }
   const Voronoi tessellation = voronoi(*scene.mesh);
   return as_vector(area ? tessellation.cell_area : cell_fields(tessellation).quality);
@@ -110,6 +111,15 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
 }
 
 } // namespace
+
+void require_closed_cells(Colouring colouring) {
+  if (colouring == Colouring::area || colouring == Colouring::quality) {
+    throw Error(ErrorCode::invalid_argument,
+                std::string("the mesh has an open boundary, so that its cells have no ") +
+                    (colouring == Colouring::area ? "area" : "quality") +
+                    "; colour its triangles, or cells by spacing");
+  }
+}
 
 DoubleVector side_ratios(const Polygons& cells) {
   DoubleVector ratios = DoubleVector::Constant(cells.size(), nothing);
@@ -155,7 +165,7 @@ std::vector<double> site_valences(const Scene& scene, const std::vector<bool>& c
       ++count[static_cast<std::size_t>(site)];
     }
   }
-  if (const Polygons* polygons = scene.polygons) {
+  if (const Polygons* polygons = scene.polygons; polygons != nullptr && !scene.flat) {
     for (std::size_t i = 0; i < count.size(); ++i) {
       count[i] = static_cast<double>(polygons->ids.count(static_cast<std::int64_t>(i)));
     }
@@ -187,7 +197,9 @@ std::vector<double> values_of(const Scene& scene, Colouring colouring, const Dou
   std::vector<double> values(static_cast<std::size_t>(scene.count()));
   for (std::size_t t = 0; t < values.size(); ++t) {
     const Corners corners(scene, static_cast<Eigen::Index>(t));
-    values[t] = triangle_value(corners, colouring, valence, by_site);
+    values[t] = is_outside(scene, static_cast<Eigen::Index>(t))
+                    ? nothing
+                    : triangle_value(corners, colouring, valence, by_site);
   }
   return values;
 }

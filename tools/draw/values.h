@@ -10,6 +10,10 @@
 
 namespace calotte::tools {
 
+/// \throws Error invalid_argument for the area or quality of cells, which an open mesh does not
+/// have.
+void require_closed_cells(Colouring colouring);
+
 /// For each polygon its shortest over its longest side; NaN for one without corners.
 DoubleVector side_ratios(const Polygons& cells);
 

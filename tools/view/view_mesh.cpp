@@ -144,13 +144,13 @@ void set_sphere(const MeshFile& file, ViewMesh& mesh) {
     mesh.shapes = file.polygons;
 }
 
-/// Sets the part of the plane that clips the cells: the given one, or the box that a picture shows
-/// of a plane without an end.
-void set_surface(Mesh& mesh, const std::optional<Surface>& given) {
-  if (given) {
-    set_domain(mesh, *given);
+/// Sets the part of the plane that clips the cells: the one that is known, or the box that a
+/// picture shows of a plane without an end.
+void set_surface(Mesh& mesh, const std::optional<Surface>& known) {
+  if (known) {
+    set_domain(mesh, *known);
   } else if (mesh.surface == Surface::plane()) {
-    const Window window = window_of(mesh, mesh.surface);
+    const Window window = window_of(mesh);
     mesh.surface = rectangle(window.low, window.high);
   }
 }
@@ -204,7 +204,7 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
   require_fields(file, choice);
   const bool walled = file.plane() && by_corners(file);
   if (file.plane() && !walled)
-    set_surface(*file.mesh, choice.surface);
+    set_surface(*file.mesh, choice.surface ? choice.surface : filled_surface(file));
   ViewMesh mesh{.name = name, .on_sphere = !file.plane(), .radius_km = choice.radius_km};
   mesh.cells = mesh.total = cells_of(file);
   mesh.quantities = measured(file, choice);

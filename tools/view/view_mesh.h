@@ -36,7 +36,7 @@ struct ViewMesh {
 
 /// What a page shows of a mesh.
 struct ViewChoice {
-  /// Of a plane; by default the mesh's surface, or a box around the sites where that has no end.
+  /// Of a plane; by default filled_surface(), or else a box around the sites.
   std::optional<Surface> surface = {};
   Density density = {};                 ///< otherwise the file's
   std::vector<std::string> fields = {}; ///< names; by default the first ones of the file

@@ -15,6 +15,7 @@
 #include <cairo.h>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -37,11 +38,7 @@ std::map<double, std::int64_t> counts_of(const std::vector<double>& values) {
 }
 
 std::vector<double> degrees_of_cells(const Mesh& mesh) {
-  const Window window = window_of(mesh, mesh.surface);
-  const Drawn drawn = drawn_of(mesh, Shapes::cells, window);
-  const Scene scene = scene_of(drawn, Shapes::cells, window);
-  return values_of_cells(mesh, {.shapes = Shapes::cells, .colouring = Colouring::valence},
-                         mesh.surface, clipped_cells(mesh), scene, window);
+  return PlaneMap(mesh, {.shapes = Shapes::cells, .colouring = Colouring::valence}).painting.values;
 }
 
 Surface ring(double turn) {
@@ -81,6 +78,22 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
   const std::vector<std::int64_t> degrees = quality(box).degrees;
   for (const auto& [degree, count] : counts) {
     CHECK(degrees[static_cast<std::size_t>(degree)] == count);
+  }
+}
+
+TEST_CASE("a planar map has the triangles that quality() measures, none across bays and islands") {
+  for (const double turn : {0.0, 0.4}) {
+    const Surface domain = ring(turn);
+    Mesh mesh = delaunay(random_points(600, domain, {}, 7), domain);
+    const auto drawn = [&] {
+      const PlaneMap map(mesh, {.shapes = Shapes::triangles});
+      return std::count_if(map.painting.values.begin(), map.painting.values.end(),
+                           [](double side) { return std::isfinite(side); });
+    };
+    CHECK(drawn() == quality(mesh).triangles);
+    CHECK(drawn() < mesh.triangles.cols());
+    mesh.surface = Surface::plane();
+    CHECK(drawn() == mesh.triangles.cols());
   }
 }
 
