@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "help/help.h"
+#include "options/choice.h"
 #include "options/files.h"
 #include "options/global_option.h"
 #include "options/model_option.h"
@@ -14,7 +15,6 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -181,18 +181,13 @@ void add_raster(CLI::App& command, Request& request) {
           ->type_name("NAME")
           ->needs(file);
   file->needs(variable);
-  static const std::map<std::string, RasterValues> kinds{
-      {"height", RasterValues::height},
-      {"sea-fraction", RasterValues::sea_fraction},
-      {"land-fraction", RasterValues::land_fraction}};
-  command
-      .add_option_function<std::string>(
-          "--raster-values",
-          [&request](const std::string& kind) { request.raster_values = kinds.at(kind); },
-          "What the values are: heights, of which those below 0 are sea (height), or fractions "
-          "from 0 to 1 of sea or of land (sea-fraction, land-fraction). Default: height.")
-      ->check(CLI::IsMember({"height", "sea-fraction", "land-fraction"}))
-      ->type_name("KIND")
+  add_choice<RasterValues>(
+      command, "--raster-values", request.raster_values,
+      {{"height", RasterValues::height},
+       {"sea-fraction", RasterValues::sea_fraction},
+       {"land-fraction", RasterValues::land_fraction}},
+      "What the values are: heights, of which those below 0 are sea (height), or fractions "
+      "from 0 to 1 of sea or of land (sea-fraction, land-fraction)")
       ->needs(file);
 }
 

@@ -3,14 +3,15 @@
 
 #include "draw/history.h"
 #include "help/help.h"
+#include "options/choice.h"
 #include "options/coastlines_option.h"
+#include "options/numbers.h"
 #include "options/region_option.h"
 #include "run/operator_measures.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -20,49 +21,14 @@ namespace calotte::tools {
 
 namespace {
 
-/// Removes a number and the text after it from the input; false if there is none.
-bool take_number(std::string_view& text, double& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return error == std::errc();
-}
-
-LonLat parse_view(std::string_view text) {
-  LonLat view;
-  std::string_view rest = text;
-  bool good = take_number(rest, view.longitude) && rest.starts_with(',');
-  if (good) {
-    rest.remove_prefix(1);
-    good = take_number(rest, view.latitude) && rest.empty() && std::abs(view.latitude) <= 90 &&
-           std::abs(view.longitude) <= 360;
-  }
-  if (!good) {
+LonLat parse_view(const std::string& text) {
+  const auto place = numbers_of<2>(text);
+  if (!place || std::abs((*place)[0]) > 360 || std::abs((*place)[1]) > 90)
     throw Error(
         ErrorCode::invalid_argument,
-        "--view " + std::string(text) +
+        "--view " + text +
             " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
-  }
-  return view;
-}
-
-/// An option whose value is one of several words.
-template <class Value>
-void add_choice(CLI::App& command, const std::string& names, Value& value,
-                const std::vector<std::pair<std::string, Value>>& choices,
-                const std::string& help) {
-  std::vector<std::string> words;
-  words.reserve(choices.size());
-  for (const auto& choice : choices) {
-    words.push_back(choice.first);
-  }
-  const auto choose = [&value, choices](const std::string& word) {
-    const auto is_it = [&](const auto& choice) { return choice.first == word; };
-    value = std::find_if(choices.begin(), choices.end(), is_it)->second;
-  };
-  command.add_option_function<std::string>(names, choose, help)
-      ->check(CLI::IsMember(words))
-      ->type_name("WORD")
-      ->default_str(words.front());
+  return {(*place)[0], (*place)[1]};
 }
 
 constexpr std::string_view field_prefix = "field:", error_prefix = "error:";
@@ -125,13 +91,11 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
 /// --zoom: auto, whole or a number.
 void add_zoom(CLI::App& command, std::optional<double>& zoom) {
   const auto choose = [&zoom](const std::string& word) {
-    double number = 1;
-    std::string_view rest = word;
+    const auto number = numbers_of<1>(word == "whole" ? "1" : word);
     if (word == "auto") {
       zoom.reset();
-    } else if (word == "whole" ||
-               (take_number(rest, number) && rest.empty() && number >= 1 && number <= most_zoom)) {
-      zoom = number;
+    } else if (number && (*number)[0] >= 1 && (*number)[0] <= most_zoom) {
+      zoom = (*number)[0];
     } else {
       throw Error(ErrorCode::invalid_argument,
                   "--zoom " + word +
@@ -151,21 +115,14 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
 /// --range: two numbers.
 void add_range(CLI::App& command, std::optional<Range>& range) {
   const auto set = [&range](const std::string& text) {
-    Range given;
-    std::string_view rest = text;
-    bool good = take_number(rest, given.low) && rest.starts_with(',');
-    if (good) {
-      rest.remove_prefix(1);
-      good = take_number(rest, given.high) && rest.empty() && std::isfinite(given.low) &&
-             std::isfinite(given.high) && given.low < given.high;
-    }
-    if (!good) {
+    const auto ends = numbers_of<2>(text);
+    if (!ends || !((*ends)[0] < (*ends)[1])) {
       throw Error(ErrorCode::invalid_argument,
                   "--range " + text +
                       " is no range of a colour bar; give its lower and its upper end, as in "
                       "--range 30,120");
     }
-    range = given;
+    range = {(*ends)[0], (*ends)[1]};
   };
   command
       .add_option_function<std::string>(

@@ -10,7 +10,6 @@
 #include <calotte/planar_raster.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -99,11 +98,8 @@ BumpWords split(const std::string& text, const Grammar& grammar) {
 }
 
 std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && std::isfinite(value) ? std::optional(value)
-                                                                     : std::nullopt;
+  const auto value = numbers_of<1>(text);
+  return value ? std::optional((*value)[0]) : std::nullopt;
 }
 
 double degrees_of(const BumpWords& words, const std::string& key) {
@@ -151,23 +147,12 @@ double stretch_of(const BumpWords& words) {
   return *value;
 }
 
-/// The unit vector at a place in degrees, as points in a file become one.
-Eigen::Vector3d place(double longitude, double latitude) {
-  std::array<char, 64> text{};
-  char* const last = text.data() + text.size();
-  char* end = std::to_chars(text.data(), last, longitude).ptr;
-  *end++ = ' ';
-  end = std::to_chars(end, last, latitude).ptr;
-  std::istringstream in(std::string(text.data(), end));
-  return read_points(in, "a place", Columns::lonlat).col(0);
-}
-
 /// The unit tangent at a place, in the direction so many degrees clockwise from north.
 Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
-  const Eigen::Vector3d east = place(longitude + 90, 0);
-  const Eigen::Vector3d north =
-      latitude > 0 ? place(longitude + 180, 90 - latitude) : place(longitude, 90 + latitude);
-  const Eigen::Vector3d turn = place(azimuth, 0); // its cosine and sine
+  const Eigen::Vector3d east = direction_at(longitude + 90, 0);
+  const Eigen::Vector3d north = latitude > 0 ? direction_at(longitude + 180, 90 - latitude)
+                                             : direction_at(longitude, 90 + latitude);
+  const Eigen::Vector3d turn = direction_at(azimuth, 0); // its cosine and sine
   return turn.x() * north + turn.y() * east;
 }
 
@@ -177,7 +162,7 @@ Bump bump_of(const std::string& text) {
   if (std::abs(latitude) > 90)
     refuse_value(words, "lat", "is outside -90 to 90; give degrees north");
   Bump bump;
-  bump.centre = place(longitude, latitude);
+  bump.centre = direction_at(longitude, latitude);
   bump.beta = positive_angle(words, "beta");
   bump.alpha = positive_angle(words, "alpha");
   bump.gamma = contrast(words);
@@ -211,7 +196,7 @@ Bump planar_bump_of(const std::string& text) {
   bump.gamma = contrast(words);
   if (words.values.contains("stretch")) {
     bump.stretch = stretch_of(words);
-    bump.major = place(degrees_of(words, "angle"), 0); // its cosine and sine
+    bump.major = direction_at(degrees_of(words, "angle"), 0); // its cosine and sine
   }
   return bump;
 }

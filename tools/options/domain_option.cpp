@@ -2,32 +2,15 @@
 #include "options/domain_option.h"
 
 #include "options/files.h"
+#include "options/numbers.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 namespace calotte::tools {
 namespace {
-
-/// Parses exactly that number of finite numbers, separated by commas.
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers_of(const std::string& text) {
-  std::array<double, count> numbers{};
-  const char *at = text.data(), *const end = text.data() + text.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && (at == end || *at++ != ','))
-      return std::nullopt;
-    const auto [stop, problem] = std::from_chars(at, end, numbers[i]);
-    if (problem != std::errc() || !std::isfinite(numbers[i]))
-      return std::nullopt;
-    at = stop;
-  }
-  return at == end ? std::optional(numbers) : std::nullopt;
-}
 
 Surface rectangle_of(const std::string& word) {
   const auto sides = numbers_of<4>(word);

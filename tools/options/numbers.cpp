@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/numbers.h"
 
+#include <calotte/io.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <limits>
-#include <system_error>
+#include <sstream>
 
 namespace calotte::tools {
 
@@ -25,6 +24,11 @@ std::string formatted(const char* format, double value) {
 std::string lonlat_words(double longitude, double latitude) {
   return formatted("%.1f", std::abs(longitude)) + (longitude < 0 ? " W " : " E ") +
          formatted("%.1f", std::abs(latitude)) + (latitude < 0 ? " S" : " N");
+}
+
+Eigen::Vector3d direction_at(double longitude, double latitude) {
+  std::istringstream in(shortest(longitude) + " " + shortest(latitude));
+  return read_points(in, "a place", Columns::lonlat).col(0);
 }
 
 std::optional<Measure> measure_of(const std::string& text) {

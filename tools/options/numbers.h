@@ -3,9 +3,16 @@
 
 #include <CLI/App.hpp>
 
+#include <Eigen/Core>
+
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 /// Numbers in the text of options and files.
 namespace calotte::tools {
@@ -19,6 +26,25 @@ std::string formatted(const char* format, double value);
 
 /// "136.5 W 81.0 N". \param longitude, latitude degrees; from -180 to 180, and -90 to 90.
 std::string lonlat_words(double longitude, double latitude);
+
+/// Reads exactly so many finite numbers, separated by commas; nothing for other text.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbers_of(std::string_view text) {
+  std::array<double, count> numbers{};
+  const char *at = text.data(), *const end = text.data() + text.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0 && (at == end || *at++ != ','))
+      return std::nullopt;
+    const auto [stop, problem] = std::from_chars(at, end, numbers[i]);
+    if (problem != std::errc() || !std::isfinite(numbers[i]))
+      return std::nullopt;
+    at = stop;
+  }
+  return at == end ? std::optional(numbers) : std::nullopt;
+}
+
+/// The unit vector at a place in degrees, as points in a file become one.
+Eigen::Vector3d direction_at(double longitude, double latitude);
 
 /// A number with a unit.
 struct Measure {

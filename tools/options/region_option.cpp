@@ -12,7 +12,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -67,11 +66,9 @@ double length(const Word& word, std::size_t part, double radius_km) {
   return angle;
 }
 
-/// Two parts as a direction, as points in a file become one.
+/// Two parts as a direction.
 Eigen::Vector3d place(const Word& word, std::size_t part = 0) {
-  const double longitude = degrees(word, part, 720), latitude = degrees(word, part + 1, 90);
-  std::istringstream in(shortest(longitude) + " " + shortest(latitude));
-  return read_points(in, "--region", Columns::lonlat).col(0);
+  return direction_at(degrees(word, part, 720), degrees(word, part + 1, 90));
 }
 
 Surface made_of(const Word& word, std::string_view shape, double radius_km) {
