@@ -2,6 +2,7 @@
 #include "draw_options.h"
 
 #include "draw/history.h"
+#include "draw/scale.h"
 #include "help/help.h"
 #include "options/choice.h"
 #include "options/coastlines_option.h"
@@ -174,13 +175,8 @@ void add_look(CLI::App& command, DrawArguments& arguments) {
   add_colour(command, arguments);
   add_range(command, look.range);
   add_choice<Palette>(
-      command, "--palette", look.palette,
-      {{"viridis", Palette::viridis},
-       {"cividis", Palette::cividis},
-       {"magma", Palette::magma},
-       {"diverging", Palette::diverging}},
-      "Colours of the colour bar: viridis, cividis, magma, or diverging (blue, grey, "
-      "red)");
+      command, "--palette", look.palette, palette_names(),
+      "Colours of the colour bar: viridis, cividis, magma, or diverging (blue, grey, red)");
   command
       .add_option("--title", look.title,
                   "Title of the picture. Default: the name of the file, its cells and their "

@@ -19,7 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <numbers>
 
 namespace calotte::tools {
 
@@ -38,16 +38,6 @@ std::string title_of(const Scene& scene, const DrawOptions& options) {
                                            : "") +
       (has_boundary(mesh) ? ", open boundary" : "");
   return mesh_title(options, parts, "spacing", mean_distances(scene));
-}
-
-/// A number in marked text.
-std::string in_powers(double value) {
-  const double exponent = std::floor(std::log10(value));
-  char text[64];
-  std::snprintf(text, sizeof text, "%.3g\u2009\u00d7\u200910^{%s%d}",
-                value / std::pow(10, exponent), exponent < 0 ? "\u2212" : "",
-                std::abs(static_cast<int>(exponent)));
-  return text;
 }
 
 std::string field_caption(const DrawOptions& options) {
@@ -75,7 +65,7 @@ std::string caption_of(const DrawOptions& options, double mean, bool plane) {
                  : "neighbours of the corner furthest from 6: triangles of each kind";
   case Colouring::area:
     return std::string("area of the ") + (cells ? "cell" : "triangle") + " over the mean, " +
-           in_powers(mean) + (plane ? "" : " steradians");
+           number_text(mean, 3) + (plane ? "" : " steradians");
   case Colouring::quality:
     return cells ? "shortest over longest side of the cell"
                  : "quality of the triangle: 1 when equilateral";
@@ -103,36 +93,27 @@ double mean_of(const std::vector<double>& values) {
   return sum / std::max(count, 1.0);
 }
 
-std::vector<ValenceClass> classes_of(const Painting& painting) {
-  switch (painting.scale.colouring) {
-  case Colouring::valence:
-    return valence_classes(painting.values);
-  case Colouring::region:
-    return mask_classes(painting.values);
-  default:
-    return {};
-  }
-}
-
 } // namespace
 
 Legend make_legend(Painting& painting, const DrawOptions& options) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const bool flat = painting.scene.flat;
+  const bool lengths = options.colouring == Colouring::spacing && !flat;
+  const bool angles = options.colouring == Colouring::angle;
   const double mean = mean_of(painting.values);
-  if (options.colouring == Colouring::area) {
-    std::for_each(painting.values.begin(), painting.values.end(), [mean](double& v) { v /= mean; });
-  }
-  const bool in_km = options.colouring == Colouring::spacing && options.radius_km;
-  if (in_km && !painting.scene.flat) {
-    const double radius = *options.radius_km;
-    std::for_each(painting.values.begin(), painting.values.end(), [=](double& v) { v *= radius; });
-  }
+  const double unit = options.colouring == Colouring::area ? 1 / mean
+                      : lengths                            ? options.radius_km.value_or(degrees)
+                      : angles                             ? degrees
+                                                           : 1;
+  std::for_each(painting.values.begin(), painting.values.end(), [unit](double& v) { v *= unit; });
   painting.scale = make_scale(painting.values, options.colouring);
-  painting.scale.lengths = painting.scene.flat || in_km;
+  painting.scale.degrees = angles || (lengths && !options.radius_km);
   painting.scale.palette = options.look.palette;
   if (options.look.range) {
     set_range(painting.scale, *options.look.range);
   }
-  return {painting.scale, classes_of(painting), caption_of(options, mean, painting.scene.flat)};
+  return {painting.scale, classes_of(painting.values, options.colouring),
+          caption_of(options, mean, flat)};
 }
 
 namespace {

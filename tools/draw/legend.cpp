@@ -10,8 +10,6 @@ namespace calotte::tools {
 
 namespace {
 
-bool is_angle(const Scale& scale) { return scale.unit() != 1; }
-
 /// The power of ten that is factored out to shorten the labels.
 int common_exponent(const Axis& axis) {
   const double greatest = std::max(std::abs(axis.low), std::abs(axis.high));
@@ -112,7 +110,7 @@ void draw_ticks(cairo_t* context, const BarTicks& bar_ticks, const Bar& bar, dou
 
 /// The offset of the labels, in the space left of the bar.
 void draw_offset(cairo_t* context, const Scale& scale, double offset, const Bar& bar, double text) {
-  const std::string label = number_text(offset, 15) + (is_angle(scale) ? "\u00b0" : "") + "\u2009+";
+  const std::string label = number_text(offset, 15) + (scale.degrees ? "\u00b0" : "") + "\u2009+";
   const double room = bar.left - 1.8 * bar.height;
   fitted_text(context, 0.3 * bar.height + room / 2, bar.bottom(), label, 0.92 * text, room);
 }
@@ -136,14 +134,14 @@ void colour_bar(cairo_t* context, const Scale& scale, const Bar& bar, double tex
 }
 
 /// A swatch, a name and a count for each class, in one line that is shrunk to fit.
-void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, double page_width,
+void class_legend(cairo_t* context, const std::vector<ValueClass>& classes, double page_width,
                   double top, double page_text) {
   const double gap = 1.3;    // between classes; these in letter sizes
   const double indent = 1.4; // of the label from its swatch's left
   std::vector<std::string> labels;
   double length = -gap;
   select_font(context, 0.92 * page_text);
-  for (const ValenceClass& c : classes) {
+  for (const ValueClass& c : classes) {
     labels.push_back(c.label + ": " + grouped(c.count));
     length += indent + text_width(context, labels.back()) / page_text + gap;
   }
@@ -168,8 +166,7 @@ void class_legend(cairo_t* context, const std::vector<ValenceClass>& classes, do
 } // namespace
 
 BarTicks bar_ticks(const Scale& scale, int most) {
-  const double unit = scale.unit();
-  Axis axis = {scale.low / unit, scale.high / unit, scale.logarithmic};
+  Axis axis = {scale.low, scale.high, scale.logarithmic};
   BarTicks bar;
   bar.offset = offset_of(axis);
   axis.low -= bar.offset;
@@ -180,7 +177,7 @@ BarTicks bar_ticks(const Scale& scale, int most) {
   axis.high /= power;
   bar.ticks = ticks_of(axis, most);
   for (Tick& tick : bar.ticks.labelled) {
-    tick.label += is_angle(scale) ? "\u00b0" : "";
+    tick.label += scale.degrees ? "\u00b0" : "";
   }
   return bar;
 }
@@ -209,14 +206,13 @@ BarTicks fitted_ticks(const Scale& scale, double bar_width, double gap,
 }
 
 std::string constant_text(const Scale& scale) {
-  const double unit = scale.unit();
-  const std::string degrees = is_angle(scale) ? "\u00b0" : "";
+  const std::string degrees = scale.degrees ? "\u00b0" : "";
   const double middle = scale.least + (scale.greatest - scale.least) / 2;
   if (scale.least == scale.greatest) {
-    return "constant " + number_text(middle / unit, 6) + degrees;
+    return "constant " + number_text(middle, 6) + degrees;
   }
-  return number_text(middle / unit, 6) + degrees + " \u00b1 " +
-         number_text((scale.greatest - scale.least) / 2 / unit, 1) + degrees;
+  return number_text(middle, 6) + degrees + " \u00b1 " +
+         number_text((scale.greatest - scale.least) / 2, 1) + degrees;
 }
 
 void draw_legend(cairo_t* context, const Legend& legend, double page_width, double top,

@@ -17,13 +17,12 @@ inline constexpr Rgb map_border_colour = {0.45, 0.48, 0.52}; ///< and the legend
 /// The meaning of the colours.
 struct Legend {
   Scale scale;
-  std::vector<ValenceClass> classes = {}; ///< where has_classes()
+  std::vector<ValueClass> classes = {}; ///< where has_classes()
   std::string caption = {};
 };
 
-/// Round values along the colour bar: of angles (spacing, angle) in degrees, of numbers that are
-/// very large or small in units of a power of ten. A value is its label times this power, plus the
-/// offset.
+/// Round values along the colour bar: of numbers that are very large or small in units of a power
+/// of ten. A value is its label times this power, plus the offset.
 struct BarTicks {
   AxisTicks ticks;
   int exponent = 0;

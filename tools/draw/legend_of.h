@@ -9,8 +9,8 @@
 /// Common code of the pictures of meshes of the sphere and of the plane.
 namespace calotte::tools {
 
-/// Sets the scale of the painting; divides areas by their mean for it, and
-/// multiplies spacings by a radius in km.
+/// Sets the scale of the painting, and brings its values to the unit of the legend: on the sphere
+/// km or degrees, angles in degrees, areas over their mean.
 Legend make_legend(Painting& painting, const DrawOptions& options);
 
 /// The values of the sites for Colouring::density, over their greatest, field and region; else

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace calotte::tools {
 
@@ -79,9 +78,8 @@ Rgb Scale::colour(double value) const {
   if (colouring == Colouring::none) {
     return plain;
   }
-  return colouring == Colouring::valence  ? valence_colour(value)
-         : colouring == Colouring::region ? mask_colour(value)
-                                          : palette_colour(palette, place(value));
+  return has_classes(colouring) ? class_colour(colouring, value)
+                                : palette_colour(palette, place(value));
 }
 
 Scale make_scale(const std::vector<double>& values, Colouring colouring) {
@@ -115,27 +113,31 @@ bool has_classes(Colouring colouring) {
   return colouring == Colouring::valence || colouring == Colouring::region;
 }
 
-double Scale::unit() const {
-  const bool angle = (colouring == Colouring::spacing && !lengths) || colouring == Colouring::angle;
-  return angle ? std::numbers::pi / 180 : 1;
-}
-
 void set_range(Scale& scale, const Range& range) {
   if (scale.colouring == Colouring::none || has_classes(scale.colouring)) {
     throw Error(ErrorCode::invalid_argument,
                 "--range sets the ends of a colour bar, which this --colour "
                 "does not have; leave --range out");
   }
-  scale.low = range.low * scale.unit();
-  scale.high = range.high * scale.unit();
+  scale.low = range.low;
+  scale.high = range.high;
   scale.constant = false;
   scale.logarithmic = is_magnitude(scale.colouring) && scale.low > 0 && scale.high > 4 * scale.low;
   scale.below = scale.least < scale.low;
   scale.above = scale.greatest > scale.high;
 }
 
-Rgb palette_colour(Palette palette, double place) {
-  constexpr std::size_t count = 25; // colours, at equal steps
+const std::vector<std::pair<std::string, Palette>>& palette_names() {
+  static const std::vector<std::pair<std::string, Palette>> names{
+      {"viridis", Palette::viridis},
+      {"cividis", Palette::cividis},
+      {"magma", Palette::magma},
+      {"diverging", Palette::diverging}};
+  return names;
+}
+
+std::vector<Rgb> palette_colours(Palette palette) {
+  constexpr std::size_t count = 25;
   // clang-format off
   static constexpr std::array<std::array<std::uint32_t, count>, 4> colours{{
     // viridis
@@ -160,45 +162,51 @@ Rgb palette_colour(Palette palette, double place) {
      0x5e0f23},
   }};
   // clang-format on
-  const auto& anchors = colours[static_cast<std::size_t>(palette)];
-  const double x = std::clamp(place, 0.0, 1.0) * (count - 1);
-  const auto i = std::min(static_cast<std::size_t>(x), count - 2);
-  const Rgb a = hex(anchors[i]);
-  const Rgb b = hex(anchors[i + 1]);
+  std::vector<Rgb> steps(count);
+  std::ranges::transform(colours[static_cast<std::size_t>(palette)], steps.begin(), hex);
+  return steps;
+}
+
+Rgb palette_colour(Palette palette, double place) {
+  static const std::array<std::vector<Rgb>, 4> palettes{
+      palette_colours(Palette::viridis), palette_colours(Palette::cividis),
+      palette_colours(Palette::magma), palette_colours(Palette::diverging)};
+  const std::vector<Rgb>& steps = palettes[static_cast<std::size_t>(palette)];
+  const double x = std::clamp(place, 0.0, 1.0) * static_cast<double>(steps.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(x), steps.size() - 2);
   const double t = x - static_cast<double>(i);
+  const Rgb &a = steps[i], &b = steps[i + 1];
   return {std::lerp(a.r, b.r, t), std::lerp(a.g, b.g, t), std::lerp(a.b, b.b, t)};
 }
 
-std::vector<ValenceClass> valence_classes(const std::vector<double>& values) {
-  std::map<int, std::int64_t> counts;
-  for (const double v : values) {
-    if (std::isfinite(v)) {
-      ++counts[v == boundary_valence
-                   ? 0
-                   : std::clamp(static_cast<int>(v), least_class, greatest_class)];
-    }
+std::string hex_text(const Rgb& colour) {
+  std::string text;
+  for (const double channel : {colour.r, colour.g, colour.b}) {
+    const auto byte = static_cast<std::size_t>(std::lround(255 * channel));
+    text += "0123456789abcdef"[byte / 16];
+    text += "0123456789abcdef"[byte % 16];
   }
-  std::vector<ValenceClass> classes;
-  for (const auto& [valence, count] : counts) {
-    const std::string label =
-        valence == boundary_valence
-            ? "at the boundary"
-            : std::to_string(valence) + (valence == greatest_class ? "+" : "");
-    classes.push_back({valence_colour(valence), label, count});
-  }
-  return classes;
+  return text;
 }
 
-std::vector<ValenceClass> mask_classes(const std::vector<double>& values) {
+Rgb class_colour(Colouring colouring, double value) {
+  return colouring == Colouring::valence ? valence_colour(value) : mask_colour(value);
+}
+
+std::vector<ValueClass> classes_of(const std::vector<double>& values, Colouring colouring) {
+  const bool valences = colouring == Colouring::valence;
   std::map<int, std::int64_t> counts;
-  for (const double mask : values) {
-    if (std::isfinite(mask)) {
-      ++counts[static_cast<int>(mask)];
-    }
-  }
-  std::vector<ValenceClass> classes;
-  for (const auto& [mask, count] : counts) {
-    classes.push_back({mask_colour(mask), std::to_string(mask), count});
+  for (const double value : values)
+    if (has_classes(colouring) && std::isfinite(value))
+      ++counts[valences && value != boundary_valence
+                   ? std::clamp(static_cast<int>(value), least_class, greatest_class)
+                   : static_cast<int>(value)];
+  std::vector<ValueClass> classes;
+  for (const auto& [value, count] : counts) {
+    const std::string label = valences && value == boundary_valence ? "at the boundary"
+                              : valences && value == greatest_class ? std::to_string(value) + "+"
+                                                                    : std::to_string(value);
+    classes.push_back({class_colour(colouring, value), label, count});
   }
   return classes;
 }

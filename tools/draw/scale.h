@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte::tools {
@@ -14,7 +15,7 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
 };
 
-/// Maps values to colours.
+/// Maps values, in the unit of the legend, to colours.
 struct Scale {
   Colouring colouring = Colouring::none;
   Palette palette = Palette::viridis;
@@ -22,14 +23,12 @@ struct Scale {
   double least = 0, greatest = 1; ///< the extreme values
   bool constant = false;          ///< true if they differ by at most a millionth: one colour
   bool logarithmic = false;
-  bool lengths = false;              ///< spacings are a plane's or in km, not arcs in radians
+  bool degrees = false;              ///< of values that are degrees
   bool below = false, above = false; ///< true if values beyond an end have the colour of the end
 
   /// The position of a value on the bar, 0 to 1.
   double place(double value) const;
   Rgb colour(double value) const;
-  /// The size of the legend's unit in that of the values.
-  double unit() const;
 };
 
 /// A scale for these values, NaN excluded. Its ends are the extreme values, unless the outermost
@@ -37,32 +36,41 @@ struct Scale {
 /// range.
 Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
-/// Makes the colour bar that of a range in the legend's unit.
+/// Makes the colour bar that of a range.
 /// \throws Error invalid_argument for a colouring that has no colour bar.
 void set_range(Scale& scale, const Range& range);
 
 /// Whether the values are a few classes of a colour each, with a legend of these.
 bool has_classes(Colouring colouring);
 
-/// The colour of a colour bar from 0 to 1: viridis and magma (van der Walt and Smith, 2015),
-/// cividis (Nunez, Anderton and Renslow, 2018), or from blue over grey to red. The page of calotte
-/// view has the same ones.
+/// The palettes by the words of --palette.
+const std::vector<std::pair<std::string, Palette>>& palette_names();
+
+/// The colours of a colour bar at equal steps: viridis and magma (van der Walt and Smith, 2015),
+/// cividis (Nunez, Anderton and Renslow, 2018), or from blue over grey to red.
+std::vector<Rgb> palette_colours(Palette palette);
+
+/// The colour of a colour bar from 0 to 1.
 Rgb palette_colour(Palette palette, double place);
+
+/// Six hexadecimal digits.
+std::string hex_text(const Rgb& colour);
 
 /// The value of a cell that the boundary of a plane clips, in place of its number of neighbours.
 inline constexpr double boundary_valence = 0;
 
-/// One class of valences or masks: its colour, its name, its number of shapes.
-struct ValenceClass {
+/// The colour of a number of neighbours, or of a value of bdyMaskCell.
+Rgb class_colour(Colouring colouring, double value);
+
+/// One class of values: its colour, its name, its number of shapes.
+struct ValueClass {
   Rgb colour;
   std::string label;
   std::int64_t count = 0;
 };
 
-/// The classes that occur: the boundary, then the others in rising order.
-std::vector<ValenceClass> valence_classes(const std::vector<double>& values);
-
-/// The values of bdyMaskCell that occur, in rising order.
-std::vector<ValenceClass> mask_classes(const std::vector<double>& values);
+/// The classes that occur, in rising order; the boundary of valences is the first. None unless
+/// has_classes().
+std::vector<ValueClass> classes_of(const std::vector<double>& values, Colouring colouring);
 
 } // namespace calotte::tools

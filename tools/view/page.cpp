@@ -2,6 +2,7 @@
 #include "view/page.h"
 
 #include "draw/coastlines.h"
+#include "draw/scale.h"
 #include "options/numbers.h"
 #include "view/pack.h"
 #include "view/page_parts.h"
@@ -72,10 +73,29 @@ std::vector<double> classes_of(const Quantity& quantity) {
   return {values.begin(), values.end()};
 }
 
-Json json_of_classes(const std::vector<double>& classes) {
+/// With their colours, if pictures have the same classes.
+Json json_of_classes(const Quantity& quantity, const std::vector<double>& classes) {
+  const Colouring colouring = quantity.name == "degree"   ? Colouring::valence
+                              : quantity.name == "region" ? Colouring::region
+                                                          : Colouring::none;
   Json json = Json::array();
-  for (const double value : classes)
+  for (const double value : classes) {
     json.push_back({{"value", value}, {"label", formatted("%.15g", value)}});
+    if (colouring != Colouring::none)
+      json.back()["colour"] = hex_text(class_colour(colouring, value));
+  }
+  return json;
+}
+
+/// The colours of each colour map, from its low end.
+Json json_of_palettes() {
+  Json json;
+  for (const auto& [name, palette] : palette_names()) {
+    std::string text;
+    for (const Rgb& colour : palette_colours(palette))
+      text += hex_text(colour);
+    json[name] = text;
+  }
   return json;
 }
 
@@ -114,7 +134,7 @@ Json add_quantity(const Quantity& quantity, Blocks& blocks) {
           {"unit", quantity.unit},
           {"help", quantity.help},
           {"on", quantity.on_triangles ? "triangles" : "cells"},
-          {"classes", quantity.classes ? json_of_classes(classes) : Json()},
+          {"classes", quantity.classes ? json_of_classes(quantity, classes) : Json()},
           {"logarithmic", quantity.logarithmic && quantity.least.value_or(0) > 0},
           {"worst", word_of(quantity.worst)},
           {"reference", quantity.reference},
@@ -215,6 +235,7 @@ Json header_of(const View& view, Blocks& blocks) {
     meshes.push_back(add_mesh(mesh, blocks));
   return {{"version", 1},
           {"title", view.title},
+          {"palettes", json_of_palettes()},
           {"coastlines", view.coastlines ? add_coastlines(blocks) : Json()},
           {"views", std::move(views)},
           {"meshes", std::move(meshes)},

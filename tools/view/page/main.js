@@ -3,6 +3,7 @@
 import { App } from "./app/app.js";
 import { Selection } from "./app/selection.js";
 import { makeTestApi } from "./app/test_api.js";
+import { readPalettes } from "./colour/palettes.js";
 import { currentTheme, onPreferredTheme, setTheme } from "./colour/theme.js";
 import { canDecode } from "./data/blocks.js";
 import { Classes } from "./panel/classes.js";
@@ -30,6 +31,7 @@ const noGraphics =
 
 function start() {
   const header = JSON.parse(byId("header").textContent);
+  readPalettes(header);
   const app = new App(header);
   const name = () => app.shown.map((mesh) => mesh.name).join(" and ");
   document.title = header.title;

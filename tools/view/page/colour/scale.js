@@ -14,8 +14,8 @@ const sampleSize = 50000;
 /** Of a measure with few discrete values. */
 export class ClassScale {
   constructor(measure) {
-    this.classes = measure.classes.map(({ value, label }, k) =>
-      ({ value, label, colour: classColour(measure.name, value, k) }));
+    this.classes = measure.classes.map(({ value, label, colour }, k) =>
+      ({ value, label, colour: classColour(colour, k) }));
     this.size = this.classes.length;
     this.places = new Map(this.classes.map(({ value }, k) => [value, k]));
   }
