@@ -13,8 +13,8 @@
 #include "run/exit_code.h"
 #include "run/progress.h"
 #include "run/shapes.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/mesh_file.h>
 #include <calotte/version.h>
 
@@ -41,17 +41,15 @@ void require_request(const Request& request) {
   const Format format = options_of(*request.format, request.output)
                             .format; // throws for a file that cannot be written
   if (request.depths.given() && format != Format::fesom)
-    throw Error(ErrorCode::invalid_argument,
-                request.output + ": --depth-levels applies to FESOM's nod2d.out; leave it out");
+    refuse(request.output + ": --depth-levels applies to FESOM's nod2d.out; leave it out");
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster,
                    request.domain->file.value_or(""), *request.config});
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
-    throw Error(ErrorCode::invalid_argument,
-                source.path +
-                    " holds triangles without points; give the points with --points FILE, or, if "
-                    "the file holds points, triangulate them with calotte delaunay");
+    refuse(source.path +
+           " holds triangles without points; give the points with --points FILE, or, if "
+           "the file holds points, triangulate them with calotte delaunay");
 }
 
 constexpr double kilometre = 1000; // metres
@@ -101,14 +99,7 @@ std::string describe(const MeshFile& file) {
          (file.mesh->closed() ? "closed" : "open");
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names)
-    list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-std::string joined(const std::vector<std::array<std::string, 2>>& names) {
+std::string renamed(const std::vector<std::array<std::string, 2>>& names) {
   std::string list;
   for (const auto& [from, to] : names)
     list.append(list.empty() ? "\"" : ", \"").append(from).append("\" became ").append(to);
@@ -127,7 +118,7 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
   if (!written.dropped.empty())
     lines += request.output + ": the format does not hold " + joined(written.dropped) + "\n";
   if (!written.renamed.empty())
-    lines += request.output + ": names that NetCDF refuses: " + joined(written.renamed) + "\n";
+    lines += request.output + ": names that NetCDF refuses: " + renamed(written.renamed) + "\n";
   if (!file.ignored.empty())
     lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
   if (options.site_density.size() > 0)
@@ -144,17 +135,14 @@ MeshFile read_input(const Request& request) {
   const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;
   const std::optional<Surface> part = surface_of(*request.domain);
   if (part && !unbounded)
-    throw Error(ErrorCode::invalid_argument,
-                request.source->path + " holds no mesh of a bounded plane; leave --domain and "
-                                       "--rectangle out");
+    refuse(request.source->path + " holds no mesh of a bounded plane; leave --domain and "
+                                  "--rectangle out");
   const Format format = options_of(*request.format, request.output).format;
   if (part)
     file.mesh->surface = *part;
   else if (unbounded && !file.polygons && info_of(format).cells)
-    throw Error(ErrorCode::invalid_argument,
-                request.output +
-                    ": the cells of a bounded plane need its domain, which clips them; "
-                    "give --domain FILE or --rectangle X0,Y0,X1,Y1");
+    refuse(request.output + ": the cells of a bounded plane need its domain, which clips them; "
+                            "give --domain FILE or --rectangle X0,Y0,X1,Y1");
   return file;
 }
 

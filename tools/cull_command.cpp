@@ -6,9 +6,9 @@
 #include "options/global_option.h"
 #include "options/model_option.h"
 #include "run/progress.h"
+#include "text/text.h"
 
 #include <calotte/cull.h>
-#include <calotte/error.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
 
@@ -49,9 +49,7 @@ void require_request(const Request& request) {
   require_mpas_model(request.model);
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
-    throw Error(
-        ErrorCode::invalid_argument,
-        "there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
+    refuse("there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
   const auto map = [&](const std::string& name) {
     return request.cell_map.empty() ? ""
                                     : (std::filesystem::path(request.cell_map) / name).string();

@@ -9,7 +9,6 @@
 #include "run/progress.h"
 
 #include <calotte/cut.h>
-#include <calotte/error.h>
 #include <calotte/version.h>
 
 #include <iostream>

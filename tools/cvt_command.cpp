@@ -18,6 +18,7 @@
 #include "run/interruption.h"
 #include "run/kept_states.h"
 #include "run/progress.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -7,10 +7,10 @@
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
-#include "options/numbers.h"
 #include "options/partition_options.h"
 #include "options/point_file.h"
 #include "run/progress.h"
+#include "text/text.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -40,12 +40,10 @@ struct Request {
 /// Checks all options that can fail, before any work.
 void require_request(const Request& request) {
   if (request.plane && request.format->sphere_radius)
-    throw Error(ErrorCode::invalid_argument,
-                "--sphere-radius does not apply with --plane; leave it out");
+    refuse("--sphere-radius does not apply with --plane; leave it out");
   if (request.plane && holds_points(request.points))
-    throw Error(ErrorCode::invalid_argument,
-                request.points +
-                    ": --plane requires text with x y on each line; leave --plane out for a mesh");
+    refuse(request.points +
+           ": --plane requires text with x y on each line; leave --plane out for a mesh");
   period_of(request.periodic);               // throws for an invalid box
   options_of(*request.format, request.mesh); // throws for a file that cannot be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},

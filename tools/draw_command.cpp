@@ -12,8 +12,9 @@
 #include "options/files.h"
 #include "options/region_option.h"
 #include "run/operator_measures.h"
+#include "run/spacing_survey.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/operators.h>
 
 #include <algorithm>
@@ -45,14 +46,12 @@ std::string file_name(const MeshSource& source) {
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
   if (wanted && !arguments.has_density()) {
-    throw Error(ErrorCode::invalid_argument,
-                std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
-                    " requires a density; give --density or --cell-width");
+    refuse(std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
+           " requires a density; give --density or --cell-width");
   }
   if (!wanted && arguments.has_density()) {
-    throw Error(ErrorCode::invalid_argument,
-                "a mesh with a density requires --colour density or --spacing-law; give one of "
-                "these, or leave MESH out to draw the density");
+    refuse("a mesh with a density requires --colour density or --spacing-law; give one of "
+           "these, or leave MESH out to draw the density");
   }
 }
 
@@ -85,13 +84,11 @@ void set_errors(const std::string& word, const OperatorErrors& errors, DrawOptio
 ///         mesh that ends at walls; as operator_errors().
 OperatorErrors errors_of(const Mesh& mesh) {
   if (mesh.surface == Surface::plane())
-    throw Error(ErrorCode::invalid_argument,
-                "the errors of operators depend on the domain, which clips "
-                "the cells; give --domain, --rectangle or --periodic");
+    refuse("the errors of operators depend on the domain, which clips "
+           "the cells; give --domain, --rectangle or --periodic");
   if (has_walls(mesh))
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh ends at walls, where its cells have no errors of "
-                "operators; choose another --colour");
+    refuse("the mesh ends at walls, where its cells have no errors of "
+           "operators; choose another --colour");
   return operator_errors(mesh);
 }
 
@@ -137,9 +134,7 @@ void choose_colouring(const DrawArguments& arguments, const MeshFile& file, Draw
 /// The options of a picture of a file's mesh.
 DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
   DrawOptions options = arguments.options;
-  options.radius_km = radius_km(*arguments.source, file);
-  if (!options.radius_km && arguments.density->widths.in_km())
-    options.radius_km = arguments.density->widths.radius;
+  options.radius_km = radius_km(*arguments.source, file, arguments.density->widths);
   options.name = file_name(*arguments.source);
   options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
   set_region(arguments, options.radius_km, options.look);
@@ -154,12 +149,10 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
       arguments.source->path + ": the cells are not Voronoi cells (" + file.not_voronoi + ")";
   if (arguments.spacing_law ||
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
-    throw Error(ErrorCode::invalid_argument, not_voronoi + "; draw them with --what cells");
+    refuse(not_voronoi + "; draw them with --what cells");
   }
   if (!arguments.error_of.empty()) {
-    throw Error(ErrorCode::invalid_argument,
-                not_voronoi +
-                    ", so that they have no errors of operators; choose another --colour");
+    refuse(not_voronoi + ", so that they have no errors of operators; choose another --colour");
   }
   DrawOptions options = options_for(arguments, file);
   if (shows_field(options)) {
@@ -182,9 +175,7 @@ void draw_mesh(const DrawArguments& arguments) {
   DrawOptions options = options_for(arguments, file);
   options.density = density;
   if (!plane && file.plane()) {
-    throw Error(ErrorCode::invalid_argument,
-                arguments.source->path +
-                    ": it holds a mesh of the plane; read it as one of the plane");
+    refuse(arguments.source->path + ": it holds a mesh of the plane; read it as one of the plane");
   }
   if (!plane && file.polygons && !(file.mesh && !file.mesh->closed())) {
     draw_cells(arguments, file);
@@ -221,11 +212,8 @@ std::string title_of(const DensityWords& words) {
                            : std::to_string(names.size()) + " bumps, their " + words.join;
 }
 
-/// The spacings that a density implies; `unit` is the spacing at density 1.
 std::function<DoubleVector(const Points3&)> spacings_by(const Density& density, double unit) {
-  return [density, unit](const Points3& x) -> DoubleVector {
-    return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
-  };
+  return [density, unit](const Points3& x) { return spacings_of(density, unit, x); };
 }
 
 /// The widths of a file, otherwise the density; --colour selects the other.
@@ -253,8 +241,7 @@ void draw_density(const DrawArguments& arguments) {
     throw CLI::RequiredError("--what: MESH");
   }
   if (colouring != Colouring::density && colouring != Colouring::spacing) {
-    throw Error(
-        ErrorCode::invalid_argument,
+    refuse(
         "a picture of a density is coloured by density or spacing; give one of these, or a mesh");
   }
   Look look = arguments.options.look;

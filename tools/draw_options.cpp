@@ -9,8 +9,7 @@
 #include "options/numbers.h"
 #include "options/region_option.h"
 #include "run/operator_measures.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +24,8 @@ namespace {
 LonLat parse_view(const std::string& text) {
   const auto place = numbers_of<2>(text);
   if (!place || std::abs((*place)[0]) > 360 || std::abs((*place)[1]) > 90)
-    throw Error(
-        ErrorCode::invalid_argument,
-        "--view " + text +
-            " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
+    refuse("--view " + text +
+           " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
   return {(*place)[0], (*place)[1]};
 }
 
@@ -98,10 +95,9 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
     } else if (number && (*number)[0] >= 1 && (*number)[0] <= most_zoom) {
       zoom = (*number)[0];
     } else {
-      throw Error(ErrorCode::invalid_argument,
-                  "--zoom " + word +
-                      " is no enlargement; give auto, whole or a number "
-                      "from 1 to 2000, as in --zoom 5");
+      refuse("--zoom " + word +
+             " is no enlargement; give auto, whole or a number "
+             "from 1 to 2000, as in --zoom 5");
     }
   };
   command
@@ -118,10 +114,9 @@ void add_range(CLI::App& command, std::optional<Range>& range) {
   const auto set = [&range](const std::string& text) {
     const auto ends = numbers_of<2>(text);
     if (!ends || !((*ends)[0] < (*ends)[1])) {
-      throw Error(ErrorCode::invalid_argument,
-                  "--range " + text +
-                      " is no range of a colour bar; give its lower and its upper end, as in "
-                      "--range 30,120");
+      refuse("--range " + text +
+             " is no range of a colour bar; give its lower and its upper end, as in "
+             "--range 30,120");
     }
     range = {(*ends)[0], (*ends)[1]};
   };
@@ -228,9 +223,6 @@ void add_plane_options(CLI::App& command, DrawArguments& arguments) {
   const OptionGroup group(command, "Plane");
   CLI::Option* plane = add_plane(command, *arguments.source);
   arguments.domain = add_domain(command);
-  for (const char* name : {"--domain", "--rectangle", "--periodic"}) {
-    command.get_option(name)->needs(plane);
-  }
   for (const char* name : {"--projection", "--view", "--zoom", "--graticule", "--region",
                            "--coastlines", "--spacing-law", "--history"}) {
     plane->excludes(command.get_option(name));

@@ -6,8 +6,7 @@
 #include "help/nearest_name.h"
 #include "help/topics.h"
 #include "help/unknown_word.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <iostream>
 #include <memory>
@@ -23,8 +22,7 @@ constexpr const char* command_line = "calotte"; ///< before the name of a comman
   std::vector<std::string> names = command_names(app);
   for (const Topic& topic : topics())
     names.push_back(topic.name);
-  throw Error(ErrorCode::invalid_argument,
-              "no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
+  tools::refuse("no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
 }
 
 /// \param name of a command or a topic; "" for the main command.
@@ -49,9 +47,8 @@ std::string man_page_of(const CLI::App& app, const std::string& name) {
   for (const CLI::App* command : app.get_subcommands({}))
     if (command->get_name() == name)
       return man_page(app, *command);
-  throw Error(ErrorCode::invalid_argument,
-              "no manual page of \"" + name + "\"; " +
-                  remedy_for(name, command_names(app), "", "calotte --help"));
+  tools::refuse("no manual page of \"" + name + "\"; " +
+                remedy_for(name, command_names(app), "", "calotte --help"));
 }
 
 struct HelpRequest {

@@ -11,6 +11,7 @@
 #include "options/units_option.h"
 #include "run/mesh_measures.h"
 #include "run/progress.h"
+#include "text/text.h"
 #include "view/view_mesh.h"
 
 #include <calotte/check.h>
@@ -47,16 +48,8 @@ void require_report(const Request& request) {
                    request.domain->file.value_or("")});
 }
 
-/// The radius that is given, that of a NetCDF file, or the one that the widths refer to.
 std::optional<double> radius_of(const Request& request, const MeshFile& file) {
-  constexpr double metres = 1000; // a km
-  if (request.sphere_radius)
-    return *request.sphere_radius / metres;
-  if (const std::optional<double> of_file = radius_km(*request.source, file))
-    return of_file;
-  if (request.density->widths.in_km())
-    return request.density->widths.radius;
-  return std::nullopt;
+  return radius_km(*request.source, file, request.density->widths, request.sphere_radius);
 }
 
 /// The density that is given, or else that of the file.
@@ -149,9 +142,8 @@ void measure_plane(const Request& request, const MeshFile& file,
   if (!covered && file.polygons && file.mesh->surface.period().maxCoeff() > 0)
     return measure_walls(request, file, measured);
   if (!covered)
-    throw Error(ErrorCode::invalid_argument,
-                request.source->path + ": a planar mesh needs its domain, which clips the cells; "
-                                       "give --domain, --rectangle or --periodic");
+    refuse(request.source->path + ": a planar mesh needs its domain, which clips the cells; "
+                                  "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, true);
   Mesh mesh = *file.mesh;
@@ -167,9 +159,8 @@ void measure_plane(const Request& request, const MeshFile& file,
 void set_surface(const Surface& part, MeshFile& file) {
   const Eigen::Vector2d& period = file.mesh->surface.period();
   if (period != part.period())
-    throw Error(ErrorCode::invalid_argument,
-                "the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
-                    shortest(period.y()) + "; leave the domain out, or give that of the mesh");
+    refuse("the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
+           shortest(period.y()) + "; leave the domain out, or give that of the mesh");
   file.mesh->surface = part;
 }
 
@@ -243,21 +234,9 @@ std::string read_and_measure(const Request& request) {
          (by_corners ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
 }
 
-void require_radius(const Request& request) {
-  require_sphere_radius(request.sphere_radius.value_or(1));
-  if (request.sphere_radius && request.source->plane)
-    throw Error(ErrorCode::invalid_argument,
-                "--sphere-radius does not apply with --plane; leave it out");
-  if (request.units && request.source->plane)
-    throw Error(ErrorCode::invalid_argument, "--units does not apply with --plane; leave it out");
-}
-
 void run(const Request& request) {
-  if (request.domain->given() && !request.source->plane)
-    throw Error(ErrorCode::invalid_argument,
-                "a domain requires --plane; add --plane, or leave the domain out");
   request.density->widths.plane = request.source->plane;
-  require_radius(request);
+  require_sphere_radius(request.sphere_radius.value_or(1));
   require_report(request);
   std::cout << read_and_measure(request);
 }
@@ -278,6 +257,7 @@ void add_info(CLI::App& app) {
                     "Radius of the sphere, for distances in km: metres, > 0, or earth (6371229 m); "
                     "default: the one in a NetCDF file, or --earth-radius with --cell-width");
   add_units(*command, request->units);
+  command->get_option("--plane")->excludes("--sphere-radius")->excludes("--units");
   command
       ->add_option("--cell", request->cell,
                    "Print the numbers of one cell instead, by its place in the file, from 0")

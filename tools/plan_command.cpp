@@ -17,8 +17,8 @@
 #include "run/cvt_costs.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/grid.h>
 #include <calotte/read.h>
 
@@ -63,10 +63,6 @@ struct Plan {
   int threads = 1;
   CvtCosts costs;
 };
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
 
 Recipe recipe_of(const Request& request) {
   Recipe recipe;
@@ -219,9 +215,7 @@ std::string to_json(const Plan& plan) {
 void draw_widths(const Request& request, const Density& density, const Plan& plan) {
   const double radius = plan.radius_km.value_or(1 / degree);
   const double unit = plan.spacing.unit * radius;
-  const auto values = [&](const Points3& x) -> DoubleVector {
-    return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
-  };
+  const auto values = [&](const Points3& x) { return spacings_of(density, unit, x); };
   const std::string range = range_text(radius * plan.spacing.least, radius * plan.spacing.greatest,
                                        plan.radius_km ? "km" : "\u00b0");
   draw(request.picture,

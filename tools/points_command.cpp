@@ -5,8 +5,8 @@
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/numbers.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/io.h>
 
@@ -30,25 +30,19 @@ struct Request {
 
 void require_options(const Request& request) {
   if (request.seed && request.kind != "random" && request.kind != "random-plane")
-    throw Error(ErrorCode::invalid_argument, "--seed applies to random points only; leave it out");
+    refuse("--seed applies to random points only; leave it out");
   if (request.planar() && !request.domain->given())
-    throw Error(ErrorCode::invalid_argument,
-                request.kind +
-                    " points need a planar domain; give --domain, --rectangle or --periodic");
+    refuse(request.kind + " points need a planar domain; give --domain, --rectangle or --periodic");
   if (!request.planar() && request.domain->given())
-    throw Error(
-        ErrorCode::invalid_argument,
-        request.kind +
-            " points lie on the sphere; leave the domain out, or give random-plane or hexagonal");
+    refuse(request.kind +
+           " points lie on the sphere; leave the domain out, or give random-plane or hexagonal");
   if (request.poles && request.kind != "latlon")
-    throw Error(ErrorCode::invalid_argument, "--poles applies to latlon points only; leave it out");
+    refuse("--poles applies to latlon points only; leave it out");
   if (request.output == "-")
     return;
   if (holds_points(request.output) || std::filesystem::path(request.output).extension() == ".tri")
-    throw Error(
-        ErrorCode::invalid_argument,
-        request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
-            " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
+    refuse(request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
+           " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
   require_outputs({{"points", request.output}}, {request.domain->file.value_or("")});
 }
 
@@ -61,15 +55,13 @@ int level_of(std::int64_t count) {
     if (points == count)
       return level;
     if (points > count)
-      throw Error(ErrorCode::invalid_argument,
-                  "a bisected icosahedron has 12, 42, 162, 642 and so on points, not " +
-                      std::to_string(count) + "; give " +
-                      (fewer > 0 ? std::to_string(fewer) + " or " : "") + std::to_string(points));
+      refuse("a bisected icosahedron has 12, 42, 162, 642 and so on points, not " +
+             std::to_string(count) + "; give " + (fewer > 0 ? std::to_string(fewer) + " or " : "") +
+             std::to_string(points));
     fewer = points;
   }
-  throw Error(ErrorCode::invalid_argument, "a bisected icosahedron of " + std::to_string(count) +
-                                               " points is too large; give " +
-                                               std::to_string(fewer) + " or fewer");
+  refuse("a bisected icosahedron of " + std::to_string(count) + " points is too large; give " +
+         std::to_string(fewer) + " or fewer");
 }
 
 Points3 generate(const Request& request) {

@@ -12,6 +12,7 @@
 #include "options/units_option.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
+#include "text/text.h"
 #include "view/page.h"
 #include "view/run.h"
 
@@ -51,10 +52,6 @@ struct Request {
   bool open = false;
 };
 
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
-
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename(); }
 
 std::string output_of(const Request& request) {
@@ -79,26 +76,11 @@ void require_request(const Request& request) {
     refuse("--cells belongs to --plan; leave it out, or give --most-cells");
   if (request.plan && !request.cells && !request.density->widths.in_km())
     refuse("a density has no unit; give --cells N, or widths in km (--cell-width 60km)");
-  if (request.domain->given() && !request.source->plane)
-    refuse("a domain requires --plane; add --plane, or leave the domain out");
-  if (request.source->plane && (request.sphere_radius || request.units))
-    refuse("--sphere-radius and --units do not apply with --plane; leave them out");
   require_sphere_radius(request.sphere_radius.value_or(1));
   const WidthWords& widths = request.density->widths;
   require_outputs({{"page", output_of(request)}},
                   {request.source->path, request.source->points, request.other, request.report,
                    widths.file, widths.raster, request.domain->file.value_or("")});
-}
-
-/// The radius that is given, that of the file, or the one that the widths refer to.
-std::optional<double> radius_of(const Request& request, const MeshSource& source,
-                                const MeshFile& file) {
-  if (request.sphere_radius)
-    return *request.sphere_radius / metres;
-  if (const std::optional<double> of_file = radius_km(source, file))
-    return of_file;
-  return request.density->widths.in_km() ? std::optional(request.density->widths.radius)
-                                         : std::nullopt;
 }
 
 /// A mesh to show, and the radius of its sphere if it is known.
@@ -112,7 +94,7 @@ Input read_input(const Request& request, const MeshSource& source, Progress& pro
   progress.stage("reading " + source.path);
   Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
   if (!input.file.plane())
-    input.radius_km = radius_of(request, source, input.file);
+    input.radius_km = radius_km(source, input.file, request.density->widths, request.sphere_radius);
   return input;
 }
 
@@ -273,7 +255,7 @@ void add_view(CLI::App& app) {
       ->type_name("FILE");
   command->add_flag("--open", request->open, "Open the page in the browser");
   add_content(*command, *request);
-  add_plane(*command, *request->source);
+  add_plane(*command, *request->source)->excludes("--sphere-radius")->excludes("--units");
   request->domain = add_domain(*command);
   request->density = add_density(*command);
   add_plan_options(*command, *request);

@@ -144,7 +144,7 @@ TEST_CASE("info speaks in km, degrees or radians") {
                 "--units km requires the radius of the sphere; give --sphere-radius earth, or a "
                 "radius in metres");
   check_refusal(bench, "info unit.vtp --plane --units km", 2,
-                "--units does not apply with --plane; leave it out");
+                "--plane excludes --units; see calotte info --help");
 }
 
 TEST_CASE("a radius that may be in km gives a warning, where it is given and where it is read") {

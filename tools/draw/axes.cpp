@@ -2,10 +2,10 @@
 #include "draw/axes.h"
 
 #include "draw/text.h"
+#include "text/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 
@@ -19,21 +19,11 @@ constexpr double smallest = 1e-100; ///< on a logarithmic axis, and the largest'
 constexpr double fuzz =
     1e-9; ///< distance in steps within which a tick counts as an end of the axis
 
-std::string with_minus(const std::string& text) {
-  return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
-}
-
 std::string plain(double value) {
   if (std::abs(value) >= 1000 && std::abs(value) < 1e15 && value == std::round(value)) {
     return (value < 0 ? "\u2212" : "") + grouped(std::llround(std::abs(value)));
   }
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return with_minus(text);
-}
-
-std::string power_of_ten(int exponent) {
-  return "10^{" + with_minus(std::to_string(exponent)) + "}";
+  return with_minus(formatted("%.6g", value));
 }
 
 /// digit times a power of ten.

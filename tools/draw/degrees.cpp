@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/degrees.h"
 
+#include "text/text.h"
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 
 namespace calotte::tools {
@@ -13,11 +14,7 @@ namespace {
 constexpr int most_lines = 6;  ///< in each direction
 constexpr int points_of = 128; ///< along a line or an edge
 
-std::string magnitude(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g\u00b0", std::abs(value));
-  return text;
-}
+std::string magnitude(double value) { return formatted("%.6g\u00b0", std::abs(value)); }
 
 /// Degrees on the earth that a window shows. Longitudes are continuous, about that of its middle.
 struct Extent {

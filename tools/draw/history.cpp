@@ -3,13 +3,11 @@
 
 #include "draw/picture.h"
 #include "draw/text.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace calotte::tools {
@@ -38,15 +36,13 @@ std::string counted(std::int64_t number, const std::string& thing) {
 
 /// The method of a run and its cost.
 std::string summary_of(const History& history) {
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%.3g s", history.seconds);
   const std::string end = history.norm == Norm::none ? ""
                           : history.converged        ? "converged in "
                                                      : "not converged in ";
   const std::string method = history.method.empty() ? "" : ", " + history.method;
   return method + ": " + counted(history.iterations.back().cells, "cell") + ", " + end +
          counted(static_cast<std::int64_t>(history.iterations.size()), "evaluation") + ", " +
-         seconds;
+         formatted("%.3g s", history.seconds);
 }
 
 Rgb faded(const Rgb& colour) {
@@ -422,9 +418,8 @@ Rgb history_colour(std::size_t run) {
 void draw_history(const std::string& path, const std::vector<History>& histories, int size) {
   require_picture(path, size);
   if (histories.empty() || histories.size() > most_histories) {
-    throw Error(ErrorCode::invalid_argument,
-                "a picture shows 1 to " + std::to_string(most_histories) + " reports, not " +
-                    std::to_string(histories.size()) + "; leave some out");
+    refuse("a picture shows 1 to " + std::to_string(most_histories) + " reports, not " +
+           std::to_string(histories.size()) + "; leave some out");
   }
   const HistoryPage page = history_page(histories, size);
   write_picture(path, page.width, page.height,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/history_page.h"
 
+#include "text/text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

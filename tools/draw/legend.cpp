@@ -101,10 +101,8 @@ void draw_ticks(cairo_t* context, const BarTicks& bar_ticks, const Bar& bar, dou
     marked_text(context, x, bar.bottom() + 1.35 * text, labelled.label, 0.5);
   }
   if (bar_ticks.exponent != 0) {
-    const std::string exponent =
-        (bar_ticks.exponent < 0 ? "\u2212" : "") + std::to_string(std::abs(bar_ticks.exponent));
     marked_text(context, bar.left + bar.width + 1.5 * bar.height, bar.bottom(),
-                "\u00d7\u200910^{" + exponent + "}");
+                "\u00d7\u2009" + power_of_ten(bar_ticks.exponent));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "draw/picture.h"
 
 #include "io/command.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -85,15 +86,13 @@ PictureFormat picture_format(const std::string& path) {
   if (suffix == ".pdf") {
     return PictureFormat::pdf;
   }
-  throw Error(ErrorCode::invalid_argument,
-              path + ": the suffix names no picture format; use .png, .svg or .pdf");
+  refuse(path + ": the suffix names no picture format; use .png, .svg or .pdf");
 }
 
 void require_picture(const std::string& path, int width) {
   picture_format(path);
   if (width < 64 || width > 16384) {
-    throw Error(ErrorCode::invalid_argument,
-                "a picture is 64 to 16384 pixels wide, not " + std::to_string(width));
+    refuse("a picture is 64 to 16384 pixels wide, not " + std::to_string(width));
   }
 }
 

@@ -9,9 +9,9 @@
 #include "draw/title.h"
 #include "draw/values.h"
 #include "draw/vector.h"
+#include "text/text.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/error.h>
 #include <calotte/quality.h>
 #include <calotte/surface.h>
 
@@ -162,9 +162,8 @@ std::vector<double> in_unit(std::vector<double> values, double unit) {
 
 void set_domain(Mesh& mesh, const Surface& domain) {
   if (domain.period() != mesh.surface.period()) {
-    throw Error(ErrorCode::invalid_argument,
-                "the domain is not the one that the mesh was made for: one of the two is periodic, "
-                "or both with other periods; leave the domain out");
+    refuse("the domain is not the one that the mesh was made for: one of the two is periodic, "
+           "or both with other periods; leave the domain out");
   }
   mesh.surface = domain;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/scale.h"
 
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <algorithm>
 #include <array>
@@ -115,9 +115,8 @@ bool has_classes(Colouring colouring) {
 
 void set_range(Scale& scale, const Range& range) {
   if (scale.colouring == Colouring::none || has_classes(scale.colouring)) {
-    throw Error(ErrorCode::invalid_argument,
-                "--range sets the ends of a colour bar, which this --colour "
-                "does not have; leave --range out");
+    refuse("--range sets the ends of a colour bar, which this --colour "
+           "does not have; leave --range out");
   }
   scale.low = range.low;
   scale.high = range.high;

@@ -4,12 +4,12 @@
 #include "draw/picture.h"
 #include "draw/text.h"
 #include "draw/values.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -217,13 +217,12 @@ void draw_deviations(cairo_t* context, const SpacingLawPage& page, const Spacing
 }
 
 std::string title_of(const SpacingLaw& law) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                ": spacing ratio %.3g, by the law %.3g (extremes %.3g); %.3g\u2009%% within "
-                "\u00b1%.3g\u2009%%",
-                law.measured_ratio, law.lawful_ratio, law.extreme_ratio, 100 * law.share,
-                100 * law_band);
-  return grouped(static_cast<std::int64_t>(law.measured.size())) + " cells" + text;
+  return grouped(static_cast<std::int64_t>(law.measured.size())) +
+         formatted(" cells: spacing ratio %.3g", law.measured_ratio) +
+         formatted(", by the law %.3g", law.lawful_ratio) +
+         formatted(" (extremes %.3g); ", law.extreme_ratio) +
+         formatted("%.3g\u2009%% within ", 100 * law.share) +
+         formatted("\u00b1%.3g\u2009%%", 100 * law_band);
 }
 
 /// In the corner that a rising law leaves empty.
@@ -258,9 +257,7 @@ void legend(cairo_t* context, const SpacingLawPage& page, const SpacingLaw& law)
   cairo_fill(context);
   law_line(context, page.text);
   sample();
-  char band[32];
-  std::snprintf(band, sizeof band, ", \u00b1%.3g\u2009%%", 100 * law_band);
-  entry(std::string("*h* \u221d *\u03c1*^{\u22121/4}") + band);
+  entry("*h* \u221d *\u03c1*^{\u22121/4}" + formatted(", \u00b1%.3g\u2009%%", 100 * law_band));
   median_line(context, page.text);
   sample();
   entry("running median");
@@ -304,9 +301,8 @@ SpacingLaw spacing_law(const Mesh& mesh, const Density& density) {
   std::copy_if(spacings.begin(), spacings.end(), std::back_inserter(law.measured),
                [](double h) { return !std::isnan(h); });
   if (law.measured.empty()) {
-    throw Error(ErrorCode::invalid_argument,
-                "no cell of this mesh is bounded; draw the law of a mesh "
-                "that covers more of the sphere");
+    refuse("no cell of this mesh is bounded; draw the law of a mesh "
+           "that covers more of the sphere");
   }
   std::vector<double> factors(law.measured.size());
   std::transform(law.measured.begin(), law.measured.end(), law.lawful.begin(), factors.begin(),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/text.h"
 
+#include "text/text.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <regex>
 #include <string_view>
 #include <utility>
@@ -103,16 +104,24 @@ std::string grouped(std::int64_t number) {
   return text;
 }
 
+std::string with_minus(const std::string& text) {
+  return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
+}
+
+std::string power_of_ten(int exponent) {
+  return "10^{" + with_minus(std::to_string(exponent)) + "}";
+}
+
 std::string number_text(double value, int digits) {
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, std::abs(value));
-  std::string text = buffer;
+  std::string text =
+      with_minus(formatted(("%." + std::to_string(digits) + "g").c_str(), value + 0.0)); // no -0
   if (const std::size_t e = text.find('e'); e != std::string::npos) {
-    const int exponent = std::stoi(text.substr(e + 1));
-    text = (text.substr(0, e) == "1" ? "" : text.substr(0, e) + "\u2009\u00d7\u2009") + "10^{" +
-           (exponent < 0 ? "\u2212" : "") + std::to_string(std::abs(exponent)) + "}";
+    const std::string factor = text.substr(0, e);
+    const bool one = factor == "1" || factor == "\u22121";
+    text = (one ? factor.substr(0, factor.size() - 1) : factor + "\u2009\u00d7\u2009") +
+           power_of_ten(std::stoi(text.substr(e + 1)));
   }
-  return (value < 0 ? "\u2212" : "") + text;
+  return text;
 }
 
 std::string shown(const std::string& name) {

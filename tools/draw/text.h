@@ -29,6 +29,12 @@ void fitted_text(cairo_t* context, double x, double baseline, const std::string&
 /// A number with groups of three digits: 2621442 as 2 621 442.
 std::string grouped(std::int64_t number);
 
+/// A number's text with the sign for minus in place of a hyphen.
+std::string with_minus(const std::string& text);
+
+/// "10^{-3}", marked text.
+std::string power_of_ten(int exponent);
+
 /// A number with at most this many digits, marked text: 1.5, 6.4 x 10^{21}.
 std::string number_text(double value, int digits);
 

@@ -2,10 +2,10 @@
 #include "draw/title.h"
 
 #include "draw/text.h"
+#include "text/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <numbers>
 
@@ -16,9 +16,7 @@ namespace {
 std::string three_digits(double value) {
   if (value >= 1000 && value < 1e7)
     return grouped(std::llround(value));
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return formatted("%.3g", value);
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/values.h"
 
-#include <calotte/error.h>
+#include "text/text.h"
+
 #include <calotte/voronoi.h>
 
 #include <algorithm>
@@ -114,10 +115,9 @@ std::vector<double> cell_values(const Scene& scene, Colouring colouring,
 
 void require_closed_cells(Colouring colouring) {
   if (colouring == Colouring::area || colouring == Colouring::quality) {
-    throw Error(ErrorCode::invalid_argument,
-                std::string("the mesh has an open boundary, so that its cells have no ") +
-                    (colouring == Colouring::area ? "area" : "quality") +
-                    "; colour its triangles, or cells by spacing");
+    refuse(std::string("the mesh has an open boundary, so that its cells have no ") +
+           (colouring == Colouring::area ? "area" : "quality") +
+           "; colour its triangles, or cells by spacing");
   }
 }
 

@@ -4,6 +4,7 @@
 #include "help/option_text.h"
 #include "help/topics.h"
 #include "help/unknown_word.h"
+#include "text/text.h"
 
 #include <cctype>
 #include <sstream>
@@ -35,13 +36,6 @@ Values values_for(const CLI::Option& option) {
       values.files = values.files || part.starts_with(kind);
   }
   return values;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words)
-    list += (list.empty() ? "" : " ") + word;
-  return list;
 }
 
 std::vector<const CLI::Option*> options_of(const CLI::App& command) {
@@ -79,7 +73,7 @@ Values positional_values(const CLI::App& app, const CLI::App& command) {
 // ---- bash
 
 std::string bash_values(const Values& values) {
-  return (values.words.empty() ? "" : " words='" + joined(values.words) + "'") +
+  return (values.words.empty() ? "" : " words='" + joined(values.words, " ") + "'") +
          (values.files ? " files=1" : "");
 }
 
@@ -87,11 +81,9 @@ std::string bash_values(const Values& values) {
 std::string bash_command(const CLI::App& app, const CLI::App& command) {
   std::string names = "--help --help-all", cases;
   for (const CLI::Option* option : options_of(command)) {
-    std::string pattern;
-    for (const std::string& name : dashed_names(*option)) {
+    const std::string pattern = joined(dashed_names(*option), "|");
+    for (const std::string& name : dashed_names(*option))
       names += " " + name;
-      pattern += (pattern.empty() ? "" : "|") + name;
-    }
     if (!pattern.empty() && !values_of(*option).empty())
       cases += "        " + pattern + ") value=1" + bash_values(values_for(*option)) + " ;;\n";
   }
@@ -151,11 +143,11 @@ std::string zsh_values(const std::string& name, const Values& values) {
   // g++ 12 takes ":" + text for a copy that overlaps (-Wrestrict).
   const std::string head = std::string(":").append(zsh_quoted(name)).append(":");
   if (values.files && !values.words.empty())
-    return head + "{_alternative \"words\\:word\\:(" + joined(values.words) +
+    return head + "{_alternative \"words\\:word\\:(" + joined(values.words, " ") +
            ")\" \"files\\:file\\:_files\"}";
   if (values.files)
     return head + "_files";
-  return head + (values.words.empty() ? " " : "(" + joined(values.words) + ")");
+  return head + (values.words.empty() ? " " : "(" + joined(values.words, " ") + ")");
 }
 
 std::string zsh_option(const CLI::Option& option) {
@@ -186,7 +178,7 @@ std::string zsh_command(const CLI::App& app, const CLI::App& command) {
 } // namespace
 
 std::string bash_completion(const CLI::App& app) {
-  std::string text = bash_begin + joined(command_names(app)) +
+  std::string text = bash_begin + joined(command_names(app), " ") +
                      " --help --help-all --version' -- \"$word\"))\n        return\n    fi\n"
                      "    case ${COMP_WORDS[1]} in\n";
   for (const CLI::App* command : app.get_subcommands({}))

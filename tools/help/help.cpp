@@ -3,6 +3,7 @@
 
 #include "help/option_text.h"
 #include "help/topics.h"
+#include "text/text.h"
 
 #include <algorithm>
 #include <memory>
@@ -50,9 +51,7 @@ std::string wrapped(const std::string& head, std::size_t indent, const std::stri
 
 std::string head_of(const CLI::Option& option) {
   const std::string values = values_of(option);
-  std::string names;
-  for (const std::string& name : names_of(option))
-    names += (names.empty() ? "" : ",") + name;
+  const std::string names = joined(names_of(option), ",");
   return "  " + names + (values.empty() || names == values ? "" : " " + values);
 }
 

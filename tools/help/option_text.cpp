@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/option_text.h"
 
+#include "text/text.h"
+
 #include <algorithm>
 #include <set>
 #include <sstream>
 
 namespace calotte::tools {
 namespace {
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words)
-    list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
 
 std::string without_stop(const std::string& text) {
   return text.substr(0, text.find_last_not_of('.') + 1);

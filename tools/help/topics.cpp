@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/topics.h"
 
+#include "text/text.h"
+
 #include <calotte/write.h>
 
 #include <iomanip>
@@ -164,10 +166,7 @@ std::string formats_text() {
   };
   line("format", "--format", "name", "read", "written");
   for (const FormatInfo& info : formats()) {
-    std::string names;
-    for (const std::string& name : info.names)
-      names += (names.empty() ? "" : ", ") + name;
-    line(info.title, info.word, names,
+    line(info.title, info.word, joined(info.names),
          !info.read    ? "no"
          : info.points ? "yes"
                        : "with points",

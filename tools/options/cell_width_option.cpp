@@ -3,8 +3,8 @@
 
 #include "options/files.h"
 #include "options/numbers.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
 
@@ -14,10 +14,6 @@
 
 namespace calotte::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
 
 bool is_geojson(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension();

@@ -2,7 +2,7 @@
 #include "options/config_file.h"
 
 #include "io/command.h"
-#include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>

@@ -5,6 +5,7 @@
 #include "options/config_file.h"
 #include "options/config_names.h"
 #include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 

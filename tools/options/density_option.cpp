@@ -4,11 +4,12 @@
 #include "help/help.h"
 #include "options/numbers.h"
 #include "options/warning.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/io.h>
 #include <calotte/planar_raster.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -41,7 +42,7 @@ struct BumpWords {
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, "--density \"" + text + "\": " + problem);
+  tools::refuse("--density \"" + text + "\": " + problem);
 }
 
 [[noreturn]] void refuse_value(const BumpWords& words, const std::string& key,
@@ -50,16 +51,10 @@ struct BumpWords {
 }
 
 void require_known(const std::string& text, const std::string& key, const Grammar& grammar) {
-  std::string known;
-  for (const auto& keys :
-       {std::vector<std::string>(grammar.needed.begin(), grammar.needed.end()),
-        std::vector<std::string>(grammar.further.begin(), grammar.further.end())})
-    for (const std::string& name : keys) {
-      if (key == name)
-        return;
-      known += (known.empty() ? "" : ", ") + name;
-    }
-  refuse(text, "unknown key \"" + key + "\"; the keys are " + known);
+  std::vector<std::string> known(grammar.needed.begin(), grammar.needed.end());
+  known.insert(known.end(), grammar.further.begin(), grammar.further.end());
+  if (std::find(known.begin(), known.end(), key) == known.end())
+    refuse(text, "unknown key \"" + key + "\"; the keys are " + joined(known));
 }
 
 /// The paper's bump by its contrast of widths, such as x8.
@@ -270,10 +265,7 @@ std::vector<std::string> density_names(const DensityWords& words) {
 }
 
 std::string density_name(const DensityWords& words) {
-  std::string name;
-  for (const std::string& part : density_names(words))
-    name += (name.empty() ? "" : " and ") + part;
-  return name;
+  return joined(density_names(words), " and ");
 }
 
 std::string derived_density(const std::string& path, const DoubleVector& density) {

@@ -2,8 +2,8 @@
 #include "options/depth_option.h"
 
 #include "io/command.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/read.h>
 
 #include <algorithm>
@@ -12,10 +12,6 @@
 
 namespace calotte::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0;

@@ -3,8 +3,8 @@
 
 #include "options/files.h"
 #include "options/numbers.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/io.h>
 
 #include <cmath>
@@ -15,10 +15,9 @@ namespace {
 Surface rectangle_of(const std::string& word) {
   const auto sides = numbers_of<4>(word);
   if (!sides || !((*sides)[0] < (*sides)[2]) || !((*sides)[1] < (*sides)[3]))
-    throw Error(ErrorCode::invalid_argument,
-                "--rectangle " + word +
-                    " is not a rectangle; give its lower left and upper "
-                    "right corners, as in --rectangle 0,0,2,1");
+    refuse("--rectangle " + word +
+           " is not a rectangle; give its lower left and upper "
+           "right corners, as in --rectangle 0,0,2,1");
   return rectangle({(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]});
 }
 
@@ -56,6 +55,9 @@ std::shared_ptr<DomainWords> add_domain(CLI::App& command) {
   add_periodic(command, words->periodic)
       ->excludes(command.get_option("--domain"))
       ->excludes(command.get_option("--rectangle"));
+  if (CLI::Option* const plane = command.get_option_no_throw("--plane"))
+    for (const char* name : {"--domain", "--rectangle", "--periodic"})
+      command.get_option(name)->needs(plane);
   return words;
 }
 
@@ -81,8 +83,7 @@ Walls walls_of(const DomainWords& words) {
   if (!words.walls)
     return {};
   if (!words.periodic && !words.hexagons)
-    throw Error(ErrorCode::invalid_argument,
-                "--walls applies to a periodic box; give --periodic or --hexagons, too");
+    refuse("--walls applies to a periodic box; give --periodic or --hexagons, too");
   return {*words.walls != "y", *words.walls != "x"};
 }
 
@@ -90,10 +91,9 @@ MeshFile hexagons_of(const DomainWords& words) {
   const auto numbers = numbers_of<3>(*words.hexagons);
   const auto whole = [](double x) { return x >= 1 && x <= 1e9 && x == std::floor(x); };
   if (!numbers || !whole((*numbers)[0]) || !whole((*numbers)[1]) || !((*numbers)[2] > 0))
-    throw Error(ErrorCode::invalid_argument,
-                "--hexagons " + *words.hexagons +
-                    " is not two counts and a distance; give columns, rows and the distance of "
-                    "the centres, as in --hexagons 16,50,10000");
+    refuse("--hexagons " + *words.hexagons +
+           " is not two counts and a distance; give columns, rows and the distance of "
+           "the centres, as in --hexagons 16,50,10000");
   return planar_hexagons(static_cast<std::int64_t>((*numbers)[0]),
                          static_cast<std::int64_t>((*numbers)[1]), (*numbers)[2], walls_of(words));
 }
@@ -103,9 +103,8 @@ std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word)
     return std::nullopt;
   const auto sides = numbers_of<2>(*word);
   if (!sides || !((*sides)[0] > 0) || !((*sides)[1] > 0))
-    throw Error(ErrorCode::invalid_argument,
-                "--periodic " + *word +
-                    " is not a box; give two positive lengths, as in --periodic 1000,866.025");
+    refuse("--periodic " + *word +
+           " is not a box; give two positive lengths, as in --periodic 1000,866.025");
   return Eigen::Vector2d((*sides)[0], (*sides)[1]);
 }
 

@@ -23,7 +23,7 @@ struct DomainWords {
   bool given() const { return file || rectangle || periodic || hexagons; }
 };
 
-/// Adds --domain, --rectangle and --periodic.
+/// Adds --domain, --rectangle and --periodic, which require --plane of a command that has it.
 std::shared_ptr<DomainWords> add_domain(CLI::App& command);
 
 /// Adds --hexagons and --walls.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/files.h"
 
-#include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 
@@ -35,8 +35,7 @@ void require_folder(const std::string& path) {
 void require_distinct(const std::string& output, const std::string& input) {
   std::error_code absent;
   if (input != "-" && std::filesystem::equivalent(output, input, absent))
-    throw Error(ErrorCode::invalid_argument,
-                output + " is both input and output; give the output another name");
+    refuse(output + " is both input and output; give the output another name");
 }
 
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
@@ -51,9 +50,8 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
       require_distinct(output->path, input);
     for (auto other = outputs.begin(); other != output; ++other)
       if (place(*other) == place(*output))
-        throw Error(ErrorCode::invalid_argument, output->path + " is both " + other->what +
-                                                     " and " + output->what + "; give the " +
-                                                     output->what + " another name");
+        refuse(output->path + " is both " + other->what + " and " + output->what + "; give the " +
+               output->what + " another name");
   }
 }
 

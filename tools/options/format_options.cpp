@@ -2,7 +2,7 @@
 #include "options/format_options.h"
 
 #include "io/command.h"
-#include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 
@@ -27,12 +27,10 @@ Format format_of(const FormatWords& words, const std::string& path) {
   const Model* const model = model_of(words.model);
   const Format format = calotte::format_of(path, given);
   if (model != nullptr && model->format != format)
-    throw Error(
-        ErrorCode::invalid_argument,
-        path + ": --for " + model->word + " writes the format " + info_of(model->format).word +
-            ", not " + info_of(format).word + "; give " +
-            (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
-            (words.format ? ", and leave --format out" : ""));
+    refuse(path + ": --for " + model->word + " writes the format " + info_of(model->format).word +
+           ", not " + info_of(format).word + "; give " +
+           (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
+           (words.format ? ", and leave --format out" : ""));
   return format;
 }
 
@@ -65,9 +63,8 @@ std::string names(bool (*of)(const FormatInfo&)) {
 void require_radius(double radius, Format format, const std::string& path) {
   require_sphere_radius(radius);
   if (radius != 1 && !info_of(format).netcdf)
-    throw Error(ErrorCode::invalid_argument, "--sphere-radius " + shortest(radius) +
-                                                 " applies to NetCDF files only, not to " + path +
-                                                 "; leave it out, or give a name that ends in .nc");
+    refuse("--sphere-radius " + shortest(radius) + " applies to NetCDF files only, not to " + path +
+           "; leave it out, or give a name that ends in .nc");
 }
 
 } // namespace
@@ -132,8 +129,7 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   if (words.order)
     options.numbering = numberings.at(*words.order);
   if (words.order && *words.order != "input" && options.format == Format::triangles)
-    throw Error(ErrorCode::invalid_argument,
-                path + " holds triangles that refer to the input points; leave --order out");
+    refuse(path + " holds triangles that refer to the input points; leave --order out");
   return options;
 }
 

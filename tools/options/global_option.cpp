@@ -2,8 +2,8 @@
 #include "options/global_option.h"
 
 #include "options/model_option.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/write.h>
 
 namespace calotte::tools {
@@ -18,16 +18,14 @@ void add_global(CLI::App& command, std::string& path) {
 
 void require_mpas_name(const std::string& output) {
   if (format_of(output) != Format::mpas)
-    throw Error(ErrorCode::invalid_argument,
-                output + ": the grid is an MPAS file; give a name that ends in .nc");
+    refuse(output + ": the grid is an MPAS file; give a name that ends in .nc");
 }
 
 void require_mpas_model(const std::optional<std::string>& model) {
   if (const Model* const known = model_of(model); known != nullptr && known->format != Format::mpas)
-    throw Error(ErrorCode::invalid_argument,
-                "--for " + known->word +
-                    ": the grid is an MPAS file; leave the option out, and convert the grid with "
-                    "calotte convert GRID.nc nod2d.out");
+    refuse("--for " + known->word +
+           ": the grid is an MPAS file; leave the option out, and convert the grid with "
+           "calotte convert GRID.nc nod2d.out");
 }
 
 } // namespace calotte::tools

@@ -5,8 +5,7 @@
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/sphere_radius_option.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 namespace calotte::tools {
 
@@ -43,18 +42,21 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
                           : read_point_file(source.points, source.lonlat).points;
   MeshFile file = calotte::read_mesh_file(source.path, points ? &*points : nullptr, choice);
   if (source.plane && !file.plane())
-    throw Error(ErrorCode::invalid_argument, source.path + ": it holds no mesh of the plane" +
-                                                 first_off_plane(file) + "; leave --plane out");
+    refuse(source.path + ": it holds no mesh of the plane" + first_off_plane(file) +
+           "; leave --plane out");
   if (!source.plane && source.points.empty() && is_netcdf_file(source.path))
     warn_of_radius(file.sphere_radius, source.path);
   return file;
 }
 
-std::optional<double> radius_km(const MeshSource& source, const MeshFile& file) {
-  constexpr double metres = 1000; // a km
-  if (file.sphere_radius == 1 || !is_netcdf_file(source.path))
-    return std::nullopt;
-  return file.sphere_radius / metres;
+std::optional<double> radius_km(const MeshSource& source, const MeshFile& file,
+                                const WidthWords& widths, std::optional<double> metres) {
+  constexpr double kilometre = 1000; // metres
+  if (metres)
+    return *metres / kilometre;
+  if (file.sphere_radius != 1 && is_netcdf_file(source.path))
+    return file.sphere_radius / kilometre;
+  return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
 }
 
 std::string changes_of(const MeshSource& source, const MeshFile& file) {

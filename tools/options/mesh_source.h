@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/cell_width_option.h"
+
 #include <calotte/mesh_file.h>
 
 #include <CLI/App.hpp>
@@ -29,8 +31,10 @@ CLI::Option* add_plane(CLI::App& command, MeshSource& source);
 ///         of the sphere.
 MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
-/// The radius of the sphere, km, if the file is known to give one in metres: NetCDF.
-std::optional<double> radius_km(const MeshSource& source, const MeshFile& file);
+/// The radius of the sphere, km: that given in metres, that of a NetCDF file, which is in metres,
+/// or the one to which widths in km refer; none if none of these is known.
+std::optional<double> radius_km(const MeshSource& source, const MeshFile& file,
+                                const WidthWords& widths, std::optional<double> metres = {});
 
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/model_option.h"
 
-#include "options/numbers.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <algorithm>
 #include <vector>
@@ -35,10 +33,9 @@ std::optional<double> radius_for(const Model* model, std::optional<double> given
   if (model == nullptr)
     return given;
   if (given && !suits(*model, model->format, *given, model->dimensions))
-    throw Error(ErrorCode::invalid_argument,
-                "--for " + model->word + " needs a sphere with a radius of " +
-                    shortest(model->sphere_radius) + ", not --sphere-radius " + shortest(*given) +
-                    "; leave one of them out");
+    refuse("--for " + model->word + " needs a sphere with a radius of " +
+           shortest(model->sphere_radius) + ", not --sphere-radius " + shortest(*given) +
+           "; leave one of them out");
   return given.value_or(model->sphere_radius);
 }
 
@@ -46,13 +43,14 @@ std::string suited_models(const std::string& path, Format format, double sphere_
                           const std::vector<FieldDimension>& dimensions) {
   if (format != Format::mpas)
     return "";
-  std::string names;
+  std::vector<std::string> names;
   for (const Model& model : models())
     if (suits(model, format, sphere_radius, dimensions))
-      names += (names.empty() ? "" : " and ") + model.name;
+      names.push_back(model.name);
   const std::string radius =
       sphere_radius == 1 ? "unit sphere" : "sphere of " + shortest(sphere_radius) + " m";
-  return path + ": " + radius + ", for " + (names.empty() ? "no model that is known" : names) +
+  return path + ": " + radius + ", for " +
+         (names.empty() ? "no model that is known" : joined(names, " and ")) +
          "; for others see --for\n";
 }
 

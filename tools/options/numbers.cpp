@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/numbers.h"
 
+#include "text/text.h"
+
 #include <calotte/io.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <sstream>
 
 namespace calotte::tools {
-
-std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 std::string lonlat_words(double longitude, double latitude) {
   return formatted("%.1f", std::abs(longitude)) + (longitude < 0 ? " W " : " E ") +

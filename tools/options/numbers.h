@@ -17,13 +17,6 @@
 /// Numbers in the text of options and files.
 namespace calotte::tools {
 
-/// Formats a number with the fewest digits that read back to the same bits.
-std::string shortest(double value);
-
-/// Formats a number as printf does; at most 63 characters.
-/// \param format with one conversion of a double.
-std::string formatted(const char* format, double value);
-
 /// "136.5 W 81.0 N". \param longitude, latitude degrees; from -180 to 180, and -90 to 90.
 std::string lonlat_words(double longitude, double latitude);
 

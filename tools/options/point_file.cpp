@@ -2,6 +2,7 @@
 #include "options/point_file.h"
 
 #include "options/format_options.h"
+#include "text/text.h"
 
 #include <iostream>
 #include <string_view>
@@ -23,8 +24,7 @@ PointFile text_of(const std::string& path, Columns columns) {
 PointFile read_point_file(const std::string& path, bool lonlat) {
   if (holds_points(path)) {
     if (lonlat)
-      throw Error(ErrorCode::invalid_argument,
-                  path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
+      refuse(path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
     return {path, read_sites(path), {}};
   }
   return text_of(path, lonlat ? Columns::lonlat : Columns::xyz);
@@ -35,8 +35,7 @@ PointFile read_planar_point_file(const std::string& path) {
     return text_of(path, Columns::xy);
   Mesh mesh = read_mesh(path);
   if (mesh.surface.is_sphere())
-    throw Error(ErrorCode::invalid_argument,
-                path + ": it holds points of the sphere, not of a plane");
+    refuse(path + ": it holds points of the sphere, not of a plane");
   return {path, std::move(mesh.points), {}};
 }
 

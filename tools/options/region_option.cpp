@@ -2,6 +2,7 @@
 #include "options/region_option.h"
 
 #include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 #include <calotte/ocean.h>
@@ -28,8 +29,7 @@ struct Word {
 };
 
 [[noreturn]] void refuse(const Word& word, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument,
-              word.option + " " + word.text + ": " + problem + "; give " + word.form);
+  tools::refuse(word.option + " " + word.text + ": " + problem + "; give " + word.form);
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -148,17 +148,14 @@ void add_region(CLI::App& command, RegionWords& words) {
 
 void require_region_words(const RegionWords& words) {
   if (words.limited_area && words.region.empty())
-    throw Error(ErrorCode::invalid_argument, "--limited-area requires a region; give --region");
+    refuse("--limited-area requires a region; give --region");
   if (!ends_at_boundary(words))
     return;
   if (words.region.empty())
-    throw Error(ErrorCode::invalid_argument,
-                "--boundary generators requires a region; give --region");
+    refuse("--boundary generators requires a region; give --region");
   if (words.limited_area)
-    throw Error(
-        ErrorCode::invalid_argument,
-        "--boundary generators does not apply to --limited-area, whose rings lie outside the "
-        "region; leave one of them out");
+    refuse("--boundary generators does not apply to --limited-area, whose rings lie outside the "
+           "region; leave one of them out");
 }
 
 Surface region_of(const std::string& word, const std::string& inside, double radius_km) {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/sphere_radius_option.h"
 
-#include "options/numbers.h"
 #include "options/warning.h"
-
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <cmath>
 
@@ -30,9 +28,8 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
 
 void require_sphere_radius(double metres) {
   if (!(metres > 0) || !std::isfinite(metres))
-    throw Error(ErrorCode::invalid_argument,
-                "--sphere-radius " + shortest(metres) +
-                    " is not a positive number; give one such as 6371229, in metres");
+    refuse("--sphere-radius " + shortest(metres) +
+           " is not a positive number; give one such as 6371229, in metres");
 }
 
 void warn_of_radius(double metres, const std::string& origin) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/units_option.h"
 
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <numbers>
 
@@ -18,9 +18,8 @@ void add_units(CLI::App& command, std::optional<std::string>& word) {
 Unit unit_of(const std::optional<std::string>& word, std::optional<double> radius_km) {
   const std::string name = word.value_or(radius_km ? "km" : "degrees");
   if (name == "km" && !radius_km)
-    throw Error(ErrorCode::invalid_argument,
-                "--units km requires the radius of the sphere; give --sphere-radius earth, or a "
-                "radius in metres");
+    refuse("--units km requires the radius of the sphere; give --sphere-radius earth, or a "
+           "radius in metres");
   if (name == "km")
     return {name, *radius_km, "km^2", *radius_km * *radius_km};
   return {name, name == "degrees" ? 180 / std::numbers::pi : 1, "steradians", 1};

@@ -3,12 +3,11 @@
 
 #include "options/files.h"
 #include "options/global_option.h"
-#include "options/numbers.h"
 #include "options/region_option.h"
 #include "run/cvt_input.h"
+#include "text/text.h"
 
 #include <calotte/cut.h>
-#include <calotte/error.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,37 +21,29 @@ namespace {
 
 void require_positive(const std::string& option, double value, const std::string& remedy) {
   if (!(value > 0) || !std::isfinite(value))
-    throw Error(ErrorCode::invalid_argument,
-                option + " " + shortest(value) + " is not a positive number; give " + remedy);
+    refuse(option + " " + shortest(value) + " is not a positive number; give " + remedy);
 }
 
 /// A mesh with walls is one of cells, which lose their periods in other formats.
 void require_walls_format(const CvtRequest& request, const WriteOptions& options) {
   const Walls walls = walls_of(*request.domain);
   if ((walls.x || walls.y) && format_of(request.mesh, options.format) != Format::mpas)
-    throw Error(ErrorCode::invalid_argument,
-                request.mesh + ": a plane with walls is written as MPAS; give a name in .nc");
+    refuse(request.mesh + ": a plane with walls is written as MPAS; give a name in .nc");
   if (request.domain->periodic && walls.x && walls.y)
-    throw Error(ErrorCode::invalid_argument,
-                "--walls xy leaves no period; give --rectangle, whose sides clip the cells");
+    refuse("--walls xy leaves no period; give --rectangle, whose sides clip the cells");
 }
 
 /// Rejects options that a planar run does not support.
 void require_plane(const CvtRequest& request, const WriteOptions& options) {
   require_walls_format(request, options);
   if (!request.points.empty() && request.domain->walls)
-    throw Error(ErrorCode::invalid_argument,
-                "--walls needs points beyond them, too; give --cells instead of START");
+    refuse("--walls needs points beyond them, too; give --cells instead of START");
   if (request.format->sphere_radius)
-    throw Error(ErrorCode::invalid_argument,
-                "--sphere-radius does not apply to the plane; leave it out");
+    refuse("--sphere-radius does not apply to the plane; leave it out");
 }
 
 /// Rejects formats and options that a run in a region does not support.
 void require_region_format(const CvtRequest& request, const WriteOptions& options) {
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-  };
   if (request.part.region.empty())
     return;
   if (planar(request))
@@ -81,8 +72,7 @@ void require_hexagons(const CvtRequest& request) {
   static const std::set<std::string> allowed{"hexagons", "walls",  "output",  "format",
                                              "for",      "config", "threads", "numbering"};
   const auto exclude = [](const std::string& option) {
-    throw Error(ErrorCode::invalid_argument,
-                "--hexagons makes a uniform grid without a run; leave " + option + " out");
+    refuse("--hexagons makes a uniform grid without a run; leave " + option + " out");
   };
   if (!request.points.empty())
     exclude("START");

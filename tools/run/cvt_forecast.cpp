@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_forecast.h"
 
+#include "text/text.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 namespace calotte::tools {
@@ -52,14 +52,10 @@ Decay fit(std::span<const CvtIteration> iterations, Norm norm) {
 
 std::string duration(double seconds) {
   constexpr double minute = 60, hour = 3600;
-  std::array<char, 32> text{};
   if (seconds < 2 * minute)
-    std::snprintf(text.data(), text.size(), "%.0f s", seconds);
-  else if (seconds < 2 * hour)
-    std::snprintf(text.data(), text.size(), "%.0f min", seconds / minute);
-  else
-    std::snprintf(text.data(), text.size(), "%.1f h", seconds / hour);
-  return text.data();
+    return formatted("%.0f s", seconds);
+  return seconds < 2 * hour ? formatted("%.0f min", seconds / minute)
+                            : formatted("%.1f h", seconds / hour);
 }
 
 } // namespace
@@ -157,20 +153,13 @@ std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   const CvtIteration& last = progress.report.iterations.back();
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_level);
-  std::array<char, 64> number{};
   const bool polishes = last.shape_excess > 0;
-  if (polishes) {
-    std::snprintf(number.data(), number.size(), ", shapes %.2g beyond their limits",
-                  last.shape_excess);
-    text += number.data();
-  } else if (!stop.iterations) {
-    std::snprintf(number.data(), number.size(), " %.2e of %.0e", progress.report.residual,
-                  *stop.tolerance);
-    text += ", " + std::string(word_of(stop.norm)) + number.data();
-  }
-  std::snprintf(number.data(), number.size(), ", energy x cells %.6g",
-                last.energy * static_cast<double>(last.cells));
-  text += number.data();
+  if (polishes)
+    text += formatted(", shapes %.2g beyond their limits", last.shape_excess);
+  else if (!stop.iterations)
+    text += ", " + std::string(word_of(stop.norm)) + formatted(" %.2e", progress.report.residual) +
+            formatted(" of %.0e", *stop.tolerance);
+  text += formatted(", energy x cells %.6g", last.energy * static_cast<double>(last.cells));
   if (progress.bisections_left > 0)
     text += ", then " + std::to_string(progress.bisections_left) +
             (progress.bisections_left == 1 ? " finer level" : " finer levels");

@@ -2,9 +2,9 @@
 #include "run/cvt_input.h"
 
 #include "options/format_options.h"
-#include "options/numbers.h"
 #include "options/point_file.h"
 #include "options/region_option.h"
+#include "text/text.h"
 
 #include <calotte/io.h>
 
@@ -15,10 +15,6 @@
 
 namespace calotte::tools {
 namespace {
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
 
 // ---- Points
 

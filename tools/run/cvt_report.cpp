@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_report.h"
 
-#include "options/numbers.h"
+#include "text/text.h"
 
 #include <calotte/version.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/mesh_measures.h"
 
-#include "options/numbers.h"
 #include "run/operator_measures.h"
 #include "run/shapes.h"
+#include "text/text.h"
 
 #include <nlohmann/json.hpp>
 

@@ -93,6 +93,10 @@ Points3 samples(const Surface& surface) {
 
 } // namespace
 
+DoubleVector spacings_of(const Density& density, double unit, const Points3& x) {
+  return unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
+}
+
 SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& surface,
                              double unit) {
   const Points3 places = samples(surface);
@@ -100,9 +104,7 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const S
   SpacingSurvey survey;
   survey.unit =
       unit > 0 ? unit : std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
-  const Values spacing = [&](const Points3& x) -> DoubleVector {
-    return survey.unit * evaluate(density, x).array().max(1e-150).pow(-0.25);
-  };
+  const Values spacing = [&](const Points3& x) { return spacings_of(density, survey.unit, x); };
   const Values negative = [&](const Points3& x) -> DoubleVector { return -spacing(x); };
   const Values slope = [&](const Points3& x) {
     // Widths from node to node are steepest where they are interpolated, over less than a cell.

@@ -9,6 +9,10 @@
 
 namespace calotte::tools {
 
+/// The spacings at unit columns by a density.
+/// \param unit the spacing where the density is 1.
+DoubleVector spacings_of(const Density& density, double unit, const Points3& x);
+
 /// The spacings that a density demands of a number of cells, on the unit sphere in radians.
 struct SpacingSurvey {
   double unit = 0;                ///< spacing where the density is 1

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/numbers.h"
+#include "text/text.h"
 #include "view/view_mesh.h"
 
-#include <calotte/error.h>
 #include <calotte/lonlat.h>
 
 #include <iomanip>
@@ -12,9 +11,8 @@ namespace calotte::tools {
 
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell) {
   if (cell >= mesh.cells)
-    throw Error(ErrorCode::invalid_argument, "--cell " + std::to_string(cell) +
-                                                 ": the mesh has the cells 0 to " +
-                                                 std::to_string(mesh.cells - 1));
+    refuse("--cell " + std::to_string(cell) + ": the mesh has the cells 0 to " +
+           std::to_string(mesh.cells - 1));
   std::ostringstream out;
   const auto row = [&out](const std::string& name, const std::string& value) {
     out << std::left << std::setw(28) << name << value << "\n";

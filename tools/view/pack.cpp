@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "view/pack.h"
 
-#include <calotte/error.h>
+#include "text/text.h"
 
 #include <zlib.h>
 
@@ -38,8 +38,7 @@ std::vector<unsigned char> compressed(const std::vector<unsigned char>& bytes) {
   std::vector<unsigned char> result(size);
   constexpr int level = 6;
   if (compress2(result.data(), &size, bytes.data(), bytes.size(), level) != Z_OK)
-    throw Error(ErrorCode::invalid_argument,
-                "the page's data do not fit in memory; view a smaller mesh");
+    refuse("the page's data do not fit in memory; view a smaller mesh");
   result.resize(size);
   return result;
 }

@@ -3,11 +3,9 @@
 
 #include "draw/coastlines.h"
 #include "draw/scale.h"
-#include "options/numbers.h"
+#include "text/text.h"
 #include "view/pack.h"
 #include "view/page_parts.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -256,7 +254,7 @@ std::string script_safe(const Json& json) {
 void replace(std::string& text, const std::string& place, const std::string& by) {
   const std::size_t at = text.find(place);
   if (at == std::string::npos)
-    throw Error(ErrorCode::invalid_argument, "the page's template lacks " + place);
+    refuse("the page's template lacks " + place);
   text.replace(at, place.size(), by);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "run/spacing_survey.h"
 #include "view/view_mesh.h"
 
 #include <calotte/delaunay.h>
@@ -43,8 +44,7 @@ ViewMesh view_plan(const std::string& name, const Density& density, double unit,
   mesh.notice = "The widths that the options prescribe, at " + std::to_string(mesh.cells) +
                 " places; no grid is made yet. ";
   const Unit lengths = unit_of({}, radius_km);
-  const DoubleVector widths =
-      unit * evaluate(density, sphere.points).array().max(1e-150).pow(-0.25);
+  const DoubleVector widths = spacings_of(density, unit, sphere.points);
   mesh.quantities.push_back({.name = "prescribed",
                              .label = "cell width",
                              .unit = lengths.name,

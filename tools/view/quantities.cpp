@@ -3,8 +3,8 @@
 
 #include "draw/text.h"
 #include "draw/values.h"
-#include "options/numbers.h"
 #include "run/operator_measures.h"
+#include "text/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,28 +170,18 @@ std::vector<Quantity> quantities_of(const OperatorErrorsByCell& errors) {
 }
 
 std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit) {
-  std::vector<Quantity> list;
-  DoubleVector sides(cells.size());
+  CellMeasures measures;
+  measures.area = areas(cells);
+  measures.quality = side_ratios(cells);
+  measures.degree.resize(cells.size());
   for (std::int64_t i = 0; i < cells.size(); ++i)
-    sides[i] = static_cast<double>(cells.ids.count(i));
-  add(list, {.name = "area",
-             .label = "area",
-             .unit = unit.area,
-             .help = "Area of the cell.",
-             .logarithmic = true,
-             .values = unit.of_steradian * areas(cells)});
-  add(list, {.name = "quality",
-             .label = "cell quality",
-             .help = "Shortest over longest side of the cell.",
-             .worst = Worst::low,
-             .values = side_ratios(cells)});
-  add(list, {.name = "degree",
-             .label = "sides",
-             .help = "Number of sides of the cell.",
-             .classes = true,
-             .worst = Worst::far_from_reference,
-             .reference = 6,
-             .values = sides});
+    measures.degree[i] = static_cast<double>(cells.ids.count(i));
+  std::vector<Quantity> list = quantities_of(measures, unit);
+  for (Quantity& quantity : list)
+    if (quantity.name == "degree") {
+      quantity.label = "sides";
+      quantity.help = "Number of sides of the cell.";
+    }
   return list;
 }
 

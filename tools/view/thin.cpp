@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "text/text.h"
 #include "view/view_mesh.h"
 
 #include <calotte/delaunay.h>
@@ -228,9 +229,8 @@ Mesh planar_mesh(const Points3& points, const Surface& surface) {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_few_sites || !surface.is_box())
       throw;
-    throw Error(ErrorCode::invalid_argument, std::to_string(points.cols()) +
-                                                 " cells are too few for the periodic box; give a "
-                                                 "greater number to --most-cells");
+    refuse(std::to_string(points.cols()) + " cells are too few for the periodic box; give a "
+                                           "greater number to --most-cells");
   }
 }
 

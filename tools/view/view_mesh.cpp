@@ -3,9 +3,9 @@
 
 #include "draw/plane.h"
 #include "draw/values.h"
+#include "text/text.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 #include <calotte/operators.h>
 #include <calotte/surface.h>
 
@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t most_fields = 12; // that are shown by default
 constexpr const char* mask_name = "bdyMaskCell";
-
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
 
 /// Whether the cells are measured as the file has them: those that are not Voronoi cells, and
 /// those of a plane that ends at walls, which no domain clips.
