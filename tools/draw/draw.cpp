@@ -13,8 +13,8 @@
 #include "draw/values.h"
 #include "draw/vector.h"
 #include "draw/view.h"
+#include "text/text.h"
 
-#include <calotte/error.h>
 #include <calotte/generators.h>
 
 #include <algorithm>
@@ -121,10 +121,8 @@ namespace {
 /// \throws Error invalid_argument unless the field has one value for each site.
 void require_field(const DrawOptions& options, std::int64_t sites) {
   if (options.field.values.size() != sites) {
-    throw Error(ErrorCode::invalid_argument, options.field_name + " has " +
-                                                 std::to_string(options.field.values.size()) +
-                                                 " values for " + std::to_string(sites) +
-                                                 " sites; give a field of the mesh's cells");
+    refuse(options.field_name + " has " + std::to_string(options.field.values.size()) +
+           " values for " + std::to_string(sites) + " sites; give a field of the mesh's cells");
   }
 }
 
@@ -153,8 +151,7 @@ DoubleVector by_site(const Mesh& mesh, const DrawOptions& options) {
   const DoubleVector rho = density_at_sites(mesh, options.density);
   const double greatest = rho.maxCoeff();
   if (!(greatest > 0)) {
-    throw Error(ErrorCode::invalid_argument,
-                "the density is zero at every site; give one that is positive somewhere");
+    refuse("the density is zero at every site; give one that is positive somewhere");
   }
   return rho / greatest;
 }
@@ -171,18 +168,11 @@ View view_of(const DrawOptions& options, const Mesh& mesh) {
   return view_around(options.look, middle(mesh), cells ? options.cells->corners : mesh.points);
 }
 
-/// The look with the view that is drawn.
-Look seen(Look look, const View& view) {
-  look.view = view.middle;
-  return look;
-}
-
 /// \throws Error invalid_argument unless there is a cell for each site.
 void require_cells(const DrawOptions& options, const Mesh& mesh) {
   if (options.cells != nullptr && options.cells->size() != mesh.points.cols()) {
-    throw Error(ErrorCode::invalid_argument,
-                "there are " + std::to_string(options.cells->size()) + " cells for " +
-                    std::to_string(mesh.points.cols()) + " sites; give the cells of the mesh");
+    refuse("there are " + std::to_string(options.cells->size()) + " cells for " +
+           std::to_string(mesh.points.cols()) + " sites; give the cells of the mesh");
   }
 }
 
@@ -222,10 +212,9 @@ std::vector<double> values_of(const Polygons& polygons, const DrawOptions& optio
     return sides;
   }
   default:
-    throw Error(ErrorCode::invalid_argument,
-                "the cells are not Voronoi cells, which alone have that "
-                "colouring; colour them by area, valence, field:NAME or "
-                "none");
+    refuse("the cells are not Voronoi cells, which alone have that "
+           "colouring; colour them by area, valence, field:NAME or "
+           "none");
   }
 }
 
@@ -247,17 +236,29 @@ void paint_mesh(cairo_t* context, const Page& page, const Painting& painting,
   draw_markers(context, painting, window, page.map.width, marker_radius(page));
 }
 
+/// Writes a page with a map of the sphere.
+/// \param paint draws the map, of the window, around the origin.
+void write_map(const std::string& path, const Look& asked, const View& view,
+               const Eigen::Matrix3d& frame, const std::string& title, const Legend& legend,
+               const std::function<void(cairo_t*, const Page&)>& paint) {
+  Look look = asked;
+  look.view = view.middle;
+  const Page page = page_of(look, legend.scale.colouring != Colouring::none, view.window);
+  write_picture(path, page.width, page.height, [&](cairo_t* context) {
+    draw_page(context, page, {look, frame, title, legend, view.window},
+              [&] { paint(context, page); });
+  });
+}
+
 void draw_painting(const std::string& path, Painting& painting, const DrawOptions& options,
                    const View& view, const std::string& title) {
   const Legend legend = make_legend(painting, options);
-  const Look look = seen(options.look, view);
-  const Page page = page_of(look, options.colouring != Colouring::none, view.window);
   const bool paths = picture_format(path) != PictureFormat::png &&
                      visible_shapes(painting, view.window) <= most_paths;
-  write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page, {look, painting.scene.frame, title, legend, view.window},
-              [&] { paint_mesh(context, page, painting, view.window, paths); });
-  });
+  write_map(path, options.look, view, painting.scene.frame, title, legend,
+            [&](cairo_t* context, const Page& page) {
+              paint_mesh(context, page, painting, view.window, paths);
+            });
 }
 
 void draw_sphere(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
@@ -298,10 +299,9 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   draw_painting(path, painting, options, view, title);
 }
 
-void draw(const std::string& path, const SphereField& field, const Look& asked) {
-  require_picture(path, asked.size);
-  const View view = view_of(asked, usual_middle);
-  const Look look = seen(asked, view);
+void draw(const std::string& path, const SphereField& field, const Look& look) {
+  require_picture(path, look.size);
+  const View view = view_of(look, usual_middle);
   const DoubleVector samples = field.values(fibonacci_sphere(field_samples));
   Scale scale = make_scale({samples.data(), samples.data() + samples.size()}, Colouring::density);
   scale.palette = look.palette;
@@ -309,17 +309,12 @@ void draw(const std::string& path, const SphereField& field, const Look& asked) 
     set_range(scale, *look.range);
   }
   const FieldPainting painting = {field.values, scale, frame_of(view.middle)};
-  const Page page = page_of(look, true, view.window);
-  const Legend legend = {scale, {}, field.caption};
-  write_picture(path, page.width, page.height, [&](cairo_t* context) {
-    draw_page(context, page,
-              {look, painting.frame, unmarked(look.title.empty() ? field.title : look.title),
-               legend, view.window},
-              [&] {
-                paint_image(context, page.map,
-                            raster_map(painting, view.window, image_size(context, page.map)));
-              });
-  });
+  write_map(path, look, view, painting.frame,
+            unmarked(look.title.empty() ? field.title : look.title), {scale, {}, field.caption},
+            [&](cairo_t* context, const Page& page) {
+              paint_image(context, page.map,
+                          raster_map(painting, view.window, image_size(context, page.map)));
+            });
 }
 
 } // namespace calotte::tools
