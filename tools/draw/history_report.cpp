@@ -2,8 +2,10 @@
 #include "draw/history_report.h"
 
 #include "io/command.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
+#include <calotte/grid.h>
 #include <calotte/io.h>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +16,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -79,19 +82,14 @@ json parse(const std::string& path) {
   }
 }
 
-Norm norm_of(const Part& part) {
-  static const std::vector<std::pair<std::string, Norm>> words = {
-      {"l2", Norm::l2},
-      {"linf", Norm::linf},
-      {"l2-scaled", Norm::l2_scaled},
-      {"linf-scaled", Norm::linf_scaled},
-      {"none", Norm::none}};
-  for (const auto& [word, norm] : words) {
-    if (part.value == word) {
-      return norm;
-    }
+template <class Value> Value value_of(const Part& part, std::span<const Word<Value>> words) {
+  std::vector<std::string> known;
+  for (const Word<Value>& word : words) {
+    known.emplace_back(word.word);
+    if (part.value == known.back())
+      return word.value;
   }
-  part.fail("is not one of l2, linf, l2-scaled, linf-scaled and none");
+  part.fail("is not one of " + joined(known));
 }
 
 std::vector<std::string> density_of(const Part& part) {
@@ -108,12 +106,8 @@ std::string method_of(const Part& report) {
     return "";
   }
   const Part method = report.at("method");
-  for (const char* word : {"auto", "lloyd", "lbfgs", "lbfgs-laplacian"}) {
-    if (method.value == word) {
-      return word;
-    }
-  }
-  method.fail("is not one of auto, lloyd, lbfgs and lbfgs-laplacian");
+  value_of(method, method_words());
+  return method.value.get<std::string>();
 }
 
 CvtIteration iteration_of(const Part& part) {
@@ -240,7 +234,7 @@ History read_history(const std::string& path) {
   history.name = path;
   history.density = density_of(report.at("density"));
   history.method = method_of(report);
-  history.norm = norm_of(report.at("norm"));
+  history.norm = value_of(report.at("norm"), norm_words());
   history.tolerance = report.at("tolerance").number();
   history.converged = report.at("converged").truth();
   history.seconds = report.at("seconds").number();
