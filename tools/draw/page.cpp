@@ -145,42 +145,34 @@ void draw_region(cairo_t* context, const Page& page, const Surroundings& around)
              {std::max(1.2, 0.12 * page.text), 1, 0.8, colour});
 }
 
-void draw_enlarged(cairo_t* context, const Page& page, const Surroundings& around) {
-  const Degrees degrees = degrees_of(around.window, around.frame);
-  if (around.look.graticule || (degrees.bent && page.labelled)) {
-    draw_lines(context, degrees.lines, around.frame, around.window, page.map.width,
-               {std::max(0.6, 0.04 * page.text), 0.35, 0.2});
-  }
-  if (around.look.region.is_bounded()) {
-    draw_region(context, page, around);
-  }
-  draw_border(context, page, around.window);
-  if (page.labelled) {
-    window_labels(context, page, around.window, degrees.labels);
-  }
-}
-
+/// Coastlines, the graticule, the region, the border and its labels.
 void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surroundings& around) {
   const bool globe = around.look.projection == Projection::globe;
+  const bool whole = around.window.whole(), graticule = around.look.graticule;
+  const Degrees degrees = whole ? Degrees() : degrees_of(around.window, around.frame);
+  const double line = std::max(0.6, 0.04 * page.text);
   if (around.look.coastlines) {
     draw_coastlines(context, around.frame, around.window, page.map.width,
                     std::max(0.7, 0.055 * page.text));
   }
-  if (!around.window.whole()) {
-    draw_enlarged(context, page, around);
-    return;
-  }
-  if (around.look.graticule) {
-    draw_graticule(context, around.frame, around.window, page.map.width,
-                   std::max(0.6, 0.04 * page.text));
+  if (whole && graticule) {
+    draw_graticule(context, around.frame, around.window, page.map.width, line);
+  } else if (graticule || (degrees.bent && page.labelled)) {
+    draw_lines(context, degrees.lines, around.frame, around.window, page.map.width,
+               {line, 0.35, 0.2});
   }
   if (around.look.region.is_bounded()) {
     draw_region(context, page, around);
   }
   draw_border(context, page, around.window);
-  if (!globe && page.labelled) {
+  if (!page.labelled) {
+    return;
+  }
+  if (!whole) {
+    window_labels(context, page, around.window, degrees.labels);
+  } else if (!globe) {
     edge_labels(context, page, around.frame);
-  } else if (globe && around.look.graticule && page.labelled) {
+  } else if (graticule) {
     globe_labels(context, page, around.look, around.frame);
   }
 }

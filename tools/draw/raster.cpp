@@ -9,23 +9,13 @@ namespace {
 
 constexpr int most_samples = 8192; ///< in a row, where that leaves one a pixel
 
-std::uint32_t pack(const Rgb& c) {
-  const auto byte = [](double x) { return static_cast<std::uint32_t>(std::lround(255 * x)); };
-  return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
-}
-
-Rgb unpack(std::uint32_t rgb) {
-  const auto channel = [rgb](int shift) { return ((rgb >> shift) & 0xff) / 255.0; };
-  return {channel(16), channel(8), channel(0)};
-}
-
 /// Samples of a map, row by row from the top.
 template <class Map> struct Samples {
   Samples(const MapSize& size, int samples, const MapWindow& part)
       : window(part), per_pixel(samples), columns(size.width * samples),
         rows(size.height * samples), rays(columns, rows, part),
         rgb(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-            pack(globe_colour)) {}
+            bytes_of(globe_colour)) {}
 
   /// Samples in the map's unit.
   double scale() const { return window.template scale<Map>(columns); }
@@ -103,9 +93,9 @@ std::uint32_t sample_colour(const Paint& paint, double distance, double per_pixe
     return paint.filled ? paint.packed : under;
   }
   const double t = paint.line.alpha * cover;
-  const Rgb base = paint.filled ? paint.fill : unpack(under);
+  const Rgb base = paint.filled ? paint.fill : colour_of(under);
   const Rgb& line = paint.line.colour;
-  return pack(
+  return bytes_of(
       {std::lerp(base.r, line.r, t), std::lerp(base.g, line.g, t), std::lerp(base.b, line.b, t)});
 }
 
@@ -155,7 +145,7 @@ void paint_layer(Samples<Map>& samples, const Painting& painting, const Layer& l
         if (layer.filled) {
           paint.filled = true;
           paint.fill = painting.scale.colour(painting.values[shape]);
-          paint.packed = pack(paint.fill);
+          paint.packed = bytes_of(paint.fill);
         } else if (paint.sides.empty()) {
           return;
         }
@@ -197,7 +187,7 @@ template <class Map> void paint_field(Samples<Map>& samples, const FieldPainting
     const DoubleVector values = painting.values(places);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       samples.at(row, columns[i]) =
-          pack(painting.scale.colour(values[static_cast<Eigen::Index>(i)]));
+          bytes_of(painting.scale.colour(values[static_cast<Eigen::Index>(i)]));
     }
   }
 }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <map>
+#include <sstream>
 
 namespace calotte::tools {
 
@@ -16,20 +18,15 @@ constexpr Rgb plain = {0.90, 0.93, 0.95};
 constexpr int least_class = 3;
 constexpr int greatest_class = 9;
 
-Rgb hex(std::uint32_t rgb) {
-  const auto channel = [rgb](int shift) { return ((rgb >> shift) & 0xff) / 255.0; };
-  return {channel(16), channel(8), channel(0)};
-}
-
 /// Grey for the regular 6 and the boundary, blue below, red above, so that defects stand out.
 Rgb valence_colour(double valence) {
   if (valence == boundary_valence) {
-    return hex(0xc3cad1);
+    return colour_of(0xc3cad1);
   }
   static constexpr std::array<std::uint32_t, 7> colours = {0x0b2a5b, 0x2166ac, 0x74add1, 0xeceef0,
                                                            0xf4a261, 0xd1495b, 0x7a0c2e};
   const int v = std::clamp(static_cast<int>(valence), least_class, greatest_class);
-  return hex(colours[static_cast<std::size_t>(v - least_class)]);
+  return colour_of(colours[static_cast<std::size_t>(v - least_class)]);
 }
 
 /// Viridis' green for the region, oranges to red for the relaxation zone, greys for the specified
@@ -37,7 +34,7 @@ Rgb valence_colour(double valence) {
 Rgb mask_colour(double mask) {
   static constexpr std::array<std::uint32_t, 8> colours = {0x9fcfb5, 0xfdd9a0, 0xfcb96a, 0xf6953f,
                                                            0xe06f1f, 0xb94a0c, 0x8b93a1, 0x565d6b};
-  return hex(colours[static_cast<std::size_t>(std::clamp(mask, 0.0, colours.size() - 1.0))]);
+  return colour_of(colours[static_cast<std::size_t>(std::clamp(mask, 0.0, colours.size() - 1.0))]);
 }
 
 /// Quantities that may range over powers of ten.
@@ -162,7 +159,7 @@ std::vector<Rgb> palette_colours(Palette palette) {
   }};
   // clang-format on
   std::vector<Rgb> steps(count);
-  std::ranges::transform(colours[static_cast<std::size_t>(palette)], steps.begin(), hex);
+  std::ranges::transform(colours[static_cast<std::size_t>(palette)], steps.begin(), colour_of);
   return steps;
 }
 
@@ -179,13 +176,9 @@ Rgb palette_colour(Palette palette, double place) {
 }
 
 std::string hex_text(const Rgb& colour) {
-  std::string text;
-  for (const double channel : {colour.r, colour.g, colour.b}) {
-    const auto byte = static_cast<std::size_t>(std::lround(255 * channel));
-    text += "0123456789abcdef"[byte / 16];
-    text += "0123456789abcdef"[byte % 16];
-  }
-  return text;
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(6) << bytes_of(colour);
+  return text.str();
 }
 
 Rgb class_colour(Colouring colouring, double value) {

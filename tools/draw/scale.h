@@ -3,6 +3,7 @@
 
 #include "draw/draw.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -14,6 +15,18 @@ namespace calotte::tools {
 struct Rgb {
   double r = 0, g = 0, b = 0;
 };
+
+/// The colour of 0xrrggbb.
+inline Rgb colour_of(std::uint32_t rgb) {
+  const auto channel = [rgb](int shift) { return ((rgb >> shift) & 0xff) / 255.0; };
+  return {channel(16), channel(8), channel(0)};
+}
+
+/// 0xrrggbb of a colour.
+inline std::uint32_t bytes_of(const Rgb& c) {
+  const auto byte = [](double x) { return static_cast<std::uint32_t>(std::lround(255 * x)); };
+  return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+}
 
 /// Maps values, in the unit of the legend, to colours.
 struct Scale {
