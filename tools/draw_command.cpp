@@ -134,7 +134,7 @@ void choose_colouring(const DrawArguments& arguments, const MeshFile& file, Draw
 /// The options of a picture of a file's mesh.
 DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
   DrawOptions options = arguments.options;
-  options.radius_km = radius_km(*arguments.source, file, arguments.density->widths);
+  options.radius_km = radius_km(file, arguments.density->widths);
   options.name = file_name(*arguments.source);
   options.look.coastlines = shows_coastlines(arguments.coastlines, options.radius_km);
   set_region(arguments, options.radius_km, options.look);

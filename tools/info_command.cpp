@@ -49,7 +49,7 @@ void require_report(const Request& request) {
 }
 
 std::optional<double> radius_of(const Request& request, const MeshFile& file) {
-  return radius_km(*request.source, file, request.density->widths, request.sphere_radius);
+  return radius_km(file, request.density->widths, request.sphere_radius);
 }
 
 /// The density that is given, or else that of the file.
@@ -82,8 +82,6 @@ void find_boundary(const EdgeCounts& edges, Measured& measured) {
 /// The cells by bdyMaskCell; none if the file does not have it.
 std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) {
   std::vector<std::int64_t> counts;
-  if (!is_netcdf_file(path))
-    return counts;
   try {
     for (const double mask : read_cell_field(path, "bdyMaskCell", cells).values) {
       if (!(mask >= 0 && mask <= limited_area_rings))
@@ -106,7 +104,7 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
   measured.radius_km = radius_of(request, file);
   measured.unit = unit_of(request.units, measured.radius_km);
   find_boundary(count_edges(mesh), measured);
-  if (measured.open)
+  if (measured.open && is_netcdf(file))
     measured.masks = masks_of(request.source->path, mesh.points.cols());
   if (measured.open && file.polygons) {
     measured.areas = shapes(*file.polygons).area;

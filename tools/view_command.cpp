@@ -94,7 +94,7 @@ Input read_input(const Request& request, const MeshSource& source, Progress& pro
   progress.stage("reading " + source.path);
   Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
   if (!input.file.plane())
-    input.radius_km = radius_km(source, input.file, request.density->widths, request.sphere_radius);
+    input.radius_km = radius_km(input.file, request.density->widths, request.sphere_radius);
   return input;
 }
 

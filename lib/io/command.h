@@ -4,6 +4,7 @@
 #include "io/room.h"
 
 #include <calotte/export.h>
+#include <calotte/mesh_file.h>
 #include <calotte/surface.h>
 #include <calotte/write.h>
 
@@ -26,6 +27,9 @@ void write_file(const std::string& path, std::string_view bytes);
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
 /// \throws Error file.
 bool is_netcdf_file(const std::string& path);
+
+/// Whether the format of a file that was read is one of NetCDF, where lengths are in metres.
+bool is_netcdf(const MeshFile& file);
 
 /// Throws unless write() supports meshes of a plane in the format.
 /// \param path for the message.

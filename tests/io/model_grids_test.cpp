@@ -164,7 +164,7 @@ void require_attributes(const NetcdfReader& file, double radius, const std::stri
   CHECK(file.text("", "Conventions").starts_with("CF-1.8"));
   CHECK(file.number("", "sphere_radius", 0) == radius);
   CHECK(file.text("", "history") == history);
-  for (const std::string& name : file.variables()) {
+  for (const std::string& name : file.variable_names()) {
     CAPTURE(name);
     CHECK(file.text(name, "units") != "");
     CHECK(file.text(name, "long_name") != "");

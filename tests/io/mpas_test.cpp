@@ -197,7 +197,7 @@ void check_attributes(const Grid& grid, const WriteOptions& options) {
   CHECK(file.text("", "history") == options.history);
   CHECK(file.text("", "source").starts_with("calotte "));
   CHECK(file.text("", "file_id").size() == 16);
-  for (const std::string& name : file.variables()) {
+  for (const std::string& name : file.variable_names()) {
     CAPTURE(name);
     CHECK(!file.text(name, "units").empty());
     CHECK(!file.text(name, "long_name").empty());
@@ -671,7 +671,7 @@ TEST_CASE("a minimal file holds the same cells and vertices") {
     const File full(scratch / "full.nc"), minimal(scratch / "grid.nc");
     const std::vector<std::string> expected{"xCell",   "yCell",   "zCell",         "xVertex",
                                             "yVertex", "zVertex", "cellsOnVertex", "meshDensity"};
-    CHECK(minimal.reader.variables() == expected);
+    CHECK(minimal.reader.variable_names() == expected);
     for (const std::string& name : expected) {
       CHECK(minimal.doubles(name).values == full.doubles(name).values);
       CHECK(minimal.reader.dimensions_of(name) == full.reader.dimensions_of(name));

@@ -146,7 +146,8 @@ TEST_CASE("the reader tells names, shapes, attributes and values") {
   const Scratch scratch;
   write_sample(scratch / "a.nc");
   const NetcdfReader file(scratch / "a.nc");
-  CHECK(file.variables() == std::vector<std::string>{"scalar", "bytes", "doubles", "ids", "cube"});
+  CHECK(file.variable_names() ==
+        std::vector<std::string>{"scalar", "bytes", "doubles", "ids", "cube"});
   CHECK(file.has_variable("ids"));
   CHECK(!file.has_variable("id"));
   CHECK(file.shape_of("scalar").empty());
@@ -349,11 +350,12 @@ TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
   }
 }
 
-TEST_CASE("damaged headers are read or refused, and never reach the C library unread") {
+TEST_CASE("damaged headers are read or refused") {
   const Scratch scratch;
   write_sample(scratch / "a.nc");
   const std::string whole = read_file(scratch / "a.nc");
-  const auto header = static_cast<int>(calotte::io_detail::classic_layout(scratch / "a.nc").header);
+  const auto header = static_cast<int>(
+      calotte::io_detail::classic_header(calotte::io_detail::FileReader(scratch / "a.nc")).bytes);
   calotte::test::Random random(7);
   int refused = 0;
   for (int i = 0; i < 1000; ++i) {

@@ -44,17 +44,17 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
   if (source.plane && !file.plane())
     refuse(source.path + ": it holds no mesh of the plane" + first_off_plane(file) +
            "; leave --plane out");
-  if (!source.plane && source.points.empty() && is_netcdf_file(source.path))
+  if (!source.plane && source.points.empty() && is_netcdf(file))
     warn_of_radius(file.sphere_radius, source.path);
   return file;
 }
 
-std::optional<double> radius_km(const MeshSource& source, const MeshFile& file,
-                                const WidthWords& widths, std::optional<double> metres) {
+std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
+                                std::optional<double> metres) {
   constexpr double kilometre = 1000; // metres
   if (metres)
     return *metres / kilometre;
-  if (file.sphere_radius != 1 && is_netcdf_file(source.path))
+  if (file.sphere_radius != 1 && is_netcdf(file))
     return file.sphere_radius / kilometre;
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
 }

@@ -33,8 +33,8 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 
 /// The radius of the sphere, km: that given in metres, that of a NetCDF file, which is in metres,
 /// or the one to which widths in km refer; none if none of these is known.
-std::optional<double> radius_km(const MeshSource& source, const MeshFile& file,
-                                const WidthWords& widths, std::optional<double> metres = {});
+std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
+                                std::optional<double> metres = {});
 
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);

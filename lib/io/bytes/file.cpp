@@ -263,16 +263,24 @@ void require_regular_output(const std::string& path) {
                     "front to back; give the name of a file");
 }
 
-std::ifstream open_input(const std::string& path) {
+void require_no_folder(const std::string& path) {
   if (std::error_code error; fs::is_directory(path, error))
     throw Error(ErrorCode::file,
                 "cannot read " + path + ": it is a folder; give the name of a file");
+}
+
+void refuse_input(const std::string& path, int error) {
+  throw Error(ErrorCode::file, "cannot read " + path + ": " +
+                                   std::generic_category().message(error) +
+                                   "; check its name and its permissions");
+}
+
+std::ifstream open_input(const std::string& path) {
+  require_no_folder(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)
-    throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                     std::generic_category().message(errno) +
-                                     "; check its name and its permissions");
+    refuse_input(path, errno);
   return in;
 }
 

@@ -123,6 +123,12 @@ private:
 /// \throws Error file for a device or a pipe.
 void require_regular_output(const std::string& path);
 
+/// \throws Error file for a folder, which the system would open.
+void require_no_folder(const std::string& path);
+
+/// \throws Error file, always, with the meaning of an errno of opening a file.
+[[noreturn]] void refuse_input(const std::string& path, int error);
+
 /// \throws Error file.
 std::ifstream open_input(const std::string& path);
 

@@ -20,7 +20,7 @@ bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
 
 std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64_t cells) {
   std::string names;
-  for (const std::string& name : file.variables())
+  for (const std::string& name : file.variable_names())
     if (is_cell_field(file, name, cells))
       names += (names.empty() ? "" : ", ") + name;
   return names;

@@ -114,7 +114,7 @@ bool has_corners(const NetcdfReader& file, const std::string& bounds) {
 /// The latitudes that go with longitudes, which have bounds.
 std::string latitude_beside(const NetcdfReader& file, const std::string& longitude) {
   const std::vector<std::string> dimensions = file.dimensions_of(longitude);
-  for (const std::string& name : file.variables())
+  for (const std::string& name : file.variable_names())
     if (is_latitude(file, name) && file.dimensions_of(name) == dimensions &&
         has_corners(file, bounds_of(file, name)))
       return name;
@@ -124,7 +124,7 @@ std::string latitude_beside(const NetcdfReader& file, const std::string& longitu
 /// How many variables have all dimensions of a coordinate.
 std::int64_t variables_on(const NetcdfReader& file, const std::string& coordinate) {
   const std::vector<std::string> wanted = file.dimensions_of(coordinate);
-  const std::vector<std::string> names = file.variables();
+  const std::vector<std::string> names = file.variable_names();
   return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
     const std::vector<std::string> has = file.dimensions_of(name);
     return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& dimension) {
@@ -136,7 +136,7 @@ std::int64_t variables_on(const NetcdfReader& file, const std::string& coordinat
 std::optional<CellRows> bounded_cells(const NetcdfReader& file) {
   std::optional<CellRows> best;
   std::int64_t most = -1;
-  for (const std::string& name : file.variables()) {
+  for (const std::string& name : file.variable_names()) {
     if (!is_longitude(file, name) || !has_corners(file, bounds_of(file, name)))
       continue;
     const std::string latitude = latitude_beside(file, name);
@@ -152,7 +152,7 @@ constexpr std::string_view oasis_corners = ".clo";
 
 std::vector<std::string> oasis_grids(const NetcdfReader& file) {
   std::vector<std::string> grids;
-  for (const std::string& name : file.variables())
+  for (const std::string& name : file.variable_names())
     if (name.ends_with(oasis_corners)) {
       const std::string grid = name.substr(0, name.size() - oasis_corners.size());
       if (file.has_variable(grid + ".cla"))
@@ -181,7 +181,7 @@ std::optional<CellRows> oasis_cells(const NetcdfReader& file) {
 
 /// The first variable of which that holds; empty without.
 template <class Is> std::string first_variable(const NetcdfReader& file, const Is& is) {
-  const std::vector<std::string> names = file.variables();
+  const std::vector<std::string> names = file.variable_names();
   const auto found = std::find_if(names.begin(), names.end(), is);
   return found == names.end() ? "" : *found;
 }

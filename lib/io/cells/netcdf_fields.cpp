@@ -120,7 +120,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
   if (choice == FieldChoice::none)
     return;
   const std::set<std::string> of_mesh = mesh_dimensions(file, names);
-  for (const std::string& name : file.variables()) {
+  for (const std::string& name : file.variable_names()) {
     if (names.variables.contains(name))
       continue;
     std::optional<MeshField> field = field_of(file, names, of_mesh, name);

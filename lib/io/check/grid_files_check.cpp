@@ -31,7 +31,7 @@ void check_names(const std::string& variable, const std::string& attribute,
 }
 
 void check_all_names(Deviations& deviations) {
-  for (const std::string& variable : deviations.file().variables())
+  for (const std::string& variable : deviations.file().variable_names())
     for (const char* attribute :
          {"coordinates", "bounds", "mesh", "node_coordinates", "edge_coordinates",
           "face_coordinates", "face_node_connectivity", "edge_node_connectivity",

@@ -124,6 +124,13 @@ bool is_netcdf_file(const std::string& path) {
   return bytes.starts_with("CDF") || bytes == "\x89HDF";
 }
 
+bool is_netcdf(const MeshFile& file) {
+  const auto table = format_table();
+  return std::any_of(table.begin(), table.end(), [&](const FormatRow& row) {
+    return row.label == file.format && is_netcdf(row.info.format);
+  });
+}
+
 MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldChoice choice) {
   if (!points || format_of_name(path) != Format::triangles)
     return read_any(path, choice);

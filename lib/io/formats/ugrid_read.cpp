@@ -16,7 +16,7 @@ namespace {
 
 /// The first variable that describes a mesh of faces, or nothing.
 std::string mesh_variable(const NetcdfReader& file) {
-  for (const std::string& name : file.variables())
+  for (const std::string& name : file.variable_names())
     if (file.text(name, "cf_role") == "mesh_topology" &&
         file.number(name, "topology_dimension", 2) == 2)
       return name;

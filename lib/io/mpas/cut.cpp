@@ -64,7 +64,7 @@ void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
 
 /// The values of a variable with one for each cell, of the kept ones; empty if the file has none.
 DoubleVector kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
-  const NetcdfReader& file = source.netcdf().reader();
+  const NetcdfReader& file = source.netcdf();
   if (!file.has_variable(name) || file.shape_of(name) != std::vector<std::int64_t>{source.cells()})
     return {};
   const std::vector<double> all = file.doubles(name, {source.cells()});

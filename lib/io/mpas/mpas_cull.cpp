@@ -15,11 +15,11 @@
 namespace calotte::io_detail {
 namespace {
 
-std::int64_t value_bytes(const NetcdfSource& file, int variable) {
+std::int64_t value_bytes(const NetcdfReader& file, int variable) {
   return size_of(*file.variables()[static_cast<std::size_t>(variable)].type);
 }
 
-std::int64_t width_of(const NetcdfSource& file, int variable) {
+std::int64_t width_of(const NetcdfReader& file, int variable) {
   return file.product(variable, 1,
                       file.variables()[static_cast<std::size_t>(variable)].dimensions.size());
 }
@@ -47,7 +47,7 @@ public:
   }
 
 private:
-  const NetcdfSource& file_;
+  const NetcdfReader& file_;
   const Kept& kept_;
   int variable_;
   ChangeRows renumber_;
@@ -75,13 +75,13 @@ template <class Change> void change_value(char* bytes, std::int64_t size, const 
 template <class Change>
 void add_row_change(const MpasSource& source, const std::string& variable, NetcdfSubset& subset,
                     const Change& change) {
-  const NetcdfSource& file = source.netcdf();
+  const NetcdfReader& file = source.netcdf();
   const int v = file.find(variable);
   if (v < 0)
     return;
   const std::optional<NetcdfType> type = file.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::float32 && type != NetcdfType::float64)
-    file.reader().fail(variable + " does not hold floating-point numbers; make the file again");
+    file.fail(variable + " does not hold floating-point numbers; make the file again");
   const std::int64_t size = size_of(*type), row_bytes = width_of(file, v) * size;
   subset.changes[variable].push_back([=](std::int64_t begin, std::int64_t end, char* bytes) {
     for (std::int64_t row = begin; row < end; ++row, bytes += row_bytes)
@@ -168,12 +168,11 @@ void add_weights(const MpasSource& source, const MpasPart& part, const ReversedE
 } // namespace
 
 ReversedEdges reversed_edges(const MpasSource& source, const MpasPart& part) {
-  const NetcdfSource& file = source.netcdf();
+  const NetcdfReader& file = source.netcdf();
   const int v = file.find(mpas::cells_on_edge);
   if (v < 0)
-    file.reader().fail("it has no cellsOnEdge; make the file again");
-  const std::vector<std::int32_t> cells =
-      file.reader().ints(mpas::cells_on_edge, {source.edges(), 2});
+    file.fail("it has no cellsOnEdge; make the file again");
+  const std::vector<std::int32_t> cells = file.ints(mpas::cells_on_edge, {source.edges(), 2});
   ReversedEdges reversed(static_cast<std::size_t>(part.edges.count()));
   for_each_block(part.edges.count(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end; ++e) {
@@ -193,7 +192,7 @@ void add_reversals(const MpasSource& source, const MpasPart& part, const Reverse
 }
 
 void add_kites(const MpasSource& source, const MpasPart& part, NetcdfSubset& subset) {
-  const NetcdfSource& file = source.netcdf();
+  const NetcdfReader& file = source.netcdf();
   const int kites = file.find(mpas::kite_areas_on_vertex);
   if (file.find(mpas::cells_on_vertex) < 0 || kites < 0)
     return;

@@ -16,12 +16,12 @@ namespace calotte::io_detail {
 namespace {
 
 /// Throws unless the file has a mesh of the sphere with the lists of its cells.
-void require_lists(const NetcdfSource& file) {
-  const std::string& path = file.reader().path();
-  if (!is_mpas(file.reader()))
+void require_lists(const NetcdfReader& file) {
+  const std::string& path = file.path();
+  if (!is_mpas(file))
     throw Error(ErrorCode::invalid_argument, path + " holds no MPAS mesh; convert it with calotte "
                                                     "convert");
-  if (is_planar_mpas(file.reader()))
+  if (is_planar_mpas(file))
     throw Error(ErrorCode::invalid_argument,
                 path + " holds a mesh of the plane, not of the sphere; give another");
   for (const char* name :
@@ -30,8 +30,8 @@ void require_lists(const NetcdfSource& file) {
       throw Error(ErrorCode::invalid_argument,
                   path + " holds no " + name + "; complete it with calotte convert IN OUT.nc");
   for (const MpasKind& kind : {mpas_cell, mpas_edge, mpas_vertex})
-    if (file.reader().dimension(kind.dimension()) < 0)
-      file.reader().fail("it has no dimension " + kind.dimension() + "; make the file again");
+    if (file.dimension(kind.dimension()) < 0)
+      file.fail("it has no dimension " + kind.dimension() + "; make the file again");
 }
 
 /// \throws Error parse, unless the generators are on the sphere of the attribute.
@@ -82,13 +82,13 @@ void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& 
 }
 
 template <class T>
-void take_row(const NetcdfSource& file, const std::string& variable, std::int64_t row,
+void take_row(const NetcdfReader& file, const std::string& variable, std::int64_t row,
               const T* stored, std::int64_t bound, std::span<std::int32_t> out) {
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (stored[k] < 0 || stored[k] > bound + 1)
-      file.reader().fail(variable + " has the id " + std::to_string(stored[k]) + " at cell " +
-                         std::to_string(row + 1) + " (both 1-based), but there are " +
-                         std::to_string(bound) + "; make the file again");
+      file.fail(variable + " has the id " + std::to_string(stored[k]) + " at cell " +
+                std::to_string(row + 1) + " (both 1-based), but there are " +
+                std::to_string(bound) + "; make the file again");
     out[k] = stored[k] == bound + 1 ? -1 : static_cast<std::int32_t>(stored[k]) - 1;
   }
 }
@@ -121,7 +121,7 @@ void renumber(const Kept& kept, Ids& ids) {
 
 MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
   require_lists(netcdf_);
-  const NetcdfReader& file = netcdf_.reader();
+  const NetcdfReader& file = netcdf_;
   cells_ = file.dimension(mpas_cell.dimension());
   edges_ = file.dimension(mpas_edge.dimension());
   vertices_ = file.dimension(mpas_vertex.dimension());
@@ -134,11 +134,9 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
                 std::to_string(width) + "; make the file again");
 }
 
-Points3 MpasSource::places() const { return read_places(netcdf_.reader(), mpas_cell, cells_); }
+Points3 MpasSource::places() const { return read_places(netcdf_, mpas_cell, cells_); }
 
-Points3 MpasSource::vertex_places() const {
-  return read_places(netcdf_.reader(), mpas_vertex, vertices_);
-}
+Points3 MpasSource::vertex_places() const { return read_places(netcdf_, mpas_vertex, vertices_); }
 
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
   Kept all{Array<std::int32_t>(cells_), {}};
@@ -149,7 +147,7 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const
 
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const Kept& kept) const {
   const int v = netcdf_.find(variable);
-  const NetcdfReader& file = netcdf_.reader();
+  const NetcdfReader& file = netcdf_;
   const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   if (file.shape_of(variable) != std::vector<std::int64_t>{cells_, width})
     file.fail(variable + " has another shape than cellsOnCell; make the file again");
@@ -190,7 +188,7 @@ Voronoi tessellation_of(const MpasSource& source) {
   cells.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges());
   cells.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices());
   cells.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells());
-  require_edges(source.netcdf().reader(), source.edges(), cells);
+  require_edges(source.netcdf(), source.edges(), cells);
   return cells;
 }
 

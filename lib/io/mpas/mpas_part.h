@@ -22,7 +22,7 @@ public:
   ///         one without these lists.
   explicit MpasSource(const std::string& path);
 
-  const NetcdfSource& netcdf() const { return netcdf_; }
+  const NetcdfReader& netcdf() const { return netcdf_; }
   std::int64_t cells() const { return cells_; }
   std::int64_t edges() const { return edges_; }
   std::int64_t vertices() const { return vertices_; }
@@ -37,7 +37,7 @@ public:
   IdLists lists(const std::string& variable, std::int64_t bound, const Kept& kept) const;
 
 private:
-  NetcdfSource netcdf_;
+  NetcdfReader netcdf_;
   std::int64_t cells_ = 0, edges_ = 0, vertices_ = 0;
   double radius_ = 1;
   std::vector<std::int32_t> counts_; ///< nEdgesOnCell

@@ -33,7 +33,7 @@ template <class T, class Work> void on_values(char* bytes, std::int64_t count, c
 }
 
 /// Values in a row of a variable whose rows are those of its first dimension.
-std::int64_t width_of(const NetcdfSource& source, int variable) {
+std::int64_t width_of(const NetcdfReader& source, int variable) {
   return source.product(variable, 1,
                         source.variables()[static_cast<std::size_t>(variable)].dimensions.size());
 }
@@ -42,14 +42,14 @@ std::int64_t width_of(const NetcdfSource& source, int variable) {
 template <class T> bool is_missing(T id, std::int64_t count) { return id == 0 || id == count + 1; }
 
 template <class T>
-ChangeRows renumbering(const NetcdfSource& source, int variable, const Kept& of) {
+ChangeRows renumbering(const NetcdfReader& source, int variable, const Kept& of) {
   const std::int64_t width = width_of(source, variable), count = of.number.size();
   const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
   return [&source, &of, &name, width, count](std::int64_t begin, std::int64_t end, char* bytes) {
     on_values<T>(bytes, (end - begin) * width, [&](T* ids, std::int64_t n) {
       for (std::int64_t k = 0; k < n; ++k) {
         if (ids[k] < 0 || ids[k] > count + 1)
-          refuse_id(source.reader(), name, begin + k / width, ids[k], count);
+          refuse_id(source, name, begin + k / width, ids[k], count);
         ids[k] = is_missing(ids[k], count) ? 0 : of.number[ids[k] - 1];
       }
     });
@@ -57,24 +57,24 @@ ChangeRows renumbering(const NetcdfSource& source, int variable, const Kept& of)
 }
 
 /// \throws Error parse, for a variable that is not of integers.
-ChangeRows renumbering_of(const NetcdfSource& source, int variable, const Kept& of) {
-  const NetcdfSource::Variable& ids = source.variables()[static_cast<std::size_t>(variable)];
+ChangeRows renumbering_of(const NetcdfReader& source, int variable, const Kept& of) {
+  const NetcdfVariable& ids = source.variables()[static_cast<std::size_t>(variable)];
   if (ids.type == NetcdfType::int32)
     return renumbering<std::int32_t>(source, variable, of);
   if (ids.type == NetcdfType::int64)
     return renumbering<std::int64_t>(source, variable, of);
-  source.reader().fail(ids.name + " does not hold integers of 4 or 8 bytes; make the file again");
+  source.fail(ids.name + " does not hold integers of 4 or 8 bytes; make the file again");
 }
 
 /// \throws Error parse.
-void require_integers(const NetcdfSource& source, int variable) {
+void require_integers(const NetcdfReader& source, int variable) {
   const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
-  if (!source.reader().is_integer(name))
-    source.reader().fail(name + " does not hold integers; make the file again");
+  if (!source.is_integer(name))
+    source.fail(name + " does not hold integers; make the file again");
 }
 
 /// The file's own numbers from 1 on, of integers of any size.
-ChangeRows numbers_of(const NetcdfSource& source, int variable) {
+ChangeRows numbers_of(const NetcdfReader& source, int variable) {
   require_integers(source, variable);
   const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
   return [size](std::int64_t begin, std::int64_t end, char* bytes) {
@@ -85,7 +85,7 @@ ChangeRows numbers_of(const NetcdfSource& source, int variable) {
 }
 
 /// 1 at vertices that lack a cell, of integers of any size.
-ChangeRows boundary_of(const NetcdfSource& source, int variable, const MpasPart& part) {
+ChangeRows boundary_of(const NetcdfReader& source, int variable, const MpasPart& part) {
   require_integers(source, variable);
   const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
   return [size, &part](std::int64_t begin, std::int64_t end, char* bytes) {
@@ -97,7 +97,7 @@ ChangeRows boundary_of(const NetcdfSource& source, int variable, const MpasPart&
 }
 
 /// Weights of edges that are left out become 0: only edges with one kept cell have such.
-ChangeRows weights_of(const NetcdfSource& source, int variable, const MpasPart& part) {
+ChangeRows weights_of(const NetcdfReader& source, int variable, const MpasPart& part) {
   const int ids = source.find(mpas::edges_on_edge);
   const std::int64_t width = width_of(source, variable),
                      size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type),
@@ -118,7 +118,7 @@ ChangeRows weights_of(const NetcdfSource& source, int variable, const MpasPart& 
   };
 }
 
-void add_change(const NetcdfSource& source, const std::string& variable, NetcdfSubset& subset,
+void add_change(const NetcdfReader& source, const std::string& variable, NetcdfSubset& subset,
                 const std::function<ChangeRows(int)>& make) {
   if (const int v = source.find(variable); v >= 0)
     subset.changes[variable].push_back(make(v));
@@ -133,16 +133,16 @@ template <class T> ChangeRows scaling(std::int64_t width, double factor, double 
   };
 }
 
-void add_scaling(const NetcdfSource& source, const std::string& variable, double factor,
+void add_scaling(const NetcdfReader& source, const std::string& variable, double factor,
                  double divisor, NetcdfSubset& subset) {
   add_change(source, variable, subset, [&](int v) -> ChangeRows {
-    const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(v)];
+    const NetcdfVariable& of = source.variables()[static_cast<std::size_t>(v)];
     const std::int64_t width = row_values(source, subset, v);
     if (of.type == NetcdfType::float32)
       return scaling<float>(width, factor, divisor);
     if (of.type == NetcdfType::float64)
       return scaling<double>(width, factor, divisor);
-    source.reader().fail(variable + " does not hold floating-point numbers; make the file again");
+    source.fail(variable + " does not hold floating-point numbers; make the file again");
   });
 }
 
@@ -157,7 +157,7 @@ const Kept* things_of(MpasNumbers numbers, const MpasPart& part) {
 } // namespace
 
 NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
-  const NetcdfSource& file = source.netcdf();
+  const NetcdfReader& file = source.netcdf();
   NetcdfSubset subset;
   subset.kept = {{name_of(MpasDimension::cells), &part.cells},
                  {name_of(MpasDimension::edges), &part.edges},
@@ -197,7 +197,7 @@ void add_division(const MpasSource& source, const std::string& variable, double 
 
 void add_history(const MpasSource& source, const MpasPart& part, const std::string& history,
                  NetcdfSubset& subset) {
-  const NetcdfReader& file = source.netcdf().reader();
+  const NetcdfReader& file = source.netcdf();
   const auto set = [&](const std::string& name, const std::string& value) {
     subset.attributes[name] = {name, value};
   };

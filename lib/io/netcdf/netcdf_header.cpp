@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_header.h"
 
-#include "io/bytes/file.h"
+#include "io/bytes/big_endian.h"
+#include "io/bytes/file_reader.h"
 #include "io/bytes/utf8.h"
 
 #include <calotte/error.h>
@@ -11,8 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <set>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
@@ -24,7 +25,8 @@ enum Tag : std::int64_t {
   attributes_follow = 12
 };
 
-/// Of all lists: dimensions, variables and attributes. The C library takes quadratic time for some.
+/// Of all lists: dimensions, variables and attributes. An entry takes more memory than bytes of the
+/// file.
 constexpr std::int64_t most_entries = 200'000;
 
 std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
@@ -38,35 +40,33 @@ struct Shape {
 /// Reads the header of a classic file from its first byte on.
 class HeaderWalk {
 public:
-  explicit HeaderWalk(const std::string& path)
-      : path_(path), in_(open_input(path)), size_(static_cast<std::int64_t>(bytes_left(in_))) {
+  explicit HeaderWalk(const FileReader& file) : file_(file) {
     char magic[4] = {};
-    read_some(in_, magic, sizeof magic, path_);
-    position_ = sizeof magic;
-    version_ = in_ ? magic[3] : 0;
+    take(sizeof magic, magic);
+    version_ = magic[3];
   }
 
-  NetcdfLayout layout() {
-    NetcdfLayout layout;
-    records_ = records();
-    read_dimensions();
-    attributes();
+  NetcdfHeader header() {
+    NetcdfHeader header;
+    records_ = count_of_records();
+    read_dimensions(header.dimensions);
+    header.attributes = attributes();
     std::vector<Shape> shapes;
     const std::int64_t variables = list_of(variables_follow, "variables");
     std::set<std::string> names;
     for (std::int64_t v = 0; v < variables; ++v) {
-      layout.variables.push_back({.name = new_name(names)});
-      shapes.push_back(shape());
-      layout.variables.back().begin = number(version_ == 1 ? 4 : 8);
+      header.variables.push_back({.name = new_name(names)});
+      shapes.push_back(read_shape(header.dimensions, header.variables.back()));
+      header.variables.back().begin = number(version_ == 1 ? 4 : 8);
     }
-    layout.header = position_;
-    add_ends(shapes, layout.variables);
-    return layout;
+    header.bytes = position_;
+    add_ends(shapes, header.variables);
+    return header;
   }
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, path_ + ": " + problem + "; make it again");
+    throw Error(ErrorCode::parse, file_.path() + ": " + problem + "; make it again");
   }
   [[noreturn]] void damaged(const std::string& what) const {
     fail("its header is damaged: byte " + std::to_string(position_) + " " + what);
@@ -76,18 +76,34 @@ private:
       damaged(what);
   }
   void require_left(std::int64_t bytes) const {
-    if (bytes > size_ - position_)
+    if (bytes > file_.size() - position_)
       fail("it is cut short: its header is incomplete");
+  }
+
+  /// The next bytes, small ones from a window of the file.
+  void take(std::int64_t bytes, char* out) {
+    constexpr std::int64_t most = 1 << 16;
+    require_left(bytes);
+    if (bytes > most) {
+      file_.read(position_, bytes, out);
+    } else {
+      if (position_ + bytes > window_begin_ + std::ssize(window_)) {
+        window_.resize(static_cast<std::size_t>(std::min(most, file_.size() - position_)));
+        file_.read(position_, std::ssize(window_), window_.data());
+        window_begin_ = position_;
+      }
+      window_.copy(out, static_cast<std::size_t>(bytes),
+                   static_cast<std::size_t>(position_ - window_begin_));
+    }
+    position_ += bytes;
   }
 
   std::int64_t count_size() const { return version_ == 5 ? 8 : 4; }
 
   /// A number of 4 or 8 bytes.
   std::int64_t number(std::int64_t bytes) {
-    require_left(bytes);
     std::array<char, 8> text{};
-    read_some(in_, text.data(), bytes, path_);
-    position_ += bytes;
+    take(bytes, text.data());
     std::uint64_t value = 0;
     for (std::int64_t i = 0; i < bytes; ++i)
       value = value << 8U | static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
@@ -96,20 +112,19 @@ private:
   }
   std::int64_t count() { return number(count_size()); }
 
-  void skip(std::int64_t bytes) {
-    require_left(bytes);
-    position_ += bytes;
-    in_.seekg(position_);
+  /// Bytes and those that fill up their last 4.
+  std::string text(std::int64_t bytes) {
+    require_left(padded(bytes));
+    std::string text(static_cast<std::size_t>(bytes), '\0');
+    take(bytes, text.data());
+    position_ += padded(bytes) - bytes;
+    return text;
   }
 
   std::string name() {
     const std::int64_t length = count();
     require(length > 0 && length <= NC_MAX_NAME, "has a name without or with too many letters");
-    require_left(padded(length));
-    std::string text(static_cast<std::size_t>(length), '\0');
-    read_some(in_, text.data(), length, path_);
-    position_ += length;
-    skip(padded(length) - length);
+    std::string text = this->text(length);
     require(text.find('\0') == std::string::npos && text.find('/') == std::string::npos &&
                 is_utf8(text),
             "ends a name with a letter that names do not have");
@@ -131,69 +146,82 @@ private:
     return entries;
   }
 
-  /// The number of bytes of a value of the type that comes next.
-  std::int64_t type_size() {
-    constexpr std::array<std::int64_t, 12> sizes = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-    const std::int64_t type = number(4);
-    require(type >= 1 && type <= (version_ == 5 ? 11 : 6), "follows a type that there is not");
-    return sizes[static_cast<std::size_t>(type)];
+  NetcdfType type() {
+    const std::optional<NetcdfType> type = netcdf_type(number(4));
+    require(type && (version_ == 5 || *type <= NetcdfType::float64),
+            "follows a type that there is not");
+    return *type;
   }
 
-  std::int64_t records() {
+  std::int64_t count_of_records() {
     const std::int64_t streaming = version_ == 5 ? INT64_MAX : 0xffffffff;
     const std::int64_t found = count();
     require(found < streaming, "follows no number of records");
     return found;
   }
 
-  void read_dimensions() {
+  void read_dimensions(std::vector<NetcdfDimension>& dimensions) {
     const std::int64_t entries = list_of(dimensions_follow, "dimensions");
     std::set<std::string> names;
+    bool unlimited = false;
     for (std::int64_t d = 0; d < entries; ++d) {
-      new_name(names);
-      dimensions_.push_back(count());
-      require(dimensions_.back() > 0 || std::count(dimensions_.begin(), dimensions_.end(), 0) == 1,
-              "follows a second dimension of records");
+      dimensions.push_back({.name = new_name(names), .size = count()});
+      if (dimensions.back().size > 0)
+        continue;
+      require(!std::exchange(unlimited, true), "follows a second dimension of records");
+      dimensions.back() = {dimensions.back().name, records_, true};
     }
   }
 
-  void attributes() {
+  NetcdfAttributes attributes() {
     const std::int64_t entries = list_of(attributes_follow, "attributes");
     std::set<std::string> names;
+    NetcdfAttributes attributes;
     for (std::int64_t a = 0; a < entries; ++a) {
-      new_name(names);
-      const std::int64_t size = type_size(), values = count();
+      attributes.push_back({new_name(names), {}});
+      const NetcdfType type = this->type();
+      const std::int64_t values = count(), size = size_of(type);
       require_left(values);
-      skip(padded(size * values));
+      std::string bytes = text(size * values);
+      swap_big_endian(bytes.data(), values, size, bytes.data());
+      if (type == NetcdfType::text)
+        attributes.back().value = std::move(bytes);
+      else
+        attributes.back().value = NetcdfValues{type, std::move(bytes)};
     }
+    return attributes;
   }
 
   /// Of the next variable, after its name and up to its offset. The size that the file gives is
   /// redundant, and too small for large variables.
-  Shape shape() {
+  Shape read_shape(const std::vector<NetcdfDimension>& dimensions, NetcdfVariable& variable) {
     const std::int64_t rank = count();
     require(rank <= NC_MAX_VAR_DIMS, "follows a variable of too many dimensions");
     Shape shape{1, false};
+    const auto multiply = [&shape](std::int64_t factor) {
+      if (shape.bytes >= 0 && __builtin_mul_overflow(shape.bytes, factor, &shape.bytes))
+        shape.bytes = -1;
+    };
     for (std::int64_t d = 0; d < rank; ++d) {
       const std::int64_t id = count();
-      require(id < std::ssize(dimensions_), "follows a dimension that there is not");
-      const std::int64_t length = dimensions_[static_cast<std::size_t>(id)];
-      require(length > 0 || d == 0, "follows a dimension of records that is not the first");
-      shape.of_records |= length == 0;
-      if (length > 0 && shape.bytes >= 0 &&
-          __builtin_mul_overflow(shape.bytes, length, &shape.bytes))
-        shape.bytes = -1;
+      require(id < std::ssize(dimensions), "follows a dimension that there is not");
+      const NetcdfDimension& dimension = dimensions[static_cast<std::size_t>(id)];
+      require(!dimension.unlimited || d == 0,
+              "follows a dimension of records that is not the first");
+      variable.dimensions.push_back(static_cast<int>(id));
+      shape.of_records |= dimension.unlimited;
+      if (!dimension.unlimited)
+        multiply(dimension.size);
     }
-    attributes();
-    if (const std::int64_t size = type_size();
-        shape.bytes >= 0 && __builtin_mul_overflow(shape.bytes, size, &shape.bytes))
-      shape.bytes = -1;
+    variable.attributes = attributes();
+    variable.type = type();
+    multiply(size_of(*variable.type));
     count();
     return shape;
   }
 
   /// Ends are limited to the range of 64 bits, which no file exceeds.
-  void add_ends(const std::vector<Shape>& shapes, std::vector<NetcdfExtent>& extents) const {
+  void add_ends(const std::vector<Shape>& shapes, std::vector<NetcdfVariable>& variables) const {
     std::int64_t record = 0, record_variables = 0;
     bool overflow = false;
     for (const Shape& shape : shapes)
@@ -202,43 +230,53 @@ private:
                     __builtin_add_overflow(record, padded(shape.bytes), &record);
         ++record_variables;
       }
-    for (std::size_t v = 0; v < extents.size(); ++v) {
+    for (std::size_t v = 0; v < variables.size(); ++v) {
       const Shape& shape = shapes[v];
-      NetcdfExtent& extent = extents[v];
+      NetcdfVariable& variable = variables[v];
       std::int64_t before_last = 0;
       if (shape.of_records)
-        extent.stride = record_variables == 1 ? shape.bytes : record;
+        variable.stride = record_variables == 1 ? shape.bytes : record;
       if (shape.of_records && records_ > 0)
-        overflow |= __builtin_mul_overflow(extent.stride, records_ - 1, &before_last);
+        overflow |= __builtin_mul_overflow(variable.stride, records_ - 1, &before_last);
       overflow |= shape.bytes < 0 ||
-                  __builtin_add_overflow(before_last, extent.begin, &before_last) ||
-                  __builtin_add_overflow(before_last, shape.bytes, &extent.end);
-      if (overflow)
-        extent.end = INT64_MAX;
+                  __builtin_add_overflow(before_last, variable.begin, &before_last) ||
+                  __builtin_add_overflow(before_last, shape.bytes, &variable.end);
       if (shape.of_records && records_ == 0) // its first byte may be past the end of the file
-        extent.end = position_;
+        variable.end = position_;
+      if (overflow)
+        variable.end = INT64_MAX;
     }
   }
 
-  std::string path_;
-  std::ifstream in_;
-  std::int64_t size_ = 0, position_ = 0, records_ = 0;
+  const FileReader& file_;
+  std::string window_; ///< bytes of the file
+  std::int64_t window_begin_ = 0;
+  std::int64_t position_ = 0, records_ = 0;
   std::int64_t entries_ = 0; ///< of all lists
   int version_ = 0;
-  std::vector<std::int64_t> dimensions_; ///< lengths, 0 for that of the records
 };
 
 } // namespace
 
-bool is_classic_netcdf(const std::string& path) {
-  std::ifstream in = open_input(path);
-  char magic[4] = {};
-  read_some(in, magic, sizeof magic, path);
-  return in && std::memcmp(magic, "CDF", 3) == 0 &&
-         (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
+std::optional<NetcdfType> netcdf_type(std::int64_t code) {
+  if (code < 1 || code > 11)
+    return {};
+  return static_cast<NetcdfType>(code);
 }
 
-NetcdfLayout classic_layout(const std::string& path) { return HeaderWalk(path).layout(); }
+std::int64_t size_of(NetcdfType type) {
+  constexpr std::array<std::int64_t, 12> sizes = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+bool is_classic_netcdf(const FileReader& file) {
+  char magic[4] = {};
+  if (file.size() >= std::ssize(magic))
+    file.read(0, sizeof magic, magic);
+  return std::memcmp(magic, "CDF", 3) == 0 && (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
+}
+
+NetcdfHeader classic_header(const FileReader& file) { return HeaderWalk(file).header(); }
 
 bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes) {
   // The header holds a variable's size in 32 bits, rounded up to 4 bytes.

@@ -4,34 +4,85 @@
 #include "io/netcdf/room.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-/// The headers of the classic formats: whether they are sound, and the positions of the variables'
-/// values, which the C library does not provide.
+/// What the header of a NetCDF file says.
 namespace calotte::io_detail {
 
-/// A classic file's variable: value 0 stands at byte `begin`, the last one ends before byte `end`.
-struct NetcdfExtent {
-  std::string name = {};
-  std::int64_t begin = 0, end = 0;
+class FileReader;
+
+/// The types of the classic formats, with the codes that files give them; the last five exist in
+/// CDF-5 only.
+enum class NetcdfType {
+  int8 = 1,
+  text, ///< characters
+  int16,
+  int32,
+  float32,
+  float64,
+  uint8,
+  uint16,
+  uint32,
+  int64,
+  uint64
+};
+
+/// The type of a code; none for other codes, which HDF5 files have.
+std::optional<NetcdfType> netcdf_type(std::int64_t code);
+
+/// Bytes of a value.
+std::int64_t size_of(NetcdfType type);
+
+/// Several numbers of one type, in the machine's order of bytes.
+struct NetcdfValues {
+  NetcdfType type;
+  std::string bytes;
+};
+
+struct NetcdfAttribute {
+  std::string name;
+  std::variant<std::string, double, std::int32_t, std::int8_t, NetcdfValues> value;
+};
+using NetcdfAttributes = std::vector<NetcdfAttribute>;
+
+struct NetcdfDimension {
+  std::string name;
+  std::int64_t size = 0;
+  bool unlimited = false;
+};
+
+struct NetcdfVariable {
+  std::string name;
+  std::optional<NetcdfType> type = {}; ///< none for strings and types of users
+  std::vector<int> dimensions = {};    ///< the slowest first
+  NetcdfAttributes attributes = {};    ///< those of numbers and text
+
+  // Of a classic file:
+  std::int64_t begin = 0;  ///< the offset of its first byte
+  std::int64_t end = 0;    ///< that behind its last one
   std::int64_t stride = 0; ///< bytes from a record to the next; 0 without records
 };
 
-struct NetcdfLayout {
-  std::int64_t header = 0; ///< bytes
-  std::vector<NetcdfExtent> variables;
+/// Attributes that were read are text or NetcdfValues; strings are text.
+struct NetcdfHeader {
+  std::vector<NetcdfDimension> dimensions;
+  std::vector<NetcdfVariable> variables;
+  NetcdfAttributes attributes; ///< of the file
+  std::int64_t bytes = 0;      ///< of a classic file's header
 };
 
 /// Whether a file begins as CDF-1, -2 or -5 does. \throws Error file.
-bool is_classic_netcdf(const std::string& path);
+bool is_classic_netcdf(const FileReader& file);
 
-/// Reads the header of a classic file (NetCDF Classic Format Specification, Unidata). The C library
-/// can crash on a damaged header, and must open only files that pass here.
+/// Reads the header of a classic file (NetCDF Classic Format Specification, Unidata). Whether the
+/// file holds all values remains to be checked.
 /// \pre is_classic_netcdf().
 /// \throws Error parse for a header that is cut short or damaged, with its byte;
 /// file.
-NetcdfLayout classic_layout(const std::string& path);
+NetcdfHeader classic_header(const FileReader& file);
 
 /// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.
 bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/room.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
-/// Requirements for calls of the NetCDF C library.
+/// The NetCDF C library, which writes headers and reads files of HDF5.
 namespace calotte::io_detail {
 
 /// The C library has tables without locks; a caller must hold this lock.
@@ -16,8 +20,41 @@ std::mutex& netcdf_mutex();
 /// and skips leading blanks.
 std::string netcdf_path(const std::string& path);
 
-/// Returns if a result code of the C library says that the file is damaged, or none.
-/// \throws Error file for an error of the system; std::bad_alloc without memory.
-void require_system(const std::string& path, int code);
+/// A file that the C library has open for reading. Its methods hold the lock.
+class NetcdfLibraryFile {
+public:
+  /// \param file the same, open: the library reads zeros where it became shorter.
+  /// \throws Error parse for a file that the library does not read; file.
+  explicit NetcdfLibraryFile(const FileReader& file);
+  NetcdfLibraryFile(const NetcdfLibraryFile&) = delete;
+  NetcdfLibraryFile& operator=(const NetcdfLibraryFile&) = delete;
+  ~NetcdfLibraryFile();
+
+  /// \throws Error parse, file.
+  NetcdfHeader header() const;
+
+  /// The part of a variable that starts at the indices `start` and has `count` of each dimension,
+  /// converted; as bytes it keeps the file's type, in the machine's order.
+  /// \throws Error parse, file.
+  void get(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, double* out) const;
+  void get(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, std::int32_t* out) const;
+  void get(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, char* out) const;
+
+private:
+  void require(int code) const;
+  bool is_found(int code) const;
+  void require_values(int variable, int code) const;
+  std::vector<NetcdfDimension> read_dimensions(std::vector<int>& ids) const;
+  NetcdfAttributes read_attributes(int variable, int count) const;
+  std::string joined_strings(int variable, const char* name, std::size_t count) const;
+  void cache_chunks(int variable) const;
+
+  const FileReader& file_;
+  int id_ = -1;
+  mutable std::vector<int> cached_; ///< variables with a large cache of chunks, latest last
+};
 
 } // namespace calotte::io_detail

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_reader.h"
 
-#include "io/bytes/file.h"
-#include "io/netcdf/netcdf_header.h"
-#include "io/netcdf/netcdf_library.h"
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "io/bytes/big_endian.h"
 
 #include <calotte/error.h>
 
-#include <netcdf.h>
-
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <limits>
-#include <mutex>
+#include <type_traits>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
+
+// ---- Shapes
 
 std::string shape_in_words(const std::vector<std::int64_t>& shape) {
   std::string words = "(";
@@ -30,219 +32,234 @@ bool matches(const std::vector<std::int64_t>& shape, const std::vector<std::int6
                     [](std::int64_t size, std::int64_t want) { return want < 0 || size == want; });
 }
 
-std::string name_of(int id, int variable) {
-  char name[NC_MAX_NAME + 1] = "";
-  nc_inq_varname(id, variable, name);
-  return name;
+// ---- Conversion of values
+
+/// Why a value cannot be converted; null if it can.
+using Problem = const char*;
+
+template <class From> Problem convert_value(From value, double& out) {
+  out = static_cast<double>(value);
+  return nullptr;
 }
 
-/// The C library reads zeros where a classic file ends early, and can crash on a damaged header.
-/// \returns the variable that the file does not hold as a whole, "" where it holds all.
-/// \throws Error parse for a damaged header.
-std::string first_cut(const std::string& path, std::int64_t size) {
-  if (!is_classic_netcdf(path))
-    return "";
-  const NetcdfLayout layout = classic_layout(path);
-  for (const NetcdfExtent& extent : layout.variables)
-    if (extent.begin < layout.header || extent.end > size)
-      return extent.name;
-  return "";
-}
-
-int get_all(int id, int variable, double* values) {
-  return nc_get_var_double(id, variable, values);
-}
-int get_all(int id, int variable, std::int32_t* values) {
-  return nc_get_var_int(id, variable, values);
-}
-
-int get_some(int id, int variable, const std::size_t* start, const std::size_t* count,
-             double* values) {
-  return nc_get_vara_double(id, variable, start, count, values);
-}
-int get_some(int id, int variable, const std::size_t* start, const std::size_t* count,
-             std::int32_t* values) {
-  return nc_get_vara_int(id, variable, start, count, values);
-}
-
-/// \throws Error parse or file, unless the C library read the variable.
-void require_read(const NetcdfReader& file, const std::string& name, int code) {
-  file.require_whole();
-  require_system(file.path(), code);
-  if (code == NC_ECHAR)
-    file.fail(name + " is text, not numbers; make the file again");
-  if (code == NC_ERANGE)
-    file.fail(name + " has a number out of range; make the file again");
-  if (code != NC_NOERR)
-    file.fail(name + " cannot be read (" + nc_strerror(code) + "); make the file again");
-}
-
-/// All values of a variable whose shape is that. \throws Error parse.
-template <class T>
-std::vector<T> get_values(const NetcdfReader& file, int id, const std::string& name,
-                          const std::vector<std::int64_t>& shape) {
-  std::int64_t count = 1;
-  for (const std::int64_t size : shape)
-    if (__builtin_mul_overflow(count, size, &count))
-      file.fail(name + " is too large; make the file again");
-  // What deflate can reach, for a file that stores something of each value.
-  constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
-  if (count > least && count / most_compressed > file.size() / std::int64_t{sizeof(T)})
-    file.fail(name + " has more values than a file of its size can hold; make the file again");
-  std::vector<T> values;
-  try {
-    values = zeros<T>(count);
-  } catch (const std::exception&) {
-    file.fail(name + " is too large for this machine's memory; read it on a larger one");
-  }
-  const std::lock_guard lock(netcdf_mutex());
-  int variable = -1;
-  nc_inq_varid(id, name.c_str(), &variable);
-  require_read(file, name, get_all(id, variable, values.data()));
-  return values;
-}
-
-std::int32_t to_int(const NetcdfReader& file, const std::string& name, double value) {
+template <class From> Problem convert_value(From value, std::int32_t& out) {
   using Limits = std::numeric_limits<std::int32_t>;
-  if (!(value >= Limits::min() && value <= Limits::max()) || value != std::floor(value))
-    file.fail(name + " has a number that is not a 32-bit integer; make the file again");
-  return static_cast<std::int32_t>(value);
+  if constexpr (std::is_floating_point_v<From>) {
+    const auto number = static_cast<double>(value);
+    if (!(number >= Limits::min() && number <= Limits::max()) || number != std::floor(number))
+      return "has a number that is not a 32-bit integer";
+  } else if (!std::in_range<std::int32_t>(value)) {
+    return "has a number out of range";
+  }
+  out = static_cast<std::int32_t>(value);
+  return nullptr;
+}
+
+/// Converts values of the machine's order, up to the first with a problem.
+template <class From, class T> Problem convert(const char* bytes, std::int64_t count, T* out) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    From value;
+    std::memcpy(&value, bytes + i * std::int64_t{sizeof(From)}, sizeof(From));
+    if (const Problem problem = convert_value(value, out[i]); problem != nullptr)
+      return problem;
+  }
+  return nullptr;
+}
+
+template <class T> Problem convert(NetcdfType type, const char* bytes, std::int64_t count, T* out) {
+  switch (type) {
+  case NetcdfType::text:
+    return "is text, not numbers";
+  case NetcdfType::int8:
+    return convert<std::int8_t>(bytes, count, out);
+  case NetcdfType::int16:
+    return convert<std::int16_t>(bytes, count, out);
+  case NetcdfType::int32:
+    return convert<std::int32_t>(bytes, count, out);
+  case NetcdfType::float32:
+    return convert<float>(bytes, count, out);
+  case NetcdfType::float64:
+    return convert<double>(bytes, count, out);
+  case NetcdfType::uint8:
+    return convert<std::uint8_t>(bytes, count, out);
+  case NetcdfType::uint16:
+    return convert<std::uint16_t>(bytes, count, out);
+  case NetcdfType::uint32:
+    return convert<std::uint32_t>(bytes, count, out);
+  case NetcdfType::int64:
+    return convert<std::int64_t>(bytes, count, out);
+  default:
+    return convert<std::uint64_t>(bytes, count, out);
+  }
+}
+
+template <class T>
+constexpr NetcdfType type_in_memory =
+    std::is_same_v<T, double> ? NetcdfType::float64 : NetcdfType::int32;
+
+bool is_floating(std::optional<NetcdfType> type) {
+  return type == NetcdfType::float32 || type == NetcdfType::float64;
 }
 
 } // namespace
 
-NetcdfReader::NetcdfReader(const std::string& path)
-    : path_(path), in_(open_input(path)), size_(static_cast<std::int64_t>(bytes_left(in_))) {
-  if (const std::string cut = first_cut(path, size_); !cut.empty())
-    fail("it is cut short: " + cut + " is incomplete; make it again");
-  const std::lock_guard lock(netcdf_mutex());
-  const int code = nc_open(netcdf_path(path).c_str(), NC_NOWRITE, &id_);
-  require_system(path, code);
-  if (code != NC_NOERR)
-    fail("it is not a NetCDF file, or is cut short; give another or make it again");
+NetcdfReader::NetcdfReader(const std::string& path) : file_(path) {
+  if (is_classic_netcdf(file_)) {
+    header_ = classic_header(file_);
+    require_values();
+  } else {
+    library_.emplace(file_);
+    header_ = library_->header();
+    require_sizes();
+  }
+  for (int v = 0; v < std::ssize(variables()); ++v)
+    by_name_.push_back(v);
+  std::sort(by_name_.begin(), by_name_.end(), [&](int a, int b) {
+    return variables()[static_cast<std::size_t>(a)].name <
+           variables()[static_cast<std::size_t>(b)].name;
+  });
 }
 
-NetcdfReader::~NetcdfReader() {
-  const std::lock_guard lock(netcdf_mutex());
-  nc_close(id_);
+/// Throws unless a classic file holds all values, in the order of the variables: those of records
+/// follow the others. The C library reads no other files.
+void NetcdfReader::require_values() const {
+  for (const NetcdfVariable& variable : variables())
+    if (variable.begin < header_.bytes || variable.end > file_.size())
+      fail("it is cut short: " + variable.name + " is incomplete; make it again");
+  std::int64_t end = header_.bytes;
+  for (const bool of_records : {false, true})
+    for (int v = 0; v < std::ssize(variables()); ++v) {
+      const NetcdfVariable& variable = variables()[static_cast<std::size_t>(v)];
+      if ((variable.stride > 0) != of_records)
+        continue;
+      if (variable.begin < end)
+        fail("its header is damaged: " + variable.name +
+             " begins within another variable; make it again");
+      end = of_records ? variable.begin + record_bytes(v) : variable.end;
+    }
 }
 
-bool NetcdfReader::is_found(int code) const {
-  require_system(path_, code);
-  return code == NC_NOERR;
+/// Throws unless 64 bits hold the bytes of each variable, and of each part of one.
+void NetcdfReader::require_sizes() const {
+  for (const NetcdfVariable& variable : variables()) {
+    std::int64_t bytes = sizeof(double);
+    for (const int d : variable.dimensions)
+      if (__builtin_mul_overflow(
+              bytes, std::max<std::int64_t>(dimensions()[static_cast<std::size_t>(d)].size, 1),
+              &bytes))
+        fail(variable.name + " is too large; make the file again");
+  }
 }
 
-bool NetcdfReader::has_variable(const std::string& name) const {
-  const std::lock_guard lock(netcdf_mutex());
-  int variable;
-  return is_found(nc_inq_varid(id_, name.c_str(), &variable));
+void NetcdfReader::fail(const std::string& problem) const {
+  throw Error(ErrorCode::parse, path() + ": " + problem);
 }
 
-std::vector<std::string> NetcdfReader::variables() const {
-  const std::lock_guard lock(netcdf_mutex());
-  int count = 0;
-  nc_inq_nvars(id_, &count);
+// ---- The header
+
+int NetcdfReader::find(const std::string& variable) const {
+  const auto name_of = [&](int v) -> const std::string& {
+    return variables()[static_cast<std::size_t>(v)].name;
+  };
+  const auto found =
+      std::lower_bound(by_name_.begin(), by_name_.end(), variable,
+                       [&](int v, const std::string& name) { return name_of(v) < name; });
+  return found != by_name_.end() && name_of(*found) == variable ? *found : -1;
+}
+
+std::vector<std::string> NetcdfReader::variable_names() const {
   std::vector<std::string> names;
-  for (int v = 0; v < count; ++v)
-    names.push_back(name_of(id_, v));
+  for (const NetcdfVariable& variable : variables())
+    names.push_back(variable.name);
   return names;
 }
 
-std::vector<int> NetcdfReader::dimension_ids(const std::string& variable) const {
-  int v, count = 0, ids[NC_MAX_VAR_DIMS];
-  if (!is_found(nc_inq_varid(id_, variable.c_str(), &v)))
-    fail("it has no variable " + variable + "; give a file that has");
-  nc_inq_var(id_, v, nullptr, nullptr, &count, ids, nullptr);
-  return {ids, ids + count};
+int NetcdfReader::require_variable(const std::string& name) const {
+  const int v = find(name);
+  if (v < 0)
+    fail("it has no variable " + name + "; give a file that has");
+  return v;
 }
 
 std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
-  const std::lock_guard lock(netcdf_mutex());
   std::vector<std::string> names;
-  for (const int id : dimension_ids(variable)) {
-    char name[NC_MAX_NAME + 1] = "";
-    nc_inq_dimname(id_, id, name);
-    names.emplace_back(name);
-  }
+  for (const int id : variables()[static_cast<std::size_t>(require_variable(variable))].dimensions)
+    names.push_back(dimensions()[static_cast<std::size_t>(id)].name);
   return names;
 }
 
 std::vector<std::int64_t> NetcdfReader::shape_of(const std::string& variable) const {
-  const std::lock_guard lock(netcdf_mutex());
   std::vector<std::int64_t> shape;
-  for (const int id : dimension_ids(variable)) {
-    std::size_t size = 0;
-    nc_inq_dimlen(id_, id, &size);
-    shape.push_back(static_cast<std::int64_t>(size));
-  }
+  for (const int id : variables()[static_cast<std::size_t>(require_variable(variable))].dimensions)
+    shape.push_back(dimensions()[static_cast<std::size_t>(id)].size);
   return shape;
 }
 
-std::int64_t NetcdfReader::dimension(const std::string& name) const {
-  const std::lock_guard lock(netcdf_mutex());
-  int d;
-  std::size_t size = 0;
-  if (!is_found(nc_inq_dimid(id_, name.c_str(), &d)))
-    return -1;
-  nc_inq_dimlen(id_, d, &size);
-  return static_cast<std::int64_t>(size);
+std::int64_t NetcdfReader::product(int variable, std::size_t first, std::size_t last) const {
+  const std::vector<int>& of = variables()[static_cast<std::size_t>(variable)].dimensions;
+  std::int64_t product = 1;
+  for (std::size_t d = first; d < last; ++d)
+    product *= dimensions()[static_cast<std::size_t>(of[d])].size;
+  return product;
 }
 
-int NetcdfReader::type_of(const std::string& variable) const {
-  const std::lock_guard lock(netcdf_mutex());
-  int v = -1;
-  nc_type type = NC_NAT;
-  nc_inq_varid(id_, variable.c_str(), &v);
-  nc_inq_vartype(id_, v, &type);
-  return type;
+/// Of a variable of records.
+std::int64_t NetcdfReader::record_bytes(int variable) const {
+  const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
+  return of.stride == 0 ? 0 : product(variable, 1, of.dimensions.size()) * size_of(*of.type);
+}
+
+std::int64_t NetcdfReader::dimension(const std::string& name) const {
+  const auto found = std::find_if(dimensions().begin(), dimensions().end(),
+                                  [&](const NetcdfDimension& d) { return d.name == name; });
+  return found == dimensions().end() ? -1 : found->size;
+}
+
+std::optional<NetcdfType> NetcdfReader::type_of(const std::string& variable) const {
+  const int v = find(variable);
+  return v < 0 ? std::nullopt : variables()[static_cast<std::size_t>(v)].type;
 }
 
 bool NetcdfReader::is_numeric(const std::string& variable) const {
-  const int type = type_of(variable);
-  return type != NC_CHAR && type != NC_STRING && type >= NC_BYTE && type <= NC_UINT64;
+  const std::optional<NetcdfType> type = type_of(variable);
+  return type && type != NetcdfType::text;
 }
 
 bool NetcdfReader::is_integer(const std::string& variable) const {
-  const int type = type_of(variable);
-  return is_numeric(variable) && type != NC_FLOAT && type != NC_DOUBLE;
+  return is_numeric(variable) && !is_floating(type_of(variable));
 }
 
 bool NetcdfReader::is_float(const std::string& variable) const {
-  return type_of(variable) == NC_FLOAT;
+  return type_of(variable) == NetcdfType::float32;
+}
+
+const NetcdfAttribute* NetcdfReader::find_attribute(const std::string& variable,
+                                                    const std::string& attribute) const {
+  const int v = variable.empty() ? -1 : find(variable);
+  if (v < 0 && !variable.empty())
+    return nullptr;
+  const NetcdfAttributes& all =
+      v < 0 ? attributes() : variables()[static_cast<std::size_t>(v)].attributes;
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const NetcdfAttribute& a) { return a.name == attribute; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 std::string NetcdfReader::text(const std::string& variable, const std::string& attribute) const {
-  const std::lock_guard lock(netcdf_mutex());
-  int v = NC_GLOBAL;
-  nc_type type = NC_CHAR;
-  std::size_t length = 0;
-  if ((!variable.empty() && !is_found(nc_inq_varid(id_, variable.c_str(), &v))) ||
-      !is_found(nc_inq_att(id_, v, attribute.c_str(), &type, &length)))
-    return "";
-  std::string text;
-  if (type == NC_CHAR) {
-    text.resize(length);
-    nc_get_att_text(id_, v, attribute.c_str(), text.data());
-  } else if (type == NC_STRING && length == 1) {
-    char* string = nullptr;
-    if (nc_get_att_string(id_, v, attribute.c_str(), &string) == NC_NOERR && string != nullptr)
-      text = string;
-    nc_free_string(1, &string);
-  }
-  return text.substr(0, text.find('\0'));
+  const NetcdfAttribute* const found = find_attribute(variable, attribute);
+  const auto* const text = found != nullptr ? std::get_if<std::string>(&found->value) : nullptr;
+  return text != nullptr ? text->substr(0, text->find('\0')) : "";
 }
 
 double NetcdfReader::number(const std::string& variable, const std::string& attribute,
                             double fallback) const {
-  const std::lock_guard lock(netcdf_mutex());
-  int v = NC_GLOBAL;
-  std::size_t length = 0;
-  double value = fallback;
-  if ((!variable.empty() && !is_found(nc_inq_varid(id_, variable.c_str(), &v))) ||
-      !is_found(nc_inq_attlen(id_, v, attribute.c_str(), &length)) || length != 1 ||
-      !is_found(nc_get_att_double(id_, v, attribute.c_str(), &value)))
+  const NetcdfAttribute* const found = find_attribute(variable, attribute);
+  const auto* const values = found != nullptr ? std::get_if<NetcdfValues>(&found->value) : nullptr;
+  if (values == nullptr || std::ssize(values->bytes) != size_of(values->type))
     return fallback;
-  return value;
+  double number = 0;
+  convert(values->type, values->bytes.data(), 1, &number);
+  return number;
 }
 
 std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t fallback) const {
@@ -252,71 +269,154 @@ std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t
   return static_cast<std::int32_t>(start);
 }
 
+// ---- Values
+
 std::vector<double> NetcdfReader::doubles(const std::string& variable,
                                           const std::vector<std::int64_t>& shape) const {
-  const std::vector<std::int64_t> has = shape_of(variable);
-  if (!matches(has, shape))
-    fail(variable + " has the shape " + shape_in_words(has) + " instead of " +
-         shape_in_words(shape) + "; make the file again");
-  return get_values<double>(*this, id_, variable, has);
+  return get_all<double>(variable, shape);
 }
 
 std::vector<std::int32_t> NetcdfReader::ints(const std::string& variable,
                                              const std::vector<std::int64_t>& shape) const {
-  const std::vector<std::int64_t> has = shape_of(variable);
-  const int type = type_of(variable);
-  // The library would cut off fractions, and knows no integer for NaN.
-  if (matches(has, shape) && type != NC_FLOAT && type != NC_DOUBLE)
-    return get_values<std::int32_t>(*this, id_, variable, has);
-  const std::vector<double> values = doubles(variable, shape);
-  std::vector<std::int32_t> ints(values.size());
-  std::transform(values.begin(), values.end(), ints.begin(),
-                 [&](double value) { return to_int(*this, variable, value); });
-  return ints;
-}
-
-template <class T>
-void NetcdfReader::get_rows(const std::string& variable, std::int64_t first, std::int64_t count,
-                            T* out) const {
-  const std::vector<std::int64_t> shape = shape_of(variable);
-  std::vector<std::size_t> start(shape.size(), 0), counts(shape.begin(), shape.end());
-  if (!shape.empty()) {
-    start[0] = static_cast<std::size_t>(first);
-    counts[0] = static_cast<std::size_t>(count);
-  }
-  const std::lock_guard lock(netcdf_mutex());
-  int v = -1;
-  nc_inq_varid(id_, variable.c_str(), &v);
-  require_read(*this, variable, get_some(id_, v, start.data(), counts.data(), out));
+  return get_all<std::int32_t>(variable, shape);
 }
 
 void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::int64_t count,
                         double* out) const {
-  get_rows(variable, first, count, out);
+  get_rows(require_variable(variable), first, count, out);
 }
 
 void NetcdfReader::rows(const std::string& variable, std::int64_t first, std::int64_t count,
                         std::int32_t* out) const {
-  const int type = type_of(variable);
-  if (type != NC_FLOAT && type != NC_DOUBLE)
-    return get_rows(variable, first, count, out);
-  std::int64_t size = count; // as ints()
-  const std::vector<std::int64_t> shape = shape_of(variable);
-  for (std::size_t d = 1; d < shape.size(); ++d)
-    size *= shape[d];
-  std::vector<double> values(static_cast<std::size_t>(size));
-  get_rows(variable, first, count, values.data());
-  std::transform(values.begin(), values.end(), out,
-                 [&](double value) { return to_int(*this, variable, value); });
+  get_rows(require_variable(variable), first, count, out);
 }
 
-void NetcdfReader::require_whole() const {
-  in_.seekg(0);
-  io_detail::require_whole(bytes_left(in_), static_cast<std::size_t>(size_), path_);
+template <class T>
+std::vector<T> NetcdfReader::get_all(const std::string& variable,
+                                     const std::vector<std::int64_t>& shape) const {
+  const std::vector<std::int64_t> has = shape_of(variable);
+  if (!matches(has, shape))
+    fail(variable + " has the shape " + shape_in_words(has) + " instead of " +
+         shape_in_words(shape) + "; make the file again");
+  const std::int64_t count = product(find(variable), 0, has.size());
+  // What deflate can reach, for a file that stores something of each value.
+  constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
+  if (count > least && count / most_compressed > file_.size() / std::int64_t{sizeof(T)})
+    fail(variable + " has more values than a file of its size can hold; make the file again");
+  std::vector<T> values;
+  try {
+    values = zeros<T>(count);
+  } catch (const std::exception&) {
+    fail(variable + " is too large for this machine's memory; read it on a larger one");
+  }
+  if (count > 0)
+    get_rows(find(variable), 0, has.empty() ? 1 : has[0], values.data());
+  return values;
 }
 
-void NetcdfReader::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, path_ + ": " + problem);
+void NetcdfReader::require_converted(const NetcdfVariable& variable, const char* problem) const {
+  if (problem != nullptr)
+    fail(variable.name + " " + problem + "; make the file again");
+}
+
+template <class T>
+void NetcdfReader::get_rows(int variable, std::int64_t first, std::int64_t count, T* out) const {
+  const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
+  const std::size_t rank = of.dimensions.size();
+  const std::int64_t row = product(variable, std::min<std::size_t>(rank, 1), rank);
+  if (!library_) {
+    get_values(variable, first * row, count * row, out);
+    return file_.require_whole();
+  }
+  if constexpr (std::is_same_v<T, std::int32_t>)
+    if (is_floating(of.type)) { // the library would cut off fractions, and knows no integer for NaN
+      std::vector<double> values(static_cast<std::size_t>(count * row));
+      get_rows(variable, first, count, values.data());
+      return require_converted(
+          of, convert<double>(reinterpret_cast<const char*>(values.data()), count * row, out));
+    }
+  std::vector<std::size_t> start(rank + 1, 0), counts(rank + 1, 1);
+  for (std::size_t d = 0; d < rank; ++d)
+    counts[d] = static_cast<std::size_t>(product(variable, d, d + 1));
+  if (rank > 0) {
+    start[0] = static_cast<std::size_t>(first);
+    counts[0] = static_cast<std::size_t>(count);
+  }
+  library_->get(variable, start, counts, out);
+}
+
+/// Of a classic file: so many values from the first one on, block by block.
+template <class T>
+void NetcdfReader::get_values(int variable, std::int64_t first, std::int64_t count, T* out) const {
+  constexpr std::int64_t block_values = 1 << 17;
+  const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
+  const std::int64_t size = size_of(*of.type);
+  for_each_task((count + block_values - 1) / block_values, [&](std::int64_t block) {
+    const std::int64_t begin = block * block_values, n = std::min(block_values, count - begin);
+    const bool as_they_are = of.type == type_in_memory<T>;
+    Array<char> stored(as_they_are ? 0 : n * size);
+    char* const bytes = as_they_are ? reinterpret_cast<char*>(out + begin) : stored.begin();
+    read_bytes(variable, (first + begin) * size, n * size, bytes);
+    swap_big_endian(bytes, n, size, bytes);
+    if (!as_they_are)
+      require_converted(of, convert(*of.type, bytes, n, out + begin));
+  });
+}
+
+void NetcdfReader::stored_rows(int variable, std::size_t axis, std::int64_t first,
+                               std::int64_t count, char* out) const {
+  const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
+  const std::size_t rank = of.dimensions.size();
+  const std::int64_t values = product(variable, std::min(axis + 1, rank), rank),
+                     size = size_of(*of.type);
+  if (!library_)
+    return read_bytes(variable, first * values * size, count * values * size, out);
+  std::vector<std::size_t> start(rank + 1, 0), counts(rank + 1, 1);
+  std::int64_t rest = first;
+  for (std::size_t d = rank; d-- > 0;) {
+    const std::int64_t extent = product(variable, d, d + 1);
+    if (d > axis)
+      counts[d] = static_cast<std::size_t>(extent);
+    else
+      start[d] = static_cast<std::size_t>(rest % extent), rest /= extent;
+  }
+  if (rank > 0)
+    counts[axis] = static_cast<std::size_t>(count);
+  library_->get(variable, start, counts, out);
+  swap_big_endian(out, count * values, size, out);
+}
+
+/// Of a classic file: the variable's bytes, in the order of its values. Records that lie near each
+/// other are read at once, with what lies between them.
+void NetcdfReader::read_bytes(int variable, std::int64_t begin, std::int64_t size,
+                              char* out) const {
+  constexpr std::int64_t most_read = 1 << 20;
+  const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
+  const std::int64_t record = record_bytes(variable), stride = of.stride;
+  if (stride == 0 || stride == record)
+    return file_.read(of.begin + begin, size, out);
+  Array<char> span;
+  while (size > 0) {
+    const std::int64_t first = begin / record, within = begin % record,
+                       count =
+                           std::clamp<std::int64_t>((within + size - 1) / record + 1, 1,
+                                                    std::max<std::int64_t>(most_read / stride, 1)),
+                       bytes = std::min(size, count * record - within);
+    if (count == 1) {
+      file_.read(of.begin + first * stride + within, bytes, out);
+    } else {
+      if (span.size() == 0)
+        span = Array<char>(count * stride);
+      file_.read(of.begin + first * stride, (count - 1) * stride + record, span.begin());
+      for (std::int64_t done = 0; done < bytes;) {
+        const std::int64_t at = within + done, part = std::min(record - at % record, bytes - done);
+        std::memcpy(out + done, span.begin() + at / record * stride + at % record,
+                    static_cast<std::size_t>(part));
+        done += part;
+      }
+    }
+    out += bytes, begin += bytes, size -= bytes;
+  }
 }
 
 } // namespace calotte::io_detail

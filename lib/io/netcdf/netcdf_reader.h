@@ -1,29 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/bytes/file_reader.h"
+#include "io/netcdf/netcdf_header.h"
+#include "io/netcdf/netcdf_library.h"
 #include "io/netcdf/room.h"
 
 #include <cstdint>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
-/// NetCDF files read through the C library, whose codes become this library's errors.
+/// NetCDF files that are read.
 namespace calotte::io_detail {
 
-/// An open NetCDF file of any kind. Names are the file's; messages name path and variable.
-/// Every method \throws Error parse, file.
+/// An open NetCDF file of any kind. The header is read once; what it says needs no lock. Threads
+/// may read values at once: those of a classic file from the file itself, which the C library would
+/// read one after another; those of HDF5 through the C library. Names are the file's; messages name
+/// path and variable. Every method \throws Error parse, file.
+///
+///     const NetcdfReader file("mesh.nc");
+///     const std::int64_t n = file.dimension("nCells");
+///     const std::vector<double> x = file.doubles("xCell", {n});
 class NetcdfReader {
 public:
   explicit NetcdfReader(const std::string& path);
-  NetcdfReader(const NetcdfReader&) = delete;
-  NetcdfReader& operator=(const NetcdfReader&) = delete;
-  ~NetcdfReader();
 
-  bool has_variable(const std::string& name) const;
-  std::vector<std::string> variables() const;
+  const std::string& path() const { return file_.path(); }
+  [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
+
+  // ---- The header
+
+  const std::vector<NetcdfDimension>& dimensions() const { return header_.dimensions; }
+  const std::vector<NetcdfVariable>& variables() const { return header_.variables; }
+  const NetcdfAttributes& attributes() const { return header_.attributes; }
+
+  /// The index of a variable; -1 if there is none of that name.
+  int find(const std::string& variable) const;
+  std::vector<std::string> variable_names() const;
+  bool has_variable(const std::string& name) const { return find(name) >= 0; }
   std::vector<std::string> dimensions_of(const std::string& variable) const;
   std::vector<std::int64_t> shape_of(const std::string& variable) const;
+  /// Product of the sizes of dimensions first to last - 1 of a variable.
+  std::int64_t product(int variable, std::size_t first, std::size_t last) const;
   /// The size of a dimension, -1 where the file has none of that name.
   std::int64_t dimension(const std::string& name) const;
   /// Whether a variable holds numbers; characters and strings are none. \pre it exists.
@@ -39,6 +58,8 @@ public:
   /// The attribute start_index of a variable with ids, the least of them: 0 or 1.
   std::int32_t start_index(const std::string& variable, std::int32_t fallback) const;
 
+  // ---- Values
+
   /// All of a variable, converted. Its shape must be the one given (-1: any size).
   std::vector<double> doubles(const std::string& variable,
                               const std::vector<std::int64_t>& shape) const;
@@ -51,28 +72,33 @@ public:
   void rows(const std::string& variable, std::int64_t first, std::int64_t count,
             std::int32_t* out) const;
 
-  /// \throws Error file if the file is smaller than when it was opened: the C library reads zeros
-  /// where it ends. \pre the caller locks netcdf_mutex().
-  void require_whole() const;
-
-  std::int64_t size() const { return size_; } ///< bytes when it was opened
-  const std::string& path() const { return path_; }
-  [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
+  /// Reads rows of a variable as classic files store them: the most significant byte of each value
+  /// first. A row holds the values that agree in the dimensions 0 to `axis`; rows are numbered over
+  /// these. \pre the rows agree in the dimensions before `axis`; `out` has space for them.
+  void stored_rows(int variable, std::size_t axis, std::int64_t first, std::int64_t count,
+                   char* out) const;
 
 private:
-  /// True for a result code of success, false where what was asked for is not there.
-  /// \throws std::bad_alloc; Error file.
-  bool is_found(int code) const;
+  int require_variable(const std::string& name) const;
+  std::optional<NetcdfType> type_of(const std::string& variable) const;
+  const NetcdfAttribute* find_attribute(const std::string& variable,
+                                        const std::string& attribute) const;
+  std::int64_t record_bytes(int variable) const;
+  void require_values() const;
+  void require_sizes() const;
+  void require_converted(const NetcdfVariable& variable, const char* problem) const;
   template <class T>
-  void get_rows(const std::string& variable, std::int64_t first, std::int64_t count, T* out) const;
-  int type_of(const std::string& variable) const; ///< nc_type
-  /// \pre the caller locks netcdf_mutex().
-  std::vector<int> dimension_ids(const std::string& variable) const;
+  std::vector<T> get_all(const std::string& variable, const std::vector<std::int64_t>& shape) const;
+  template <class T>
+  void get_rows(int variable, std::int64_t first, std::int64_t count, T* out) const;
+  template <class T>
+  void get_values(int variable, std::int64_t first, std::int64_t count, T* out) const;
+  void read_bytes(int variable, std::int64_t begin, std::int64_t size, char* out) const;
 
-  std::string path_;
-  mutable std::ifstream in_; ///< only to watch the size; the file's name may be gone
-  std::int64_t size_ = 0;
-  int id_ = -1;
+  FileReader file_;                          ///< of HDF5 only to watch the size
+  std::optional<NetcdfLibraryFile> library_; ///< none for a classic file
+  NetcdfHeader header_;
+  std::vector<int> by_name_; ///< variables, sorted
 };
 
 } // namespace calotte::io_detail

@@ -39,7 +39,7 @@ std::int64_t end_of_read(const Kept& kept, std::int64_t begin, std::int64_t end,
 
 /// A variable, the dimension of which rows are left out, and the bytes of its rows.
 struct Rows {
-  const NetcdfSource& source;
+  const NetcdfReader& source;
   int variable;
   std::size_t axis;
   std::int64_t row_bytes;
@@ -55,7 +55,8 @@ void read_slab(const Rows& rows, std::int64_t base, const Kept& kept, std::int64
     const bool whole = count == last - k;
     if (!whole && buffer.size() < count * rows.row_bytes)
       buffer = Array<char>(std::max(count * rows.row_bytes, most_read));
-    rows.source.rows(rows.variable, rows.axis, base + first, count, whole ? out : buffer.begin());
+    rows.source.stored_rows(rows.variable, rows.axis, base + first, count,
+                            whole ? out : buffer.begin());
     for (std::int64_t j = k; j < last && !whole; ++j)
       copy_row(buffer.begin() + (kept.old[j] - first) * rows.row_bytes, rows.row_bytes,
                out + (j - k) * rows.row_bytes);
@@ -64,8 +65,8 @@ void read_slab(const Rows& rows, std::int64_t base, const Kept& kept, std::int64
   }
 }
 
-std::int64_t bytes_of_rows(const NetcdfSource& source, int variable, std::size_t axis) {
-  const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(variable)];
+std::int64_t bytes_of_rows(const NetcdfReader& source, int variable, std::size_t axis) {
+  const NetcdfVariable& of = source.variables()[static_cast<std::size_t>(variable)];
   const std::size_t rank = of.dimensions.size();
   return source.product(variable, std::min(axis + 1, rank), rank) * size_of(*of.type);
 }
@@ -73,8 +74,8 @@ std::int64_t bytes_of_rows(const NetcdfSource& source, int variable, std::size_t
 // ---- Dimensions
 
 /// The dimension of a variable of which rows are left out; none if there is no such.
-std::optional<std::size_t> axis_of(const NetcdfSource& source, const NetcdfSubset& subset,
-                                   const NetcdfSource::Variable& variable) {
+std::optional<std::size_t> axis_of(const NetcdfReader& source, const NetcdfSubset& subset,
+                                   const NetcdfVariable& variable) {
   std::optional<std::size_t> axis;
   for (std::size_t d = 0; d < variable.dimensions.size(); ++d) {
     const auto id = static_cast<std::size_t>(variable.dimensions[d]);
@@ -82,7 +83,7 @@ std::optional<std::size_t> axis_of(const NetcdfSource& source, const NetcdfSubse
       continue;
     if (axis)
       throw Error(ErrorCode::invalid_argument,
-                  source.reader().path() + ": " + variable.name +
+                  source.path() + ": " + variable.name +
                       " has two dimensions of cells, edges or vertices; remove the variable");
     axis = d;
   }
@@ -91,13 +92,13 @@ std::optional<std::size_t> axis_of(const NetcdfSource& source, const NetcdfSubse
 
 /// The unlimited dimension of the new file: the first that is unlimited, and the first of all
 /// variables that have it. -1 for none.
-int record_dimension(const NetcdfSource& source, const NetcdfSubset& subset) {
+int record_dimension(const NetcdfReader& source, const NetcdfSubset& subset) {
   for (std::size_t id = 0; id < source.dimensions().size(); ++id) {
-    const NetcdfSource::Dimension& dimension = source.dimensions()[id];
+    const NetcdfDimension& dimension = source.dimensions()[id];
     if (!dimension.unlimited || subset.kept.contains(dimension.name))
       continue;
     bool first = true;
-    for (const NetcdfSource::Variable& variable : source.variables())
+    for (const NetcdfVariable& variable : source.variables())
       for (std::size_t d = 1; d < variable.dimensions.size(); ++d)
         first = first && variable.dimensions[d] != static_cast<int>(id);
     if (first)
@@ -108,11 +109,11 @@ int record_dimension(const NetcdfSource& source, const NetcdfSubset& subset) {
 
 /// The new dimensions by those of the source; -1 for one without an index, which the classic
 /// formats do not hold.
-std::vector<int> define_dimensions(const NetcdfSource& source, const NetcdfSubset& subset,
+std::vector<int> define_dimensions(const NetcdfReader& source, const NetcdfSubset& subset,
                                    NetcdfWriter& file) {
   const int records = record_dimension(source, subset);
   std::vector<int> ids;
-  for (const NetcdfSource::Dimension& dimension : source.dimensions()) {
+  for (const NetcdfDimension& dimension : source.dimensions()) {
     const auto kept = subset.kept.find(dimension.name);
     const std::int64_t size = kept == subset.kept.end() ? dimension.size : kept->second->count();
     if (std::ssize(ids) == records)
@@ -136,10 +137,9 @@ struct Passage {
   std::vector<ChangeRows> changes;
 };
 
-void put_passage(const NetcdfSource& source, const NetcdfSubset& subset, const Passage& passage,
+void put_passage(const NetcdfReader& source, const NetcdfSubset& subset, const Passage& passage,
                  NetcdfWriter& file) {
-  const NetcdfSource::Variable& variable =
-      source.variables()[static_cast<std::size_t>(passage.variable)];
+  const NetcdfVariable& variable = source.variables()[static_cast<std::size_t>(passage.variable)];
   const std::size_t axis = passage.axis.value_or(0);
   const std::int64_t row_bytes = bytes_of_rows(source, passage.variable, axis);
   const Kept* kept = nullptr;
@@ -150,7 +150,7 @@ void put_passage(const NetcdfSource& source, const NetcdfSubset& subset, const P
     if (kept != nullptr)
       read_kept_rows(source, passage.variable, axis, *kept, begin, end, out);
     else
-      source.rows(passage.variable, axis, begin, end - begin, out);
+      source.stored_rows(passage.variable, axis, begin, end - begin, out);
     for (const ChangeRows& change : passage.changes)
       change(begin, end, out);
   });
@@ -162,12 +162,12 @@ bool is_left_out(const NetcdfSubset& subset, const std::string& name) {
 
 /// Defines the variables that the new file has of the source. \param refused receives the names of
 /// those that it cannot have.
-std::vector<Passage> define_variables(const NetcdfSource& source, const NetcdfSubset& subset,
+std::vector<Passage> define_variables(const NetcdfReader& source, const NetcdfSubset& subset,
                                       const std::vector<int>& dimensions, NetcdfWriter& file,
                                       std::vector<std::string>& refused) {
   std::vector<Passage> passages;
   for (int v = 0; v < std::ssize(source.variables()); ++v) {
-    const NetcdfSource::Variable& variable = source.variables()[static_cast<std::size_t>(v)];
+    const NetcdfVariable& variable = source.variables()[static_cast<std::size_t>(v)];
     if (is_left_out(subset, variable.name))
       continue;
     std::vector<int> ids;
@@ -186,7 +186,7 @@ std::vector<Passage> define_variables(const NetcdfSource& source, const NetcdfSu
   return passages;
 }
 
-std::int32_t dimension_of(const NetcdfSource& source, const std::vector<int>& dimensions,
+std::int32_t dimension_of(const NetcdfReader& source, const std::vector<int>& dimensions,
                           const std::string& name) {
   for (std::size_t d = 0; d < dimensions.size(); ++d)
     if (source.dimensions()[d].name == name)
@@ -199,7 +199,7 @@ NetcdfAttributes described_by(const std::string& units, const std::string& long_
 }
 
 /// Those of the source, some with a new value, then those that are new.
-void define_attributes(const NetcdfSource& source, const NetcdfSubset& subset, NetcdfWriter& file) {
+void define_attributes(const NetcdfReader& source, const NetcdfSubset& subset, NetcdfWriter& file) {
   auto left = subset.attributes;
   for (const NetcdfAttribute& attribute : source.attributes()) {
     const auto replaced = left.find(attribute.name);
@@ -213,7 +213,7 @@ void define_attributes(const NetcdfSource& source, const NetcdfSubset& subset, N
 
 } // namespace
 
-void read_kept_rows(const NetcdfSource& source, int variable, std::size_t axis, const Kept& kept,
+void read_kept_rows(const NetcdfReader& source, int variable, std::size_t axis, const Kept& kept,
                     std::int64_t begin, std::int64_t end, char* out) {
   const Rows rows{source, variable, axis, bytes_of_rows(source, variable, axis)};
   const std::int64_t all = source.product(variable, axis, axis + 1);
@@ -226,13 +226,13 @@ void read_kept_rows(const NetcdfSource& source, int variable, std::size_t axis, 
   }
 }
 
-std::int64_t row_values(const NetcdfSource& source, const NetcdfSubset& subset, int variable) {
-  const NetcdfSource::Variable& of = source.variables()[static_cast<std::size_t>(variable)];
+std::int64_t row_values(const NetcdfReader& source, const NetcdfSubset& subset, int variable) {
+  const NetcdfVariable& of = source.variables()[static_cast<std::size_t>(variable)];
   return bytes_of_rows(source, variable, axis_of(source, subset, of).value_or(0)) /
          size_of(*of.type);
 }
 
-std::vector<std::string> put_subset(const NetcdfSource& source, const NetcdfSubset& subset,
+std::vector<std::string> put_subset(const NetcdfReader& source, const NetcdfSubset& subset,
                                     NetcdfWriter& file) {
   std::vector<std::string> refused;
   const std::vector<int> dimensions = define_dimensions(source, subset, file);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/memory.h"
-#include "io/netcdf/netcdf_source.h"
+#include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "io/netcdf/room.h"
 
@@ -42,7 +42,7 @@ template <class Flags> Kept kept_of(const Flags& flags) {
 /// Reads the kept rows begin to end - 1 of a variable, numbered over the dimensions 0 to `axis`, of
 /// which the last has rows left out. The bytes are those of the file: the most significant of each
 /// value first. \throws Error parse, file.
-void read_kept_rows(const NetcdfSource& source, int variable, std::size_t axis, const Kept& kept,
+void read_kept_rows(const NetcdfReader& source, int variable, std::size_t axis, const Kept& kept,
                     std::int64_t begin, std::int64_t end, char* out);
 
 /// Changes such rows in place.
@@ -72,13 +72,13 @@ struct NetcdfSubset {
 };
 
 /// Number of values in a row of a variable, as changes see it.
-std::int64_t row_values(const NetcdfSource& source, const NetcdfSubset& subset, int variable);
+std::int64_t row_values(const NetcdfReader& source, const NetcdfSubset& subset, int variable);
 
 /// Writes the variables of a file, of which rows are left out, to a new one, which the caller then
 /// commits. \returns the variables that a classic file cannot hold: those of strings and of users'
 /// types. \throws Error file; parse; invalid_argument for a variable with two of the dimensions;
 /// what changes throw.
-std::vector<std::string> put_subset(const NetcdfSource& source, const NetcdfSubset& subset,
+std::vector<std::string> put_subset(const NetcdfReader& source, const NetcdfSubset& subset,
                                     NetcdfWriter& file);
 
 } // namespace calotte::io_detail

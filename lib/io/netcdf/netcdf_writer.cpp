@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_reader.h"
 #include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_library.h"
 #include "io/netcdf/netcdf_rows.h"
@@ -20,43 +21,18 @@
 namespace calotte::io_detail {
 namespace {
 
-struct TypeFacts {
-  nc_type code;
-  std::int64_t size;
-  bool cdf5 = false;
-};
+static_assert(static_cast<int>(NetcdfType::text) == NC_CHAR &&
+              static_cast<int>(NetcdfType::float64) == NC_DOUBLE &&
+              static_cast<int>(NetcdfType::uint64) == NC_UINT64);
 
-TypeFacts facts_of(NetcdfType type) {
-  switch (type) {
-  case NetcdfType::text:
-    return {NC_CHAR, 1};
-  case NetcdfType::int8:
-    return {NC_BYTE, 1};
-  case NetcdfType::int16:
-    return {NC_SHORT, 2};
-  case NetcdfType::int32:
-    return {NC_INT, 4};
-  case NetcdfType::float32:
-    return {NC_FLOAT, 4};
-  case NetcdfType::float64:
-    return {NC_DOUBLE, 8};
-  case NetcdfType::uint8:
-    return {NC_UBYTE, 1, true};
-  case NetcdfType::uint16:
-    return {NC_USHORT, 2, true};
-  case NetcdfType::uint32:
-    return {NC_UINT, 4, true};
-  case NetcdfType::int64:
-    return {NC_INT64, 8, true};
-  default:
-    return {NC_UINT64, 8, true};
-  }
-}
+nc_type code_of(NetcdfType type) { return static_cast<nc_type>(type); }
+
+bool needs_cdf5(NetcdfType type) { return type > NetcdfType::float64; }
 
 template <class T>
-constexpr NetcdfType netcdf_type = std::is_same_v<T, double>         ? NetcdfType::float64
-                                   : std::is_same_v<T, std::int32_t> ? NetcdfType::int32
-                                                                     : NetcdfType::int8;
+constexpr NetcdfType type_in_memory = std::is_same_v<T, double>         ? NetcdfType::float64
+                                      : std::is_same_v<T, std::int32_t> ? NetcdfType::int32
+                                                                        : NetcdfType::int8;
 
 int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
   const char* name = attribute.name.c_str();
@@ -67,7 +43,7 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
   if (const auto* number = std::get_if<std::int32_t>(&attribute.value))
     return nc_put_att_int(id, variable, name, NC_INT, 1, number);
   if (const auto* values = std::get_if<NetcdfValues>(&attribute.value))
-    return nc_put_att(id, variable, name, facts_of(values->type).code,
+    return nc_put_att(id, variable, name, code_of(values->type),
                       values->bytes.size() / static_cast<std::size_t>(size_of(values->type)),
                       values->bytes.data());
   return nc_put_att_schar(id, variable, name, NC_BYTE, 1,
@@ -77,13 +53,11 @@ int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
 bool needs_cdf5(const NetcdfAttributes& attributes) {
   return std::any_of(attributes.begin(), attributes.end(), [](const NetcdfAttribute& attribute) {
     const auto* values = std::get_if<NetcdfValues>(&attribute.value);
-    return values != nullptr && facts_of(values->type).cdf5;
+    return values != nullptr && needs_cdf5(values->type);
   });
 }
 
 } // namespace
-
-std::int64_t size_of(NetcdfType type) { return facts_of(type).size; }
 
 /// The C library writes the header; tasks of this library convert and write the values. The library
 /// would do it serially and take three times as long for a large mesh.
@@ -147,7 +121,7 @@ void NetcdfWriter::State::define(int id) const {
   }
   for (const Variable& variable : variables) {
     int v;
-    require(nc_def_var(id, variable.name.c_str(), facts_of(variable.type).code,
+    require(nc_def_var(id, variable.name.c_str(), code_of(variable.type),
                        static_cast<int>(variable.dimensions.size()), variable.dimensions.data(),
                        &v));
     for (const NetcdfAttribute& attribute : variable.attributes)
@@ -163,7 +137,7 @@ int NetcdfWriter::State::format() const {
   bool cdf5 = needs_cdf5(attributes);
   for (const Variable& variable : variables) {
     bytes.push_back(variable.bytes());
-    cdf5 = cdf5 || facts_of(variable.type).cdf5 || needs_cdf5(variable.attributes);
+    cdf5 = cdf5 || needs_cdf5(variable.type) || needs_cdf5(variable.attributes);
   }
   return cdf5 || io_detail::needs_cdf5(bytes) ? NC_64BIT_DATA : NC_64BIT_OFFSET;
 }
@@ -193,7 +167,7 @@ NetcdfWriter::State::Variable& NetcdfWriter::State::start(int variable, NetcdfTy
 }
 
 template <class T> void NetcdfWriter::State::put(int variable, const Fill<T>& fill) {
-  const Variable& of = start(variable, netcdf_type<T>);
+  const Variable& of = start(variable, type_in_memory<T>);
   for_each_block_of_rows(of.rows, of.row_bytes(), [&](std::int64_t first, std::int64_t last) {
     RowBlock<T> block(file, of.stored(), first, last);
     for_each_rows(first, last, of.row_bytes(), fill_bytes,
@@ -311,13 +285,13 @@ void NetcdfWriter::begin() {
     throw;
   }
   state_->require(nc_close(id));
-  const NetcdfLayout layout = classic_layout(path);
-  std::int64_t size = layout.header;
-  for (std::size_t v = 0; v < layout.variables.size(); ++v) {
+  const NetcdfHeader header = classic_header(FileReader(path));
+  std::int64_t size = header.bytes;
+  for (std::size_t v = 0; v < header.variables.size(); ++v) {
     State::Variable& variable = state_->variables[v];
-    variable.offset = layout.variables[v].begin;
-    variable.stride = layout.variables[v].stride;
-    size = std::max(size, layout.variables[v].end);
+    variable.offset = header.variables[v].begin;
+    variable.stride = header.variables[v].stride;
+    size = std::max(size, header.variables[v].end);
   }
   state_->file.reserve(size);
   state_->file.watch(std::move(state_->progress), size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/room.h"
 
 #include <calotte/progress.h>
@@ -9,41 +10,10 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 /// NetCDF files written through the C library, whose codes become this library's errors.
 namespace calotte::io_detail {
-
-/// The types of the classic formats; the last five exist in CDF-5 only.
-enum class NetcdfType {
-  text, ///< characters
-  int8,
-  int16,
-  int32,
-  float32,
-  float64,
-  uint8,
-  uint16,
-  uint32,
-  int64,
-  uint64
-};
-
-/// Bytes of a value.
-std::int64_t size_of(NetcdfType type);
-
-/// Several numbers of one type, in the machine's order of bytes.
-struct NetcdfValues {
-  NetcdfType type;
-  std::string bytes;
-};
-
-struct NetcdfAttribute {
-  std::string name;
-  std::variant<std::string, double, std::int32_t, std::int8_t, NetcdfValues> value;
-};
-using NetcdfAttributes = std::vector<NetcdfAttribute>;
 
 /// A classic NetCDF file that is being written: 64-bit offsets, or CDF-5 if a variable takes 4 GiB
 /// or a type requires it. Define dimensions, variables and attributes first, call begin(), which
