@@ -286,7 +286,7 @@ TEST_CASE("lines: features, collections and single geometries") {
 
   const std::string both = one + "," + two;
   for (const std::string& text :
-       {collection({feature(one), feature(two)}),
+       {collection({feature(one), feature(two)}), collection({one, two}),
         collection({feature(R"({"type":"GeometryCollection","geometries":[)" + both + "]}")})}) {
     const std::vector<Points3> lines = read(text);
     REQUIRE(lines.size() == 3);

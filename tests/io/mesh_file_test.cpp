@@ -64,6 +64,8 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
        {"SaveVertices", "a.b/SaveVertices", "SaveVertices.42", "SaveVertices.txt"})
     CHECK(format_of(name) == Format::mpi_scvt);
   CHECK(format_of("SaveVertices.vtp") == Format::vtp);
+  CHECK(error_of([&] { format_of("SaveVertices.txt", Format::triangles); }).code() ==
+        ErrorCode::invalid_argument);
   CHECK(format_of("mesh.g") == Format::exodus);
   CHECK(format_of("mesh.EXO") == Format::exodus);
   CHECK(format_of("a/nod2d.out") == Format::fesom);

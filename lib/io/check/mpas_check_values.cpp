@@ -91,10 +91,16 @@ std::int32_t place_of(const MpasCheck& check, const MpasVariable& variable, std:
 void check_values(const MpasCheck& check, const MpasVariable& variable) {
   const Fault fault = fault_of(check, variable.name);
   const int power = radius_power(variable);
-  const double factor = std::pow(check.radius, power);
-  const bool of_angle = variable.name == mpas::obtuse_triangle;
+  const double factor = radius_factor(variable, check.radius);
+  const bool of_angle = variable.name == mpas::obtuse_triangle,
+             is_boundary = variable.name == mpas::boundary_vertex;
   const Differences differences = check.deviations.visit_rows<double>(
       variable.name, [&](std::int64_t row, const double* stored, Differences& out) {
+        if (is_boundary && check.closed) { // whatever its vertices are
+          if (*stored != 0)
+            out.note(row, *stored, 0, 1);
+          return;
+        }
         const std::int32_t place = place_of(check, variable, row);
         if (place < 0 && !std::isfinite(*stored))
           out.note(row, *stored, 0, std::numeric_limits<double>::infinity());
@@ -122,7 +128,8 @@ void check_mpas_values(const MpasCheck& check) {
     const bool has_rows =
         variable.rows == MpasDimension::cells ||
         (variable.rows == MpasDimension::edges ? check.has_edges() : check.has_vertices());
-    if (variable.values != nullptr && has_rows && check.has(variable.name))
+    const bool is_known = check.closed && variable.name == mpas::boundary_vertex;
+    if (variable.values != nullptr && (has_rows || is_known) && check.has(variable.name))
       check_values(check, variable);
   }
 }

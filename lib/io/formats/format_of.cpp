@@ -90,7 +90,8 @@ Format format_of(const std::string& path, Format option) {
     refuse(path,
            "files of that format are named " + name +
                (format == Format::fesom ? "; give that name" : " and so on; give such a name"));
-  if (named && named != format && !has_suffix(info, suffix_of(path)))
+  if (named && named != format &&
+      (!whole_name(info_of(*named)).empty() || !has_suffix(info, suffix_of(path))))
     refuse(path, "its name belongs to another format than the selected one; change one of them");
   return format;
 }

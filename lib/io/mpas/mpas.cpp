@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -104,7 +103,7 @@ void MpasFile::put_values(const MpasMesh& mesh) {
   for (const MpasVariable& row : mpas_variables()) {
     if (row.values == nullptr)
       continue;
-    const double factor = std::pow(mesh.radius, radius_power(row));
+    const double factor = radius_factor(row, mesh.radius);
     const auto fill = [&voronoi = mesh.voronoi, values = row.values,
                        factor](std::int64_t begin, std::int64_t end, double* out) {
       values(voronoi, begin, end, out);

@@ -312,6 +312,12 @@ int radius_power(const MpasVariable& variable) {
   }
 }
 
+double radius_factor(const MpasVariable& variable, double radius) {
+  const int power = radius_power(variable);
+  const double factor = power == 0 ? 1 : power == 1 || power == -1 ? radius : radius * radius;
+  return power < 0 ? 1 / factor : factor;
+}
+
 const NetcdfMeshNames& mpas_names() {
   static const NetcdfMeshNames names = [] {
     NetcdfMeshNames all{.cells = name_of(D::cells),

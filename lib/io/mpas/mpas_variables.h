@@ -104,6 +104,8 @@ const MpasVariable& mpas_variable(const std::string& name);
 
 /// The power of the radius in a variable's values.
 int radius_power(const MpasVariable& variable);
+/// What the values of the unit sphere are multiplied by: the radius to that power.
+double radius_factor(const MpasVariable& variable, double radius);
 
 /// The dimensions, and the variables that describe a mesh.
 const NetcdfMeshNames& mpas_names();

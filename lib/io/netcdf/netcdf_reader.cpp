@@ -390,7 +390,7 @@ void NetcdfReader::stored_rows(int variable, std::size_t axis, std::int64_t firs
 /// other are read at once, with what lies between them.
 void NetcdfReader::read_bytes(int variable, std::int64_t begin, std::int64_t size,
                               char* out) const {
-  constexpr std::int64_t most_read = 1 << 20;
+  constexpr std::int64_t most_read = 1 << 20, near = 8; // times the bytes of a record
   const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
   const std::int64_t record = record_bytes(variable), stride = of.stride;
   if (stride == 0 || stride == record)
@@ -398,9 +398,10 @@ void NetcdfReader::read_bytes(int variable, std::int64_t begin, std::int64_t siz
   Array<char> span;
   while (size > 0) {
     const std::int64_t first = begin / record, within = begin % record,
-                       count =
-                           std::clamp<std::int64_t>((within + size - 1) / record + 1, 1,
-                                                    std::max<std::int64_t>(most_read / stride, 1)),
+                       count = std::clamp<std::int64_t>(
+                           (within + size - 1) / record + 1, 1,
+                           stride > near * record ? 1
+                                                  : std::max<std::int64_t>(most_read / stride, 1)),
                        bytes = std::min(size, count * record - within);
     if (count == 1) {
       file_.read(of.begin + first * stride + within, bytes, out);

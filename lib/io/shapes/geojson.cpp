@@ -50,7 +50,10 @@ const Json& array(const Json& object, const char* key, const std::string& where)
 void take_feature(const Json& object, std::int64_t number, const std::string& name,
                   const std::function<void(const GeoFeature&)>& take) {
   const std::string where = number < 0 ? "" : "feature " + std::to_string(number) + ": ";
-  if (text_in(object, "type") != "Feature" && !object.contains("geometry"))
+  const std::string type = text_in(object, "type");
+  if (type != "Feature" && (object.contains("coordinates") || object.contains("geometries")))
+    return take({number, where, Json(), object}); // a geometry alone
+  if (type != "Feature" && !(type.empty() && object.contains("geometry")))
     throw Error(ErrorCode::parse,
                 name + ": " + where + "no object of the type \"Feature\"" + as_rfc);
   take({number, where, object.value("properties", Json()), object.value("geometry", Json())});
