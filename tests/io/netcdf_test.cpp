@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_reader.h"
 #include "io/command.h"
 #include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_reader.h"
@@ -22,6 +23,7 @@
 #include <limits>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -94,6 +96,35 @@ struct Opened {
   }
   int id = -1;
 };
+
+/// The header that was read is the C library's.
+void require_same_header(const NetcdfReader& file, const Opened& opened) {
+  int dimensions = 0, variables = 0, attributes = 0, unlimited = -1;
+  REQUIRE(nc_inq(opened.id, &dimensions, &variables, &attributes, &unlimited) == NC_NOERR);
+  REQUIRE(std::ssize(file.dimensions()) == dimensions);
+  REQUIRE(std::ssize(file.variables()) == variables);
+  REQUIRE(std::ssize(file.attributes()) == attributes);
+  char name[NC_MAX_NAME + 1] = "";
+  for (int d = 0; d < dimensions; ++d) {
+    const auto& dimension = file.dimensions()[static_cast<std::size_t>(d)];
+    std::size_t size = 0;
+    REQUIRE(nc_inq_dim(opened.id, d, name, &size) == NC_NOERR);
+    REQUIRE(dimension.name == name);
+    REQUIRE(dimension.size == static_cast<std::int64_t>(size));
+    REQUIRE(dimension.unlimited == (d == unlimited));
+  }
+  for (int v = 0; v < variables; ++v) {
+    const auto& variable = file.variables()[static_cast<std::size_t>(v)];
+    nc_type type = NC_NAT;
+    int rank = 0, of_variable = 0, ids[NC_MAX_VAR_DIMS];
+    REQUIRE(nc_inq_var(opened.id, v, name, &type, &rank, ids, &of_variable) == NC_NOERR);
+    REQUIRE(variable.name == name);
+    REQUIRE(static_cast<int>(*variable.type) == type);
+    REQUIRE(variable.dimensions == std::vector<int>(ids, ids + rank));
+    REQUIRE(std::ssize(variable.attributes) == of_variable);
+    REQUIRE(file.find(name) == v);
+  }
+}
 
 /// A file as another program makes it: defined by `define`, whose return value is the format.
 template <class Define> std::string foreign(const std::string& path, int format, Define define) {
@@ -350,7 +381,7 @@ TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
   }
 }
 
-TEST_CASE("damaged headers are read or refused") {
+TEST_CASE("damaged headers are read or refused; what is read, the C library reads, too") {
   const Scratch scratch;
   write_sample(scratch / "a.nc");
   const std::string whole = read_file(scratch / "a.nc");
@@ -369,6 +400,7 @@ TEST_CASE("damaged headers are read or refused") {
       const NetcdfReader file(scratch / "b.nc");
       if (file.has_variable("cube"))
         CHECK(file.shape_of("cube").size() <= 8);
+      require_same_header(file, Opened(scratch / "b.nc"));
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::parse);
       ++refused;
@@ -455,6 +487,104 @@ TEST_CASE("files that others wrote: every classic format, padded headers, record
           error_of([&] { NetcdfReader reader(scratch / "cut"); });
         }
       }
+}
+
+TEST_CASE("values of every type, alone, in records and beside others, are the C library's") {
+  const Scratch scratch;
+  constexpr std::size_t records = 40, width = 300;
+  for (const int format : {0, NC_64BIT_DATA, NC_NETCDF4})
+    for (const bool several : {false, true}) {
+      CAPTURE(format);
+      CAPTURE(several);
+      const int types = format == 0 ? NC_DOUBLE : NC_UINT64;
+      const std::string path = foreign(scratch / "a.nc", format, [&](int id) {
+        int n, time, v;
+        nc_def_dim(id, "n", width, &n);
+        nc_def_dim(id, "Time", NC_UNLIMITED, &time);
+        const int shape[] = {time, n};
+        std::vector<std::string> names;
+        for (int type = NC_BYTE; type <= types; ++type)
+          if (type != NC_CHAR && (several || type == NC_SHORT)) {
+            nc_def_var(id, ("r" + std::to_string(type)).c_str(), type, 2, shape, &v);
+            nc_def_var(id, ("f" + std::to_string(type)).c_str(), type, 1, &n, &v);
+          }
+        nc_enddef(id);
+        int variables = 0;
+        nc_inq_nvars(id, &variables);
+        std::vector<double> values(records * width);
+        for (std::size_t i = 0; i < values.size(); ++i)
+          values[i] = static_cast<double>(i % 101);
+        const std::size_t start[] = {0, 0}, count[] = {records, width};
+        for (v = 0; v < variables; ++v)
+          REQUIRE(nc_put_vara_double(id, v, start, v % 2 == 0 ? count : count + 1, values.data()) ==
+                  NC_NOERR);
+      });
+      const NetcdfReader file(path);
+      const Opened opened(path);
+      require_same_header(file, opened);
+      for (const std::string& name : file.variable_names()) {
+        CAPTURE(name);
+        const std::vector<std::int64_t> shape = file.shape_of(name);
+        const int v = opened.variable(name.c_str());
+        std::vector<double> doubles(shape.size() == 2 ? records * width : width);
+        std::vector<std::int32_t> ints(doubles.size());
+        REQUIRE(nc_get_var_double(opened.id, v, doubles.data()) == NC_NOERR);
+        REQUIRE(nc_get_var_int(opened.id, v, ints.data()) == NC_NOERR);
+        CHECK(file.doubles(name, shape) == doubles);
+        CHECK(file.ints(name, shape) == ints);
+        std::vector<double> rows(doubles.end() - doubles.size() / 4, doubles.end()), read(rows);
+        std::fill(read.begin(), read.end(), -1);
+        file.rows(name, shape[0] - shape[0] / 4, shape[0] / 4, read.data());
+        CHECK(read == rows);
+        // From within a record to within another, as a subset takes them.
+        const std::int64_t size =
+            calotte::io_detail::size_of(*file.variables()[static_cast<std::size_t>(v)].type);
+        std::string whole(doubles.size() * static_cast<std::size_t>(size), ' '),
+            values(whole.size(), ' ');
+        const std::size_t last = shape.size() - 1;
+        const std::int64_t all = file.product(v, 0, last + 1), slab = shape[last];
+        for (std::int64_t row = 0; row < all / slab; ++row)
+          file.stored_rows(v, last, row * slab, slab, values.data() + row * slab * size);
+        file.stored_rows(v, 0, 0, shape[0], whole.data());
+        CHECK(whole == values);
+      }
+    }
+}
+
+TEST_CASE("variables that overlap are damage") {
+  const Scratch scratch;
+  const std::string path = foreign(scratch / "a.nc", NC_64BIT_OFFSET, [](int id) {
+    int n, v;
+    nc_def_dim(id, "n", 3, &n);
+    nc_def_var(id, "first", NC_DOUBLE, 1, &n, &v);
+    nc_def_var(id, "second", NC_DOUBLE, 1, &n, &v);
+    nc_enddef(id);
+    const double values[] = {1, 2, 3};
+    nc_put_var_double(id, v, values);
+  });
+  std::string bytes = read_file(path);
+  const auto header = static_cast<std::size_t>(
+      calotte::io_detail::classic_header(calotte::io_detail::FileReader(path)).bytes);
+  bytes[header - 1] = static_cast<char>(bytes[header - 1] - 8); // the offset of the second
+  calotte::write_file(path, bytes);
+  const Error error = error_of([&] { NetcdfReader reader(path); });
+  CHECK(error.code() == ErrorCode::parse);
+  CHECK(error.what() ==
+        path + ": its header is damaged: second begins within another variable; make it again");
+  int id = -1;
+  CHECK(nc_open(path.c_str(), NC_NOWRITE, &id) != NC_NOERR);
+}
+
+TEST_CASE("a pipe is no file that is read at any offset") {
+  const Scratch scratch;
+  const std::string path = scratch / "pipe.nc";
+  REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+  const int held = ::open(path.c_str(), O_RDWR | O_CLOEXEC); // else a reader waits for a writer
+  REQUIRE(held >= 0);
+  const Error error = error_of([&] { NetcdfReader reader(path); });
+  ::close(held);
+  CHECK(error.code() == ErrorCode::file);
+  CHECK(std::string(error.what()).find("it is a pipe") != std::string::npos);
 }
 
 TEST_CASE("NetCDF-4 files are read") {

@@ -3,7 +3,7 @@
 
 #include "io/room.h"
 
-/// NetCDF: a reader over the C library, a writer that computes while it writes, and rows that go
+/// NetCDF: a reader of headers and values, a writer that computes while it writes, and rows that go
 /// from file to file.
 ///
 /// In: a path, or variables with a function that fills them. Out: arrays, or a file.
