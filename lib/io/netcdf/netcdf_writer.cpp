@@ -59,8 +59,7 @@ bool needs_cdf5(const NetcdfAttributes& attributes) {
 
 } // namespace
 
-/// The C library writes the header; tasks of this library convert and write the values. The library
-/// would do it serially and take three times as long for a large mesh.
+/// The C library writes the header; tasks of this library convert and write the values.
 struct NetcdfWriter::State {
   struct Dimension {
     std::string name;
