@@ -35,6 +35,11 @@ void complain(std::string message) {
 
 constexpr const char* no_memory = "not enough memory; try fewer points";
 
+/// Whether oneTBB could not start a thread: it throws a std::runtime_error that says so.
+bool lacks_threads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create");
+}
+
 ExitCode exit_code(ErrorCode code) {
   switch (code) {
   case ErrorCode::file:
@@ -122,6 +127,10 @@ ExitCode guarded_run(CLI::App& app, int argc, char** argv) {
     complain(no_memory);
     return internal_error;
   } catch (const std::exception& error) {
+    if (lacks_threads(error)) {
+      complain("the system starts no more threads; give fewer with --threads, or raise its limit");
+      return internal_error;
+    }
     complain("internal error, please report it: " + std::string(error.what()));
     return internal_error;
   }

@@ -127,7 +127,7 @@ class Command:
             yield f"ends by signal {-code}: {message[-300:]}"
         elif code not in CODES.get(kind.split()[0], {0, 3}):
             yield f"exit code {code}: {message[-300:]}"
-        elif code == 4 and message and "not enough memory" not in message:
+        elif code == 4 and message and not re.search("not enough memory|no more threads", message):
             yield f"exit code 4: {message[-300:]}"
         elif code in (2, 3) and not re.fullmatch(r"(calotte: [^\n]*\n)+", message):
             yield f"exit code {code}: {message[-300:]!r}"

@@ -148,7 +148,7 @@ constexpr const char* codes =
   1  the mesh failed its check, or the run did not converge (the mesh is written)
   2  invalid options or input
   3  a file cannot be opened, read or written
-  4  internal error
+  4  not enough memory or threads, or an internal error
   5  the run converged, but the mesh is not well-centred (it is written)
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";

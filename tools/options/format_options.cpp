@@ -54,10 +54,9 @@ std::string names(bool (*of)(const FormatInfo&)) {
     for (const std::string& name : info.names)
       if (of(info) && std::find(all.begin(), all.end(), name) == all.end())
         all.push_back(name);
-  std::string list;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    list += (k == 0 ? "" : k + 1 < all.size() ? ", " : " or ") + all[k];
-  return list;
+  const std::string last = all.back();
+  all.pop_back();
+  return joined(all) + " or " + last;
 }
 
 void require_radius(double radius, Format format, const std::string& path) {

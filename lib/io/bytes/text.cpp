@@ -210,6 +210,33 @@ std::string describe(const Columned& read) {
   return read.text.empty() ? "a column is empty" : in_quotes(read.text) + " is not a number";
 }
 
+std::string_view line_with(LineReader& reader, const std::string& awaited) {
+  std::string_view line;
+  if (!reader.next_content(line))
+    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  return line;
+}
+
+namespace {
+
+void require_columns(const LineReader& reader, const Columned& read, const std::string& awaited) {
+  if (read.outcome != Outcome::ok)
+    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
+                " where " + awaited + " belongs");
+}
+
+} // namespace
+
+void take_columns(const LineReader& reader, std::string_view line, int count, double* values,
+                  const std::string& awaited) {
+  require_columns(reader, parse(line, count, values), awaited);
+}
+
+void take_columns(const LineReader& reader, std::string_view line, int count, std::int64_t* values,
+                  const std::string& awaited) {
+  require_columns(reader, parse(line, count, values), awaited);
+}
+
 Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(chunk + 64); }
 
 Writer& Writer::text(std::string_view bytes) {

@@ -86,6 +86,23 @@ std::string in_quotes(std::string_view text);
 /// \pre the outcome is not ok or too_few.
 std::string describe(const Columned& read);
 
+/// The next line that has content. \param awaited names what it holds.
+/// \throws Error parse, where the stream ends.
+std::string_view line_with(LineReader& reader, const std::string& awaited);
+
+/// The first `count` columns of the current line, all of them numbers.
+/// \throws Error parse.
+void take_columns(const LineReader& reader, std::string_view line, int count, double* values,
+                  const std::string& awaited);
+void take_columns(const LineReader& reader, std::string_view line, int count, std::int64_t* values,
+                  const std::string& awaited);
+
+/// The same of the next line that has content.
+template <class T>
+void take_columns(LineReader& reader, int count, T* values, const std::string& awaited) {
+  take_columns(reader, line_with(reader, awaited), count, values, awaited);
+}
+
 // ---- Writing
 
 /// Receives output bytes.

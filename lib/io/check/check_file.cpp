@@ -4,7 +4,8 @@
 #include "io/cells/deviations.h"
 #include "io/check/grid_check.h"
 #include "io/check/mpas_check.h"
-#include "io/formats/formats.h"
+#include "io/command.h"
+#include "io/formats/format_table.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include <utility>
@@ -17,19 +18,29 @@ namespace {
 
 /// \param file a MeshFile&&, which is freed on the way, or a const MeshFile&.
 template <class File> std::vector<Deviation> deviations_of(const std::string& path, File&& file) {
-  if (file.format != "MPAS" && file.format != "UGRID" && file.format != "SCRIP" &&
-      file.format != "ESMF")
+  if (!is_netcdf(file))
     return {};
   const NetcdfReader stored(path);
+  const FormatRow* const row = row_of(stored);
+  if (row == nullptr)
+    return {};
   Deviations deviations(stored);
-  if (is_mpas(stored))
+  switch (row->info.format) {
+  case Format::mpas:
     check_mpas(std::forward<File>(file), deviations);
-  else if (is_ugrid(stored))
+    break;
+  case Format::ugrid:
     check_ugrid(file, deviations);
-  else if (is_scrip(stored))
+    break;
+  case Format::scrip:
     check_scrip(file, deviations);
-  else if (is_esmf(stored))
+    break;
+  case Format::esmf:
     check_esmf(file, deviations);
+    break;
+  default:
+    break;
+  }
   return std::move(deviations).result();
 }
 

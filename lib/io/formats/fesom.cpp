@@ -30,21 +30,9 @@ std::string beside(const std::string& path, std::string_view name) {
   return sibling(path, fesom_nodes_name, name).value_or(path);
 }
 
-template <class T>
-void take(LineReader& reader, std::string_view& line, int count, T* values,
-          const std::string& awaited) {
-  if (!reader.next_content(line))
-    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
-  const Columned read = parse_columns(line, count, values);
-  if (read.outcome != Outcome::ok)
-    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                " where " + awaited + " belongs");
-}
-
 std::int64_t take_count(LineReader& reader, const std::string& of) {
-  std::string_view line;
   std::int64_t count = 0;
-  take(reader, line, 1, &count, "the number of " + of);
+  take_columns(reader, 1, &count, "the number of " + of);
   if (count < 0 || count > (std::int64_t{1} << 30))
     reader.fail(std::to_string(count) + " is not a number of " + of);
   return count;
@@ -57,11 +45,10 @@ RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
   LineReader reader(in, path);
   const std::int64_t count = take_count(reader, "nodes");
   std::vector<double> places, flags;
-  std::string_view line;
   for (std::int64_t i = 0; i < count; ++i) {
     std::array<double, 4> row{};
-    take(reader, line, 4, row.data(),
-         "node " + std::to_string(i + 1) + " of " + std::to_string(count));
+    take_columns(reader, 4, row.data(),
+                 "node " + std::to_string(i + 1) + " of " + std::to_string(count));
     if (row[0] != static_cast<double>(i + 1))
       reader.fail("node " + std::to_string(i + 1) + " has another id; number the nodes from 1 on");
     if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
@@ -83,11 +70,10 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
   LineReader reader(in, path);
   const std::int64_t count = take_count(reader, "elements");
   std::vector<std::int32_t> ids;
-  std::string_view line;
   for (std::int64_t t = 0; t < count; ++t) {
     std::array<std::int64_t, 3> row{};
-    take(reader, line, 3, row.data(),
-         "element " + std::to_string(t + 1) + " of " + std::to_string(count));
+    take_columns(reader, 3, row.data(),
+                 "element " + std::to_string(t + 1) + " of " + std::to_string(count));
     parse_ids(reader, row.data(), nodes, ids, 1);
   }
   return Eigen::Map<const Triangles>(ids.data(), 3, count);

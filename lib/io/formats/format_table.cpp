@@ -282,8 +282,12 @@ const FormatRow& row_of(Format format) {
                        [&](const FormatRow& row) { return row.info.format == format; });
 }
 
-bool is_netcdf(Format format) { return row_of(format).info.netcdf; }
-bool holds_cells(Format format) { return row_of(format).info.cells; }
+const FormatRow* row_of(const NetcdfReader& file) {
+  for (const FormatRow& row : format_table())
+    if (row.is != nullptr && row.is(file))
+      return &row;
+  return nullptr;
+}
 
 bool holds_field(Format format, const MeshField& field) {
   const FormatRow& row = row_of(format);

@@ -67,9 +67,8 @@ std::span<const FormatRow> format_table();
 /// \pre not by_name.
 const FormatRow& row_of(Format format);
 
-bool is_netcdf(Format format);
-/// Whether the format holds cells and thus requires a closed mesh, or a domain of the plane.
-bool holds_cells(Format format);
+/// The row of an open NetCDF file; null where it is none that the table knows.
+const FormatRow* row_of(const NetcdfReader& file);
 bool holds_field(Format format, const MeshField& field);
 
 /// "a, b or c" \param last joins the last two.

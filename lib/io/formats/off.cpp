@@ -16,17 +16,6 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The next line with its first `count` columns in `values`.
-template <class T> void take(LineReader& reader, int count, T* values, const std::string& awaited) {
-  std::string_view line;
-  if (!reader.next_content(line))
-    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
-  const Columned read = parse_columns(line, count, values);
-  if (read.outcome != Outcome::ok)
-    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                " where " + awaited + " belongs");
-}
-
 std::string of(const char* thing, std::int64_t index, std::int64_t count) {
   return std::string(thing) + " " + std::to_string(index) + " of " + std::to_string(count);
 }
@@ -52,20 +41,13 @@ void put_face(Writer& out, std::span<const std::int32_t> ids) {
 /// The corners of the next face.
 void take_face(LineReader& reader, std::int64_t points, const std::string& awaited,
                std::vector<std::int64_t>& face, std::vector<std::int32_t>& ids) {
-  std::string_view line;
-  if (!reader.next_content(line))
-    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+  const std::string_view line = line_with(reader, awaited);
   std::int64_t corners = 0;
-  Columned read = parse_columns(line, 1, &corners);
-  if (read.outcome == Outcome::ok && (corners < 3 || corners > std::max<std::int64_t>(points, 3)))
+  take_columns(reader, line, 1, &corners, awaited);
+  if (corners < 3 || corners > std::max<std::int64_t>(points, 3))
     reader.fail("a face of " + std::to_string(corners) + " corners; give 3 or more, each a point");
-  if (read.outcome == Outcome::ok) {
-    face.resize(static_cast<std::size_t>(corners) + 1);
-    read = parse_columns(line, static_cast<int>(corners) + 1, face.data());
-  }
-  if (read.outcome != Outcome::ok)
-    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                " where " + awaited + " belongs");
+  face.resize(static_cast<std::size_t>(corners) + 1);
+  take_columns(reader, line, static_cast<int>(corners) + 1, face.data(), awaited);
   parse_ids(reader, face.data() + 1, points, ids, 0, corners);
 }
 
@@ -94,12 +76,12 @@ RawMesh get_off(std::istream& in, const std::string& name) {
     throw Error(ErrorCode::parse, name + " line 1: not an OFF file, which starts with the line OFF",
                 1);
   std::int64_t counts[2];
-  take(reader, 2, counts, "the numbers of points and faces");
+  take_columns(reader, 2, counts, "the numbers of points and faces");
 
   std::vector<double> points;
   for (std::int64_t i = 0; i < counts[0]; ++i) {
     double p[3];
-    take(reader, 3, p, of("point", i, counts[0]));
+    take_columns(reader, 3, p, of("point", i, counts[0]));
     points.insert(points.end(), p, p + 3);
   }
   std::vector<std::int32_t> ids;

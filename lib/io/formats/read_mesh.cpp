@@ -30,7 +30,7 @@ bool holds_netcdf(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   if (!format && !is_netcdf_file(path))
     refuse_name(path);
-  return !format || is_netcdf(*format);
+  return !format || info_of(*format).netcdf;
 }
 
 [[noreturn]] void refuse_triangles_alone(const std::string& path) {
@@ -64,12 +64,9 @@ struct OpenFile {
       return;
     }
     netcdf.emplace(path);
-    const auto table = format_table();
-    const auto is = [&](const FormatRow& of) { return of.is != nullptr && of.is(*netcdf); };
-    const auto found = std::find_if(table.begin(), table.end(), is);
-    if (found == table.end())
+    row = row_of(*netcdf);
+    if (row == nullptr)
       refuse_netcdf(*netcdf);
-    row = &*found;
   }
 
   InputFile input(const std::string& path, FieldChoice fields) const {
@@ -127,7 +124,7 @@ bool is_netcdf_file(const std::string& path) {
 bool is_netcdf(const MeshFile& file) {
   const auto table = format_table();
   return std::any_of(table.begin(), table.end(), [&](const FormatRow& row) {
-    return row.label == file.format && is_netcdf(row.info.format);
+    return row.label == file.format && row.info.netcdf;
   });
 }
 

@@ -66,7 +66,7 @@ MeshSizes sizes_of(const Mesh& mesh) {
 
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   require_ids(path, mesh);
-  if (holds_cells(format) && !mesh.closed())
+  if (info_of(format).cells && !mesh.closed())
     refuse_to_write(
         path, "the mesh is open, and its outer cells would reach round the far side of the "
               "sphere; write its triangles (" +
@@ -77,7 +77,7 @@ void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
 Numbering numbering_of(const WriteOptions& options) {
   if (options.numbering != Numbering::by_format)
     return options.numbering;
-  return is_netcdf(options.format) ? Numbering::curve : Numbering::input;
+  return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
 }
 
 /// The mesh in a file's numbering, and the options' values with it.
@@ -104,7 +104,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
   require_options(path, resolved);
   require_mesh(path, mesh.mesh, resolved.format);
   require_values(path, sizes_of(mesh.mesh), resolved);
-  if (is_netcdf(resolved.format))
+  if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
@@ -155,10 +155,10 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
   require_values(path, sizes_of(mesh), resolved);
-  if (is_netcdf(resolved.format))
+  if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
   resolved.progress = rest_of(options.progress, 0);
-  if (surface.is_bounded() && holds_cells(resolved.format)) {
+  if (surface.is_bounded() && info_of(resolved.format).cells) {
     std::erase_if(resolved.fields,
                   [](const MeshField& field) { return field.location != Location::cells; });
     write_cells(path, voronoi(mesh), resolved);

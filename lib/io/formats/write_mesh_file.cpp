@@ -84,7 +84,7 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
   } else {
     if (has_density)
       options.fields.push_back({.name = "density", .values = file.density});
-    if (is_netcdf(options.format))
+    if (info_of(options.format).netcdf)
       replace_names(options.fields);
     Polygons polygons = unwrapped(*file.polygons);
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
@@ -104,7 +104,7 @@ bool is_clipped(const MeshFile& file) { return file.plane() && file.mesh->surfac
 /// Cells are written as they are, to formats of triangles only where the file has no triangles.
 /// \param triangles of the cells of a plane, if there are any.
 bool writes_polygons(const MeshFile& file, const std::optional<Mesh>& triangles, Format format) {
-  if (!file.polygons || holds_cells(format))
+  if (!file.polygons || info_of(format).cells)
     return file.polygons.has_value() && !is_clipped(file);
   return file.plane() ? !triangles && file.mesh->surface.period().maxCoeff() == 0
                       : !file.mesh || file.mesh->closed();
@@ -113,7 +113,7 @@ bool writes_polygons(const MeshFile& file, const std::optional<Mesh>& triangles,
 /// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
 std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
   if (!file.plane() || file.mesh->surface.period().maxCoeff() > 0 || !file.polygons ||
-      holds_cells(format))
+      info_of(format).cells)
     return {};
   return planar_mesh_of_cells(file.mesh->points, *file.polygons);
 }
@@ -121,7 +121,7 @@ std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
 /// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
 /// may be the others.
 void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
-  if (!holds_cells(format))
+  if (!info_of(format).cells)
     return;
   const EdgeCounts edges = count_edges(mesh);
   if (edges.not_delaunay > 0)
@@ -141,7 +141,7 @@ bool is_at_corners(const MeshFile& file, const MeshField& field) {
 
 /// Names of the fields that a format cannot hold.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
-  const bool clipped = !polygons && is_clipped(file) && holds_cells(format);
+  const bool clipped = !polygons && is_clipped(file) && info_of(format).cells;
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
     if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
@@ -158,7 +158,7 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
   resolved.format = format_of(path, options.format);
   resolved.fields.insert(resolved.fields.end(), file.fields.begin(), file.fields.end());
   WrittenFields written;
-  if (is_netcdf(resolved.format))
+  if (info_of(resolved.format).netcdf)
     written.renamed = replace_names(resolved.fields);
   const std::optional<Mesh> triangles = triangles_of(file, resolved.format);
   const bool polygons = writes_polygons(file, triangles, resolved.format);
