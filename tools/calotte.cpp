@@ -7,6 +7,8 @@
 #include <calotte/error.h>
 #include <calotte/version.h>
 
+#include <CLI/App.hpp>
+
 #include <gmp.h>
 
 #include <algorithm>

@@ -10,6 +10,8 @@
 #include <calotte/check_file.h>
 #include <calotte/mesh_file.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <iomanip>
 #include <iostream>

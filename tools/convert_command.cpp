@@ -18,6 +18,8 @@
 #include <calotte/mesh_file.h>
 #include <calotte/version.h>
 
+#include <CLI/App.hpp>
+
 #include <array>
 #include <iostream>
 #include <utility>

@@ -12,6 +12,8 @@
 #include <calotte/read.h>
 #include <calotte/version.h>
 
+#include <CLI/App.hpp>
+
 #include <filesystem>
 #include <iostream>
 #include <limits>

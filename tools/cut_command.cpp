@@ -11,6 +11,8 @@
 #include <calotte/cut.h>
 #include <calotte/version.h>
 
+#include <CLI/App.hpp>
+
 #include <iostream>
 #include <memory>
 #include <optional>

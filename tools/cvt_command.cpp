@@ -26,6 +26,8 @@
 #include <calotte/version.h>
 #include <calotte/write_grid.h>
 
+#include <CLI/App.hpp>
+
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>

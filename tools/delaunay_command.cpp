@@ -19,6 +19,8 @@
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
 
+#include <CLI/App.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <iostream>

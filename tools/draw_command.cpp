@@ -17,6 +17,8 @@
 
 #include <calotte/operators.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

@@ -11,6 +11,8 @@
 #include "run/operator_measures.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

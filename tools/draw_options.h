@@ -2,11 +2,10 @@
 #pragma once
 
 #include "draw/draw.h"
+#include "options/cli_forward.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/mesh_source.h"
-
-#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -8,6 +8,8 @@
 #include "help/unknown_word.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <iostream>
 #include <memory>
 #include <string>

@@ -21,6 +21,8 @@
 #include <calotte/operators.h>
 #include <calotte/quality.h>
 
+#include <CLI/App.hpp>
+
 #include <iostream>
 #include <limits>
 #include <numbers>

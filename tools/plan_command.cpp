@@ -22,6 +22,8 @@
 #include <calotte/grid.h>
 #include <calotte/read.h>
 
+#include <CLI/App.hpp>
+
 #include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 

@@ -10,6 +10,8 @@
 #include <calotte/generators.h>
 #include <calotte/io.h>
 
+#include <CLI/App.hpp>
+
 #include <filesystem>
 #include <iostream>
 #include <limits>

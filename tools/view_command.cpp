@@ -18,6 +18,8 @@
 
 #include <calotte/error.h>
 
+#include <CLI/App.hpp>
+
 #include <spawn.h>
 #include <sys/wait.h>
 

@@ -6,6 +6,8 @@
 #include "help/unknown_word.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <cctype>
 #include <sstream>
 #include <vector>

@@ -5,6 +5,8 @@
 #include "help/topics.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <sstream>

@@ -7,6 +7,8 @@
 
 #include <calotte/version.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <cctype>
 

@@ -3,6 +3,8 @@
 
 #include "help/nearest_name.h"
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 
 namespace calotte::tools {

@@ -8,6 +8,8 @@
 #include <calotte/generators.h>
 #include <calotte/read.h>
 
+#include <CLI/App.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <utility>

@@ -3,6 +3,8 @@
 
 #include <calotte/cell_width.h>
 
+#include <CLI/App.hpp>
+
 #include <cmath>
 #include <cstdint>
 

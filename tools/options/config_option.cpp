@@ -9,6 +9,8 @@
 
 #include <calotte/error.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>

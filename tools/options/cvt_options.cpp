@@ -8,6 +8,8 @@
 
 #include <calotte/io.h>
 
+#include <CLI/App.hpp>
+
 #include <limits>
 #include <set>
 #include <span>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/cli_forward.h"
 #include "options/cvt_request.h"
-
-#include <CLI/App.hpp>
 
 #include <memory>
 

@@ -9,6 +9,8 @@
 #include <calotte/io.h>
 #include <calotte/planar_raster.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "options/cell_width_option.h"
+#include "options/cli_forward.h"
 
 #include <calotte/density.h>
 #include <calotte/read.h>
-
-#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -6,6 +6,8 @@
 
 #include <calotte/read.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <sstream>
 #include <vector>

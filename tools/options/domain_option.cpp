@@ -7,6 +7,8 @@
 
 #include <calotte/io.h>
 
+#include <CLI/App.hpp>
+
 #include <cmath>
 
 namespace calotte::tools {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/cli_forward.h"
+
 #include <calotte/mesh_file.h>
 #include <calotte/surface.h>
-
-#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

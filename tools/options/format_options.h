@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/cli_forward.h"
 #include "options/model_option.h"
 #include "options/sphere_radius_option.h"
 
 #include <calotte/io.h>
-
-#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -6,6 +6,8 @@
 
 #include <calotte/write.h>
 
+#include <CLI/App.hpp>
+
 namespace calotte::tools {
 
 void add_global(CLI::App& command, std::string& path) {

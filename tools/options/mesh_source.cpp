@@ -7,6 +7,8 @@
 #include "options/sphere_radius_option.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 namespace calotte::tools {
 
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {

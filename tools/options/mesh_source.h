@@ -2,10 +2,9 @@
 #pragma once
 
 #include "options/cell_width_option.h"
+#include "options/cli_forward.h"
 
 #include <calotte/mesh_file.h>
-
-#include <CLI/App.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/model.h>
+#include "options/cli_forward.h"
 
-#include <CLI/App.hpp>
+#include <calotte/model.h>
 
 #include <optional>
 #include <string>

@@ -5,6 +5,8 @@
 
 #include <calotte/io.h>
 
+#include <CLI/App.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <sstream>

@@ -4,6 +4,8 @@
 #include "help/help.h"
 #include "options/numbers.h"
 
+#include <CLI/App.hpp>
+
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 

@@ -8,6 +8,8 @@
 #include <calotte/ocean.h>
 #include <calotte/read.h>
 
+#include <CLI/App.hpp>
+
 #include <boost/crc.hpp>
 
 #include <cmath>

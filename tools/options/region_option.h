@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/cli_forward.h"
+
 #include <calotte/cell_width.h>
 #include <calotte/surface.h>
-
-#include <CLI/App.hpp>
 
 #include <string>
 

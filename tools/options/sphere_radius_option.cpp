@@ -4,6 +4,8 @@
 #include "options/warning.h"
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <cmath>
 
 namespace calotte::tools {

@@ -3,6 +3,8 @@
 
 #include "text/text.h"
 
+#include <CLI/App.hpp>
+
 #include <numbers>
 
 namespace calotte::tools {
