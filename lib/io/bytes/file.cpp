@@ -14,9 +14,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace calotte {
 namespace io_detail {
 namespace {
@@ -53,20 +50,6 @@ fs::path follow_links(const std::string& path) {
   return error ? fs::path(path) : place;
 }
 
-/// Returns the errno of a failure, or 0.
-int pwrite_all(int descriptor, std::int64_t offset, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), offset);
-    if (written < 0 && errno != EINTR)
-      return errno;
-    if (written > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-      offset += written;
-    }
-  }
-  return 0;
-}
-
 /// Smallest block for direct output; smaller blocks gain nothing from it.
 constexpr std::int64_t least_direct = 1 << 18;
 /// Number of spare blocks; more than wait for the disk and are being filled.
@@ -90,23 +73,20 @@ OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_lin
   if (std::error_code error; fs::is_directory(place_, error))
     fail(EISDIR);
   if (!renameable(place_)) {
-    descriptor_ = ::open(place_.c_str(), O_WRONLY | O_CLOEXEC);
+    file_ = Descriptor::to_write(place_);
+    require(file_ ? 0 : errno);
   } else {
     TemporaryFile file = open_temporary(place_);
-    descriptor_ = file.descriptor, lock_ = file.lock;
+    require(file.error);
+    file_ = std::move(file.file), lock_ = std::move(file.lock);
     temporary_ = std::move(file.path);
   }
-  if (descriptor_ < 0)
-    fail(errno);
 }
 
 OutputFile::~OutputFile() {
   queue_.reset();
   if (!temporary_.empty())
-    ::unlink(temporary_.c_str());
-  for (const int descriptor : {direct_, descriptor_, lock_})
-    if (descriptor >= 0)
-      ::close(descriptor);
+    remove_file(temporary_);
 }
 
 void OutputFile::watch(ProgressCallback progress, std::int64_t bytes) {
@@ -120,15 +100,11 @@ void OutputFile::watch(ProgressCallback progress, std::int64_t bytes) {
 void OutputFile::append(std::string_view bytes) {
   if (monitor_)
     monitor_->step(static_cast<std::int64_t>(bytes.size()));
+  if (temporary_.empty()) {
+    require(file_.append(bytes));
+    return;
+  }
   while (!bytes.empty()) {
-    if (temporary_.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written >= 0)
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-      else if (errno != EINTR)
-        fail(errno);
-      continue;
-    }
     if (tail_size_ == tail_.size())
       put_tail();
     const auto count = std::min(bytes.size(), static_cast<std::size_t>(tail_.size() - tail_size_));
@@ -138,13 +114,9 @@ void OutputFile::append(std::string_view bytes) {
   }
 }
 
-void OutputFile::reserve([[maybe_unused]] std::int64_t size) {
-#ifdef __linux__
-  // Many file systems do not support fallocate; they allocate space when blocks are written.
-  if (!temporary_.empty() && ::fallocate(descriptor_, 0, 0, size) != 0 &&
-      (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
-    fail(errno);
-#endif
+void OutputFile::reserve(std::int64_t size) {
+  if (!temporary_.empty())
+    require(file_.reserve(size));
 }
 
 /// Writes the tail and begins the next one.
@@ -158,19 +130,17 @@ void OutputFile::put_tail() {
 }
 
 void OutputFile::start_queue() {
-#ifdef O_DIRECT
-  direct_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC | O_DIRECT);
+  direct_ = Descriptor::to_write_direct(temporary_);
   {
     const std::lock_guard lock(spare_mutex_); // block() reads it concurrently
     spare_.reserve(most_spare);
   }
-  if (direct_ >= 0)
+  if (direct_)
     queue_ = std::make_unique<OutputQueue>([this](OutputBlock block) {
       const int error = write_direct(block);
       keep(block.take_memory());
       return error;
     });
-#endif
 }
 
 void OutputFile::keep(Array<char> memory) {
@@ -195,19 +165,12 @@ void OutputFile::put(OutputBlock block) {
 }
 
 void OutputFile::send(OutputBlock block) {
-  int error = 0;
   if (block.size() >= least_direct)
     std::call_once(queue_started_, [this] { start_queue(); });
   if (block.size() >= least_direct && queue_)
-    error = queue_->push(std::move(block));
+    require(queue_->push(std::move(block)));
   else
-    error = write_through_cache(block.offset(), block.bytes());
-  if (error != 0)
-    fail(error);
-}
-
-int OutputFile::write_through_cache(std::int64_t offset, std::string_view bytes) const {
-  return pwrite_all(descriptor_, offset, bytes);
+    require(file_.write(block.offset(), block.bytes()));
 }
 
 /// Writes whole pages from memory to the disk; the parts of the first and the last page go through
@@ -220,35 +183,37 @@ int OutputFile::write_direct(const OutputBlock& block) {
     return block.bytes().substr(static_cast<std::size_t>(from - block.offset()),
                                 static_cast<std::size_t>(to - from));
   };
-  int error = pwrite_all(direct_, first, part(first, last));
+  int error = direct_.write(first, part(first, last));
   if (error == EINVAL) // the file system opens files for direct output but does not write them
-    error = write_through_cache(first, part(first, last));
+    error = file_.write(first, part(first, last));
   if (error == 0)
-    error = write_through_cache(block.offset(), part(block.offset(), first));
-  return error != 0 ? error : write_through_cache(last, part(last, end));
+    error = file_.write(block.offset(), part(block.offset(), first));
+  return error != 0 ? error : file_.write(last, part(last, end));
 }
 
 void OutputFile::finish() {
-  if (descriptor_ < 0)
+  if (!file_)
     return;
   if (tail_size_ > 0)
     put_tail();
   if (queue_)
-    if (const int error = queue_->finish(); error != 0)
-      fail(error);
+    require(queue_->finish());
   // A device or a pipe needs no synchronisation.
-  if (!temporary_.empty() && ::fsync(descriptor_) != 0)
-    fail(errno);
-  const int descriptor = std::exchange(descriptor_, -1);
-  if (::close(descriptor) != 0)
-    fail(errno);
+  if (!temporary_.empty())
+    require(file_.synchronise());
+  require(file_.close());
 }
 
 void OutputFile::commit() {
   finish();
-  if (!temporary_.empty() && ::rename(temporary_.c_str(), place_.c_str()) != 0)
-    fail(errno);
+  if (!temporary_.empty())
+    require(rename_file(temporary_, place_));
   temporary_.clear();
+}
+
+void OutputFile::require(int error) const {
+  if (error != 0)
+    fail(error);
 }
 
 void OutputFile::fail(int error) const {

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/monitor.h"
 #include "io/bytes/room.h"
+#include "io/bytes/system.h"
 
 #include <cstdint>
 #include <fstream>
@@ -100,7 +101,7 @@ private:
   void send(OutputBlock block);
   void keep(Array<char> memory);
   int write_direct(const OutputBlock& block);
-  int write_through_cache(std::int64_t offset, std::string_view bytes) const;
+  void require(int error) const;
   void put_tail();
 
   ProgressCallback progress_;
@@ -108,15 +109,15 @@ private:
   std::string name_;                 ///< as the caller wrote it, for messages
   std::string place_;                ///< where the file shall be: symbolic links are followed
   std::string temporary_; ///< where it is until it is whole; empty when it is written in place
-  int descriptor_ = -1;
-  int lock_ = -1;    ///< holds the lock of the temporary file until it has its name
-  int direct_ = -1;  ///< writes past the page cache; -1 if the file system does not support it
-  OutputBlock tail_; ///< appended bytes that are not yet put
+  Descriptor file_;
+  Descriptor lock_;   ///< holds the lock of the temporary file until it has its name
+  Descriptor direct_; ///< writes past the page cache; none if the file system does not support it
+  OutputBlock tail_;  ///< appended bytes that are not yet put
   std::int64_t tail_size_ = 0;
   std::mutex spare_mutex_;
   std::vector<Array<char>> spare_; ///< of large blocks that are written
   std::once_flag queue_started_;
-  std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is -1
+  std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is none
 };
 
 /// Throws for an output that cannot be written at random offsets.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/bytes/room.h"
+#include "io/bytes/system.h"
 
 #include <cstdint>
 #include <string>
@@ -14,9 +15,6 @@ class FileReader {
 public:
   /// \throws Error file; also for a pipe.
   explicit FileReader(const std::string& path);
-  FileReader(const FileReader&) = delete;
-  FileReader& operator=(const FileReader&) = delete;
-  ~FileReader();
 
   const std::string& path() const { return path_; }
   std::int64_t size() const { return size_; } ///< bytes when it was opened
@@ -29,7 +27,7 @@ public:
 
 private:
   std::string path_;
-  int descriptor_ = -1;
+  Descriptor file_;
   std::int64_t size_ = 0;
 };
 

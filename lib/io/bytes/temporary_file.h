@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/bytes/room.h"
+#include "io/bytes/system.h"
 
 #include <string>
 
@@ -11,8 +12,9 @@ namespace calotte::io_detail {
 /// descriptors are closed.
 struct TemporaryFile {
   std::string path = {};
-  int descriptor = -1; ///< for writing; -1 after a failure, with its errno
-  int lock = -1;       ///< a second descriptor, so that the first can be closed before a rename
+  Descriptor file = {}; ///< for writing; none after a failure
+  Descriptor lock = {}; ///< a second one, so that the first can be closed before a rename
+  int error = 0;        ///< errno of a failure
 };
 
 /// Creates a file of a new name. First removes the temporary files of the same place that nobody
