@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "options/cli_forward.h"
+#include "help/cli_forward.h"
 
 /// The command's parts. A subcommand throws calotte::Error, which main turns into one line and an
 /// exit code.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "draw/draw.h"
-#include "options/cli_forward.h"
+#include "help/cli_forward.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/mesh_source.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "help/cli_forward.h"
 #include "options/cell_width_option.h"
-#include "options/cli_forward.h"
 
 #include <calotte/density.h>
 #include <calotte/read.h>

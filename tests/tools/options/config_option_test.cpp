@@ -6,6 +6,7 @@
 
 #include <calotte/error.h>
 
+#include <CLI/App.hpp>
 #include <doctest/doctest.h>
 
 #include <cstdint>

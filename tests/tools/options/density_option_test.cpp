@@ -4,6 +4,7 @@
 
 #include <calotte/error.h>
 
+#include <CLI/App.hpp>
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
