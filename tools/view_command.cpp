@@ -125,9 +125,9 @@ ViewChoice choice_of(const Request& request) {
           .most_cells = request.most_cells};
 }
 
-View view_of_meshes(const Request& request, Progress& progress) {
+ViewPage view_of_meshes(const Request& request, Progress& progress) {
   ViewChoice choice = choice_of(request);
-  View view;
+  ViewPage view;
   for (Input& input : read_inputs(request, progress)) {
     progress.stage("measuring " + input.source.path);
     choice.radius_km = input.radius_km;
@@ -148,10 +148,10 @@ View view_of_meshes(const Request& request, Progress& progress) {
   return view;
 }
 
-View view_of_plan(const Request& request) {
+ViewPage view_of_plan(const Request& request) {
   const WidthWords& widths = request.density->widths;
   const Resolution resolution = resolution_of(*request.density);
-  View view;
+  ViewPage view;
   view.title = "plan: " + density_name(*request.density);
   std::optional<double> radius =
       request.sphere_radius ? std::optional(*request.sphere_radius / metres) : std::nullopt;
@@ -177,7 +177,7 @@ void open_in_browser(const std::string& path) {
                 path + " is written, but xdg-open cannot show it; open it in a browser");
 }
 
-std::string summary(const View& view) {
+std::string summary(const ViewPage& view) {
   std::string text;
   for (std::size_t k = 0; k < view.side_by_side; ++k) {
     const ViewMesh& mesh = view.meshes[k];
@@ -192,7 +192,7 @@ std::string summary(const View& view) {
 void run(const Request& request) {
   require_request(request);
   const std::string output = output_of(request);
-  View view;
+  ViewPage view;
   {
     Progress progress;
     view = request.plan ? view_of_plan(request) : view_of_meshes(request, progress);

@@ -52,10 +52,11 @@ TEST_CASE("what a row says agrees with what it does") {
     if (row.write_polygons != nullptr)
       CHECK((row.polygons_as == info.format));
     // Another row of the same label may read what this one writes.
-    CHECK(info.read ==
-          std::any_of(format_table().begin(), format_table().end(), [&](const FormatRow& other) {
-            return other.label == row.label && other.read != nullptr;
-          }));
+    const auto reads = [&](const FormatRow& other) {
+      return other.label == row.label && other.read != nullptr;
+    };
+    CHECK(info.read == (std::any_of(format_table().begin(), format_table().end(), reads) ||
+                        !info.points)); // with the points at hand, see read_mesh()
   }
 }
 

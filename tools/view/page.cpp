@@ -207,7 +207,7 @@ Json add_coastlines(Blocks& blocks) {
           {"unit", 1 / hundredths}};
 }
 
-Json history_of(const View& view) {
+Json history_of(const ViewPage& view) {
   if (view.history.empty() && view.states.empty())
     return nullptr;
   Json json = {{"series", Json::array()}, {"states", Json::array()}};
@@ -225,7 +225,7 @@ Json history_of(const View& view) {
   return json;
 }
 
-Json header_of(const View& view, Blocks& blocks) {
+Json header_of(const ViewPage& view, Blocks& blocks) {
   Json views = Json::array(), meshes = Json::array();
   for (std::size_t k = 0; k < view.side_by_side; ++k)
     views.push_back(k);
@@ -260,7 +260,7 @@ void replace(std::string& text, const std::string& place, const std::string& by)
 
 } // namespace
 
-std::string page_of(const View& view) {
+std::string page_of(const ViewPage& view) {
   Blocks blocks;
   const std::string header = script_safe(header_of(view, blocks));
   std::string data;

@@ -18,11 +18,11 @@ struct ViewSeries {
 /// A state that a run kept.
 struct ViewState {
   std::int64_t iteration = 0;
-  std::size_t mesh = 0; ///< its place in View::meshes
+  std::size_t mesh = 0; ///< its place in ViewPage::meshes
 };
 
 /// The content of a page.
-struct View {
+struct ViewPage {
   std::string title;
   bool coastlines = true;
   std::vector<ViewMesh> meshes;
@@ -33,6 +33,6 @@ struct View {
 
 /// The HTML of a page that holds all it needs: data, program and style. All text from files is
 /// data, never markup.
-std::string page_of(const View& view);
+std::string page_of(const ViewPage& view);
 
 } // namespace calotte::tools

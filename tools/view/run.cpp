@@ -10,7 +10,7 @@
 
 namespace calotte::tools {
 
-void add_run(View& view, const std::string& report, const std::string& folder,
+void add_run(ViewPage& view, const std::string& report, const std::string& folder,
              const ViewChoice& choice) {
   const History history = read_history(report);
   const std::vector<double> numbers = evaluation_numbers(history);

@@ -12,7 +12,7 @@ namespace calotte::tools {
 /// \param view has the run's mesh. \param folder of that mesh and the states.
 /// \param choice of the states' quantities.
 /// \throws Error as read_history() and read_mesh_file().
-void add_run(View& view, const std::string& report, const std::string& folder,
+void add_run(ViewPage& view, const std::string& report, const std::string& folder,
              const ViewChoice& choice);
 
 } // namespace calotte::tools
