@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "base/require.h"
 #include "density/cell_width_field.h"
+#include "density/planar_raster.h"
 #include "density/sampling.h"
 #include "domain/surface.h"
 
@@ -60,14 +61,6 @@ void require_raster(const PlanarRaster& raster) {
       "negative, infinite or NaN");
 }
 
-void require_widths(const PlanarCellWidth& given) {
-  const std::string of = "cell width";
-  require_grid(given.x, given.y, given.widths, of);
-  require_values(
-      given.widths, of + ": width", [](double value) { return value > 0; },
-      "not positive and finite");
-}
-
 /// Values on a grid, which finds intervals in constant time.
 struct Field {
   Axis x, y;
@@ -87,7 +80,7 @@ Axis axis_of(const DoubleVector& values) {
 }
 
 Field field_of(const PlanarCellWidth& given) {
-  require_widths(given);
+  density_detail::require_widths(given);
   return {axis_of(given.x), axis_of(given.y), given.widths};
 }
 
@@ -104,6 +97,14 @@ void require_extent(const DoubleVector& nodes, double low, double high, const st
 }
 
 } // namespace
+
+void density_detail::require_widths(const PlanarCellWidth& widths) {
+  const std::string of = "cell width";
+  require_grid(widths.x, widths.y, widths.widths, of);
+  require_values(
+      widths.widths, of + ": width", [](double value) { return value > 0; },
+      "not positive and finite");
+}
 
 Density density_of(const PlanarRaster& raster) {
   require_raster(raster);
@@ -147,7 +148,7 @@ double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) 
 
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {
   require_plane(surface, widths_are);
-  require_widths(cell_width);
+  density_detail::require_widths(cell_width);
   domain_detail::require_finite_plane(surface);
   const Surface::Rings& rings = surface.rings();
   Eigen::Vector2d low(0, 0), high = surface.period();
