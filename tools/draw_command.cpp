@@ -171,7 +171,8 @@ void draw_mesh(const DrawArguments& arguments) {
   require_density(arguments);
   const bool plane = arguments.source->plane;
   std::optional<Surface> domain = surface_of(*arguments.domain);
-  const Density density = density_of(*arguments.density, plane);
+  const Density density =
+      density_of(*arguments.density, plane ? domain.value_or(Surface::plane()) : Surface());
   MeshFile file =
       read_mesh_file(*arguments.source, plane ? FieldChoice::none : FieldChoice::scalars);
   DrawOptions options = options_for(arguments, file);

@@ -56,7 +56,7 @@ std::optional<double> radius_of(const Request& request, const MeshFile& file) {
 
 /// The density that is given, or else that of the file.
 Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
-  const Density given = density_of(*request.density, request.source->plane);
+  const Density given = density_of(*request.density, file.mesh->surface);
   measured.density = density_name(*request.density);
   if (!given.uniform() || file.density.size() == 0 || !file.sphere() ||
       file.density.minCoeff() == file.density.maxCoeff())
@@ -145,7 +145,7 @@ void measure_plane(const Request& request, const MeshFile& file,
     refuse(request.source->path + ": a planar mesh needs its domain, which clips the cells; "
                                   "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
-  const Density density = density_of(*request.density, true);
+  const Density density = density_of(*request.density, *covered);
   Mesh mesh = *file.mesh;
   mesh.surface = *covered;
   measured.quality = quality(mesh, density);
@@ -186,7 +186,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 /// The numbers of one cell, a line each.
 std::string cell_table(const Request& request, const MeshFile& file) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
-                                  {.density = density_of(*request.density, request.source->plane),
+                                  {.density = density_of(*request.density, file.mesh->surface),
                                    .radius_km = radius_of(request, file),
                                    .units = request.units,
                                    .operators = request.operators,

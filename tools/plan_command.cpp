@@ -71,7 +71,7 @@ Recipe recipe_of(const Request& request) {
   const WidthWords& words = request.density->widths;
   if (!request.part.region.empty())
     recipe.surface = region_of(request.part.region, request.part.inside, words.radius);
-  Resolution resolution = resolution_of(*request.density, false, recipe.surface);
+  Resolution resolution = resolution_of(*request.density, recipe.surface);
   recipe.cells = request.cells.value_or(0);
   if (resolution.widths)
     recipe.widths = std::move(resolution.widths);

@@ -117,8 +117,11 @@ std::vector<Input> read_inputs(const Request& request, Progress& progress) {
 }
 
 ViewChoice choice_of(const Request& request) {
-  return {.surface = surface_of(*request.domain),
-          .density = density_of(*request.density, request.source->plane),
+  const std::optional<Surface> surface = surface_of(*request.domain);
+  return {.surface = surface,
+          .density =
+              density_of(*request.density,
+                         request.source->plane ? surface.value_or(Surface::plane()) : Surface()),
           .fields = request.fields,
           .units = request.units,
           .operators = request.operators,

@@ -75,6 +75,37 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
   return notes;
 }
 
+/// The widths without a limit of their gradient.
+CellWidth read_as_given(const WidthWords& words, const Surface& region) {
+  if (!words.raster.empty())
+    return read_density_raster(words.raster, region);
+  if (words.uniform || !is_geojson(words.file))
+    for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
+                                      {words.outside, "--outside-width"},
+                                      {words.transition, "--transition"}})
+      if (value)
+        refuse(name_of(words) + " holds no polygons; leave " + name + " out");
+  if (words.uniform)
+    return uniform_widths(*words.uniform);
+  return read_cell_width(words.file,
+                         {.inside = words.inside.value_or(0),
+                          .outside = words.outside.value_or(0),
+                          .transition = words.transition.value_or(0),
+                          .radius_km = words.radius},
+                         region);
+}
+
+/// A gradient above 0, in km per km.
+CLI::Validator slope() {
+  return {[](std::string& text) -> std::string {
+            const std::optional<Measure> value = measure_of(text);
+            return value && value->unit.empty() && value->value > 0
+                       ? std::string()
+                       : "\"" + text + "\" is not a positive number; give km per km, such as 0.03";
+          },
+          "G"};
+}
+
 } // namespace
 
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
@@ -98,6 +129,13 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
   add("--transition", words.transition,
       "Distance from a polygon outwards over which the width changes, in km; > 0");
   command
+      .add_option("--gradient", words.gradient,
+                  "Largest change of the widths, in km per km, such as 0.03: the largest widths "
+                  "that are nowhere above the given ones and nowhere steeper; > 0. With --cells it "
+                  "holds before that number scales the widths")
+      ->check(slope())
+      ->needs(file);
+  command
       .add_option("--earth-radius", words.radius,
                   "Radius of the sphere to which the widths refer, in km; > 0")
       ->transform(kilometres())
@@ -117,25 +155,11 @@ std::string name_of(const WidthWords& words) {
 }
 
 CellWidth read_widths(const WidthWords& words, const Surface& region) {
-  if (!words.raster.empty())
-    return read_density_raster(words.raster, region);
-  if (words.uniform || !is_geojson(words.file))
-    for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
-                                      {words.outside, "--outside-width"},
-                                      {words.transition, "--transition"}})
-      if (value)
-        refuse(name_of(words) + " holds no polygons; leave " + name + " out");
-  if (words.uniform)
-    return uniform_widths(*words.uniform);
-  return read_cell_width(words.file,
-                         {.inside = words.inside.value_or(0),
-                          .outside = words.outside.value_or(0),
-                          .transition = words.transition.value_or(0),
-                          .radius_km = words.radius},
-                         region);
+  CellWidth widths = read_as_given(words, region);
+  return words.gradient ? limit_gradient(widths, *words.gradient, words.radius) : widths;
 }
 
-PlanarCellWidth read_planar_widths(const WidthWords& words) {
+PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane) {
   if (words.with_unit)
     refuse("--cell-width " + shortest(*words.uniform) +
            "km: the plane has the unit of its coordinates; give a number in that unit");
@@ -146,7 +170,8 @@ PlanarCellWidth read_planar_widths(const WidthWords& words) {
   }
   if (std::filesystem::path(words.file).extension() != ".nc")
     refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc)");
-  return read_planar_cell_width(words.file);
+  PlanarCellWidth widths = read_planar_cell_width(words.file);
+  return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }
 
 std::string width_configuration(const WidthWords& words) {
@@ -161,6 +186,7 @@ std::string width_configuration(const WidthWords& words) {
   add("inside-width", words.inside);
   add("outside-width", words.outside);
   add("transition", words.transition);
+  add("gradient", words.gradient);
   add("earth-radius", words.radius);
   return text;
 }
@@ -174,6 +200,15 @@ std::string distinct_from(double other, double value) {
       break;
   }
   return text;
+}
+
+/// What makes steep widths less steep.
+std::string remedy_of(const WidthWords& words, bool scaled) {
+  if (words.gradient)
+    return std::string("give a smaller --gradient") +
+           (scaled ? ", as --cells scales the widths" : "");
+  return "give --gradient " + shortest(steepest_width) +
+         (words.transition ? ", or increase --transition" : "");
 }
 
 std::string place_of(const Gradient& gradient) {
@@ -212,7 +247,7 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
   if (gradient.slope > steepest_width)
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
                     place_of(gradient) + ", above " + limit + ", the limit for most models; " +
-                    (words.transition ? "increase --transition" : "make the widths smoother"));
+                    remedy_of(words, std::abs(scale - 1) > 0.01));
   return with_doubt(std::move(notes), widths, words);
 }
 

@@ -21,6 +21,7 @@ struct WidthWords {
   bool plane = false;            ///< the mesh is planar, which the command knows
   std::string raster;            ///< of a density, or ""
   std::optional<double> inside, outside, transition; ///< km, of polygons
+  std::optional<double> gradient;                    ///< the largest; none if it is not limited
   double radius = earth_radius_km;                   ///< km
 
   /// Whether there are widths in km, which imply a number of cells.
@@ -28,7 +29,7 @@ struct WidthWords {
   bool given() const { return in_km() || !raster.empty(); }
 };
 
-/// Adds --cell-width, --inside-width, --outside-width, --transition, --earth-radius and
+/// Adds --cell-width, --inside-width, --outside-width, --transition, --gradient, --earth-radius and
 /// --density-raster.
 /// \param density the option that they replace.
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
@@ -37,7 +38,8 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 /// \pre words.in_km().
 std::string name_of(const WidthWords& words);
 
-/// Reads widths from either file, or makes uniform ones; those of a density raster have no unit.
+/// Reads widths from either file, or makes uniform ones, and limits their gradient; those of a
+/// density raster have no unit.
 /// \pre words.given().
 /// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons.
 /// \param region which a raster must cover.
@@ -46,7 +48,7 @@ CellWidth read_widths(const WidthWords& words, const Surface& region = {});
 /// The same in the plane. \pre words.in_km().
 /// \throws Error as read_planar_cell_width; invalid_argument for a width with a unit, and for
 /// polygons.
-PlanarCellWidth read_planar_widths(const WidthWords& words);
+PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane);
 
 /// The input that determines the widths, one line each: the file's contents, and the numbers.
 /// \pre words.given().

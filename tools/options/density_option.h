@@ -33,14 +33,13 @@ struct Resolution {
 };
 
 /// Reads the file, if there is one.
-/// \param planar a bump's centre and lengths are in the plane: x and y, beta and alpha without a
-///        unit; a raster is one of x and y, and a width has no unit.
-/// \param region which a raster must cover.
+/// \param surface which a raster of the sphere must cover. In a plane a bump's centre and lengths
+///        are x and y, beta and alpha without a unit; a raster is one of x and y, and a width has
+///        no unit.
 /// \throws Error invalid_argument naming the word and the remedy; as read_cell_width.
-Resolution resolution_of(const DensityWords& words, bool planar = false,
-                         const Surface& region = {});
+Resolution resolution_of(const DensityWords& words, const Surface& surface = {});
 /// The same without the widths.
-Density density_of(const DensityWords& words, bool planar = false);
+Density density_of(const DensityWords& words, const Surface& surface = {});
 
 /// Whether the options prescribe cells of one size.
 bool is_uniform(const DensityWords& words);

@@ -116,8 +116,7 @@ CvtInput read_input(const CvtRequest& request) {
   Recipe& recipe = input.recipe;
   recipe.cells = request.cells.value_or(0);
   recipe.surface = planar(request) ? *surface_of(*request.domain) : part_of(request);
-  Resolution resolution = resolution_of(*request.density, planar(request),
-                                        planar(request) ? Surface() : recipe.surface);
+  Resolution resolution = resolution_of(*request.density, recipe.surface);
   recipe.widths = std::move(resolution.widths);
   recipe.planar_widths = std::move(resolution.planar_widths);
   if (!recipe.widths && !recipe.planar_widths)

@@ -233,7 +233,22 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
-                    "0.03, the limit for most models; make the widths smoother");
+                    "0.03, the limit for most models; give --gradient 0.03");
+  words = parsed({"--cell-width", file.path(), "--gradient", "0.02"});
+  notes = notes_on(widths, words.widths, {});
+  REQUIRE(notes.size() == 2);
+  CHECK(notes[1].ends_with("; give a smaller --gradient"));
+}
+
+TEST_CASE("a limit of the gradient lowers the widths around the narrow ones") {
+  const TextFile file(".msh", jigsaw_grid("400"));
+  const std::vector<std::string> arguments{"--cell-width", file.path(), "--gradient", "0.01"};
+  const CellWidth given = *resolution_of(parsed({"--cell-width", file.path()})).widths,
+                  limited = *resolution_of(parsed(arguments)).widths;
+  CHECK(limited.widths == limit_gradient(given, 0.01).widths);
+  CHECK(limited.widths != given.widths);
+  CHECK(density_configuration(parsed(arguments)) !=
+        density_configuration(parsed({"--cell-width", file.path()})));
 }
 
 TEST_CASE("options of widths that do not go together are refused") {
