@@ -29,11 +29,6 @@ namespace {
 using namespace density_detail;
 using base_detail::Vec3;
 
-void require_gradient(double gradient) {
-  base_detail::require(gradient > 0 && std::isfinite(gradient),
-                       "the limit of the gradient must be positive; give it in km per km");
-}
-
 /// The nodes of a raster of the sphere: the south pole, row by row, the north pole.
 class SphereNodes {
 public:
@@ -322,6 +317,11 @@ private:
 };
 
 } // namespace
+
+void density_detail::require_gradient(double gradient) {
+  base_detail::require(gradient > 0 && std::isfinite(gradient),
+                       "the limit of the gradient must be positive; give it in km per km");
+}
 
 PlanarCellWidth limit_gradient(const PlanarCellWidth& widths, double gradient,
                                const Surface& surface) {

@@ -18,6 +18,9 @@
 /// g d(x, y), with the shortest way d within the domain.
 namespace calotte::density_detail {
 
+/// \throws Error invalid_argument unless a limit is positive and finite.
+void require_gradient(double gradient);
+
 /// What limit_gradient() needs to know of the nodes of a raster.
 ///
 ///     std::int32_t size() const;

@@ -10,6 +10,7 @@
 
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -240,7 +241,9 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
                      formatted("%.3g", scale) + " times as large";
   CellWidth scaled = widths;
   scaled.widths *= scale;
-  const Gradient gradient = largest_gradient(scaled, words.radius);
+  Gradient gradient = largest_gradient(scaled, words.radius);
+  if (words.gradient) // at a tip in a box of the raster more is measured than the nodes have
+    gradient.slope = std::min(gradient.slope, *words.gradient * scale);
   const std::string limit = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";

@@ -234,9 +234,10 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
                     "0.03, the limit for most models; give --gradient 0.03");
-  words = parsed({"--cell-width", file.path(), "--gradient", "0.02"});
+  words = parsed({"--cell-width", file.path(), "--gradient", "0.05"});
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
+  CHECK(notes[1].find("changes by 0.05 km per km") != std::string::npos);
   CHECK(notes[1].ends_with("; give a smaller --gradient"));
 }
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/cell_width.h>
+#include <calotte/export.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+CALOTTE_API_BEGIN
+namespace calotte {
+
+namespace density_detail {
+class WidthRule;
+}
+
+/// How a width changes with a number, such as a distance or a latitude.
+struct WidthProfile {
+  /// Between two nodes: along a line, or along a cubic that is level at both.
+  enum class Between { linear, smooth };
+
+  /// The number and the width in km, > 0; one node or more, the numbers ascending. Before the first
+  /// and beyond the last the width stays.
+  std::vector<std::array<double, 2>> nodes;
+  Between between = Between::linear; ///< default: along a line
+};
+
+/// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
+/// made of them. A value that is cheap to copy; copies share what is prepared for queries, and any
+/// number of threads may ask them.
+///
+///     const Widths coast = widths::by_distance(read_lines("coast.geojson"), {{{0, 10}, {600,
+///     60}}}); const Widths zones = widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}}); const
+///     CellWidth raster = sampled(minimum({coast, zones}).limit_gradient(0.03));
+class Widths {
+public:
+  /// One width everywhere, in km.
+  /// \throws Error invalid_argument unless it is > 0 and finite.
+  Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
+  /// \throws Error invalid_argument as density_of().
+  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
+  explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
+
+  /// The largest widths below these that change by at most g km per km, over the poles and the date
+  /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;
+  /// others at the nodes of a raster, see limit_gradient(const CellWidth&).
+  /// \param gradient g, > 0 and finite.
+  /// \throws Error invalid_argument for a gradient out of range.
+  Widths limit_gradient(double gradient) const;
+
+  const density_detail::WidthRule& rule() const { return *rule_; }
+  const std::shared_ptr<const density_detail::WidthRule>& shared() const { return rule_; }
+
+private:
+  std::shared_ptr<const density_detail::WidthRule> rule_;
+};
+
+/// The widths in km at n places.
+/// \param places 3 x n directions.
+/// \throws Error invalid_argument for another number of rows, and for a direction that is none.
+DoubleVector evaluate(const Widths& widths, const PointsRef& places);
+
+/// The widths at the nodes of a regular raster with nodes at the poles.
+/// \param step largest distance of rows and of columns, in degrees, from 0.01 to 10; 0, the
+/// default,
+///        takes that of the least width, within 0.05 to 1 degree.
+/// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
+CellWidth sampled(const Widths& widths, double step = 0);
+
+/// Rules for cell widths, and what can be made of them. All lengths are in km on a sphere of radius
+/// earth_radius_km, and all widths are > 0.
+namespace widths {
+
+/// \param profile of the latitude in degrees, from -90 to 90.
+/// \throws Error invalid_argument, naming the node, for a profile that is none.
+Widths by_latitude(const WidthProfile& profile);
+
+/// By the distance from the nearest of some lines, along great circles.
+/// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; a line may
+///        be a single point.
+/// \param profile of the distance in km, from 0 on.
+/// \throws Error invalid_argument, naming line and point, for opposite neighbours or a point that
+/// is
+///         no direction; for no line; naming the node, for a profile that is none.
+Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+
+/// \throws Error invalid_argument for an empty list, here and below.
+Widths minimum(const std::vector<Widths>& of);
+Widths maximum(const std::vector<Widths>& of);
+Widths sum(const std::vector<Widths>& of);
+Widths product(const Widths& widths, double factor);
+Widths clamp(const Widths& widths, double least, double most);
+/// One rule within a region, another outside.
+Widths where(const Surface& region, const Widths& inside, const Widths& outside);
+
+} // namespace widths
+
+} // namespace calotte
+CALOTTE_API_END

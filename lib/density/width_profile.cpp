@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/width_profile.h"
+
+#include "base/number_text.h"
+#include "base/require.h"
+
+#include <cmath>
+#include <string>
+
+namespace calotte::density_detail {
+namespace {
+
+using base_detail::require;
+using base_detail::shortly;
+
+/// Straight pieces of a cubic leave it by less than 1e-6 of its height.
+constexpr int pieces_of_cubic = 1024;
+
+/// Limits how fast widths grow from each node to the next ones.
+template <class Node>
+std::vector<Node> limited_forwards(const std::vector<Node>& nodes, double slope) {
+  std::vector<Node> out{nodes.front()};
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    const Node &from = nodes[k - 1], &to = nodes[k];
+    const Node last = out.back(); // at the place of `from`, below it or on it
+    const double length = to.x - from.x, reached = last.width + slope * length;
+    if (reached <= to.width) {
+      out.push_back({to.x, reached});
+      continue;
+    }
+    // Where the steepest line meets the given piece.
+    const double gap = from.width - last.width, rise = (to.width - from.width) / length;
+    if (const double meets = gap > 0 ? gap / (slope - rise) : 0; meets > 0 && meets < length)
+      out.push_back({from.x + meets, last.width + slope * meets});
+    out.push_back(to);
+  }
+  return out;
+}
+
+template <class Node> std::vector<Node> mirrored(const std::vector<Node>& nodes) {
+  std::vector<Node> out;
+  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+    out.push_back({-node->x, node->width});
+  return out;
+}
+
+} // namespace
+
+ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double low, double high) {
+  const auto& given = profile.nodes;
+  require(!given.empty(), std::string("a profile of ") + what + " has no node; give one or more");
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const auto& [x, width] = given[k];
+    const std::string node = "node " + std::to_string(k) + " of a profile of " + what;
+    require(x >= low && x <= high, node + " is at " + shortly(x) + ", outside " + shortly(low) +
+                                       " to " + shortly(high) + "; correct it");
+    require(k == 0 || x > given[k - 1][0], node + " is not above the one before; sort them");
+    require(width > 0 && std::isfinite(width),
+            node + " has the width " + shortly(width) + "; give km, > 0");
+  }
+  nodes_.push_back({given[0][0], given[0][1]});
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    const auto &from = given[k - 1], &to = given[k];
+    const int pieces = profile.between == WidthProfile::Between::smooth ? pieces_of_cubic : 1;
+    for (int piece = 1; piece < pieces; ++piece) {
+      const double t = static_cast<double>(piece) / pieces;
+      nodes_.push_back(
+          {from[0] + t * (to[0] - from[0]), from[1] + t * t * (3 - 2 * t) * (to[1] - from[1])});
+    }
+    nodes_.push_back({to[0], to[1]});
+  }
+}
+
+double ProfileCurve::least() const {
+  return std::min_element(nodes_.begin(), nodes_.end(),
+                          [](const Node& a, const Node& b) { return a.width < b.width; })
+      ->width;
+}
+
+bool ProfileCurve::grows() const {
+  return std::is_sorted(nodes_.begin(), nodes_.end(),
+                        [](const Node& a, const Node& b) { return a.width < b.width; });
+}
+
+ProfileCurve ProfileCurve::limited(double slope) const {
+  // The constant ends take part: from them the width may grow beyond the last node.
+  std::vector<Node> nodes = nodes_;
+  const double most = std::max_element(nodes_.begin(), nodes_.end(),
+                                       [](const Node&a, const Node&b) { return a.width < b.width; })
+                          ->width,
+               reach = (most - least()) / slope;
+  if (reach > 0) {
+    nodes.insert(nodes.begin(), {nodes.front().x - reach, nodes.front().width});
+    nodes.push_back({nodes.back().x + reach, nodes.back().width});
+  }
+  return ProfileCurve(mirrored(limited_forwards(mirrored(limited_forwards(nodes, slope)), slope)));
+}
+
+} // namespace calotte::density_detail

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/width_rules.h"
+
+#include "base/elementary.h"
+#include "base/lonlat.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "density/cell_width_field.h"
+#include "density/gradient_limit.h"
+#include "density/line_distance.h"
+#include "density/width_profile.h"
+#include "domain/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace calotte {
+namespace density_detail {
+namespace {
+
+using base_detail::require;
+using base_detail::shortly;
+using Rule = std::shared_ptr<const WidthRule>;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// ---- Rules
+
+class ConstantRule : public WidthRule {
+public:
+  explicit ConstantRule(double width) : width_(width) {
+    require(width > 0 && std::isfinite(width),
+            "the cell width " + shortly(width) + " is not a positive number; give km");
+  }
+  void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
+    std::fill(widths.begin(), widths.end(), width_);
+  }
+  double least() const override { return width_; }
+  Rule limited(double) const override { return std::make_shared<ConstantRule>(width_); }
+
+private:
+  double width_;
+};
+
+class RasterRule : public WidthRule {
+public:
+  explicit RasterRule(const CellWidth& raster) : field_(raster) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    constexpr std::size_t most = 128;
+    std::array<double, most> x, y, z;
+    for (std::size_t begin = 0; begin < places.size(); begin += most) {
+      const std::size_t count = std::min(most, places.size() - begin);
+      for (std::size_t k = 0; k < count; ++k)
+        x[k] = places[begin + k].x, y[k] = places[begin + k].y, z[k] = places[begin + k].z;
+      field_(x.data(), y.data(), z.data(), count, widths.data() + begin);
+    }
+  }
+  double least() const override { return field_.least(); }
+
+private:
+  WidthField field_;
+};
+
+class LatitudeRule : public WidthRule {
+public:
+  explicit LatitudeRule(ProfileCurve curve) : curve_(std::move(curve)) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Vec3& p = places[k];
+      // Of the two forms the one that keeps its digits.
+      const double ring = std::sqrt(p.x * p.x + p.y * p.y);
+      const double latitude =
+          ring > std::abs(p.z)
+              ? base_detail::arc_sine(p.z)
+              : std::copysign(std::numbers::pi / 2 - base_detail::arc_sine(ring), p.z);
+      widths[k] = curve_(latitude * degrees);
+    }
+  }
+  double least() const override { return curve_.least(); }
+  /// Along a meridian the way to another latitude is shortest.
+  Rule limited(double gradient) const override {
+    return std::make_shared<LatitudeRule>(curve_.limited(gradient * earth_radius_km / degrees));
+  }
+
+private:
+  ProfileCurve curve_;
+};
+
+class DistanceRule : public WidthRule {
+public:
+  DistanceRule(std::shared_ptr<const LineDistance> distance, ProfileCurve curve)
+      : distance_(std::move(distance)), curve_(std::move(curve)) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    (*distance_)(places, widths);
+    for (double& width : widths)
+      width = curve_(width * earth_radius_km);
+  }
+  double least() const override { return curve_.least(); }
+  /// The distance changes by no more than the way; towards the line by as much.
+  Rule limited(double gradient) const override {
+    return curve_.grows() ? std::make_shared<DistanceRule>(distance_, curve_.limited(gradient))
+                          : nullptr;
+  }
+
+private:
+  std::shared_ptr<const LineDistance> distance_;
+  ProfileCurve curve_;
+};
+
+/// What is made of several rules, place by place.
+class CombinedRule : public WidthRule {
+public:
+  using Combine = double (*)(double, double);
+  CombinedRule(std::vector<Rule> parts, Combine combine)
+      : parts_(std::move(parts)), combine_(combine) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    parts_.front()->evaluate(places, widths);
+    std::vector<double> others(widths.size());
+    for (std::size_t k = 1; k < parts_.size(); ++k) {
+      parts_[k]->evaluate(places, others);
+      std::transform(widths.begin(), widths.end(), others.begin(), widths.begin(), combine_);
+    }
+  }
+  double least() const override {
+    double least = parts_.front()->least();
+    for (std::size_t k = 1; k < parts_.size(); ++k)
+      least = combine_(least, parts_[k]->least());
+    return least;
+  }
+
+protected:
+  const std::vector<Rule>& parts() const { return parts_; }
+
+private:
+  std::vector<Rule> parts_;
+  Combine combine_; ///< does not fall where a width grows
+};
+
+double least_of(double a, double b) { return std::min(a, b); }
+double greatest_of(double a, double b) { return std::max(a, b); }
+double sum_of(double a, double b) { return a + b; }
+double product_of(double a, double b) { return a * b; }
+
+/// The least of several rules: its limit is the least of theirs.
+class MinimumRule : public CombinedRule {
+public:
+  explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
+  Rule limited(double gradient) const override {
+    std::vector<Rule> limited, others;
+    for (const Rule& part : parts())
+      if (Rule own = part->limited(gradient))
+        limited.push_back(std::move(own));
+      else
+        others.push_back(part);
+    if (others.empty())
+      return std::make_shared<MinimumRule>(std::move(limited));
+    if (limited.empty())
+      return nullptr;
+    limited.push_back(density_detail::limited(std::make_shared<MinimumRule>(others), gradient));
+    return std::make_shared<MinimumRule>(std::move(limited));
+  }
+};
+
+/// One rule within a region, another outside.
+class RegionRule : public WidthRule {
+public:
+  RegionRule(Surface region, Rule inside, Rule outside)
+      : region_(std::move(region)), inside_(std::move(inside)), outside_(std::move(outside)) {
+    domain_detail::require_sphere(region_, "widths within a region are");
+  }
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    std::vector<double> others(widths.size());
+    inside_->evaluate(places, widths);
+    outside_->evaluate(places, others);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (!region_.contains({places[k].x, places[k].y, places[k].z}))
+        widths[k] = others[k];
+  }
+  double least() const override { return std::min(inside_->least(), outside_->least()); }
+
+private:
+  Surface region_;
+  Rule inside_, outside_;
+};
+
+std::vector<Rule> rules_of(const std::vector<Widths>& widths) {
+  require(!widths.empty(), "there are no widths to combine; give one or more");
+  std::vector<Rule> rules;
+  for (const Widths& one : widths)
+    rules.push_back(one.shared());
+  return rules;
+}
+
+Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
+  return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
+}
+
+constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
+
+} // namespace
+
+std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullptr; }
+
+std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
+                                         double gradient) {
+  if (Rule exact = rule->limited(gradient))
+    return exact;
+  return std::make_shared<RasterRule>(limit_gradient(sample(*rule, step_for(*rule)), gradient));
+}
+
+double step_for(const WidthRule& rule) {
+  constexpr double finest = 0.05, coarsest = 1;
+  return std::clamp(rule.least() / earth_radius_km * degrees, finest, coarsest);
+}
+
+CellWidth sample(const WidthRule& rule, double step) {
+  CellWidth raster = regular_grid(step);
+  const Eigen::Index columns = raster.longitudes.size();
+  std::vector<double> zeros(static_cast<std::size_t>(columns), 0);
+  std::vector<Vec3> round(static_cast<std::size_t>(columns));
+  base_detail::from_lonlats(raster.longitudes.data(), zeros.data(), columns, round.data());
+  base_detail::for_each_task(raster.latitudes.size(), [&](std::int64_t j) {
+    const Vec3 meridian = base_detail::from_lonlat(0, raster.latitudes[j]);
+    std::vector<Vec3> row;
+    for (const Vec3& at : round)
+      row.push_back({meridian.x * at.x, meridian.x * at.y, meridian.z});
+    rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
+  });
+  return raster;
+}
+
+} // namespace density_detail
+
+using namespace density_detail;
+
+Widths::Widths(double width) : rule_(std::make_shared<ConstantRule>(width)) {}
+Widths::Widths(const CellWidth& raster) : rule_(std::make_shared<RasterRule>(raster)) {}
+Widths::Widths(std::shared_ptr<const WidthRule> rule) : rule_(std::move(rule)) {}
+
+Widths Widths::limit_gradient(double gradient) const {
+  require_gradient(gradient);
+  return Widths(limited(rule_, gradient));
+}
+
+DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
+  const base_detail::Points3Ref x = base_detail::directions_of(places);
+  DoubleVector values(x.cols());
+  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::vector<Vec3> block;
+    for (std::int64_t i = begin; i != end; ++i)
+      block.push_back(domain_detail::as_unit({x(0, i), x(1, i), x(2, i)}));
+    widths.rule().evaluate(block, {values.data() + begin, block.size()});
+  });
+  return values;
+}
+
+CellWidth sampled(const Widths& widths, double step) {
+  require(step == 0 || (step >= 0.01 && step <= 10),
+          "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
+  return sample(widths.rule(), step == 0 ? step_for(widths.rule()) : step);
+}
+
+namespace widths {
+
+Widths by_latitude(const WidthProfile& profile) {
+  return Widths(
+      std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter)));
+}
+
+Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
+  ProfileCurve curve(profile, "a distance", 0, half_round);
+  return Widths(
+      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
+}
+
+Widths minimum(const std::vector<Widths>& of) {
+  return Widths(std::make_shared<MinimumRule>(rules_of(of)));
+}
+Widths maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
+Widths sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
+Widths product(const Widths& widths, double factor) {
+  return combined({widths, factor}, product_of);
+}
+Widths clamp(const Widths& widths, double least, double most) {
+  return minimum({maximum({widths, least}), most});
+}
+Widths where(const Surface& region, const Widths& inside, const Widths& outside) {
+  return Widths(std::make_shared<RegionRule>(region, inside.shared(), outside.shared()));
+}
+
+} // namespace widths
+
+} // namespace calotte

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "density/room.h"
+
+#include <calotte/widths.h>
+
+#include <memory>
+#include <span>
+
+namespace calotte::density_detail {
+
+/// A width for every place of the sphere. Immutable.
+class WidthRule {
+public:
+  WidthRule() = default;
+  WidthRule(const WidthRule&) = delete;
+  WidthRule& operator=(const WidthRule&) = delete;
+  virtual ~WidthRule() = default;
+
+  /// \param places unit vectors. Where each lies next to the one before, it takes less time.
+  virtual void evaluate(std::span<const Vec3> places, std::span<double> widths) const = 0;
+
+  /// A bound from below of all widths, km, > 0.
+  virtual double least() const = 0;
+
+  /// The rule with a limited gradient if no raster is needed for that; else null.
+  virtual std::shared_ptr<const WidthRule> limited(double gradient) const;
+};
+
+/// Any rule with a limited gradient.
+std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
+                                         double gradient);
+
+/// The widths of a rule at the nodes of a raster.
+CellWidth sample(const WidthRule& rule, double step);
+/// The step for its least width, degrees.
+double step_for(const WidthRule& rule);
+
+} // namespace calotte::density_detail

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/clouds.h"
+#include "support/files.h"
+#include "support/random.h"
+
+#include <calotte/generators.h>
+#include <calotte/widths.h>
+
+#include <Eigen/Geometry>
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+// Rules for widths against what their words say, place by place.
+
+using namespace calotte;
+using calotte::test::error_of;
+
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+Eigen::Vector3d direction(double longitude, double latitude) {
+  const double a = longitude * radians, b = latitude * radians;
+  return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
+}
+
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// In the frame of the arc, in long double.
+double angle_from_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                      const Eigen::Vector3d& place) {
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  const Vector a = from.cast<long double>(), b = to.cast<long double>(),
+               p = place.cast<long double>();
+  const Vector normal = a.cross(b).normalized();
+  const auto between = [](const Vector& x, const Vector& y) {
+    return std::atan2(x.cross(y).norm(), x.dot(y));
+  };
+  const Vector ahead = normal.cross(a).normalized();
+  const long double along = std::atan2(p.dot(ahead), p.dot(a.normalized()));
+  if (along >= 0 && along <= between(a, b))
+    return static_cast<double>(std::atan2(std::abs(p.dot(normal)), p.cross(normal).norm()));
+  return static_cast<double>(std::min(between(a, p), between(b, p)));
+}
+
+Points3 line(const std::vector<std::array<double, 2>>& places) {
+  Points3 points(3, std::ssize(places));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    points.col(static_cast<Eigen::Index>(k)) = direction(places[k][0], places[k][1]);
+  return points;
+}
+
+/// Over a pole, over the date line, nearly half way round, in short steps, and a point.
+std::vector<Points3> lines() {
+  std::vector<Points3> all{line({{10, 70}, {-170, 70}, {-160, 40}}), line({{175, -10}, {-175, 10}}),
+                           line({{20, -5}, {199, 4}}), line({{80, -40}}),
+                           line({{100, -60}, {100, -60}, {101, -61}})};
+  test::Random random(3);
+  std::vector<std::array<double, 2>> walk{{-60, 0}};
+  for (int k = 0; k < 400; ++k)
+    walk.push_back({walk.back()[0] + random.real(-1, 1), walk.back()[1] + random.real(-1, 1)});
+  all.push_back(line(walk));
+  return all;
+}
+
+double distance_of(const std::vector<Points3>& lines, const Eigen::Vector3d& place) {
+  double least = 10;
+  for (const Points3& one : lines)
+    for (Eigen::Index i = 0; i < std::max<Eigen::Index>(1, one.cols() - 1); ++i) {
+      const Eigen::Vector3d from = one.col(i), to = one.col(std::min(i + 1, one.cols() - 1));
+      least = std::min(least, from == to ? angle(from, place) : angle_from_arc(from, to, place));
+    }
+  return least;
+}
+
+} // namespace
+
+TEST_CASE("distances are those to arcs and points") {
+  const std::vector<Points3> all = lines();
+  const Points3 places = random_sphere(2000, 1);
+  const double round = std::numbers::pi * earth_radius_km;
+  const DoubleVector widths =
+      evaluate(widths::by_distance(all, {{{0, 1}, {round, 1 + round}}}), places);
+  double worst = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    worst = std::max(worst,
+                     std::abs(widths[i] - 1 - earth_radius_km * distance_of(all, places.col(i))));
+  CHECK(worst < 1e-9); // km
+}
+
+TEST_CASE("profiles follow their nodes, and stay beyond them") {
+  const Points3 places = line({{0, -90}, {50, -80}, {10, -45}, {0, 0}, {120, 30}, {7, 90}});
+  const WidthProfile zones{{{-80, 30}, {0, 60}, {60, 20}}};
+  const DoubleVector straight = evaluate(widths::by_latitude(zones), places);
+  const DoubleVector expected{{30, 30, 30 + 30 * 35.0 / 80, 60, 40, 20}};
+  CHECK((straight - expected).cwiseAbs().maxCoeff() < 1e-12);
+  const DoubleVector smooth =
+      evaluate(widths::by_latitude({zones.nodes, WidthProfile::Between::smooth}), places);
+  const double t = 35.0 / 80;
+  CHECK(smooth[2] == doctest::Approx(30 + 30 * t * t * (3 - 2 * t)).epsilon(1e-6));
+  CHECK(smooth[3] == 60);
+}
+
+TEST_CASE("rules are combined place by place") {
+  const Points3 places = random_sphere(500, 2);
+  const Widths zones = widths::by_latitude({{{-90, 20}, {90, 80}}});
+  const DoubleVector z = evaluate(zones, places);
+  CHECK(evaluate(widths::minimum({zones, 50.0}), places) == z.cwiseMin(50));
+  CHECK(evaluate(widths::maximum({zones, 50.0}), places) == z.cwiseMax(50));
+  CHECK(evaluate(widths::sum({zones, 5.0}), places) == (z.array() + 5).matrix());
+  CHECK(evaluate(widths::product(zones, 2), places) == 2 * z);
+  CHECK(evaluate(widths::clamp(zones, 30, 60), places) == z.cwiseMax(30).cwiseMin(60));
+  const Surface region = circle({1, 0, 0}, 0.5);
+  const DoubleVector w = evaluate(widths::where(region, 10.0, zones), places);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    CHECK(w[i] == (region.contains(places.col(i)) ? 10 : z[i]));
+}
+
+TEST_CASE("limited rules are those of cones, exactly where they grow from lines or by latitude") {
+  const std::vector<Points3> points{line({{10, 89}}), line({{180, 0}}), line({{0, 0}})};
+  const Widths steep = widths::by_distance(points, {{{0, 10}, {100, 300}}}),
+               limited = steep.limit_gradient(0.03);
+  const Points3 places = random_sphere(2000, 3);
+  const DoubleVector got = evaluate(limited, places);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    CHECK(got[i] == doctest::Approx(std::min(300.0, 10 + 0.03 * earth_radius_km *
+                                                             distance_of(points, places.col(i))))
+                        .epsilon(1e-12));
+  // A step of latitude: 20 km north of 30 degrees, 100 km from 29 degrees down.
+  const Widths step = widths::by_latitude({{{29, 100}, {30, 20}}}).limit_gradient(0.03);
+  const double km = earth_radius_km * radians;
+  const DoubleVector along = evaluate(step, line({{0, 40}, {0, 30}, {0, 20}, {0, 10}, {0, -30}}));
+  const DoubleVector law{{20, 20, 20 + 0.3 * km, 20 + 0.6 * km, 100}};
+  CHECK((along - law).cwiseAbs().maxCoeff() < 1e-9);
+  // Limited again, nothing changes; the least of both is limited as both are.
+  CHECK((evaluate(limited.limit_gradient(0.03), places) - got).cwiseAbs().maxCoeff() < 1e-9);
+  const DoubleVector both = evaluate(widths::minimum({steep, step}).limit_gradient(0.03), places);
+  CHECK((both - got.cwiseMin(evaluate(step, places))).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("other limited rules are limited at the nodes of a raster") {
+  const Surface region = circle({0, 0, 1}, 0.3);
+  const Widths inside = widths::where(region, 40.0, 200.0);
+  const DoubleVector got =
+      evaluate(inside.limit_gradient(0.05), line({{0, 90}, {50, 60}, {0, -30}}));
+  CHECK(got[0] == 40);
+  const double beyond = earth_radius_km * (30 * radians - 0.3);
+  CHECK(got[1] == doctest::Approx(40 + 0.05 * beyond).epsilon(0.02));
+  CHECK(got[2] == doctest::Approx(200));
+}
+
+TEST_CASE("a raster of widths has the same bits for any number of threads") {
+  const Widths widths = widths::by_distance(lines(), {{{0, 100}, {3000, 300}}});
+  const DoubleMatrix one = tbb::task_arena(1).execute([&] { return sampled(widths, 2).widths; });
+  for (const int threads : {2, 4})
+    CHECK(tbb::task_arena(threads).execute([&] { return sampled(widths, 2).widths; }) == one);
+  CHECK(sampled(widths).longitudes.size() == 402); // 100 km are 0.899 degrees
+}
+
+TEST_CASE("widths that are none are refused by name") {
+  const auto message = [](const auto& make) { return std::string(error_of(make).what()); };
+  CHECK(message([] { Widths(-1.0); }) == "the cell width -1 is not a positive number; give km");
+  CHECK(message([] { widths::by_latitude({}); }) ==
+        "a profile of the latitude has no node; give one or more");
+  CHECK(message([] {
+          widths::by_latitude({{{0, 10}, {100, 20}}});
+        }) == "node 1 of a profile of the latitude is at 100, outside -90 to 90; correct it");
+  CHECK(message([] {
+          widths::by_latitude({{{10, 10}, {0, 20}}});
+        }) == "node 1 of a profile of the latitude is not above the one before; sort them");
+  CHECK(message([] {
+          widths::by_distance({line({{0, 0}})}, {{{0, 0}}});
+        }) == "node 0 of a profile of a distance has the width 0; give km, > 0");
+  CHECK(message([] {
+          widths::by_distance({}, {{{0, 1}}});
+        }) == "there is no line to be distant from; give one or more points");
+  CHECK(message([] {
+          widths::by_distance({line({{0, 0}, {180, 0}})}, {{{0, 1}}});
+        }) == "line 0, point 1 is opposite to the one before; give a point between them");
+  CHECK(message([] { widths::minimum({}); }) == "there are no widths to combine; give one or more");
+  CHECK(message([] { widths::where(Surface::plane(), 1.0, 2.0); }).find("sphere") !=
+        std::string::npos);
+  CHECK(message([] { sampled(Widths(1.0), 20); }) ==
+        "the step 20 of a raster is out of range; give 0.01 to 10 degrees");
+}
