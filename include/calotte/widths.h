@@ -3,6 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
+#include <calotte/ocean.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -86,6 +87,8 @@ Widths by_latitude(const WidthProfile& profile);
 /// is
 ///         no direction; for no line; naming the node, for a profile that is none.
 Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+/// The same from a coast. Parts of it that coincide, as where polygons are cut, are none.
+Widths by_distance(const Coast& coast, const WidthProfile& profile);
 
 /// \throws Error invalid_argument for an empty list, here and below.
 Widths minimum(const std::vector<Widths>& of);

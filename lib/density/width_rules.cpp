@@ -201,7 +201,15 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
   return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
 }
 
-constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
+/// \param lines, or a coast.
+template <class Lines> Widths distance_from(const Lines& lines, const WidthProfile& profile) {
+  constexpr double farthest = std::numbers::pi * earth_radius_km;
+  ProfileCurve curve(profile, "a distance", 0, farthest);
+  return Widths(
+      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
+}
+
+constexpr double quarter = 90;
 
 } // namespace
 
@@ -274,9 +282,10 @@ Widths by_latitude(const WidthProfile& profile) {
 }
 
 Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
-  ProfileCurve curve(profile, "a distance", 0, half_round);
-  return Widths(
-      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
+  return distance_from(lines, profile);
+}
+Widths by_distance(const Coast& coast, const WidthProfile& profile) {
+  return distance_from(coast, profile);
 }
 
 Widths minimum(const std::vector<Widths>& of) {

@@ -37,10 +37,52 @@ ellipse there has stretch=2,angle=45, with the angle in degrees counter-clockwis
 Instead of --density:
 
   --cell-width 60km          one width; 163842 cells are 60 km wide on the Earth
-  --cell-width FILE          widths in km: NetCDF cellWidth(lat, lon), JIGSAW .msh, or .geojson
+  --cell-width FILE          widths in km: NetCDF cellWidth(lat, lon), JIGSAW .msh, .geojson, or
+                             rules (.toml), see calotte help widths
   --density-raster FILE      NetCDF density(lat, lon), in the plane density(y, x)
 
 calotte plan describes the grid that a density or widths lead to; calotte draw shows them on a map.
+)";
+
+constexpr const char* widths =
+    R"(--cell-width FILE.toml reads rules for the width of cells, in km on the Earth. The file has one
+table:
+
+  [cell-width]
+  gradient = 0.03
+  min = [
+    { latitude = [[-90, 35], [-30, 60], [0, 30], [30, 60], [90, 35]] },
+    { distance-to = "coast.geojson", near = 10, far = 60, over = 600 },
+    { lines = "straits.geojson", width = 5, over = 200 },
+  ]
+
+A rule has one of these keys, which says what it is, and the keys after it:
+
+  width = KM              one width
+  latitude = [[DEGREES, KM], ...]   by latitude; between
+  distance-to = FILE      by the distance from the nearest line, side or point of a file: near and
+                          far, the widths at 0 and from the distance `over` on; or
+                          profile = [[KM, WIDTH], ...]; between
+  lines = FILE            `width` up to the distance `over`; beyond it the rule says nothing
+  raster = FILE           widths of a NetCDF raster, or of JIGSAW's .msh
+  polygons = FILE         of GeoJSON: inside, outside, transition, as the options of that name
+  min = [RULES]           the least of several; a number is a rule, too; max, sum likewise
+
+Any rule takes also, in this order:
+
+  times = FACTOR          of the widths
+  least = KM, most = KM   limits of the widths
+  within = FILE           a region, see calotte help region; outside it the rule says nothing
+  gradient = G            the largest widths that are nowhere above the rule's and change by at most
+                          G km per km, such as 0.03: grids of steep widths have bad cells
+
+  between = "smooth"      between two numbers along a cubic that is level at both, not along a line
+  step = DEGREES          of the raster that all rules become, in the table [cell-width]; default:
+                          the least width, within 0.05 to 1
+
+A FILE of lines is GeoJSON of lines or of polygons, a coast of GSHHG (.nc), or points (.txt):
+longitude and latitude a line. Names are relative to the folder of the TOML file. Distances are along
+great circles.
 )";
 
 constexpr const char* region =
@@ -181,6 +223,7 @@ const std::vector<Topic>& topics() {
   static const std::vector<Topic> all{
       {"formats", "Formats of mesh files, and their names", formats_text()},
       {"density", "Syntax of --density, and of widths in km", density},
+      {"widths", "Rules for widths in km, in a TOML file", widths},
       {"region", "Syntax of --region: shapes and files", region},
       {"measures", "Meaning of what info and view measure", measures},
       {"exit-codes", "Meaning of the exit codes", codes}};

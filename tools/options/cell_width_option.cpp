@@ -3,6 +3,7 @@
 
 #include "options/files.h"
 #include "options/numbers.h"
+#include "options/width_rules.h"
 #include "text/text.h"
 
 #include <calotte/generators.h>
@@ -76,6 +77,20 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
   return notes;
 }
 
+bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
+
+/// \throws Error invalid_argument for rules that say nothing of a place.
+CellWidth sampled_rules(const std::string& path) {
+  const WidthRules rules = read_width_rules(path);
+  CellWidth widths = sampled(rules.widths, rules.step);
+  Eigen::Index column = 0, row = 0;
+  if (widths.widths.maxCoeff(&column, &row) >= 0.5 * no_demand)
+    refuse(path + ": no rule gives a width at " +
+           lonlat_words(widths.longitudes[column], widths.latitudes[row]) +
+           "; add one that holds everywhere, such as { width = 60 }");
+  return widths;
+}
+
 /// The widths without a limit of their gradient.
 CellWidth read_as_given(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
@@ -88,6 +103,8 @@ CellWidth read_as_given(const WidthWords& words, const Surface& region) {
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
   if (words.uniform)
     return uniform_widths(*words.uniform);
+  if (is_toml(words.file))
+    return sampled_rules(words.file);
   return read_cell_width(words.file,
                          {.inside = words.inside.value_or(0),
                           .outside = words.outside.value_or(0),
@@ -115,8 +132,9 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
           .add_option_function<std::string>(
               "--cell-width", [&words](const std::string& text) { set_widths(words, text); },
               "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
-              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), or polygons "
-              "(.geojson). In the plane a number in its unit, or NetCDF cellWidth(y, x)")
+              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), polygons "
+              "(.geojson), or rules (.toml), see calotte help widths. In the plane a number in its "
+              "unit, or NetCDF cellWidth(y, x)")
           ->check(width_or_file())
           ->type_name("KM|FILE")
           ->excludes(density);
@@ -180,6 +198,9 @@ std::string width_configuration(const WidthWords& words) {
     return "density-raster of " + checksum_of(words.raster) + "\n";
   std::string text =
       "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
+  if (is_toml(words.file))
+    for (const std::string& named : files_of_rules(words.file))
+      text += "rules of " + checksum_of(named) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
       text += name + " " + shortest(*value) + "\n";

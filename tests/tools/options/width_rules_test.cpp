@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/width_rules.h"
+
+#include "support/files.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+#include <calotte/widths.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+// Files of rules against the same rules in C++, and what is refused, with its line.
+
+using namespace calotte;
+using namespace calotte::tools;
+using calotte::test::Scratch;
+
+namespace {
+
+Points3 places() {
+  Points3 points(3, 5);
+  points << 1, 0, 0, 0.6, -0.36, 0, 1, 0, 0, 0.48, 0, 0, 1, 0.8, 0.8;
+  return points;
+}
+
+/// A folder with a line from 10 W to 10 E on the equator, an island, and a file of rules.
+class Rules {
+public:
+  Rules() {
+    test::write_text(folder_ / "line.geojson",
+                     R"({"type": "LineString", "coordinates": [[-10, 0], [10, 0]]})");
+    test::write_text(
+        folder_ / "island.geojson",
+        R"({"type": "Polygon", "coordinates": [[[0, 0], [20, 0], [20, 20], [0, 0]]]})");
+    test::write_text(folder_ / "points.txt", "0 90\n180 0\n");
+  }
+  std::string path() const { return folder_ / "w.toml"; }
+  std::string beside(const std::string& name) const { return folder_ / name; }
+
+  WidthRules read(const std::string& text) const {
+    test::write_text(path(), text);
+    return read_width_rules(path());
+  }
+  DoubleVector widths(const std::string& text) const {
+    return evaluate(read("[cell-width]\n" + text).widths, places());
+  }
+  /// Without the name of the file.
+  std::string refused(const std::string& text) const {
+    const std::string message = test::error_of([&] { read(text); }).what();
+    REQUIRE(message.starts_with(path()));
+    return message.substr(path().size());
+  }
+
+private:
+  Scratch folder_;
+};
+
+} // namespace
+
+TEST_CASE("each rule of a file is that of the library") {
+  const Rules rules;
+  const Points3 line = read_lines(rules.beside("line.geojson")).front();
+  const WidthProfile grows{{{0, 10}, {600, 60}}};
+  CHECK(rules.widths("width = 60") == DoubleVector::Constant(5, 60));
+  CHECK(rules.widths("latitude = [[-90, 35], [0, 60], [90, 20]]") ==
+        evaluate(widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), places()));
+  CHECK(rules.widths("distance-to = \"line.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
+        evaluate(widths::by_distance({line}, grows), places()));
+  CHECK(rules.widths("distance-to = \"line.geojson\"\nprofile = [[0, 10], [600, 60]]\n"
+                     "between = \"smooth\"") ==
+        evaluate(widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
+                 places()));
+  CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
+        evaluate(widths::by_distance(read_coast(rules.beside("island.geojson")), grows), places()));
+  const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
+  CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
+        evaluate(widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
+                 places()));
+  CHECK(rules.widths("gradient = 0.03\nmin = [50, {latitude = [[0, 60], [90, 20]]}, "
+                     "{distance-to = \"line.geojson\", near = 10, far = 60, over = 600}]") ==
+        evaluate(widths::minimum({50.0, widths::by_latitude({{{0, 60}, {90, 20}}}),
+                                  widths::by_distance({line}, grows)})
+                     .limit_gradient(0.03),
+                 places()));
+  CHECK(rules.widths("sum = [30, 5]\ntimes = 2\nmost = 65") == DoubleVector::Constant(5, 65));
+}
+
+TEST_CASE("a rule for a part says nothing elsewhere") {
+  const Rules rules;
+  const DoubleVector band =
+      rules.widths("min = [60, {lines = \"line.geojson\", width = 5, over = 200}]");
+  CHECK(band == DoubleVector{{5, 60, 60, 60, 60}});
+  const DoubleVector part = rules.widths("width = 5\nwithin = \"island.geojson\"");
+  CHECK(part[2] >= no_demand);
+  CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
+  test::write_text(rules.path(),
+                   "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
+  CHECK(files_of_rules(rules.path()) ==
+        std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
+}
+
+TEST_CASE("files of rules that are none are refused with their line") {
+  const Rules rules;
+  CHECK(rules.refused("width = 60") ==
+        ": a file of widths has one table, [cell-width]; see calotte help widths");
+  CHECK(rules.refused("[cell-width]\nwidths = 60") ==
+        " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, raster, "
+        "polygons, width");
+  CHECK(rules.refused("[cell-width]\nwidth = -60") ==
+        " line 2: width is not a positive number; give one");
+  CHECK(rules.refused("[cell-width]\n\nmin = [60,\n {width = 5, over = 3}]") ==
+        " line 4: the rule does not take over; it takes gradient, least, most, times, width, "
+        "within; see calotte help widths");
+  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60], [10]]") ==
+        " line 2: latitude holds no pair at place 1; give [[number, width], ...]");
+  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60], [100, 10]]") ==
+        " line 1: node 1 of a profile of the latitude is at 100, outside -90 to 90; correct it");
+  CHECK(rules.refused("[cell-width]\ndistance-to = \"line.geojson\"\nnear = 10") ==
+        " line 1: the rule needs far; give a number");
+  CHECK(rules.refused("[cell-width]\nmin = []") ==
+        " line 2: min holds no rules; give [{...}, {...}]");
+  CHECK(rules.refused("[cell-width]\nwidth = 5\nbetween = \"smooth\"")
+            .starts_with(" line 3: the rule does not take between"));
+  CHECK(test::error_of([&] {
+          rules.read("[cell-width]\ndistance-to = \"none.nc\"\nnear = 1\nfar = 2\nover = 3");
+        }).code() == ErrorCode::file);
+}

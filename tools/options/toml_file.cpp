@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/toml_file.h"
+
+#include "io/command.h"
+
+#include <calotte/error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace calotte::tools {
+namespace {
+
+/// The parser's tables call themselves for each part of a key such as a.b.c; here two do for all.
+class KeyParts {
+public:
+  static constexpr int most = 32;
+
+  /// Whether a key of the text has more parts.
+  static bool exceeded(std::string_view text) {
+    int parts = 1;
+    for (std::size_t k = 0; k < text.size(); ++k)
+      switch (text[k]) {
+      case '"':
+      case '\'':
+        k = end_of_text(text, k) - 1;
+        break;
+      case '#':
+        k = std::min(text.find('\n', k), text.size()) - 1;
+        break;
+      case '.':
+        if (++parts > most)
+          return true;
+        break;
+      case '\n':
+      case '=':
+      case ',':
+      case '[':
+      case ']':
+      case '{':
+      case '}':
+        parts = 1;
+        break;
+      default:
+        break;
+      }
+    return false;
+  }
+
+private:
+  /// Past the quote that ends the text which begins there.
+  static std::size_t end_of_text(std::string_view text, std::size_t begin) {
+    const char quote = text[begin];
+    const std::string_view three = text.substr(begin, 3);
+    const bool lines = three == std::string(3, quote);
+    const std::string end(lines ? 3 : 1, quote);
+    for (std::size_t k = begin + end.size(); k < text.size(); ++k)
+      if (quote == '"' && text[k] == '\\')
+        ++k;
+      else if (text.substr(k).starts_with(end))
+        return k + end.size();
+      else if (!lines && text[k] == '\n') // the parser refuses it
+        return k;
+    return text.size();
+  }
+};
+
+/// \throws Error parse for a text that would take much memory or stack.
+std::string read_text(const std::string& path) {
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 20;
+  std::error_code error;
+  if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > most)
+    throw Error(ErrorCode::parse, path + ": " + std::to_string(size) +
+                                      " bytes are too many for a file of options; give a TOML file "
+                                      "of at most 1 MiB");
+  std::string text = read_file(path);
+  if (KeyParts::exceeded(text))
+    throw Error(ErrorCode::parse, path + ": a key of more than " + std::to_string(KeyParts::most) +
+                                      " parts; write key = value");
+  return text;
+}
+
+} // namespace
+
+toml::table read_toml(const std::string& path) {
+  try {
+    return toml::parse(read_text(path), path);
+  } catch (const toml::parse_error& error) {
+    refuse_line(path, error.source().begin.line,
+                std::string(error.description()) + "; write key = value, with text in quotes");
+  }
+}
+
+void refuse_line(const std::string& path, std::int64_t line, const std::string& problem) {
+  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
+}
+
+} // namespace calotte::tools

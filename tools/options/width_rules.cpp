@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options/width_rules.h"
+
+#include "options/toml_file.h"
+#include "text/text.h"
+
+#include <calotte/error.h>
+#include <calotte/read.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+std::string beside(const std::string& path, const std::filesystem::path& name) {
+  return (std::filesystem::path(path).parent_path() / name).string();
+}
+
+/// One table of a file, whose keys are taken one after the other.
+class RuleTable {
+public:
+  RuleTable(const std::string& path, const toml::table& table) : path_(path), table_(table) {}
+
+  bool has(const std::string& key) const { return table_.contains(key); }
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
+    const toml::node* const node = table_.get(key);
+    refuse_line(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
+                key + " " + problem);
+  }
+
+  const toml::node* take(const std::string& key) {
+    taken_.insert(key);
+    return table_.get(key);
+  }
+
+  double number(const std::string& key) {
+    const toml::node* const node = take(key);
+    if (node == nullptr)
+      refuse_line(path_, table_.source().begin.line, "the rule needs " + key + "; give a number");
+    const std::optional<double> value = node->value<double>();
+    if (!value || !(*value > 0) || !std::isfinite(*value))
+      refuse(key, "is not a positive number; give one");
+    return *value;
+  }
+
+  std::string text(const std::string& key, const std::string& what) {
+    const toml::node* const node = take(key);
+    const std::optional<std::string> value = node ? node->value_exact<std::string>() : std::nullopt;
+    if (!value || value->empty())
+      refuse(key, "is no text; give " + what + " in quotes");
+    return *value;
+  }
+
+  WidthProfile::Between between() {
+    if (!has("between"))
+      return WidthProfile::Between::linear;
+    const std::string word = text("between", "linear or smooth");
+    if (word != "linear" && word != "smooth")
+      refuse("between", "is \"" + word + "\"; give linear or smooth");
+    return word == "smooth" ? WidthProfile::Between::smooth : WidthProfile::Between::linear;
+  }
+
+  /// Pairs of numbers.
+  WidthProfile pairs(const std::string& key) {
+    const toml::node* const node = take(key);
+    WidthProfile profile;
+    if (const toml::array* const list = node->as_array())
+      for (const toml::node& item : *list) {
+        const toml::array* const pair = item.as_array();
+        const auto at = [&](std::size_t k) {
+          return pair != nullptr && pair->size() == 2 ? (*pair)[k].value<double>() : std::nullopt;
+        };
+        if (!at(0) || !at(1))
+          refuse(key, "holds no pair at place " + std::to_string(profile.nodes.size()) +
+                          "; give [[number, width], ...]");
+        profile.nodes.push_back({*at(0), *at(1)});
+      }
+    if (profile.nodes.empty())
+      refuse(key, "holds no pairs; give [[number, width], ...]");
+    profile.between = between();
+    return profile;
+  }
+
+  /// \throws Error parse for a key that nobody took.
+  void require_all_taken() const {
+    for (const auto& [key, node] : table_)
+      if (!taken_.contains(std::string(key.str())))
+        refuse_line(path_, key.source().begin.line,
+                    "the rule does not take " + std::string(key.str()) + "; it takes " +
+                        joined({taken_.begin(), taken_.end()}) + "; see calotte help widths");
+  }
+
+  /// With the place in the file before what the library refuses.
+  template <class Make> Widths made(const Make& make) const {
+    try {
+      return make();
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::invalid_argument)
+        throw;
+      refuse_line(path_, table_.source().begin.line, error.what());
+    }
+  }
+
+private:
+  const std::string& path_;
+  const toml::table& table_;
+  std::set<std::string> taken_;
+};
+
+class RuleReader {
+public:
+  explicit RuleReader(const std::string& path) : path_(path) {}
+
+  WidthRules rules() {
+    const toml::table root = read_toml(path_);
+    const toml::table* const table = root["cell-width"].as_table();
+    if (table == nullptr || root.size() != 1)
+      throw Error(ErrorCode::parse,
+                  path_ +
+                      ": a file of widths has one table, [cell-width]; see calotte help widths");
+    double step = 0;
+    Widths widths = rule_of(*table, &step);
+    return {std::move(widths), step};
+  }
+
+private:
+  using Source = Widths (RuleReader::*)(RuleTable&);
+
+  /// A rule has one of these keys, which says what it is; the first that is there.
+  static const std::vector<std::pair<std::string, Source>>& sources() {
+    static const std::vector<std::pair<std::string, Source>> all{
+        {"min", &RuleReader::least},
+        {"max", &RuleReader::greatest},
+        {"sum", &RuleReader::sum},
+        {"latitude", &RuleReader::latitude},
+        {"distance-to", &RuleReader::distance},
+        {"lines", &RuleReader::lines},
+        {"raster", &RuleReader::raster},
+        {"polygons", &RuleReader::polygons},
+        {"width", &RuleReader::constant}};
+    return all;
+  }
+
+  /// \param step takes the key of that name; null where a rule has none.
+  Widths rule_of(const toml::table& given, double* step = nullptr) {
+    RuleTable table(path_, given);
+    if (step != nullptr && table.take("step") != nullptr)
+      *step = table.number("step");
+    for (const auto& [key, source] : sources())
+      if (table.has(key))
+        return changed(table, table.made([&] { return (this->*source)(table); }));
+    std::vector<std::string> keys;
+    for (const auto& [key, source] : sources())
+      keys.push_back(key);
+    refuse_line(path_, given.source().begin.line, "a rule has one of the keys " + joined(keys));
+  }
+
+  /// What any rule may have: a part of the sphere, a factor, limits.
+  Widths changed(RuleTable& table, Widths widths) {
+    if (table.take("times") != nullptr)
+      widths = widths::product(widths, table.number("times"));
+    if (table.take("least") != nullptr)
+      widths = widths::maximum({widths, table.number("least")});
+    if (table.take("most") != nullptr)
+      widths = widths::minimum({widths, table.number("most")});
+    if (table.take("within") != nullptr)
+      widths = widths::where(read_region(file(table, "within")), widths, no_demand);
+    if (table.take("gradient") != nullptr)
+      widths = widths.limit_gradient(table.number("gradient"));
+    table.require_all_taken();
+    return widths;
+  }
+
+  std::string file(RuleTable& table, const std::string& key) {
+    const std::filesystem::path name = table.text(key, "the name of a file");
+    return beside(path_, name);
+  }
+
+  std::vector<Widths> parts(RuleTable& table, const std::string& key) {
+    const toml::array* const list = table.take(key)->as_array();
+    std::vector<Widths> parts;
+    if (list != nullptr)
+      for (const toml::node& item : *list) {
+        if (const toml::table* const inner = item.as_table())
+          parts.push_back(rule_of(*inner));
+        else if (const std::optional<double> width = item.value<double>())
+          parts.push_back(table.made([&] { return Widths(*width); }));
+        else
+          table.refuse(key, "holds something else than rules; give [{...}, {...}]");
+      }
+    if (parts.empty())
+      table.refuse(key, "holds no rules; give [{...}, {...}]");
+    return parts;
+  }
+
+  Widths least(RuleTable& table) { return widths::minimum(parts(table, "min")); }
+  Widths greatest(RuleTable& table) { return widths::maximum(parts(table, "max")); }
+  Widths sum(RuleTable& table) { return widths::sum(parts(table, "sum")); }
+  Widths constant(RuleTable& table) { return table.number("width"); }
+  Widths latitude(RuleTable& table) { return widths::by_latitude(table.pairs("latitude")); }
+
+  Widths distance(RuleTable& table) {
+    const std::string path = file(table, "distance-to");
+    if (table.has("profile"))
+      return by_distance(path, table.pairs("profile"));
+    const double near = table.number("near"), far = table.number("far"),
+                 over = table.number("over");
+    return by_distance(path, {{{0, near}, {over, far}}, table.between()});
+  }
+
+  /// A band about lines; beyond it the rule says nothing.
+  Widths lines(RuleTable& table) {
+    const std::string path = file(table, "lines");
+    const double width = table.number("width"), over = table.number("over");
+    constexpr double edge = 1e-6; // km
+    return by_distance(path, {{{0, width}, {over, width}, {over + edge, no_demand}}});
+  }
+
+  static Widths by_distance(const std::string& path, const WidthProfile& profile) {
+    const std::string suffix = std::filesystem::path(path).extension();
+    if (suffix == ".txt") {
+      std::vector<Points3> points;
+      const Points3 all = read_points(path, Columns::lonlat);
+      for (Eigen::Index i = 0; i < all.cols(); ++i)
+        points.emplace_back(all.col(i));
+      return widths::by_distance(points, profile);
+    }
+    if (suffix == ".nc")
+      return widths::by_distance(read_coast(path), profile);
+    try {
+      return widths::by_distance(read_lines(path), profile);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::parse)
+        throw;
+      return widths::by_distance(read_coast(path), profile); // of polygons
+    }
+  }
+
+  Widths raster(RuleTable& table) { return read_cell_width(file(table, "raster")); }
+
+  Widths polygons(RuleTable& table) {
+    const std::string path = file(table, "polygons");
+    PolygonWidths widths;
+    for (const auto& [key, value] : {std::pair{"inside", &widths.inside},
+                                     {"outside", &widths.outside},
+                                     {"transition", &widths.transition}})
+      if (table.take(key) != nullptr)
+        *value = table.number(key);
+    return read_cell_width(path, widths);
+  }
+
+  const std::string& path_;
+};
+
+} // namespace
+
+WidthRules read_width_rules(const std::string& path) { return RuleReader(path).rules(); }
+
+std::vector<std::string> files_of_rules(const std::string& path) {
+  std::vector<std::string> files;
+  const auto add = [&](const auto& self, const toml::node& node) -> void {
+    if (const toml::array* const list = node.as_array())
+      for (const toml::node& item : *list)
+        self(self, item);
+    if (const toml::table* const table = node.as_table())
+      for (const auto& [key, value] : *table) {
+        static const std::set<std::string_view> named{"distance-to", "lines", "raster", "polygons",
+                                                      "within"};
+        if (const auto* const text = value.as_string(); text && named.contains(key.str()))
+          files.push_back(beside(path, text->get()));
+        self(self, value);
+      }
+  };
+  add(add, read_toml(path));
+  return files;
+}
+
+} // namespace calotte::tools
