@@ -34,5 +34,6 @@
 #include <calotte/types.h>
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
+#include <calotte/widths.h>
 #include <calotte/write.h>
 #include <calotte/write_grid.h>

@@ -23,6 +23,10 @@ struct Coast {
   double area = 0; ///< of the land, steradians
 };
 
+/// The arcs of a coast, each a line of two points. Those that occur in both directions, as where
+/// polygons are cut, are no shore.
+std::vector<Points3> shores(const Coast& coast);
+
 /// The land around a point, such as an island with its lakes: the smallest left side of a ring that
 /// contains it, without the loops in which a simplified coast crosses itself.
 /// \param point direction of any norm.

@@ -3,7 +3,6 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
-#include <calotte/ocean.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -81,14 +80,12 @@ Widths by_latitude(const WidthProfile& profile);
 
 /// By the distance from the nearest of some lines, along great circles.
 /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; a line may
-///        be a single point.
+///        be a single point. See read_shapes() and shores().
 /// \param profile of the distance in km, from 0 on.
 /// \throws Error invalid_argument, naming line and point, for opposite neighbours or a point that
 /// is
 ///         no direction; for no line; naming the node, for a profile that is none.
 Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
-/// The same from a coast. Parts of it that coincide, as where polygons are cut, are none.
-Widths by_distance(const Coast& coast, const WidthProfile& profile);
 
 /// \throws Error invalid_argument for an empty list, here and below.
 Widths minimum(const std::vector<Widths>& of);

@@ -5,7 +5,6 @@
 #include "base/require.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -56,31 +55,10 @@ std::vector<Arc> arcs_of(const std::vector<Points3>& lines) {
   return arcs;
 }
 
-/// The arcs of a coast without those that occur in both directions.
-std::vector<Points3> lines_of(const Coast& coast) {
-  using Ends = std::array<double, 6>;
-  std::vector<Ends> arcs;
-  for (const Points3& ring : coast.rings)
-    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
-      const auto from = ring.col(i), to = ring.col((i + 1) % ring.cols());
-      arcs.push_back({from.x(), from.y(), from.z(), to.x(), to.y(), to.z()});
-    }
-  std::vector<Ends> sorted = arcs;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<Points3> lines;
-  for (const Ends& arc : arcs)
-    if (!std::binary_search(sorted.begin(), sorted.end(),
-                            Ends{arc[3], arc[4], arc[5], arc[0], arc[1], arc[2]}))
-      lines.emplace_back(Eigen::Map<const Points3>(arc.data(), 3, 2));
-  return lines;
-}
-
 } // namespace
 
 LineDistance::LineDistance(const std::vector<Points3>& lines)
     : arcs_(arcs_of(lines)), tree_(arcs_) {}
-
-LineDistance::LineDistance(const Coast& coast) : LineDistance(lines_of(coast)) {}
 
 double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
   const Arc& arc = arcs_[static_cast<std::size_t>(item)];

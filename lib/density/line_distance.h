@@ -6,7 +6,6 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 
-#include <calotte/ocean.h>
 #include <calotte/types.h>
 
 #include <span>
@@ -19,7 +18,6 @@ class LineDistance {
 public:
   /// \param lines see widths::by_distance(). \throws Error as there.
   explicit LineDistance(const std::vector<Points3>& lines);
-  explicit LineDistance(const Coast& coast);
 
   /// Radians, at unit vectors. Where each lies next to the one before, it takes less time.
   void operator()(std::span<const Vec3> places, std::span<double> angles) const;

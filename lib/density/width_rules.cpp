@@ -201,15 +201,7 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
   return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
 }
 
-/// \param lines, or a coast.
-template <class Lines> Widths distance_from(const Lines& lines, const WidthProfile& profile) {
-  constexpr double farthest = std::numbers::pi * earth_radius_km;
-  ProfileCurve curve(profile, "a distance", 0, farthest);
-  return Widths(
-      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
-}
-
-constexpr double quarter = 90;
+constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
 
 } // namespace
 
@@ -282,10 +274,9 @@ Widths by_latitude(const WidthProfile& profile) {
 }
 
 Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
-  return distance_from(lines, profile);
-}
-Widths by_distance(const Coast& coast, const WidthProfile& profile) {
-  return distance_from(coast, profile);
+  ProfileCurve curve(profile, "a distance", 0, half_round);
+  return Widths(
+      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
 }
 
 Widths minimum(const std::vector<Widths>& of) {

@@ -11,7 +11,7 @@ import re
 import textwrap
 
 import calotte
-from calotte import _calotte, _functions
+from calotte import _calotte, _functions, widths
 
 GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "operator_errors",
@@ -24,8 +24,9 @@ GROUPS = [
                   "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
 ]
+WIDTHS = ["by_latitude", "distance_to", "minimum", "maximum", "sum", "where", "rule"]
 KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Voronoi", "Locations", "Cvt", "Level", "Plan", "Quality",
-         "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Error"]
+         "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 
 
 def escaped(text):
@@ -119,6 +120,9 @@ def page():
         lines += [f"## {title}", ""]
         for name in names:
             lines += function_lines(name, getattr(_functions, name))
+    lines += ["## Rules for widths", "", "Of the module `calotte.widths`; see [Cell widths](cell-widths.md).", ""]
+    for name in WIDTHS:
+        lines += function_lines(name, getattr(widths, name))
     lines += ["## Types", ""]
     for name in KINDS:
         lines += kind_lines(name)

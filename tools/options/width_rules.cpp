@@ -209,10 +209,10 @@ private:
   Widths distance(RuleTable& table) {
     const std::string path = file(table, "distance-to");
     if (table.has("profile"))
-      return by_distance(path, table.pairs("profile"));
+      return widths::by_distance(read_shapes(path), table.pairs("profile"));
     const double near = table.number("near"), far = table.number("far"),
                  over = table.number("over");
-    return by_distance(path, {{{0, near}, {over, far}}, table.between()});
+    return widths::by_distance(read_shapes(path), {{{0, near}, {over, far}}, table.between()});
   }
 
   /// A band about lines; beyond it the rule says nothing.
@@ -220,27 +220,8 @@ private:
     const std::string path = file(table, "lines");
     const double width = table.number("width"), over = table.number("over");
     constexpr double edge = 1e-6; // km
-    return by_distance(path, {{{0, width}, {over, width}, {over + edge, no_demand}}});
-  }
-
-  static Widths by_distance(const std::string& path, const WidthProfile& profile) {
-    const std::string suffix = std::filesystem::path(path).extension();
-    if (suffix == ".txt") {
-      std::vector<Points3> points;
-      const Points3 all = read_points(path, Columns::lonlat);
-      for (Eigen::Index i = 0; i < all.cols(); ++i)
-        points.emplace_back(all.col(i));
-      return widths::by_distance(points, profile);
-    }
-    if (suffix == ".nc")
-      return widths::by_distance(read_coast(path), profile);
-    try {
-      return widths::by_distance(read_lines(path), profile);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::parse)
-        throw;
-      return widths::by_distance(read_coast(path), profile); // of polygons
-    }
+    return widths::by_distance(read_shapes(path),
+                               {{{0, width}, {over, width}, {over + edge, no_demand}}});
   }
 
   Widths raster(RuleTable& table) { return read_cell_width(file(table, "raster")); }

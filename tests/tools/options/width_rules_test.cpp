@@ -75,7 +75,8 @@ TEST_CASE("each rule of a file is that of the library") {
         evaluate(widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
                  places()));
   CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
-        evaluate(widths::by_distance(read_coast(rules.beside("island.geojson")), grows), places()));
+        evaluate(widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
+                 places()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
   CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),

@@ -36,7 +36,7 @@ __all__ = [
     "to_lonlat", "voronoi", "write",
 ]
 
-_SUBMODULES = ("mpas_tools", "scipy", "stripy")
+_SUBMODULES = ("mpas_tools", "scipy", "stripy", "widths")
 
 
 def __getattr__(name):

@@ -22,6 +22,7 @@ PYBIND11_MODULE(_calotte, module) {
   add_errors(module);
   add_surfaces(module);
   add_densities(module);
+  add_widths(module);
   add_meshes(module);
   add_cells(module);
   add_operators(module);

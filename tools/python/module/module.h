@@ -13,6 +13,7 @@ void add_cells(pybind11::module_& module);
 void add_operators(pybind11::module_& module);
 void add_corners(pybind11::module_& module);
 void add_densities(pybind11::module_& module);
+void add_widths(pybind11::module_& module);
 void add_surfaces(pybind11::module_& module);
 void add_tessellations(pybind11::module_& module);
 void add_points(pybind11::module_& module);

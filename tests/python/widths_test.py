@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rules for cell widths: what their words say, and that the command makes the same grid of them."""
+import json
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import calotte
+from calotte import widths
+
+COMMAND = os.environ.get("CALOTTE_COMMAND", "calotte")
+RADIUS = 6371.0
+ROUND = [np.arange(0, 360, 30), np.linspace(-75, 75, 12)]
+
+
+def test_rules_are_what_they_say():
+    lon, lat = ROUND
+    assert widths.by_latitude([(-90, 20), (90, 200)])(lon, lat) == pytest.approx(110 + lat, rel=1e-12)
+    pole = widths.distance_to([(0, 90)], near=10, far=1010, over=RADIUS * np.pi)
+    assert pole(lon, lat) == pytest.approx(10 + 1000 * (90 - lat) / 180, rel=1e-12)
+    assert (widths.minimum(pole, 300)(lon, lat) == np.minimum(pole(lon, lat), 300)).all()
+    assert (widths.maximum(pole, 300)(lon, lat) == np.maximum(pole(lon, lat), 300)).all()
+    assert (widths.sum(pole, 300)(lon, lat) == pole(lon, lat) + 300).all()
+    assert ((2 * pole)(lon, lat) == 2 * pole(lon, lat)).all()
+    part = widths.where("circle=0,90,60deg", 10, 20)
+    assert (part(lon, lat) == np.where(lat > 30, 10, 20)).all()
+    limited = widths.distance_to([[(0, 0)], [(180, 0)]], profile=[(0, 10), (100, 300)]).limit_gradient(0.03)
+    assert limited(90, 0) == pytest.approx(10 + 0.03 * RADIUS * np.pi / 2, rel=1e-12)
+
+
+def test_functions_and_rasters_are_rules():
+    function = widths.rule(lambda lon, lat: 100 + lat / 9)
+    assert function(*ROUND) == pytest.approx(100 + ROUND[1] / 9, rel=1e-4)
+    raster = widths.by_latitude([(-90, 100), (90, 300)]).to_xarray(1)
+    assert raster.dims == ("lat", "lon") and raster.attrs["units"] == "km"
+    assert widths.rule(raster)(*ROUND) == pytest.approx(200 + ROUND[1] / 0.9, rel=1e-3)
+
+
+def test_the_command_makes_the_same_grid(tmp_path):
+    line = [[-60, 20], [0, 40], [60, 20]]
+    (tmp_path / "line.geojson").write_text(json.dumps({"type": "LineString", "coordinates": line}))
+    (tmp_path / "w.toml").write_text("""
+[cell-width]
+gradient = 0.05
+min = [900, {latitude = [[0, 900], [90, 600]]},
+       {distance-to = "line.geojson", near = 300, far = 900, over = 2000}]
+""")
+    subprocess.run([COMMAND, "cvt", "--cell-width", str(tmp_path / "w.toml"), "-o", str(tmp_path / "a.vtp")],
+                   check=True, capture_output=True)
+    rule = widths.minimum(900, widths.by_latitude([(0, 900), (90, 600)]),
+                          widths.distance_to(line, near=300, far=900, over=2000)).limit_gradient(0.05)
+    grid = calotte.cvt(cell_width=rule)
+    assert (calotte.read(tmp_path / "a.vtp").points == grid.mesh.points).all()
+    assert calotte.quality(grid.mesh, cell_width=rule).obtuse == 0
+
+
+@pytest.mark.parametrize("make, words", [
+    (lambda: widths.by_latitude([1, 2]), "pairs"),
+    (lambda: widths.by_latitude([(0, 10), (100, 20)]), "outside -90 to 90"),
+    (lambda: widths.distance_to([(0, 0)], near=1), "near, far and over"),
+    (lambda: widths.distance_to([(0, 0)], 1, 2, 3, profile=[(0, 1)]), "not both"),
+    (lambda: widths.rule(-5), "-5 is not a positive number"),
+    (lambda: widths.minimum(), "no widths"),
+    (lambda: widths.rule(5).limit_gradient(0), "gradient"),
+])
+def test_what_is_no_rule(make, words):
+    with pytest.raises(calotte.Error, match=words):
+        make()

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rules for cell widths: a width in km for every place of the Earth.
+
+Rules, numbers of km, rasters and functions of longitude and latitude go in wherever a rule does, and
+a rule goes in wherever cell widths do. Distances are along great circles, and km.
+
+>>> from calotte import widths
+>>> coast = widths.distance_to([(-10, 0), (10, 0)], near=10, far=60, over=600)
+>>> zones = widths.by_latitude([(-90, 35), (0, 60), (90, 35)])
+>>> rule = widths.minimum(zones, coast, 50).limit_gradient(0.03)
+>>> rule([0, 90], [0, 0]).tolist()
+[10.0, 50.0]
+"""
+import numpy as np
+
+from . import _arguments, _calotte
+from ._calotte import Widths
+
+__all__ = ["Widths", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
+
+
+def rule(widths):
+    """A number of km, a raster, a file or a function of longitude and latitude, as a rule."""
+    if isinstance(widths, Widths):
+        return widths
+    value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
+    if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
+        return Widths(float(value))
+    return Widths(_arguments.cell_width(widths))
+
+
+def _nodes(pairs, what):
+    nodes = _arguments.numbers(pairs, what)
+    if nodes.ndim != 2 or nodes.shape[1] != 2:
+        raise _calotte.Error(f"{what} have the shape {nodes.shape}; give pairs of a number and a width")
+    return np.ascontiguousarray(nodes)
+
+
+def by_latitude(nodes, *, smooth=False):
+    """Widths by the latitude.
+
+    nodes: pairs of a latitude in degrees and a width in km; between two, widths lie on a line, or
+        with smooth on a cubic that is level at both.
+    """
+    return _calotte.widths_by_latitude(_nodes(nodes, "latitudes and widths"), smooth)
+
+
+def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False):
+    """Widths by the distance from the nearest of some lines.
+
+    lines: a file of lines, polygons or a coast, GeoJSON or GSHHG's .nc, or of points, .txt; one line
+        as n x 2 longitudes and latitudes in degrees, or a list of such.
+    near, far, over: the width at a line, and that from the distance `over` on; or
+    profile: pairs of a distance and a width. smooth: as for by_latitude().
+    """
+    if (profile is None) != all(value is not None for value in (near, far, over)):
+        raise _calotte.Error("give near, far and over, or a profile, but not both")
+    nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
+    if isinstance(lines, str) or hasattr(lines, "__fspath__"):
+        return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth)
+    many = len(lines) > 0 and np.ndim(lines[0]) == 2
+    return _calotte.widths_by_distance(
+        [_arguments.sphere_points(line) for line in (lines if many else [lines])], nodes, smooth)
+
+
+def minimum(*widths):
+    """The least of several, place by place."""
+    return _calotte.combined_widths("minimum", [rule(one) for one in widths])
+
+
+def maximum(*widths):
+    """The greatest of several, place by place."""
+    return _calotte.combined_widths("maximum", [rule(one) for one in widths])
+
+
+def sum(*widths):  # noqa: A001: of the module
+    """The sum of several, place by place."""
+    return _calotte.combined_widths("sum", [rule(one) for one in widths])
+
+
+def where(region, inside, outside):
+    """One rule within a region, another outside it. region: a Surface, or a file of one."""
+    return _calotte.widths_where(_arguments.surface(region), rule(inside), rule(outside))
+
+
+def _at(self, longitudes, latitudes):
+    """The widths in km at longitudes and latitudes in degrees, which are broadcast."""
+    lon, lat = np.broadcast_arrays(_arguments.numbers(longitudes, "longitudes"),
+                                   _arguments.numbers(latitudes, "latitudes"))
+    places = np.stack([lon.ravel(), lat.ravel()], axis=1)
+    return self.at(_arguments.sphere_points(places)).reshape(lon.shape)
+
+
+def _to_xarray(self, step=0):
+    """An xarray.DataArray over lat and lon, as sampled() makes it."""
+    import xarray
+    raster = self.sampled(step)
+    return xarray.DataArray(np.array(raster.widths), dims=("lat", "lon"), name="cellWidth",
+                            coords={"lat": np.array(raster.latitudes), "lon": np.array(raster.longitudes)},
+                            attrs={"units": "km"})
+
+
+def _times(self, factor):
+    return _calotte.widths_times(self, float(factor))
+
+
+Widths.__call__ = _at
+Widths.__mul__ = Widths.__rmul__ = _times
+Widths.to_xarray = _to_xarray

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calls.h"
+#include "members.h"
+#include "module.h"
+
+#include <calotte/read.h>
+#include <calotte/widths.h>
+
+#include <string>
+#include <vector>
+
+namespace calotte::python {
+namespace {
+
+/// \param nodes m x 2: the number and the width.
+WidthProfile profile(const Doubles& nodes, bool smooth) {
+  WidthProfile profile;
+  for (py::ssize_t k = 0; k < nodes.shape(0); ++k)
+    profile.nodes.push_back({nodes.at(k, 0), nodes.at(k, 1)});
+  profile.between = smooth ? WidthProfile::Between::smooth : WidthProfile::Between::linear;
+  return profile;
+}
+
+Widths by_latitude(const Doubles& nodes, bool smooth) {
+  return call([of = profile(nodes, smooth)] { return widths::by_latitude(of); });
+}
+
+/// \param lines n x 3 each.
+Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool smooth) {
+  std::vector<Points3> all;
+  for (const Doubles& line : lines)
+    all.emplace_back(columns(line));
+  return call([&, of = profile(nodes, smooth)] { return widths::by_distance(all, of); });
+}
+
+Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool smooth) {
+  return call(
+      [&, of = profile(nodes, smooth)] { return widths::by_distance(read_shapes(path), of); });
+}
+
+/// The library's functions of several widths, by name.
+Widths combined(const std::string& name, const std::vector<Widths>& of) {
+  return call([&] {
+    return name == "minimum"   ? widths::minimum(of)
+           : name == "maximum" ? widths::maximum(of)
+                               : widths::sum(of);
+  });
+}
+
+} // namespace
+
+void add_widths(py::module_& module) {
+  py::class_<Widths> widths(module, "Widths", "A rule for the width of cells, for every place.");
+  widths.def(py::init([](double width) { return call([&] { return Widths(width); }); }))
+      .def(py::init([](const CellWidth& raster) { return call([&] { return Widths(raster); }); }))
+      .def(
+          "limit_gradient",
+          [](const Widths& widths, double gradient) {
+            return call([&] { return widths.limit_gradient(gradient); });
+          },
+          py::arg("gradient"),
+          "The largest widths below these that change by at most so many km per km.")
+      .def(
+          "at",
+          [](const Widths& widths, const Doubles& points) {
+            const auto sites = columns(points);
+            return handed_over(call([&] { return evaluate(widths, sites); }));
+          },
+          "(n,) the widths at n x 3 directions, km.")
+      .def(
+          "sampled",
+          [](const Widths& widths, double step) {
+            return call([&] { return sampled(widths, step); });
+          },
+          py::arg("step") = 0,
+          "A CellWidth with nodes so many degrees apart; 0: by its least width.");
+  module.def("widths_by_latitude", &by_latitude);
+  module.def("widths_by_distance", &by_distance);
+  module.def("widths_by_distance_from_file", &by_distance_from_file);
+  module.def("combined_widths", &combined);
+  module.def("widths_times", [](const Widths& widths, double factor) {
+    return call([&] { return widths::product(widths, factor); });
+  });
+  module.def("widths_where",
+             [](const Surface& region, const Widths& inside, const Widths& outside) {
+               return call([&] { return widths::where(region, inside, outside); });
+             });
+}
+
+} // namespace calotte::python
