@@ -48,7 +48,7 @@ struct Request {
   std::optional<double> sphere_radius;
   std::optional<int> threads;
   std::optional<bool> coastlines; ///< of the picture
-  std::string picture, report;
+  std::string picture, raster, report;
 };
 
 /// The grid that a run would make.
@@ -84,7 +84,8 @@ Recipe recipe_of(const Request& request) {
 }
 
 /// Widths in km: on the whole sphere all quantities follow from the file's nodes.
-SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor) {
+SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor,
+                     const WidthWords& words) {
   if (!asked.widths)
     return survey_spacing(made.density, made.cells, made.surface);
   CellWidth scaled = *asked.widths;
@@ -93,7 +94,7 @@ SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor) {
   if (made.surface.is_bounded())
     return survey_spacing(made.density, made.cells, made.surface, least);
   return {least, least, scaled.widths.maxCoeff() / asked.radius_km,
-          largest_gradient(scaled, asked.radius_km)};
+          steepest_of(scaled, words, factor)};
 }
 
 Plan plan_of(const Request& request, const Recipe& recipe, const Schedule& schedule) {
@@ -110,7 +111,7 @@ Plan plan_of(const Request& request, const Recipe& recipe, const Schedule& sched
     plan.radius_km = recipe.radius_km;
   else if (request.sphere_radius)
     plan.radius_km = *request.sphere_radius / metres;
-  plan.spacing = survey(recipe, made, plan.factor);
+  plan.spacing = survey(recipe, made, plan.factor, request.density->widths);
   if (recipe.widths)
     plan.doubt = doubt_of(*recipe.widths, request.density->widths);
   plan.threads = tbb::this_task_arena::max_concurrency();
@@ -242,8 +243,11 @@ void require_request(const Request& request) {
   if (!request.picture.empty())
     picture_format(request.picture);
   const bool shape = request.part.region.find('=') != std::string::npos;
-  require_outputs({{"picture", request.picture}, {"report", request.report}},
-                  {widths.file, widths.raster, shape ? "" : request.part.region});
+  if (!request.raster.empty() && (!widths.in_km() || widths.uniform))
+    refuse("--raster writes widths of --cell-width FILE; give one, or leave it out");
+  require_outputs(
+      {{"picture", request.picture}, {"report", request.report}, {"raster", request.raster}},
+      {widths.file, widths.raster, shape ? "" : request.part.region});
 }
 
 /// Writes the picture and the report, too.
@@ -259,6 +263,8 @@ Plan make_plan(const Request& request) {
     if (!request.picture.empty())
       draw_widths(request, schedule.recipe.density, plan);
   });
+  if (!request.raster.empty())
+    calotte::write(request.raster, *recipe.widths);
   if (!request.report.empty())
     write_file(request.report, to_json(plan));
   return plan;
@@ -309,6 +315,11 @@ void add_plan(CLI::App& app) {
                    "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf")
       ->type_name("FILE");
   add_coastlines(*command, request->coastlines);
+  command
+      ->add_option("--raster", request->raster,
+                   "Write the widths as they are read or follow from rules, before --cells scales "
+                   "them: NetCDF cellWidth(lat, lon) (.nc) or JIGSAW's grid (.msh)")
+      ->type_name("FILE");
   command->add_option("--report", request->report, "Write the same quantities to this JSON file")
       ->type_name("FILE");
   set_help(*command,

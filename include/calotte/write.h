@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/cell_width.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
@@ -28,6 +29,11 @@ namespace calotte {
 void write_points(const std::string& path, const PointsRef& points);
 /// The same to a stream, which it flushes.
 void write_points(std::ostream& out, const PointsRef& points);
+
+/// Writes cell widths as read_cell_width() reads them, to the bit: NetCDF (.nc), or JIGSAW's
+/// ELLIPSOID-GRID (.msh), whose angles in radians round.
+/// \throws Error invalid_argument as density_of(), or for another suffix; file.
+void write(const std::string& path, const CellWidth& widths);
 
 /// The format of a mesh file. "Cells" are Voronoi cells, "triangles" Delaunay triangles.
 enum class Format {

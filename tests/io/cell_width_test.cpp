@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/read.h>
+#include <calotte/write.h>
 
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
@@ -992,4 +993,26 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
   CHECK(ratios[ratios.size() / 2] == doctest::Approx(1).epsilon(0.03));
   CHECK(ratios[ratios.size() / 20] > 0.8);
   CHECK(ratios[ratios.size() - ratios.size() / 20] < 1.2);
+}
+
+TEST_CASE("widths that are written are read again") {
+  const test::Scratch folder;
+  CellWidth widths{DoubleVector{{-180, -90, 0, 91}}, DoubleVector{{-90, -7, 90}},
+                   DoubleMatrix(4, 3)};
+  for (Eigen::Index k = 0; k < 12; ++k)
+    widths.widths(k % 4, k / 4) = 10 + 1.0 / static_cast<double>(k + 3);
+  write(folder / "w.nc", widths);
+  const CellWidth netcdf = read_cell_width(folder / "w.nc");
+  CHECK(netcdf.longitudes == widths.longitudes);
+  CHECK(netcdf.latitudes == widths.latitudes);
+  CHECK(netcdf.widths == widths.widths);
+  write(folder / "w.msh", widths);
+  const CellWidth jigsaw = read_cell_width(folder / "w.msh");
+  CHECK(jigsaw.widths == widths.widths);
+  CHECK((jigsaw.longitudes - widths.longitudes).cwiseAbs().maxCoeff() < 1e-13);
+  CHECK(test::error_of([&] { write(folder / "w.txt", widths); }).code() ==
+        ErrorCode::invalid_argument);
+  widths.widths(1, 1) = -1;
+  CHECK(test::error_of([&] { write(folder / "w.nc", widths); }).code() ==
+        ErrorCode::invalid_argument);
 }

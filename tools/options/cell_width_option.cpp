@@ -199,7 +199,7 @@ std::string width_configuration(const WidthWords& words) {
   std::string text =
       "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
   if (is_toml(words.file))
-    for (const std::string& named : files_of_rules(words.file))
+    for (const std::string& named : outline_of_rules(words.file).files)
       text += "rules of " + checksum_of(named) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
@@ -222,6 +222,16 @@ std::string distinct_from(double other, double value) {
       break;
   }
   return text;
+}
+
+Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale) {
+  Gradient steepest = largest_gradient(scaled, words.radius);
+  const std::optional<double> limit = words.gradient        ? words.gradient
+                                      : is_toml(words.file) ? outline_of_rules(words.file).gradient
+                                                            : std::nullopt;
+  if (limit) // between nodes, at the tip of a cone, the raster has more than the nodes
+    steepest.slope = std::min(steepest.slope, *limit * scale);
+  return steepest;
 }
 
 /// What makes steep widths less steep.
@@ -262,9 +272,7 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
                      formatted("%.3g", scale) + " times as large";
   CellWidth scaled = widths;
   scaled.widths *= scale;
-  Gradient gradient = largest_gradient(scaled, words.radius);
-  if (words.gradient) // at a tip in a box of the raster more is measured than the nodes have
-    gradient.slope = std::min(gradient.slope, *words.gradient * scale);
+  const Gradient gradient = steepest_of(scaled, words, scale);
   const std::string limit = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";

@@ -58,6 +58,9 @@ std::string width_configuration(const WidthWords& words);
 /// The largest gradient of cell widths that most models accept, km per km.
 inline constexpr double steepest_width = 0.03;
 
+/// The largest gradient of widths that are read, and then scaled; at most their limit.
+Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale);
+
 /// "12.5 E 48.2 S".
 std::string place_of(const Gradient& gradient);
 

@@ -244,8 +244,9 @@ private:
 
 WidthRules read_width_rules(const std::string& path) { return RuleReader(path).rules(); }
 
-std::vector<std::string> files_of_rules(const std::string& path) {
-  std::vector<std::string> files;
+RulesOutline outline_of_rules(const std::string& path) {
+  const toml::table root = read_toml(path);
+  RulesOutline outline{{}, root["cell-width"]["gradient"].value<double>()};
   const auto add = [&](const auto& self, const toml::node& node) -> void {
     if (const toml::array* const list = node.as_array())
       for (const toml::node& item : *list)
@@ -255,12 +256,12 @@ std::vector<std::string> files_of_rules(const std::string& path) {
         static const std::set<std::string_view> named{"distance-to", "lines", "raster", "polygons",
                                                       "within"};
         if (const auto* const text = value.as_string(); text && named.contains(key.str()))
-          files.push_back(beside(path, text->get()));
+          outline.files.push_back(beside(path, text->get()));
         self(self, value);
       }
   };
-  add(add, read_toml(path));
-  return files;
+  add(add, root);
+  return outline;
 }
 
 } // namespace calotte::tools

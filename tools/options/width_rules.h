@@ -3,6 +3,7 @@
 
 #include <calotte/widths.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,13 @@ struct WidthRules {
 /// files.
 WidthRules read_width_rules(const std::string& path);
 
-/// The files that rules name, without reading them.
-std::vector<std::string> files_of_rules(const std::string& path);
+/// What a file of rules says of itself.
+struct RulesOutline {
+  std::vector<std::string> files; ///< that its rules name
+  std::optional<double> gradient; ///< the limit of all of it
+};
+
+/// Reads the TOML file alone. \throws Error parse; file.
+RulesOutline outline_of_rules(const std::string& path);
 
 } // namespace calotte::tools

@@ -100,7 +100,7 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
   test::write_text(rules.path(),
                    "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
-  CHECK(files_of_rules(rules.path()) ==
+  CHECK(outline_of_rules(rules.path()).files ==
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/bytes/text.h"
+#include "io/netcdf/netcdf_writer.h"
+
+#include <calotte/error.h>
+#include <calotte/write.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+void write_netcdf(const std::string& path, const CellWidth& widths) {
+  NetcdfWriter file(path);
+  const int lat = file.dimension("lat", widths.latitudes.size()),
+            lon = file.dimension("lon", widths.longitudes.size());
+  file.attribute({"Conventions", std::string("CF-1.8")});
+  const auto axis = [&](const std::string& name, const std::string& of, int dimension) {
+    return file.variable(
+        name, NetcdfType::float64, {dimension},
+        {{"units", "degrees_" + of},
+         {"standard_name", std::string(name == "lat" ? "latitude" : "longitude")}});
+  };
+  const int latitudes = axis("lat", "north", lat), longitudes = axis("lon", "east", lon);
+  const int values =
+      file.variable("cellWidth", NetcdfType::float64, {lat, lon},
+                    {{"units", std::string("km")},
+                     {"long_name", std::string("distance of the centres of neighbouring cells")}});
+  file.begin();
+  const auto put = [&](int variable, const double* from, std::int64_t row) {
+    file.put(variable, [=](std::int64_t begin, std::int64_t end, double* out) {
+      std::copy(from + begin * row, from + end * row, out);
+    });
+  };
+  put(latitudes, widths.latitudes.data(), 1);
+  put(longitudes, widths.longitudes.data(), 1);
+  put(values, widths.widths.data(), widths.widths.rows());
+  file.finish();
+  file.commit();
+}
+
+void write_jigsaw(const std::string& path, const CellWidth& widths) {
+  constexpr double radians = std::numbers::pi / 180;
+  OutputFile file(path);
+  Writer out([&](std::string_view bytes) { file.append(bytes); });
+  out.text("MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n");
+  const auto axis = [&](std::int64_t number, const DoubleVector& degrees) {
+    out.text("COORD=").number(number).text(";").number(std::int64_t{degrees.size()}).text("\n");
+    for (const double value : degrees)
+      out.number(value * radians).text("\n");
+  };
+  axis(1, widths.longitudes);
+  axis(2, widths.latitudes);
+  out.text("VALUE=").number(std::int64_t{widths.widths.size()}).text(";1\n");
+  for (Eigen::Index i = 0; i < widths.widths.rows(); ++i)
+    for (Eigen::Index j = 0; j < widths.widths.cols(); ++j)
+      out.number(widths.widths(i, j)).text("\n");
+  out.flush();
+  file.commit();
+}
+
+} // namespace
+
+void write(const std::string& path, const CellWidth& widths) {
+  density_of(widths); // throws if they are ill-formed
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".nc")
+    write_netcdf(path, widths);
+  else if (suffix == ".msh")
+    write_jigsaw(path, widths);
+  else
+    throw Error(
+        ErrorCode::invalid_argument,
+        path + ": a raster of cell widths is NetCDF (.nc) or JIGSAW's (.msh); give such a name");
+}
+
+} // namespace calotte
