@@ -158,6 +158,10 @@ enum class RasterValues {
 LandRaster read_land_raster(const std::string& path, const std::string& variable,
                             RasterValues values = RasterValues::height);
 
+/// Reads heights in the same way. \param variable default: the only one of two dimensions.
+/// \throws Error as read_land_raster; parse for a file with several.
+HeightRaster read_heights(const std::string& path, const std::string& variable = {});
+
 /// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude
 /// and latitude in degrees, alone or in features or collections.
 /// \returns for each line its points, unit columns.

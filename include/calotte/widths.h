@@ -3,6 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
+#include <calotte/ocean.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -86,6 +87,28 @@ Widths by_latitude(const WidthProfile& profile);
 /// is
 ///         no direction; for no line; naming the node, for a profile that is none.
 Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+
+/// What a rule says of places where it says nothing, km: wider than any other.
+inline constexpr double no_demand = 1e9;
+
+/// How widths follow from the depth of the sea and its change.
+struct DepthRule {
+  enum class Kind {
+    wavelength, ///< of shallow water: sqrt(g depth) period
+    rossby,     ///< sqrt(g depth) / max(|f|, sqrt(2 beta sqrt(g depth))), with f of the Earth
+    slope       ///< 2 pi depth / |grad depth|
+  };
+  Kind kind = Kind::wavelength;
+  double cells = 0;  ///< that share the length, > 0
+  double period = 0; ///< seconds, > 0, of a wave
+  double least = 0;  ///< km, > 0: where the sea is shallow, and at the shore
+};
+
+/// By the depth at the nodes of a raster. Of land, but for nodes next to the sea, it says nothing.
+/// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
+/// the
+///         conditions of HeightRaster.
+Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
 
 /// \throws Error invalid_argument for an empty list, here and below.
 Widths minimum(const std::vector<Widths>& of);

@@ -157,6 +157,36 @@ TEST_CASE("other limited rules are limited at the nodes of a raster") {
   CHECK(got[2] == doctest::Approx(200));
 }
 
+TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
+  HeightRaster sea{DoubleVector::LinSpaced(36, 0, 350), DoubleVector::LinSpaced(19, -90, 90),
+                   DoubleMatrix(36, 19)};
+  for (Eigen::Index j = 0; j < 19; ++j)
+    sea.heights.col(j).setConstant(-3000 - 10 * sea.latitudes[j]);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    sea.heights.block(i, 3, 1, 3).setConstant(50); // land
+  using Kind = widths::DepthRule::Kind;
+  const Points3 at = line({{100, 30}, {10, -50}, {0, -50}, {120, 0}});
+  const double depth = 3300, speed = std::sqrt(9.80665 * depth);
+  const DoubleVector wave = evaluate(
+      widths::by_depth(sea, {.kind = Kind::wavelength, .cells = 60, .period = 44712, .least = 3}),
+      at);
+  CHECK(wave[0] == doctest::Approx(speed * 44712 / 60 / 1000));
+  CHECK(wave[1] >= 0.99 * widths::no_demand); // land around
+  CHECK(wave[2] == doctest::Approx(3));       // the shore
+  const DoubleVector rossby =
+      evaluate(widths::by_depth(sea, {.kind = Kind::rossby, .cells = 4, .least = 3}), at);
+  const double rotation = 7.292e-5;
+  CHECK(rossby[0] == doctest::Approx(speed / (2 * rotation * 0.5) / 4 / 1000));
+  const double c = std::sqrt(9.80665 * 3000), beta = 2 * rotation / (1000 * earth_radius_km);
+  CHECK(rossby[3] == doctest::Approx(std::sqrt(c / (2 * beta)) / 4 / 1000));
+  const DoubleVector slope =
+      evaluate(widths::by_depth(sea, {.kind = Kind::slope, .cells = 20, .least = 3}), at);
+  const double rise = 10 / (1000 * earth_radius_km * radians);
+  CHECK(slope[0] == doctest::Approx(2 * std::numbers::pi * depth / rise / 20 / 1000));
+  CHECK(error_of([&] { widths::by_depth(sea, {.cells = 60, .least = 3}); }).what() ==
+        std::string("the period of a rule of depths, 0, is not positive; give one"));
+}
+
 TEST_CASE("a raster of widths has the same bits for any number of threads") {
   const Widths widths = widths::by_distance(lines(), {{{0, 100}, {3000, 300}}});
   const DoubleMatrix one = tbb::task_arena(1).execute([&] { return sampled(widths, 2).widths; });

@@ -64,6 +64,10 @@ A rule has one of these keys, which says what it is, and the keys after it:
                           far, the widths at 0 and from the distance `over` on; or
                           profile = [[KM, WIDTH], ...]; between
   lines = FILE            `width` up to the distance `over`; beyond it the rule says nothing
+  heights = FILE          by the depth of the sea, from NetCDF heights(lat, lon) in metres, of
+                          `variable`, if it has several: period = "12.42h" and cells, the number
+                          of cells in the length of a wave; or rossby = CELLS in a Rossby radius; or
+                          slope = CELLS in 2 pi depth / slope; and `least`, the width at the shore
   raster = FILE           widths of a NetCDF raster, or of JIGSAW's .msh
   polygons = FILE         of GeoJSON: inside, outside, transition, as the options of that name
   min = [RULES]           the least of several; a number is a rule, too; max, sum likewise

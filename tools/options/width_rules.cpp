@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/width_rules.h"
 
+#include "options/numbers.h"
 #include "options/toml_file.h"
 #include "text/text.h"
 
@@ -142,6 +143,7 @@ private:
         {"latitude", &RuleReader::latitude},
         {"distance-to", &RuleReader::distance},
         {"lines", &RuleReader::lines},
+        {"heights", &RuleReader::heights},
         {"raster", &RuleReader::raster},
         {"polygons", &RuleReader::polygons},
         {"width", &RuleReader::constant}};
@@ -171,7 +173,7 @@ private:
     if (table.take("most") != nullptr)
       widths = widths::minimum({widths, table.number("most")});
     if (table.take("within") != nullptr)
-      widths = widths::where(read_region(file(table, "within")), widths, no_demand);
+      widths = widths::where(read_region(file(table, "within")), widths, widths::no_demand);
     if (table.take("gradient") != nullptr)
       widths = widths.limit_gradient(table.number("gradient"));
     table.require_all_taken();
@@ -221,7 +223,37 @@ private:
     const double width = table.number("width"), over = table.number("over");
     constexpr double edge = 1e-6; // km
     return widths::by_distance(read_shapes(path),
-                               {{{0, width}, {over, width}, {over + edge, no_demand}}});
+                               {{{0, width}, {over, width}, {over + edge, widths::no_demand}}});
+  }
+
+  Widths heights(RuleTable& table) {
+    const std::string path = file(table, "heights");
+    const HeightRaster raster =
+        read_heights(path, table.has("variable") ? table.text("variable", "its name") : "");
+    widths::DepthRule rule{.least = table.number("least")};
+    if (table.has("period")) {
+      rule.period = seconds(table);
+      rule.cells = table.number("cells");
+    } else {
+      const bool rossby = table.has("rossby");
+      rule.kind = rossby ? widths::DepthRule::Kind::rossby : widths::DepthRule::Kind::slope;
+      rule.cells = table.number(rossby ? "rossby" : "slope");
+    }
+    return widths::by_depth(raster, rule);
+  }
+
+  static double seconds(RuleTable& table) {
+    const std::string text = table.text("period", "a time such as 12.42h");
+    const std::optional<Measure> measure = measure_of(text);
+    constexpr std::array<std::pair<std::string_view, double>, 4> units{
+        {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
+    const auto* const unit = std::find_if(units.begin(), units.end(), [&](const auto& known) {
+      return measure && known.first == measure->unit;
+    });
+    if (unit == units.end() || !(measure->value > 0))
+      table.refuse("period", "is \"" + text +
+                                 "\"; give a time with its unit, s, min, h or d, such as 12.42h");
+    return measure->value * unit->second;
   }
 
   Widths raster(RuleTable& table) { return read_cell_width(file(table, "raster")); }
@@ -253,8 +285,8 @@ RulesOutline outline_of_rules(const std::string& path) {
         self(self, item);
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
-        static const std::set<std::string_view> named{"distance-to", "lines", "raster", "polygons",
-                                                      "within"};
+        static const std::set<std::string_view> named{"distance-to", "lines",    "raster",
+                                                      "heights",     "polygons", "within"};
         if (const auto* const text = value.as_string(); text && named.contains(key.str()))
           outline.files.push_back(beside(path, text->get()));
         self(self, value);

@@ -9,9 +9,6 @@
 
 namespace calotte::tools {
 
-/// What a rule says where it says nothing: wider than any other, in km.
-inline constexpr double no_demand = 1e9;
-
 struct WidthRules {
   Widths widths;
   double step = 0; ///< of their raster, as sampled() has it

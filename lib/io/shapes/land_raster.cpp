@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace {
@@ -28,17 +29,38 @@ double land_of(RasterValues values, double value) {
   return std::clamp(values == RasterValues::land_fraction ? value : 1 - value, 0.0, 1.0);
 }
 
-} // namespace
-
-LandRaster read_land_raster(const std::string& path, const std::string& variable,
-                            RasterValues values) {
-  const NetcdfReader file(path);
+Raster read_scaled(const NetcdfReader& file, const std::string& variable, const RasterLaw& law) {
   Raster raster = read_raster(file, variable);
   const double scale = file.number(variable, "scale_factor", 1),
                offset = file.number(variable, "add_offset", 0);
   if (scale != 1 || offset != 0)
     raster.values.array() = raster.values.array() * scale + offset;
-  raster = ordered(std::move(raster), path, law_of(values));
+  return ordered(std::move(raster), file.path(), law);
+}
+
+std::string only_raster(const NetcdfReader& file) {
+  std::vector<std::string> found;
+  for (const std::string& name : file.variable_names())
+    if (file.shape_of(name).size() == 2 && file.is_numeric(name))
+      found.push_back(name);
+  if (found.size() != 1)
+    file.fail(std::to_string(found.size()) +
+              " variables have two dimensions; name the one that has the heights");
+  return found.front();
+}
+
+} // namespace
+
+HeightRaster read_heights(const std::string& path, const std::string& variable) {
+  const NetcdfReader file(path);
+  Raster raster = read_scaled(file, variable.empty() ? only_raster(file) : variable,
+                              law_of(RasterValues::height));
+  return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
+}
+
+LandRaster read_land_raster(const std::string& path, const std::string& variable,
+                            RasterValues values) {
+  Raster raster = read_scaled(NetcdfReader(path), variable, law_of(values));
   raster.values = raster.values.unaryExpr([&](double value) { return land_of(values, value); });
   return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/width_rules.h"
 
+#include "io/netcdf/netcdf_writer.h"
 #include "support/files.h"
 
 #include <calotte/error.h>
@@ -96,7 +97,7 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
       rules.widths("min = [60, {lines = \"line.geojson\", width = 5, over = 200}]");
   CHECK(band == DoubleVector{{5, 60, 60, 60, 60}});
   const DoubleVector part = rules.widths("width = 5\nwithin = \"island.geojson\"");
-  CHECK(part[2] >= no_demand);
+  CHECK(part[2] >= widths::no_demand);
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
   test::write_text(rules.path(),
                    "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
@@ -104,13 +105,44 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 
+TEST_CASE("heights of a file give the widths of waves") {
+  const Rules rules;
+  io_detail::NetcdfWriter file(rules.beside("sea.nc"));
+  const int lat = file.dimension("lat", 3), lon = file.dimension("lon", 4);
+  const int latitudes = file.variable("lat", io_detail::NetcdfType::float64, {lat}),
+            longitudes = file.variable("lon", io_detail::NetcdfType::float64, {lon}),
+            heights = file.variable("z", io_detail::NetcdfType::float64, {lat, lon});
+  file.begin();
+  const auto put = [&](int variable, double first, double step, std::int64_t row) {
+    file.put(variable, [=](std::int64_t begin, std::int64_t end, double* out) {
+      for (std::int64_t k = begin * row; k < end * row; ++k)
+        *out++ = first + step * static_cast<double>(k);
+    });
+  };
+  put(latitudes, -90, 90, 1);
+  put(longitudes, 0, 90, 1);
+  put(heights, -4000, 0, 4);
+  file.finish();
+  file.commit();
+  const DoubleVector widths =
+      rules.widths("heights = \"sea.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2");
+  CHECK(widths[0] == doctest::Approx(std::sqrt(9.80665 * 4000) * 12.42 * 3600 / 60 / 1000));
+  for (const std::string period : {"12.42", "-1h", "1 week"})
+    CHECK(rules.refused("[cell-width]\nheights = \"sea.nc\"\nperiod = \"" + period +
+                        "\"\ncells = 60\nleast = 2") ==
+          " line 3: period is \"" + period +
+              "\"; give a time with its unit, s, min, h or d, such as 12.42h");
+  CHECK(rules.refused("[cell-width]\nheights = \"sea.nc\"\nslope = 5") ==
+        " line 1: the rule needs least; give a number");
+}
+
 TEST_CASE("files of rules that are none are refused with their line") {
   const Rules rules;
   CHECK(rules.refused("width = 60") ==
         ": a file of widths has one table, [cell-width]; see calotte help widths");
   CHECK(rules.refused("[cell-width]\nwidths = 60") ==
-        " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, raster, "
-        "polygons, width");
+        " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, heights, "
+        "raster, polygons, width");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
         " line 2: width is not a positive number; give one");
   CHECK(rules.refused("[cell-width]\n\nmin = [60,\n {width = 5, over = 3}]") ==

@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, _calotte
 from ._calotte import Widths
 
-__all__ = ["Widths", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
+__all__ = ["Widths", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
 
 
 def rule(widths):
@@ -61,6 +61,21 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     many = len(lines) > 0 and np.ndim(lines[0]) == 2
     return _calotte.widths_by_distance(
         [_arguments.sphere_points(line) for line in (lines if many else [lines])], nodes, smooth)
+
+
+def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, variable=""):
+    """Widths by the depth of the sea, from NetCDF heights(lat, lon) in metres; of land none.
+
+    period, cells: of a shallow-water wave in seconds, and the cells in its length; or
+    rossby: the cells in a Rossby radius; or slope: the cells in 2 pi depth / slope.
+    least: the width at the shore, and where the sea is shallow. variable: of a file with several.
+    """
+    kinds = {"wavelength": cells if period else None, "rossby": rossby, "slope": slope}
+    given = [(kind, value) for kind, value in kinds.items() if value is not None]
+    if len(given) != 1:
+        raise _calotte.Error("give period and cells, or rossby, or slope")
+    (kind, value), = given
+    return _calotte.widths_by_depth(str(path), variable, kind, value, period or 0.0, least)
 
 
 def minimum(*widths):

@@ -47,6 +47,20 @@ Widths combined(const std::string& name, const std::vector<Widths>& of) {
   });
 }
 
+Widths by_depth(const std::string& path, const std::string& variable, const std::string& kind,
+                double cells, double period, double least) {
+  using Kind = widths::DepthRule::Kind;
+  return call([&] {
+    return widths::by_depth(read_heights(path, variable),
+                            {.kind = kind == "wavelength" ? Kind::wavelength
+                                     : kind == "rossby"   ? Kind::rossby
+                                                          : Kind::slope,
+                             .cells = cells,
+                             .period = period,
+                             .least = least});
+  });
+}
+
 } // namespace
 
 void add_widths(py::module_& module) {
@@ -77,6 +91,7 @@ void add_widths(py::module_& module) {
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);
+  module.def("widths_by_depth", &by_depth);
   module.def("combined_widths", &combined);
   module.def("widths_times", [](const Widths& widths, double factor) {
     return call([&] { return widths::product(widths, factor); });
