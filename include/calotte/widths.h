@@ -29,68 +29,6 @@ struct WidthProfile {
   Between between = Between::linear; ///< default: along a line
 };
 
-/// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
-/// made of them. A value that is cheap to copy; copies share what is prepared for queries, and any
-/// number of threads may ask them.
-///
-///     const Widths coast = widths::by_distance(read_lines("coast.geojson"), {{{0, 10}, {600,
-///     60}}}); const Widths zones = widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}}); const
-///     CellWidth raster = sampled(minimum({coast, zones}).limit_gradient(0.03));
-class Widths {
-public:
-  /// One width everywhere, in km.
-  /// \throws Error invalid_argument unless it is > 0 and finite.
-  Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
-  /// \throws Error invalid_argument as density_of().
-  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
-  explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
-
-  /// The largest widths below these that change by at most g km per km, over the poles and the date
-  /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;
-  /// others at the nodes of a raster, see limit_gradient(const CellWidth&).
-  /// \param gradient g, > 0 and finite.
-  /// \throws Error invalid_argument for a gradient out of range.
-  Widths limit_gradient(double gradient) const;
-
-  const density_detail::WidthRule& rule() const { return *rule_; }
-  const std::shared_ptr<const density_detail::WidthRule>& shared() const { return rule_; }
-
-private:
-  std::shared_ptr<const density_detail::WidthRule> rule_;
-};
-
-/// The widths in km at n places.
-/// \param places 3 x n directions.
-/// \throws Error invalid_argument for another number of rows, and for a direction that is none.
-DoubleVector evaluate(const Widths& widths, const PointsRef& places);
-
-/// The widths at the nodes of a regular raster with nodes at the poles.
-/// \param step largest distance of rows and of columns, in degrees, from 0.01 to 10; 0, the
-/// default,
-///        takes that of the least width, within 0.05 to 1 degree.
-/// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
-CellWidth sampled(const Widths& widths, double step = 0);
-
-/// Rules for cell widths, and what can be made of them. All lengths are in km on a sphere of radius
-/// earth_radius_km, and all widths are > 0.
-namespace widths {
-
-/// \param profile of the latitude in degrees, from -90 to 90.
-/// \throws Error invalid_argument, naming the node, for a profile that is none.
-Widths by_latitude(const WidthProfile& profile);
-
-/// By the distance from the nearest of some lines, along great circles.
-/// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; a line may
-///        be a single point. See read_shapes() and shores().
-/// \param profile of the distance in km, from 0 on.
-/// \throws Error invalid_argument, naming line and point, for opposite neighbours or a point that
-/// is
-///         no direction; for no line; naming the node, for a profile that is none.
-Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
-
-/// What a rule says of places where it says nothing, km: wider than any other.
-inline constexpr double no_demand = 1e9;
-
 /// How widths follow from the depth of the sea and its change.
 struct DepthRule {
   enum class Kind {
@@ -104,22 +42,78 @@ struct DepthRule {
   double least = 0;  ///< km, > 0: where the sea is shallow, and at the shore
 };
 
-/// By the depth at the nodes of a raster. Of land, but for nodes next to the sea, it says nothing.
-/// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
-/// the
-///         conditions of HeightRaster.
-Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
+/// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
+/// made of them. Lengths are in km on a sphere of radius earth_radius_km, and widths are positive.
+/// A value that is cheap to copy; copies share what is prepared for queries, and any number of
+/// threads may ask them.
+///
+///     const Widths coast = Widths::by_distance(shapes, {{{0, 10}, {600, 60}}});
+///     const Widths zones = Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}});
+///     const CellWidth raster = sampled(Widths::minimum({coast, zones}).limit_gradient(0.03));
+class Widths {
+public:
+  /// One width everywhere.
+  /// \throws Error invalid_argument unless it is > 0 and finite.
+  Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
+  /// \throws Error invalid_argument as density_of().
+  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
+  explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
 
-/// \throws Error invalid_argument for an empty list, here and below.
-Widths minimum(const std::vector<Widths>& of);
-Widths maximum(const std::vector<Widths>& of);
-Widths sum(const std::vector<Widths>& of);
-Widths product(const Widths& widths, double factor);
-Widths clamp(const Widths& widths, double least, double most);
-/// One rule within a region, another outside.
-Widths where(const Surface& region, const Widths& inside, const Widths& outside);
+  /// \param profile of the latitude in degrees, from -90 to 90.
+  /// \throws Error invalid_argument, naming the node, for a profile that is none.
+  static Widths by_latitude(const WidthProfile& profile);
 
-} // namespace widths
+  /// By the distance from the nearest of some lines, along great circles.
+  /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; a line
+  /// may
+  ///        be a single point. See read_shapes() and shores().
+  /// \param profile of the distance in km, from 0 on.
+  /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
+  ///         direction, no line; naming the node, a profile that is none.
+  static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+
+  /// By the depth at the nodes of a raster. Of land, but for nodes next to the sea, the rule says
+  /// nothing.
+  /// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
+  ///         the conditions of HeightRaster.
+  static Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
+
+  /// What a rule says of places where it says nothing, km: wider than any other.
+  static constexpr double no_demand = 1e9;
+
+  /// \throws Error invalid_argument for an empty list, here and below.
+  static Widths minimum(const std::vector<Widths>& of);
+  static Widths maximum(const std::vector<Widths>& of);
+  static Widths sum(const std::vector<Widths>& of);
+  static Widths product(const Widths& widths, double factor);
+  static Widths clamp(const Widths& widths, double least, double most);
+  /// One rule within a region, another outside.
+  static Widths where(const Surface& region, const Widths& inside, const Widths& outside);
+
+  /// The largest widths below these that change by at most g km per km, over the poles and the date
+  /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;
+  /// others at the nodes of a raster, see limit_gradient(const CellWidth&).
+  /// \param gradient g, > 0 and finite.
+  /// \throws Error invalid_argument for a gradient out of range.
+  Widths limit_gradient(double gradient) const;
+
+  /// What copies share.
+  const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
+
+private:
+  std::shared_ptr<const density_detail::WidthRule> rule_;
+};
+
+/// The widths in km at n places.
+/// \param places 3 x n directions.
+/// \throws Error invalid_argument for another number of rows, and for a direction that is none.
+DoubleVector evaluate(const Widths& widths, const PointsRef& places);
+
+/// The widths at the nodes of a regular raster with nodes at the poles.
+/// \param step largest distance of rows and of columns, degrees, from 0.01 to 10. Default 0: that
+///        of the least width, within 0.05 to 1 degree.
+/// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
+CellWidth sampled(const Widths& widths, double step = 0);
 
 } // namespace calotte
 CALOTTE_API_END

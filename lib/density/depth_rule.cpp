@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace calotte::widths {
+namespace calotte {
 namespace {
 
 using base_detail::require;
@@ -70,7 +70,7 @@ bool near_sea(const HeightRaster& raster, Eigen::Index i, Eigen::Index j) {
 
 } // namespace
 
-Widths by_depth(const HeightRaster& raster, const DepthRule& rule) {
+Widths Widths::by_depth(const HeightRaster& raster, const DepthRule& rule) {
   using Kind = DepthRule::Kind;
   require_positive(rule.cells, "number of cells");
   require_positive(rule.least, "least width");
@@ -100,4 +100,4 @@ Widths by_depth(const HeightRaster& raster, const DepthRule& rule) {
   return Widths(widths);
 }
 
-} // namespace calotte::widths
+} // namespace calotte

@@ -16,7 +16,7 @@ namespace calotte::density_detail {
 /// Distances on the unit sphere from the nearest of many arcs and points.
 class LineDistance {
 public:
-  /// \param lines see widths::by_distance(). \throws Error as there.
+  /// \param lines see Widths::by_distance(). \throws Error as there.
   explicit LineDistance(const std::vector<Points3>& lines);
 
   /// Radians, at unit vectors. Where each lies next to the one before, it takes less time.

@@ -193,7 +193,7 @@ std::vector<Rule> rules_of(const std::vector<Widths>& widths) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
   std::vector<Rule> rules;
   for (const Widths& one : widths)
-    rules.push_back(one.shared());
+    rules.push_back(one.rule());
   return rules;
 }
 
@@ -255,7 +255,7 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
     std::vector<Vec3> block;
     for (std::int64_t i = begin; i != end; ++i)
       block.push_back(domain_detail::as_unit({x(0, i), x(1, i), x(2, i)}));
-    widths.rule().evaluate(block, {values.data() + begin, block.size()});
+    widths.rule()->evaluate(block, {values.data() + begin, block.size()});
   });
   return values;
 }
@@ -263,37 +263,33 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
 CellWidth sampled(const Widths& widths, double step) {
   require(step == 0 || (step >= 0.01 && step <= 10),
           "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
-  return sample(widths.rule(), step == 0 ? step_for(widths.rule()) : step);
+  return sample(*widths.rule(), step == 0 ? step_for(*widths.rule()) : step);
 }
 
-namespace widths {
-
-Widths by_latitude(const WidthProfile& profile) {
+Widths Widths::by_latitude(const WidthProfile& profile) {
   return Widths(
       std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter)));
 }
 
-Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
+Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
   ProfileCurve curve(profile, "a distance", 0, half_round);
   return Widths(
       std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
 }
 
-Widths minimum(const std::vector<Widths>& of) {
+Widths Widths::minimum(const std::vector<Widths>& of) {
   return Widths(std::make_shared<MinimumRule>(rules_of(of)));
 }
-Widths maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
-Widths sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
-Widths product(const Widths& widths, double factor) {
+Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
+Widths Widths::sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
+Widths Widths::product(const Widths& widths, double factor) {
   return combined({widths, factor}, product_of);
 }
-Widths clamp(const Widths& widths, double least, double most) {
+Widths Widths::clamp(const Widths& widths, double least, double most) {
   return minimum({maximum({widths, least}), most});
 }
-Widths where(const Surface& region, const Widths& inside, const Widths& outside) {
-  return Widths(std::make_shared<RegionRule>(region, inside.shared(), outside.shared()));
+Widths Widths::where(const Surface& region, const Widths& inside, const Widths& outside) {
+  return Widths(std::make_shared<RegionRule>(region, inside.rule(), outside.rule()));
 }
-
-} // namespace widths
 
 } // namespace calotte

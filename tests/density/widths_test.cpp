@@ -88,7 +88,7 @@ TEST_CASE("distances are those to arcs and points") {
   const Points3 places = random_sphere(2000, 1);
   const double round = std::numbers::pi * earth_radius_km;
   const DoubleVector widths =
-      evaluate(widths::by_distance(all, {{{0, 1}, {round, 1 + round}}}), places);
+      evaluate(Widths::by_distance(all, {{{0, 1}, {round, 1 + round}}}), places);
   double worst = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i)
     worst = std::max(worst,
@@ -99,11 +99,11 @@ TEST_CASE("distances are those to arcs and points") {
 TEST_CASE("profiles follow their nodes, and stay beyond them") {
   const Points3 places = line({{0, -90}, {50, -80}, {10, -45}, {0, 0}, {120, 30}, {7, 90}});
   const WidthProfile zones{{{-80, 30}, {0, 60}, {60, 20}}};
-  const DoubleVector straight = evaluate(widths::by_latitude(zones), places);
+  const DoubleVector straight = evaluate(Widths::by_latitude(zones), places);
   const DoubleVector expected{{30, 30, 30 + 30 * 35.0 / 80, 60, 40, 20}};
   CHECK((straight - expected).cwiseAbs().maxCoeff() < 1e-12);
   const DoubleVector smooth =
-      evaluate(widths::by_latitude({zones.nodes, WidthProfile::Between::smooth}), places);
+      evaluate(Widths::by_latitude({zones.nodes, WidthProfile::Between::smooth}), places);
   const double t = 35.0 / 80;
   CHECK(smooth[2] == doctest::Approx(30 + 30 * t * t * (3 - 2 * t)).epsilon(1e-6));
   CHECK(smooth[3] == 60);
@@ -111,22 +111,22 @@ TEST_CASE("profiles follow their nodes, and stay beyond them") {
 
 TEST_CASE("rules are combined place by place") {
   const Points3 places = random_sphere(500, 2);
-  const Widths zones = widths::by_latitude({{{-90, 20}, {90, 80}}});
+  const Widths zones = Widths::by_latitude({{{-90, 20}, {90, 80}}});
   const DoubleVector z = evaluate(zones, places);
-  CHECK(evaluate(widths::minimum({zones, 50.0}), places) == z.cwiseMin(50));
-  CHECK(evaluate(widths::maximum({zones, 50.0}), places) == z.cwiseMax(50));
-  CHECK(evaluate(widths::sum({zones, 5.0}), places) == (z.array() + 5).matrix());
-  CHECK(evaluate(widths::product(zones, 2), places) == 2 * z);
-  CHECK(evaluate(widths::clamp(zones, 30, 60), places) == z.cwiseMax(30).cwiseMin(60));
+  CHECK(evaluate(Widths::minimum({zones, 50.0}), places) == z.cwiseMin(50));
+  CHECK(evaluate(Widths::maximum({zones, 50.0}), places) == z.cwiseMax(50));
+  CHECK(evaluate(Widths::sum({zones, 5.0}), places) == (z.array() + 5).matrix());
+  CHECK(evaluate(Widths::product(zones, 2), places) == 2 * z);
+  CHECK(evaluate(Widths::clamp(zones, 30, 60), places) == z.cwiseMax(30).cwiseMin(60));
   const Surface region = circle({1, 0, 0}, 0.5);
-  const DoubleVector w = evaluate(widths::where(region, 10.0, zones), places);
+  const DoubleVector w = evaluate(Widths::where(region, 10.0, zones), places);
   for (Eigen::Index i = 0; i < places.cols(); ++i)
     CHECK(w[i] == (region.contains(places.col(i)) ? 10 : z[i]));
 }
 
 TEST_CASE("limited rules are those of cones, exactly where they grow from lines or by latitude") {
   const std::vector<Points3> points{line({{10, 89}}), line({{180, 0}}), line({{0, 0}})};
-  const Widths steep = widths::by_distance(points, {{{0, 10}, {100, 300}}}),
+  const Widths steep = Widths::by_distance(points, {{{0, 10}, {100, 300}}}),
                limited = steep.limit_gradient(0.03);
   const Points3 places = random_sphere(2000, 3);
   const DoubleVector got = evaluate(limited, places);
@@ -135,20 +135,20 @@ TEST_CASE("limited rules are those of cones, exactly where they grow from lines 
                                                              distance_of(points, places.col(i))))
                         .epsilon(1e-12));
   // A step of latitude: 20 km north of 30 degrees, 100 km from 29 degrees down.
-  const Widths step = widths::by_latitude({{{29, 100}, {30, 20}}}).limit_gradient(0.03);
+  const Widths step = Widths::by_latitude({{{29, 100}, {30, 20}}}).limit_gradient(0.03);
   const double km = earth_radius_km * radians;
   const DoubleVector along = evaluate(step, line({{0, 40}, {0, 30}, {0, 20}, {0, 10}, {0, -30}}));
   const DoubleVector law{{20, 20, 20 + 0.3 * km, 20 + 0.6 * km, 100}};
   CHECK((along - law).cwiseAbs().maxCoeff() < 1e-9);
   // Limited again, nothing changes; the least of both is limited as both are.
   CHECK((evaluate(limited.limit_gradient(0.03), places) - got).cwiseAbs().maxCoeff() < 1e-9);
-  const DoubleVector both = evaluate(widths::minimum({steep, step}).limit_gradient(0.03), places);
+  const DoubleVector both = evaluate(Widths::minimum({steep, step}).limit_gradient(0.03), places);
   CHECK((both - got.cwiseMin(evaluate(step, places))).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("other limited rules are limited at the nodes of a raster") {
   const Surface region = circle({0, 0, 1}, 0.3);
-  const Widths inside = widths::where(region, 40.0, 200.0);
+  const Widths inside = Widths::where(region, 40.0, 200.0);
   const DoubleVector got =
       evaluate(inside.limit_gradient(0.05), line({{0, 90}, {50, 60}, {0, -30}}));
   CHECK(got[0] == 40);
@@ -164,31 +164,31 @@ TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
     sea.heights.col(j).setConstant(-3000 - 10 * sea.latitudes[j]);
   for (Eigen::Index i = 0; i < 3; ++i)
     sea.heights.block(i, 3, 1, 3).setConstant(50); // land
-  using Kind = widths::DepthRule::Kind;
+  using Kind = DepthRule::Kind;
   const Points3 at = line({{100, 30}, {10, -50}, {0, -50}, {120, 0}});
   const double depth = 3300, speed = std::sqrt(9.80665 * depth);
   const DoubleVector wave = evaluate(
-      widths::by_depth(sea, {.kind = Kind::wavelength, .cells = 60, .period = 44712, .least = 3}),
+      Widths::by_depth(sea, {.kind = Kind::wavelength, .cells = 60, .period = 44712, .least = 3}),
       at);
   CHECK(wave[0] == doctest::Approx(speed * 44712 / 60 / 1000));
-  CHECK(wave[1] >= 0.99 * widths::no_demand); // land around
+  CHECK(wave[1] >= 0.99 * Widths::no_demand); // land around
   CHECK(wave[2] == doctest::Approx(3));       // the shore
   const DoubleVector rossby =
-      evaluate(widths::by_depth(sea, {.kind = Kind::rossby, .cells = 4, .least = 3}), at);
+      evaluate(Widths::by_depth(sea, {.kind = Kind::rossby, .cells = 4, .least = 3}), at);
   const double rotation = 7.292e-5;
   CHECK(rossby[0] == doctest::Approx(speed / (2 * rotation * 0.5) / 4 / 1000));
   const double c = std::sqrt(9.80665 * 3000), beta = 2 * rotation / (1000 * earth_radius_km);
   CHECK(rossby[3] == doctest::Approx(std::sqrt(c / (2 * beta)) / 4 / 1000));
   const DoubleVector slope =
-      evaluate(widths::by_depth(sea, {.kind = Kind::slope, .cells = 20, .least = 3}), at);
+      evaluate(Widths::by_depth(sea, {.kind = Kind::slope, .cells = 20, .least = 3}), at);
   const double rise = 10 / (1000 * earth_radius_km * radians);
   CHECK(slope[0] == doctest::Approx(2 * std::numbers::pi * depth / rise / 20 / 1000));
-  CHECK(error_of([&] { widths::by_depth(sea, {.cells = 60, .least = 3}); }).what() ==
+  CHECK(error_of([&] { Widths::by_depth(sea, {.cells = 60, .least = 3}); }).what() ==
         std::string("the period of a rule of depths, 0, is not positive; give one"));
 }
 
 TEST_CASE("a raster of widths has the same bits for any number of threads") {
-  const Widths widths = widths::by_distance(lines(), {{{0, 100}, {3000, 300}}});
+  const Widths widths = Widths::by_distance(lines(), {{{0, 100}, {3000, 300}}});
   const DoubleMatrix one = tbb::task_arena(1).execute([&] { return sampled(widths, 2).widths; });
   for (const int threads : {2, 4})
     CHECK(tbb::task_arena(threads).execute([&] { return sampled(widths, 2).widths; }) == one);
@@ -198,25 +198,25 @@ TEST_CASE("a raster of widths has the same bits for any number of threads") {
 TEST_CASE("widths that are none are refused by name") {
   const auto message = [](const auto& make) { return std::string(error_of(make).what()); };
   CHECK(message([] { Widths(-1.0); }) == "the cell width -1 is not a positive number; give km");
-  CHECK(message([] { widths::by_latitude({}); }) ==
+  CHECK(message([] { Widths::by_latitude({}); }) ==
         "a profile of the latitude has no node; give one or more");
   CHECK(message([] {
-          widths::by_latitude({{{0, 10}, {100, 20}}});
+          Widths::by_latitude({{{0, 10}, {100, 20}}});
         }) == "node 1 of a profile of the latitude is at 100, outside -90 to 90; correct it");
   CHECK(message([] {
-          widths::by_latitude({{{10, 10}, {0, 20}}});
+          Widths::by_latitude({{{10, 10}, {0, 20}}});
         }) == "node 1 of a profile of the latitude is not above the one before; sort them");
   CHECK(message([] {
-          widths::by_distance({line({{0, 0}})}, {{{0, 0}}});
+          Widths::by_distance({line({{0, 0}})}, {{{0, 0}}});
         }) == "node 0 of a profile of a distance has the width 0; give km, > 0");
   CHECK(message([] {
-          widths::by_distance({}, {{{0, 1}}});
+          Widths::by_distance({}, {{{0, 1}}});
         }) == "there is no line to be distant from; give one or more points");
   CHECK(message([] {
-          widths::by_distance({line({{0, 0}, {180, 0}})}, {{{0, 1}}});
+          Widths::by_distance({line({{0, 0}, {180, 0}})}, {{{0, 1}}});
         }) == "line 0, point 1 is opposite to the one before; give a point between them");
-  CHECK(message([] { widths::minimum({}); }) == "there are no widths to combine; give one or more");
-  CHECK(message([] { widths::where(Surface::plane(), 1.0, 2.0); }).find("sphere") !=
+  CHECK(message([] { Widths::minimum({}); }) == "there are no widths to combine; give one or more");
+  CHECK(message([] { Widths::where(Surface::plane(), 1.0, 2.0); }).find("sphere") !=
         std::string::npos);
   CHECK(message([] { sampled(Widths(1.0), 20); }) ==
         "the step 20 of a raster is out of range; give 0.01 to 10 degrees");

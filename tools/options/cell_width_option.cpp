@@ -84,7 +84,7 @@ CellWidth sampled_rules(const std::string& path) {
   const WidthRules rules = read_width_rules(path);
   CellWidth widths = sampled(rules.widths, rules.step);
   Eigen::Index column = 0, row = 0;
-  if (widths.widths.maxCoeff(&column, &row) >= 0.5 * widths::no_demand)
+  if (widths.widths.maxCoeff(&column, &row) >= 0.5 * Widths::no_demand)
     refuse(path + ": no rule gives a width at " +
            lonlat_words(widths.longitudes[column], widths.latitudes[row]) +
            "; add one that holds everywhere, such as { width = 60 }");

@@ -167,13 +167,13 @@ private:
   /// What any rule may have: a part of the sphere, a factor, limits.
   Widths changed(RuleTable& table, Widths widths) {
     if (table.take("times") != nullptr)
-      widths = widths::product(widths, table.number("times"));
+      widths = Widths::product(widths, table.number("times"));
     if (table.take("least") != nullptr)
-      widths = widths::maximum({widths, table.number("least")});
+      widths = Widths::maximum({widths, table.number("least")});
     if (table.take("most") != nullptr)
-      widths = widths::minimum({widths, table.number("most")});
+      widths = Widths::minimum({widths, table.number("most")});
     if (table.take("within") != nullptr)
-      widths = widths::where(read_region(file(table, "within")), widths, widths::no_demand);
+      widths = Widths::where(read_region(file(table, "within")), widths, Widths::no_demand);
     if (table.take("gradient") != nullptr)
       widths = widths.limit_gradient(table.number("gradient"));
     table.require_all_taken();
@@ -202,19 +202,19 @@ private:
     return parts;
   }
 
-  Widths least(RuleTable& table) { return widths::minimum(parts(table, "min")); }
-  Widths greatest(RuleTable& table) { return widths::maximum(parts(table, "max")); }
-  Widths sum(RuleTable& table) { return widths::sum(parts(table, "sum")); }
+  Widths least(RuleTable& table) { return Widths::minimum(parts(table, "min")); }
+  Widths greatest(RuleTable& table) { return Widths::maximum(parts(table, "max")); }
+  Widths sum(RuleTable& table) { return Widths::sum(parts(table, "sum")); }
   Widths constant(RuleTable& table) { return table.number("width"); }
-  Widths latitude(RuleTable& table) { return widths::by_latitude(table.pairs("latitude")); }
+  Widths latitude(RuleTable& table) { return Widths::by_latitude(table.pairs("latitude")); }
 
   Widths distance(RuleTable& table) {
     const std::string path = file(table, "distance-to");
     if (table.has("profile"))
-      return widths::by_distance(read_shapes(path), table.pairs("profile"));
+      return Widths::by_distance(read_shapes(path), table.pairs("profile"));
     const double near = table.number("near"), far = table.number("far"),
                  over = table.number("over");
-    return widths::by_distance(read_shapes(path), {{{0, near}, {over, far}}, table.between()});
+    return Widths::by_distance(read_shapes(path), {{{0, near}, {over, far}}, table.between()});
   }
 
   /// A band about lines; beyond it the rule says nothing.
@@ -222,24 +222,24 @@ private:
     const std::string path = file(table, "lines");
     const double width = table.number("width"), over = table.number("over");
     constexpr double edge = 1e-6; // km
-    return widths::by_distance(read_shapes(path),
-                               {{{0, width}, {over, width}, {over + edge, widths::no_demand}}});
+    return Widths::by_distance(read_shapes(path),
+                               {{{0, width}, {over, width}, {over + edge, Widths::no_demand}}});
   }
 
   Widths heights(RuleTable& table) {
     const std::string path = file(table, "heights");
     const HeightRaster raster =
         read_heights(path, table.has("variable") ? table.text("variable", "its name") : "");
-    widths::DepthRule rule{.least = table.number("least")};
+    DepthRule rule{.least = table.number("least")};
     if (table.has("period")) {
       rule.period = seconds(table);
       rule.cells = table.number("cells");
     } else {
       const bool rossby = table.has("rossby");
-      rule.kind = rossby ? widths::DepthRule::Kind::rossby : widths::DepthRule::Kind::slope;
+      rule.kind = rossby ? DepthRule::Kind::rossby : DepthRule::Kind::slope;
       rule.cells = table.number(rossby ? "rossby" : "slope");
     }
-    return widths::by_depth(raster, rule);
+    return Widths::by_depth(raster, rule);
   }
 
   static double seconds(RuleTable& table) {

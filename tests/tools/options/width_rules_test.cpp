@@ -68,24 +68,24 @@ TEST_CASE("each rule of a file is that of the library") {
   const WidthProfile grows{{{0, 10}, {600, 60}}};
   CHECK(rules.widths("width = 60") == DoubleVector::Constant(5, 60));
   CHECK(rules.widths("latitude = [[-90, 35], [0, 60], [90, 20]]") ==
-        evaluate(widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), places()));
+        evaluate(Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), places()));
   CHECK(rules.widths("distance-to = \"line.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
-        evaluate(widths::by_distance({line}, grows), places()));
+        evaluate(Widths::by_distance({line}, grows), places()));
   CHECK(rules.widths("distance-to = \"line.geojson\"\nprofile = [[0, 10], [600, 60]]\n"
                      "between = \"smooth\"") ==
-        evaluate(widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
+        evaluate(Widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
                  places()));
   CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
-        evaluate(widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
+        evaluate(Widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
                  places()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
   CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
-        evaluate(widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
+        evaluate(Widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
                  places()));
   CHECK(rules.widths("gradient = 0.03\nmin = [50, {latitude = [[0, 60], [90, 20]]}, "
                      "{distance-to = \"line.geojson\", near = 10, far = 60, over = 600}]") ==
-        evaluate(widths::minimum({50.0, widths::by_latitude({{{0, 60}, {90, 20}}}),
-                                  widths::by_distance({line}, grows)})
+        evaluate(Widths::minimum({50.0, Widths::by_latitude({{{0, 60}, {90, 20}}}),
+                                  Widths::by_distance({line}, grows)})
                      .limit_gradient(0.03),
                  places()));
   CHECK(rules.widths("sum = [30, 5]\ntimes = 2\nmost = 65") == DoubleVector::Constant(5, 65));
@@ -97,7 +97,7 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
       rules.widths("min = [60, {lines = \"line.geojson\", width = 5, over = 200}]");
   CHECK(band == DoubleVector{{5, 60, 60, 60, 60}});
   const DoubleVector part = rules.widths("width = 5\nwithin = \"island.geojson\"");
-  CHECK(part[2] >= widths::no_demand);
+  CHECK(part[2] >= Widths::no_demand);
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
   test::write_text(rules.path(),
                    "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");

@@ -22,7 +22,7 @@ WidthProfile profile(const Doubles& nodes, bool smooth) {
 }
 
 Widths by_latitude(const Doubles& nodes, bool smooth) {
-  return call([of = profile(nodes, smooth)] { return widths::by_latitude(of); });
+  return call([of = profile(nodes, smooth)] { return Widths::by_latitude(of); });
 }
 
 /// \param lines n x 3 each.
@@ -30,28 +30,28 @@ Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool
   std::vector<Points3> all;
   for (const Doubles& line : lines)
     all.emplace_back(columns(line));
-  return call([&, of = profile(nodes, smooth)] { return widths::by_distance(all, of); });
+  return call([&, of = profile(nodes, smooth)] { return Widths::by_distance(all, of); });
 }
 
 Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool smooth) {
   return call(
-      [&, of = profile(nodes, smooth)] { return widths::by_distance(read_shapes(path), of); });
+      [&, of = profile(nodes, smooth)] { return Widths::by_distance(read_shapes(path), of); });
 }
 
 /// The library's functions of several widths, by name.
 Widths combined(const std::string& name, const std::vector<Widths>& of) {
   return call([&] {
-    return name == "minimum"   ? widths::minimum(of)
-           : name == "maximum" ? widths::maximum(of)
-                               : widths::sum(of);
+    return name == "minimum"   ? Widths::minimum(of)
+           : name == "maximum" ? Widths::maximum(of)
+                               : Widths::sum(of);
   });
 }
 
 Widths by_depth(const std::string& path, const std::string& variable, const std::string& kind,
                 double cells, double period, double least) {
-  using Kind = widths::DepthRule::Kind;
+  using Kind = DepthRule::Kind;
   return call([&] {
-    return widths::by_depth(read_heights(path, variable),
+    return Widths::by_depth(read_heights(path, variable),
                             {.kind = kind == "wavelength" ? Kind::wavelength
                                      : kind == "rossby"   ? Kind::rossby
                                                           : Kind::slope,
@@ -94,11 +94,11 @@ void add_widths(py::module_& module) {
   module.def("widths_by_depth", &by_depth);
   module.def("combined_widths", &combined);
   module.def("widths_times", [](const Widths& widths, double factor) {
-    return call([&] { return widths::product(widths, factor); });
+    return call([&] { return Widths::product(widths, factor); });
   });
   module.def("widths_where",
              [](const Surface& region, const Widths& inside, const Widths& outside) {
-               return call([&] { return widths::where(region, inside, outside); });
+               return call([&] { return Widths::where(region, inside, outside); });
              });
 }
 
