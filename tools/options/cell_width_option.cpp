@@ -276,7 +276,7 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
   const std::string limit = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";
-  if (gradient.slope > steepest_width)
+  if (is_too_steep(gradient.slope))
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
                     place_of(gradient) + ", above " + limit + ", the limit for most models; " +
                     remedy_of(words, std::abs(scale - 1) > 0.01));
