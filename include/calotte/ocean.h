@@ -54,13 +54,6 @@ struct LandRaster {
   DoubleMatrix land;       ///< nx x ny, fractions of land from 0 to 1
 };
 
-/// Heights by a raster of longitudes and latitudes, which may be irregular.
-struct HeightRaster {
-  DoubleVector longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  DoubleVector latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
-  DoubleMatrix heights;    ///< nx x ny, metres up; below 0 is sea
-};
-
 /// The fraction of each cell that is land, by sampling: each rectangle of the raster is cut into
 /// k x k parts of equal steps of longitude and latitude. k is the least number, up to 256, that
 /// makes their sides shorter than a quarter of the square root of the area of the cell at the

@@ -8,6 +8,7 @@
 #include <calotte/planar_raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 #include <iosfwd>

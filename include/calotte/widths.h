@@ -3,7 +3,6 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
-#include <calotte/ocean.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -27,6 +26,13 @@ struct WidthProfile {
   /// and beyond the last the width stays.
   std::vector<std::array<double, 2>> nodes;
   Between between = Between::linear; ///< default: along a line
+};
+
+/// Heights by a raster of longitudes and latitudes, which may be irregular.
+struct HeightRaster {
+  DoubleVector longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
+  DoubleVector latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
+  DoubleMatrix heights;    ///< nx x ny, metres up; below 0 is sea
 };
 
 /// How widths follow from the depth of the sea and its change.

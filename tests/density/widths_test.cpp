@@ -165,7 +165,7 @@ TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
   for (Eigen::Index i = 0; i < 3; ++i)
     sea.heights.block(i, 3, 1, 3).setConstant(50); // land
   using Kind = DepthRule::Kind;
-  const Points3 at = line({{100, 30}, {10, -50}, {0, -50}, {120, 0}});
+  const Points3 at = line({{100, 30}, {10, -50}, {0, -50}, {120, 0}, {90, 60}});
   const double depth = 3300, speed = std::sqrt(9.80665 * depth);
   const DoubleVector wave = evaluate(
       Widths::by_depth(sea, {.kind = Kind::wavelength, .cells = 60, .period = 44712, .least = 3}),
@@ -176,7 +176,8 @@ TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
   const DoubleVector rossby =
       evaluate(Widths::by_depth(sea, {.kind = Kind::rossby, .cells = 4, .least = 3}), at);
   const double rotation = 7.292e-5;
-  CHECK(rossby[0] == doctest::Approx(speed / (2 * rotation * 0.5) / 4 / 1000));
+  CHECK(rossby[4] == doctest::Approx(std::sqrt(9.80665 * 3600) /
+                                     (2 * rotation * std::sin(60 * radians)) / 4 / 1000));
   const double c = std::sqrt(9.80665 * 3000), beta = 2 * rotation / (1000 * earth_radius_km);
   CHECK(rossby[3] == doctest::Approx(std::sqrt(c / (2 * beta)) / 4 / 1000));
   const DoubleVector slope =
