@@ -23,5 +23,6 @@ def test_the_page_is_that_of_the_package():
 def test_the_page_lists_all_names():
     module = reference()
     listed = {name for _, names in module.GROUPS for name in names} | set(module.KINDS)
-    assert listed == set(calotte.__all__) - {"__version__"} | {"Range", "Percentiles", "ErrorNorms",
+    assert set(module.WIDTHS) == set(calotte.widths.__all__) - {"Widths"}
+    assert listed == set(calotte.__all__) - {"__version__", "widths"} | {"Range", "Percentiles", "ErrorNorms",
                                                               "PolygonShapes"}

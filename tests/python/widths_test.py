@@ -27,7 +27,7 @@ def test_rules_are_what_they_say():
     part = widths.where("circle=0,90,60deg", 10, 20)
     assert (part(lon, lat) == np.where(lat > 30, 10, 20)).all()
     limited = widths.distance_to([[(0, 0)], [(180, 0)]], profile=[(0, 10), (100, 300)]).limit_gradient(0.03)
-    assert limited(90, 0) == pytest.approx(10 + 0.03 * RADIUS * np.pi / 2, rel=1e-12)
+    assert limited(45, 0) == pytest.approx(10 + 0.03 * RADIUS * np.pi / 4, rel=1e-12)
 
 
 def test_functions_and_rasters_are_rules():

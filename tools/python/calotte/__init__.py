@@ -15,9 +15,9 @@ calotte.scipy, calotte.stripy and calotte.mpas_tools replace classes and functio
 """
 import importlib
 
-from . import _display, _mesh  # add the methods that are written in Python
+from . import _display, _mesh, widths  # add the methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
-                       Quality, Surface, Voronoi, __version__)
+                       Quality, Surface, Voronoi, Widths, __version__)
 from ._functions import (Cvt, Level, Plan, bisect, bisected_icosahedron, channel, check, circle,
                          cubed_sphere, cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
@@ -27,16 +27,16 @@ from ._functions import (Cvt, Level, Plan, bisect, bisected_icosahedron, channel
 
 __all__ = [
     "CellWidth", "Check", "Cvt", "Density", "Error", "Level", "Locations", "Mesh", "OperatorErrors",
-    "Plan", "Polygons", "Quality", "Surface", "Voronoi", "__version__", "bisect",
+    "Plan", "Polygons", "Quality", "Surface", "Voronoi", "Widths", "__version__", "bisect",
     "bisected_icosahedron", "channel", "check", "circle", "cubed_sphere", "cull", "cut", "cvt",
     "delaunay", "density", "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere",
     "hexagonal_lattice", "interpolate", "lat_lon_sphere", "limited_area", "locate",
     "operator_errors", "periodic_box", "planar_polygon", "plan", "polygon", "quality",
     "random_points", "read", "read_fields", "read_points", "rectangle", "spiral_sphere", "threads",
-    "to_lonlat", "voronoi", "write",
+    "to_lonlat", "voronoi", "widths", "write",
 ]
 
-_SUBMODULES = ("mpas_tools", "scipy", "stripy", "widths")
+_SUBMODULES = ("mpas_tools", "scipy", "stripy")
 
 
 def __getattr__(name):

@@ -100,10 +100,9 @@ def where(region, inside, outside):
 
 def _at(self, longitudes, latitudes):
     """The widths in km at longitudes and latitudes in degrees, which are broadcast."""
-    lon, lat = np.broadcast_arrays(_arguments.numbers(longitudes, "longitudes"),
-                                   _arguments.numbers(latitudes, "latitudes"))
+    lon, lat = np.broadcast_arrays(np.asarray(longitudes, float), np.asarray(latitudes, float))
     places = np.stack([lon.ravel(), lat.ravel()], axis=1)
-    return self.at(_arguments.sphere_points(places)).reshape(lon.shape)
+    return self.at(_calotte.from_lonlat(places)).reshape(lon.shape)[()]
 
 
 def _to_xarray(self, step=0):
