@@ -107,9 +107,9 @@ private:
 };
 
 /// The edges of an outline, for straight ways that they cut.
-class Walls {
+class EdgeTree {
 public:
-  explicit Walls(const Outline& outline) : edges_(outline.edges()), tree_(tree_of(edges_)) {}
+  explicit EdgeTree(const Outline& outline) : edges_(outline.edges()), tree_(tree_of(edges_)) {}
 
   /// Whether a straight way passes from one side of an edge to the other. A way that ends on an
   /// edge, or runs along it, does not.
@@ -166,7 +166,7 @@ public:
         sides_(static_cast<std::size_t>(raster_size()), Side::inside) {
     if (outline_ == nullptr)
       return;
-    walls_.emplace(*outline_);
+    edge_tree_.emplace(*outline_);
     base_detail::for_each_block(raster_size(), [&](std::int64_t, std::int64_t from,
                                                    std::int64_t to) {
       for (std::int64_t a = from; a != to; ++a)
@@ -191,10 +191,10 @@ public:
   void turn_outside() { outwards_ = true; }
 
   bool sees(std::int32_t a, std::int32_t b) const {
-    if (outwards_ || !walls_)
+    if (outwards_ || !edge_tree_)
       return true;
     const Vec2 from = place(a), to = place(b);
-    if (walls_->cut(from, to))
+    if (edge_tree_->cut(from, to))
       return false;
     // Between two places of the boundary it may pass through an island without crossing an edge.
     return side(a) != Side::boundary || side(b) != Side::boundary ||
@@ -309,7 +309,7 @@ private:
   std::int32_t columns_, rows_;
   Eigen::Vector2d period_;
   const Outline* outline_; ///< null without one
-  std::optional<Walls> walls_;
+  std::optional<EdgeTree> edge_tree_;
   std::vector<Side> sides_;
   std::vector<Corner> corners_;
   Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> corners_in_; ///< by box of the raster
