@@ -37,15 +37,16 @@ struct HeightRaster {
 
 /// How widths follow from the depth of the sea and its change.
 struct DepthRule {
+  /// The length that cells share.
   enum class Kind {
     wavelength, ///< of shallow water: sqrt(g depth) period
     rossby,     ///< sqrt(g depth) / max(|f|, sqrt(2 beta sqrt(g depth))), with f of the Earth
     slope       ///< 2 pi depth / |grad depth|
   };
-  Kind kind = Kind::wavelength;
-  double cells = 0;  ///< that share the length, > 0
-  double period = 0; ///< seconds, > 0, of a wave
-  double least = 0;  ///< km, > 0: where the sea is shallow, and at the shore
+  Kind kind = Kind::wavelength; ///< default: that of a wave
+  double cells = 0;             ///< that share the length, > 0
+  double period = 0;            ///< seconds, > 0, of a wave
+  double least = 0;             ///< km, > 0: where the sea is shallow, and at the shore
 };
 
 /// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
@@ -63,6 +64,7 @@ public:
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
   /// \throws Error invalid_argument as density_of().
   Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
+  /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
 
   /// \param profile of the latitude in degrees, from -90 to 90.
@@ -87,11 +89,14 @@ public:
   /// What a rule says of places where it says nothing, km: wider than any other.
   static constexpr double no_demand = 1e9;
 
+  /// The least of several, place by place.
   /// \throws Error invalid_argument for an empty list, here and below.
   static Widths minimum(const std::vector<Widths>& of);
-  static Widths maximum(const std::vector<Widths>& of);
-  static Widths sum(const std::vector<Widths>& of);
+  static Widths maximum(const std::vector<Widths>& of); ///< the greatest
+  static Widths sum(const std::vector<Widths>& of);     ///< all together
+  /// \param factor > 0 and finite.
   static Widths product(const Widths& widths, double factor);
+  /// At least `least` and at most `most`.
   static Widths clamp(const Widths& widths, double least, double most);
   /// One rule within a region, another outside.
   static Widths where(const Surface& region, const Widths& inside, const Widths& outside);
