@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/width_rules.h"
 
-#include "io/netcdf/netcdf_writer.h"
 #include "support/files.h"
 
 #include <calotte/error.h>
@@ -9,7 +8,9 @@
 #include <calotte/widths.h>
 
 #include <doctest/doctest.h>
+#include <netcdf.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -107,23 +108,22 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
 
 TEST_CASE("heights of a file give the widths of waves") {
   const Rules rules;
-  io_detail::NetcdfWriter file(rules.beside("sea.nc"));
-  const int lat = file.dimension("lat", 3), lon = file.dimension("lon", 4);
-  const int latitudes = file.variable("lat", io_detail::NetcdfType::float64, {lat}),
-            longitudes = file.variable("lon", io_detail::NetcdfType::float64, {lon}),
-            heights = file.variable("z", io_detail::NetcdfType::float64, {lat, lon});
-  file.begin();
-  const auto put = [&](int variable, double first, double step, std::int64_t row) {
-    file.put(variable, [=](std::int64_t begin, std::int64_t end, double* out) {
-      for (std::int64_t k = begin * row; k < end * row; ++k)
-        *out++ = first + step * static_cast<double>(k);
-    });
-  };
-  put(latitudes, -90, 90, 1);
-  put(longitudes, 0, 90, 1);
-  put(heights, -4000, 0, 4);
-  file.finish();
-  file.commit();
+  int file = 0, lat = 0, lon = 0, latitudes = 0, longitudes = 0, heights = 0;
+  REQUIRE(nc_create(rules.beside("sea.nc").c_str(), NC_CLOBBER, &file) == NC_NOERR);
+  CHECK(nc_def_dim(file, "lat", 3, &lat) == NC_NOERR);
+  CHECK(nc_def_dim(file, "lon", 4, &lon) == NC_NOERR);
+  const std::array<int, 2> both{lat, lon};
+  CHECK(nc_def_var(file, "lat", NC_DOUBLE, 1, &lat, &latitudes) == NC_NOERR);
+  CHECK(nc_def_var(file, "lon", NC_DOUBLE, 1, &lon, &longitudes) == NC_NOERR);
+  CHECK(nc_def_var(file, "z", NC_DOUBLE, 2, both.data(), &heights) == NC_NOERR);
+  CHECK(nc_enddef(file) == NC_NOERR);
+  const std::array<double, 3> south_to_north{-90, 0, 90};
+  const std::array<double, 4> eastward{0, 90, 180, 270};
+  const std::vector<double> depths(12, -4000);
+  CHECK(nc_put_var_double(file, latitudes, south_to_north.data()) == NC_NOERR);
+  CHECK(nc_put_var_double(file, longitudes, eastward.data()) == NC_NOERR);
+  CHECK(nc_put_var_double(file, heights, depths.data()) == NC_NOERR);
+  CHECK(nc_close(file) == NC_NOERR);
   const DoubleVector widths =
       rules.widths("heights = \"sea.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2");
   CHECK(widths[0] == doctest::Approx(std::sqrt(9.80665 * 4000) * 12.42 * 3600 / 60 / 1000));
