@@ -75,9 +75,13 @@ Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_
 
 /// The largest widths that are nowhere above the given ones, and change by at most g km per km
 /// between any two nodes: the least of h(y) + g d(x, y) over all nodes y, with the distance d on
-/// the sphere. The result has the same bits for any number of threads. \param gradient g, km per
-/// km, > 0 and finite. \param radius_km radius of the sphere, > 0 and finite; default that of the
-/// Earth. \throws Error as density_of; invalid_argument for a gradient or a radius out of range.
+/// the sphere. Where a node lowers none of
+/// its neighbours, but one beyond, the way from it may be longer by some hundredths of a step of
+/// the raster. The result has the same bits for any number of threads.
+///
+/// \param gradient g, km per km, > 0 and finite.
+/// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
+/// \throws Error as density_of; invalid_argument for a gradient or a radius out of range.
 CellWidth limit_gradient(const CellWidth& cell_width, double gradient,
                          double radius_km = earth_radius_km);
 

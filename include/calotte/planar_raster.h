@@ -43,10 +43,13 @@ double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface);
 /// The largest widths that are nowhere above the given ones, and change by at most g per unit of
 /// length between any two nodes of the domain: the least of h(y) + g d(x, y) over all nodes y of
 /// the domain, with the length d of the shortest way in it, round its islands and across its
-/// periods. (A way bends at nodes, where the shortest one bends at corners.) A node outside has
-/// what the domain's nodes allow it straight across. The result has the same bits for any number of
-/// threads. \param gradient g, > 0 and finite. \throws Error as density_of; invalid_argument for a
-/// gradient out of range, and for the sphere.
+/// periods. A node outside the domain has what the other nodes allow it straight across. Ways
+/// may be longer by some hundredths of a step of the raster, and round islands by a third of one.
+/// The result has the same bits for any number of threads.
+///
+/// \param gradient g, > 0 and finite.
+/// \param surface a plane.
+/// \throws Error as density_of; invalid_argument for a gradient out of range, and for the sphere.
 PlanarCellWidth limit_gradient(const PlanarCellWidth& cell_width, double gradient,
                                const Surface& surface);
 

@@ -35,7 +35,9 @@ struct HeightRaster {
   DoubleMatrix heights;    ///< nx x ny, metres up; below 0 is sea
 };
 
-/// How widths follow from the depth of the sea and its change.
+/// How widths follow from the depth of the sea and its change. (Waves and slopes: Roberts, Pringle
+/// and Westerink, Geosci. Model Dev. 12, 2019. Rossby radii: Gill, Atmosphere-Ocean Dynamics,
+/// 1982.)
 struct DepthRule {
   /// The length that cells share.
   enum class Kind {
@@ -72,9 +74,8 @@ public:
   static Widths by_latitude(const WidthProfile& profile);
 
   /// By the distance from the nearest of some lines, along great circles.
-  /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; a line
-  /// may
-  ///        be a single point. See read_shapes() and shores().
+  /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; one point
+  ///        is a line, too. See read_shapes() and shores().
   /// \param profile of the distance in km, from 0 on.
   /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
   ///         direction, no line; naming the node, a profile that is none.
@@ -86,7 +87,8 @@ public:
   ///         the conditions of HeightRaster.
   static Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
 
-  /// What a rule says of places where it says nothing, km: wider than any other.
+  /// What a rule says of places where it says nothing, km: wider than any other, so that others
+  /// hold in a minimum.
   static constexpr double no_demand = 1e9;
 
   /// The least of several, place by place.
@@ -94,7 +96,9 @@ public:
   static Widths minimum(const std::vector<Widths>& of);
   static Widths maximum(const std::vector<Widths>& of); ///< the greatest
   static Widths sum(const std::vector<Widths>& of);     ///< all together
+  /// All of them times a number.
   /// \param factor > 0 and finite.
+  /// \throws Error invalid_argument for a factor out of range.
   static Widths product(const Widths& widths, double factor);
   /// At least `least` and at most `most`.
   static Widths clamp(const Widths& widths, double least, double most);

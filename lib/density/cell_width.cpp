@@ -27,15 +27,11 @@ namespace calotte {
 namespace {
 
 using base_detail::shortly;
+using density_detail::require_radius;
 using density_detail::WidthField;
 using domain_detail::require_sphere;
 
 const char* const widths_are = "cell widths by longitude and latitude are";
-
-void require_radius(double radius_km) {
-  if (!(radius_km > 0) || !std::isfinite(radius_km))
-    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
-}
 
 /// The widths at the columns of a block.
 void evaluate_block(const WidthField& field, const Eigen::Ref<const Points3>& points,
@@ -127,6 +123,11 @@ void densities_of_widths(double least, std::size_t count, double* values) {
 } // namespace
 
 namespace density_detail {
+
+void require_radius(double radius_km) {
+  if (!(radius_km > 0) || !std::isfinite(radius_km))
+    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
+}
 
 void WidthDensity::operator()(const Eigen::Ref<const Points3>& points,
                               Eigen::Ref<Eigen::VectorXd> rho) const {

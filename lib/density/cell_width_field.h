@@ -70,6 +70,9 @@ private:
   double least_ = 0; ///< of the nodes given
 };
 
+/// \throws Error invalid_argument unless a radius is > 0 and finite.
+void require_radius(double radius_km);
+
 /// Why nodes do not cover a region, see require_covering(); empty if they do.
 /// \param longitude, latitude names of the coordinates in the message.
 std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,

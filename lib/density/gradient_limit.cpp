@@ -42,10 +42,6 @@ public:
       round_.push_back({at.x, at.y});
     }
     step_ = radius_ * std::numbers::pi / (rows_ + 1);
-    const double columns_of_step = columns_ / (2.0 * (rows_ + 1));
-    for (const Angle& latitude : along_)
-      wide_.push_back(static_cast<std::int32_t>(
-          std::clamp(std::round(columns_of_step / latitude.cosine), 1.0, 0.5 * columns_)));
   }
 
   std::int32_t size() const { return rows_ * columns_ + 2; }
@@ -66,19 +62,14 @@ public:
       return;
     }
     const std::int32_t j = (a - 1) / columns_, i = (a - 1) % columns_;
-    const std::int32_t wide = wide_[static_cast<std::size_t>(j)];
     body(node(round(i - 1), j));
     body(node(round(i + 1), j));
-    if (wide > 1) {
-      body(node(round(i - wide), j));
-      body(node(round(i + wide), j));
-    }
     for (const std::int32_t row : {j - 1, j + 1}) {
       if (row < 0 || row == rows_) {
         body(row < 0 ? 0 : north());
         continue;
       }
-      for (const std::int32_t column : {i - wide, i, i + wide})
+      for (const std::int32_t column : {i - 1, i, i + 1})
         body(node(round(column), row));
     }
   }
@@ -103,7 +94,6 @@ private:
   std::int32_t columns_, rows_;
   double radius_, step_;
   std::vector<Angle> along_, round_; ///< of latitudes, of longitudes
-  std::vector<std::int32_t> wide_;   ///< by row: the columns that are as far apart as the rows
 };
 
 /// The edges of an outline, for straight ways that they cut.
@@ -181,6 +171,9 @@ public:
   }
   bool inside(std::int32_t a) const { return side(a) != Side::outside; }
   bool all_inside() const { return outline_ == nullptr; }
+  bool none_inside() const {
+    return std::count(sides_.begin(), sides_.end(), Side::outside) == std::ssize(sides_);
+  }
   double step() const {
     return std::min((x_[columns_ - 1] - x_[0]) / (columns_ - 1),
                     (y_[rows_ - 1] - y_[0]) / (rows_ - 1));
@@ -332,7 +325,9 @@ PlanarCellWidth limit_gradient(const PlanarCellWidth& widths, double gradient,
   constexpr double none = std::numeric_limits<double>::infinity();
   const auto given = widths.widths.reshaped();
   std::vector<double> values(given.begin(), given.end());
-  if (!nodes.all_inside()) {
+  if (nodes.none_inside()) {
+    nodes.turn_outside();
+  } else if (!nodes.all_inside()) {
     for (std::int32_t a = 0; a < nodes.raster_size(); ++a)
       if (!nodes.inside(a))
         values[static_cast<std::size_t>(a)] = none;
@@ -353,6 +348,7 @@ PlanarCellWidth limit_gradient(const PlanarCellWidth& widths, double gradient,
 
 CellWidth limit_gradient(const CellWidth& widths, double gradient, double radius_km) {
   require_gradient(gradient);
+  require_radius(radius_km);
   const WidthField field(widths);
   const SphereNodes nodes(field, widths, radius_km);
   const std::int64_t columns = widths.longitudes.size(), rows = field.latitudes().intervals() - 1;

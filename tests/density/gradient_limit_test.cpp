@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/directions.h"
 #include "support/files.h"
 #include "support/random.h"
 
@@ -22,19 +23,16 @@
 // The limited widths against the least of all cones, node by node, and the laws that follow.
 
 using namespace calotte;
+using calotte::test::angle;
+using calotte::test::direction;
 using calotte::test::error_of;
 
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
-Eigen::Vector3d direction(double longitude, double latitude) {
-  const double a = longitude * radians, b = latitude * radians;
-  return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
-}
-
 double kilometres(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return earth_radius_km * std::atan2(a.cross(b).norm(), a.dot(b));
+  return earth_radius_km * angle(a, b);
 }
 
 /// \param poles whether rows stand at the poles.
@@ -229,5 +227,18 @@ TEST_CASE("limits that are none are refused") {
   for (const double gradient : {0.0, -1.0, std::nan("")})
     CHECK(error_of([&] { limit_gradient(given, gradient); }).what() ==
           std::string("the limit of the gradient must be positive; give it in km per km"));
+  for (const double radius : {0.0, -6371.0, std::nan("")})
+    CHECK(std::string(error_of([&] { limit_gradient(given, 0.03, radius); }).what())
+              .find("radius must be positive") != std::string::npos);
   CHECK(limit_gradient(given, 1e-9).widths == given.widths);
+}
+
+TEST_CASE("a raster without a node in the domain is limited at its nodes") {
+  const Surface domain = rectangle({40, 40}, {60, 60});
+  PlanarCellWidth given{DoubleVector{{0, 100}}, DoubleVector{{0, 100}}, DoubleMatrix(2, 2)};
+  given.widths << 1, 50, 50, 50;
+  const DoubleMatrix limited = limit_gradient(given, 0.1, domain).widths;
+  CHECK(limited(0, 0) == 1);
+  CHECK(limited(1, 0) == doctest::Approx(11));
+  CHECK(limited(1, 1) == doctest::Approx(1 + 10 * std::sqrt(2.0)));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/clouds.h"
+#include "support/directions.h"
 #include "support/files.h"
 #include "support/random.h"
 
@@ -19,20 +20,13 @@
 // Rules for widths against what their words say, place by place.
 
 using namespace calotte;
+using calotte::test::angle;
+using calotte::test::direction;
 using calotte::test::error_of;
 
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-
-Eigen::Vector3d direction(double longitude, double latitude) {
-  const double a = longitude * radians, b = latitude * radians;
-  return {std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b)};
-}
-
-double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// In the frame of the arc, in long double.
 double angle_from_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to,

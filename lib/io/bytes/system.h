@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What is asked of the operating system about files, all of it: POSIX, and where there is more,
-/// what Linux offers. An error is an errno, 0 is none.
+/// All calls of the operating system about files: those of POSIX, and some of Linux. An error is an
+/// errno; 0 is none.
 namespace calotte::io_detail {
 
 /// An open file.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/cell_width_field.h"
 #include "density/cell_width_polygons.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/geojson_areas.h"
@@ -121,8 +122,7 @@ private:
 
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths) {
-  if (!(widths.radius_km > 0) || !std::isfinite(widths.radius_km))
-    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
+  density_detail::require_radius(widths.radius_km);
   return Collector(name, widths).read(in);
 }
 
