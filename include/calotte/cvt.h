@@ -37,12 +37,13 @@ enum class Method {
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian
 };
 
-/// The boundary of a region in a run.
+/// The boundary of a bounded surface in a run.
 enum class Boundary {
-  /// The boundary clips cells. The mesh has the triangles whose circumcentre lies in the region.
+  /// The boundary clips cells. The mesh has the triangles whose circumcentre lies in the region, in
+  /// a plane all triangles.
   clip,
   /// The fixed generators include some on the boundary, as boundary_points() gives them, and the
-  /// mesh ends there: it has the triangles whose centre of mass lies in the region.
+  /// mesh ends there: it has the triangles whose centre of mass lies in the surface.
   generators,
 };
 

@@ -7,6 +7,7 @@
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <vector>
 
 CALOTTE_API_BEGIN
 namespace calotte {
@@ -58,20 +59,47 @@ Points3 random_sphere(std::int64_t n, std::uint64_t seed = 1);
 ///         somewhere; zero everywhere; or a callable without a maximum.
 Points3 random_sphere(std::int64_t n, const Density& density, std::uint64_t seed = 1);
 
-/// Generators along the boundary of a region, ring by ring, for Recipe::fixed of a run with
+/// Generators along the boundary of a surface, ring by ring, for Recipe::fixed of a run with
 /// Boundary::generators: at the distances of neighbours that a density demands of so many
 /// generators, of which those on the boundary have half a cell. Corners where the boundary turns by
 /// 20 degrees or more have a generator unless a sharper one is nearer than two thirds of such a
 /// distance; the distances between two corners are equal, from 5/8 to 5/4 of the demanded one. A
 /// ring has at least three generators, whose distances may be smaller.
 ///
-/// The generators lie on the boundary up to 1e-15, and not outside the region.
-/// \param surface the sphere or a region of it.
+/// The generators lie on the boundary up to 1e-15, in a plane times its coordinates, and not
+/// outside the surface.
+/// \param surface the sphere, a region of it, or a plane.
 /// \param cells number of generators of the run, 4 to 2^30.
-/// \returns 3 x n unit columns; none for the whole sphere.
-/// \throws Error invalid_argument for a plane, an ill-formed density, cells out of range, and if
-///         the boundary takes all of the cells.
+/// \returns 3 x n; none for a surface without a boundary.
+/// \throws Error invalid_argument for an ill-formed density, cells out of range, and if the
+///         boundary takes all of the cells.
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density = {});
+
+/// Generators along lines.
+struct LinePoints {
+  Points3 points; ///< 3 x n
+  /// The largest distance of a place on the lines from the nearest of them, over the distance of
+  /// neighbours that is demanded there; a half where generators follow each other at that distance.
+  double farthest = 0;
+};
+
+/// Generators along lines such as rivers, for Recipe::fixed: at the distances of neighbours that a
+/// density demands of so many generators, from 3/4 to 3/2 of it. The lines are one network, however
+/// they are cut into parts. Where three lines or more meet, and where one ends, there is a
+/// generator, and where a line turns by 20 degrees or more, unless a sharper corner is nearer than
+/// two thirds of that distance. Of two generators nearer than that one is left out, of a
+/// confluence and an end the end: lines that run close to each other, or cross between their
+/// points, share generators.
+/// \param lines each 3 x n, on the sphere directions joined by arcs shorter than a half circle, in
+///        a plane x y 0. Points are shared if they are equal.
+/// \param surface of finite area, which holds the lines.
+/// \param cells number of generators of the run, 3 to 2^30.
+/// \param beside other fixed generators, 3 x m, from which the result keeps that distance, too.
+/// \throws Error invalid_argument, naming line and point: no direction, not finite, opposite
+///         neighbours; a point outside the surface; an ill-formed density; cells out of range.
+LinePoints line_points(const std::vector<Points3>& lines, const Surface& surface,
+                       std::int64_t cells, const Density& density = {},
+                       const Points3& beside = Points3(3, 0));
 
 /// The Fibonacci lattice, from north to south: z_i = 1 - (2i + 1)/n, longitude i times the golden
 /// angle pi (3 - sqrt 5).

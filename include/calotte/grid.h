@@ -110,10 +110,13 @@ struct Recipe {
   /// Directions of a box in which it ends at walls. The run covers a wider box, whose gap beyond
   /// the walls holds more cells; walled() takes those between them. Default: none.
   Walls walls = {};
-  Boundary boundary = Boundary::clip; ///< of a part of the sphere
+  Boundary boundary = Boundary::clip; ///< of a bounded surface
   /// Generators that stay where they are, 3 x n, the first columns of the result. A unit column, up
   /// to round-off, keeps its bits. Default: none.
   Points3 fixed = {};
+  /// Lines that generators follow, such as rivers; those stay, after the fixed ones. See
+  /// line_points(). Default: none.
+  std::vector<Points3> lines = {};
   Start start = {};                          ///< the generators to begin with
   Stop stop = {};                            ///< the end of the run
   std::uint64_t seed = 1;                    ///< of random points
@@ -125,19 +128,22 @@ struct Recipe {
 /// What follows from a recipe before any generator moves.
 struct Schedule {
   /// The recipe with its choices made: the number of cells, the density, the surface that the run
-  /// covers, the fixed generators with those on the boundary, the kind of start, its rounds, and
-  /// the end.
+  /// covers, the fixed generators with those on lines and on the boundary, the kind of start, its
+  /// rounds, and the end.
   Recipe recipe;
   Start::Kind first = Start::Kind::density; ///< how the points of the first level are made
   std::vector<CvtLevel> levels;             ///< from the coarsest to that of the result
   double implied_cells = 0;                 ///< by the widths of the recipe; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
+  std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
+  double from_lines = 0;        ///< see LinePoints::farthest
 };
 
 /// Makes all choices of a recipe.
 /// \throws Error invalid_argument, with what is out of range or does not fit together, and the
 ///         remedy; with the index of a fixed generator that leaves no free one. As implied_cells(),
-///         require_covering(), with_rings(), boundary_points() and evaluate().
+///         require_covering(), with_rings(), boundary_points(), line_points() and
+///         evaluate().
 Schedule plan(Recipe recipe);
 
 /// What affects a run's course, but not its result, and where it goes on.

@@ -144,7 +144,8 @@ template <Space S> bool Cells<S>::has_centre(std::int32_t a, std::int32_t b, std
     return outline_->side(centre) != Side::outside;
   } else {
     const Vec3 u = offset(place(a), place(b)), v = offset(place(a), place(c));
-    const Vec2 centre = circumcentre({u.x, u.y}, {v.x, v.y});
+    const Vec2 centre = boundary_ == Boundary::clip ? circumcentre({u.x, u.y}, {v.x, v.y})
+                                                    : Vec2{(u.x + v.x) / 3, (u.y + v.y) / 3};
     return outline_->side({place(a).x + centre.x, place(a).y + centre.y}) != Side::outside;
   }
 }

@@ -64,8 +64,8 @@ public:
   PlacedSites<S> placed() const { return {space_, sites_}; }
   Vec3 offset(const Vec3& from, const Vec3& to) const { return space_.offset(from, to); }
   bool has_hull() const { return outline_ != nullptr; } ///< places of the mesh without a generator
-  /// Whether the surface has the circumcentre of a triangle of generators; in a region of the
-  /// sphere with generators on the boundary, its centre of mass.
+  /// Whether the surface has the circumcentre of a triangle of generators; with generators on the
+  /// boundary, its centre of mass.
   bool has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const;
 
   Sites sites() const; ///< of the generators; equal ones merged

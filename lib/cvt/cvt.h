@@ -74,7 +74,7 @@ struct CvtOptions {
   /// and insertion contracts no edge between two of them; an edge to another generator is
   /// contracted to the fixed one. >= 0; default 0.
   std::int64_t fixed = 0;
-  Boundary boundary = Boundary::clip; ///< of a region of the sphere
+  Boundary boundary = Boundary::clip; ///< of a bounded surface
   Partition partition = {};           ///< affects time and memory, not the result
 };
 

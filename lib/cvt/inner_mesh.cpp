@@ -94,15 +94,27 @@ Mesh without_hull(Points3&& points, const Triangles& triangles, const Surface& s
   return mesh_of(std::move(points), selected(triangles, keep), surface);
 }
 
-Mesh inner_mesh(Mesh&& mesh, Boundary boundary) {
-  if (!mesh.surface.is_sphere() || !mesh.surface.is_bounded())
-    return std::move(mesh);
-  Cells<Sphere> cells(mesh.surface, boundary);
+namespace {
+
+/// Flags of the triangles whose centre the surface has, see Cells::has_centre().
+template <Space S> std::vector<std::uint8_t> with_centre(const Mesh& mesh, Boundary boundary) {
+  Cells<S> cells(mesh.surface, boundary);
   cells.move(mesh.points);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     keep[static_cast<std::size_t>(t)] =
         cells.has_centre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)) ? 1 : 0;
+  return keep;
+}
+
+} // namespace
+
+Mesh inner_mesh(Mesh&& mesh, Boundary boundary) {
+  const bool plane = !mesh.surface.is_sphere();
+  if (!mesh.surface.is_bounded() || (plane && boundary == Boundary::clip))
+    return std::move(mesh);
+  std::vector<std::uint8_t> keep =
+      plane ? with_centre<Plane>(mesh, boundary) : with_centre<Sphere>(mesh, boundary);
   Triangles triangles = selected(mesh.triangles, keep);
   keep.assign(static_cast<std::size_t>(triangles.cols()), 1);
   while (drop_small_fans(triangles, mesh.points.cols(), keep) > 0) {

@@ -191,10 +191,8 @@ Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& den
     return space.midpoint(column(points, edge.a), column(points, edge.b));
   };
   const auto may_split = [&](const Edge& edge) {
-    if constexpr (S::on_sphere)
-      return outline == nullptr || edge.b >= numbers.fixed ||
-             !lies_along(*outline, column(points, edge.a), column(points, edge.b));
-    return true;
+    return outline == nullptr || edge.b >= numbers.fixed ||
+           !lies_along<S>(*outline, column(points, edge.a), column(points, edge.b));
   };
   const auto may_collapse = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
   Choice choice(points.cols(), edges); // whose neighbours are those of all edges
@@ -239,14 +237,25 @@ Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const Edge
   });
 }
 
-bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b) {
+template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b) {
   constexpr double share = 0.2;
-  const Vec3 middle = Sphere::midpoint(a, b);
   const double reach = share * norm(b - a);
   bool near = false;
-  outline.for_each_edge_near(middle, reach, [&](const SphericalOutline::Edge&) { near = true; });
+  if constexpr (S::on_sphere) {
+    outline.for_each_edge_near(S::midpoint(a, b), reach,
+                               [&](const SphericalOutline::Edge&) { near = true; });
+  } else {
+    const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    const Box2 box{{middle.x - reach, middle.y - reach}, {middle.x + reach, middle.y + reach}};
+    outline.for_each_edge_near(box, [&](const Outline::Edge& edge) {
+      near = near || square_from(edge, middle) <= reach * reach;
+    });
+  }
   return near;
 }
+
+template bool lies_along<Sphere>(const OutlineOf<Sphere>&, const Vec3&, const Vec3&);
+template bool lies_along<Plane>(const OutlineOf<Plane>&, const Vec3&, const Vec3&);
 
 } // namespace cvt_detail
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cvt/room.h"
-#include "domain/spherical_outline.h"
+#include "domain/surface.h"
 
 #include <calotte/density.h>
 #include <calotte/types.h>
@@ -21,8 +21,8 @@ double dislocations(const Mesh& mesh, const Density& density);
 struct EdgeChanges {
   std::int64_t splits = 0, collapses = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
-  /// contracted; one to another point is contracted to the fixed one. On a bounded part of the
-  /// sphere an edge between two of them along the boundary, see lies_along(), is not split.
+  /// contracted; one to another point is contracted to the fixed one. An edge between two of them
+  /// along a boundary, see lies_along(), is not split.
   std::int64_t fixed = 0;
 };
 
@@ -30,6 +30,8 @@ struct EdgeChanges {
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
 
 /// True if the midpoint of an edge is within a fifth of its length of the boundary.
-bool lies_along(const SphericalOutline& outline, const Vec3& a, const Vec3& b);
+template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b);
+extern template bool lies_along<Sphere>(const OutlineOf<Sphere>&, const Vec3&, const Vec3&);
+extern template bool lies_along<Plane>(const OutlineOf<Plane>&, const Vec3&, const Vec3&);
 
 } // namespace calotte::cvt_detail

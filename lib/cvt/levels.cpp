@@ -177,18 +177,16 @@ Sites sites_of(const Points3& points, const Surface& surface) {
                              : make_planar_sites(points.topRows<2>(), Duplicates::refuse, 0);
 }
 
-/// The points of a mesh and the midpoints that a bisection adds; none between two fixed points
-/// along the boundary of a part of the sphere.
-Points3 bisected_points(const State& state, const Mesh& coarse) {
-  if (!coarse.surface.is_sphere() || !coarse.surface.is_bounded())
-    return bisect(coarse);
-  const SphericalOutline& outline = *outline_of<Sphere>(coarse.surface);
+/// The points of a mesh of a bounded surface and the midpoints that a bisection adds; none between
+/// two fixed points along the boundary.
+template <Space S>
+Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<S>& outline) {
   std::vector<Vec3> inside;
   mesh_detail::for_each_edge(coarse, [&](std::int32_t a, std::int32_t b) {
     const Vec3 &from = column(coarse.points, a), &to = column(coarse.points, b);
-    const bool fixed = std::max(a, b) < state.fixed && lies_along(outline, from, to);
-    const Vec3 middle = Sphere::midpoint(from, to);
-    if (!fixed && outline.side(middle) == Side::inside)
+    const bool fixed = std::max(a, b) < state.fixed && lies_along<S>(outline, from, to);
+    const Vec3 middle = S{}.midpoint(from, to);
+    if (!fixed && side_of<S>(&outline, middle) == Side::inside)
       inside.push_back(middle);
   });
   Points3 points(3, coarse.points.cols() + std::ssize(inside));
@@ -196,6 +194,15 @@ Points3 bisected_points(const State& state, const Mesh& coarse) {
   for (std::size_t k = 0; k < inside.size(); ++k)
     set_column(points, coarse.points.cols() + static_cast<Eigen::Index>(k), inside[k]);
   return points;
+}
+
+Points3 bisected_points(const State& state, const Mesh& coarse) {
+  if (!coarse.surface.is_bounded())
+    return bisect(coarse);
+  return in_space_of(coarse.surface, [&](const auto& space) {
+    using S = std::decay_t<decltype(space)>;
+    return bisected_inside<S>(state, coarse, *outline_of<S>(coarse.surface));
+  });
 }
 
 /// The generators inside a periodic box.

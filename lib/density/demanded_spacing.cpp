@@ -2,22 +2,35 @@
 #include "density/demanded_spacing.h"
 
 #include "density/sampling.h"
+#include "density/surface_density.h"
 
 #include <cmath>
 
 namespace calotte::density_detail {
 
+namespace {
+
+/// The mean of the root of a density over a surface. Places that follow the root give the mean of
+/// its inverse, which is 1 / mean; a surface with a boundary has uniform ones.
+double mean_root(const Density& density, const Surface& surface, std::int64_t samples) {
+  if (density.uniform())
+    return 1;
+  if (surface.is_bounded())
+    return evaluate(density, draw(samples, Density{}, surface, 1)).cwiseSqrt().mean();
+  const Points3 places = draw(samples, site_density(density), surface, 1);
+  return 1 / evaluate(density, places).cwiseSqrt().cwiseInverse().mean();
+}
+
+} // namespace
+
 DemandedSpacing::DemandedSpacing(const Surface& surface, const Density& density, double cells,
                                  std::int64_t samples)
-    : density_(&density) {
-  const Points3 places = draw(samples, Density{}, surface, 1);
-  const double mean = evaluate(density, places).cwiseSqrt().mean();
-  integral_ = mean * surface.area() / cells;
-}
+    : density_(surface_density(density, surface)),
+      integral_(mean_root(density_, surface, samples) * surface.area() / cells) {}
 
 double DemandedSpacing::at(const Vec3& x) const {
   const Points3 place = Eigen::Vector3d(x.x, x.y, x.z);
-  return std::sqrt(integral_ / std::sqrt(evaluate(*density_, place)[0]));
+  return std::sqrt(integral_ / std::sqrt(evaluate(density_, place)[0]));
 }
 
 } // namespace calotte::density_detail

@@ -11,20 +11,20 @@
 
 namespace calotte::density_detail {
 
-/// The spacing, the square root of a cell's area, that a density demands of a number of cells in a
-/// region: h = (I / (n rho^(1/2)))^(1/2), I the integral of rho^(1/2) over the region.
+/// The spacing, the square root of a cell's area, that a density demands of a number of cells of a
+/// surface: h = (I / (n rho^(1/2)))^(1/2), I the integral of rho^(1/2) over the surface.
 class DemandedSpacing {
 public:
-  /// \param surface a region of the sphere. \param density which must outlive this.
+  /// \param surface of finite area. \param density which must outlive this.
   /// \param samples random places for the integral.
   DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);
 
-  /// Radians; infinite where the density is 0.
+  /// Radians, in a plane its unit; infinite where the density is 0.
   double at(const Vec3& x) const;
 
 private:
-  const Density* density_;
+  Density density_; ///< at places with z = 0 of a plane
   double integral_; ///< I / n
 };
 

@@ -78,4 +78,13 @@ private:
   Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> edges_in_; ///< by strip
 };
 
+/// The square of the distance between an edge and a place; rounded.
+inline double square_from(const Outline::Edge& edge, const Vec2& place) {
+  const double x = edge.to.x - edge.from.x, y = edge.to.y - edge.from.y, square = x * x + y * y,
+               dx = place.x - edge.from.x, dy = place.y - edge.from.y,
+               share = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0;
+  const double beside_x = dx - share * x, beside_y = dy - share * y;
+  return beside_x * beside_x + beside_y * beside_y;
+}
+
 } // namespace calotte::domain_detail

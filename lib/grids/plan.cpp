@@ -121,7 +121,8 @@ void choose_start(Recipe& recipe) {
   Start& start = recipe.start;
   const bool plane = !recipe.surface.is_sphere(),
              follows = recipe.surface.is_sphere() && recipe.surface.is_bounded(),
-             beside = recipe.fixed.cols() > 0;
+             beside = recipe.fixed.cols() > 0 || !recipe.lines.empty() ||
+                      recipe.boundary == Boundary::generators;
   if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
     start.kind = Start::Kind::points;
   if (start.kind == Start::Kind::automatic) {
@@ -183,6 +184,18 @@ std::int64_t reachable(const Recipe& recipe, double implied) {
   return (cells - 2 + parts / 2) / parts * parts + 2;
 }
 
+/// The number of cells with generators on the boundary, if any, which have half a cell each.
+double with_boundary(const Recipe& recipe, double implied) {
+  double cells = implied;
+  for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k)
+    cells = implied +
+            static_cast<double>(
+                boundary_points(recipe.surface, static_cast<std::int64_t>(cells), recipe.density)
+                    .cols() /
+                2);
+  return std::min(cells, double(most_points));
+}
+
 /// The number of cells for the widths in a part of the sphere.
 /// \param implied by the widths, without half a cell of each generator on the boundary.
 double cells_in_part(const Recipe& recipe, const Surface& asked, double implied) {
@@ -194,14 +207,7 @@ double cells_in_part(const Recipe& recipe, const Surface& asked, double implied)
                              " cells only, without those of the rings; give smaller widths or a "
                              "larger region");
   }
-  double cells = implied;
-  for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k) // with half a cell each
-    cells = implied +
-            static_cast<double>(
-                boundary_points(recipe.surface, static_cast<std::int64_t>(cells), recipe.density)
-                    .cols() /
-                2);
-  return std::min(cells, double(most_points));
+  return with_boundary(recipe, implied);
 }
 
 /// Sets the number of cells where it follows from widths. \returns what they imply.
@@ -212,8 +218,8 @@ double take_cells(Recipe& recipe, const Surface& asked) {
   if (recipe.planar_widths) {
     const double implied = implied_cells(*recipe.planar_widths, recipe.surface);
     if (counts)
-      recipe.cells = static_cast<std::int64_t>(
-          within_range(implied, static_cast<double>(fewest_generators(recipe.surface))));
+      recipe.cells = static_cast<std::int64_t>(with_boundary(
+          recipe, within_range(implied, static_cast<double>(fewest_generators(recipe.surface)))));
     return implied;
   }
   if (!recipe.widths)
@@ -254,18 +260,35 @@ Points3 joined(const Points3& a, const Points3& b) {
   return all;
 }
 
-/// Puts generators on the boundary after the other fixed ones. \returns their number.
-std::int64_t take_boundary(Recipe& recipe) {
+/// Generators on the boundary, for Boundary::generators.
+Points3 on_boundary(const Recipe& recipe) {
   if (recipe.boundary != Boundary::generators)
-    return 0;
-  require(recipe.surface.is_sphere() && recipe.surface.is_bounded(),
-          "a mesh ends at generators in a part of the sphere only; give the rings that bound it");
+    return Points3(3, 0);
+  require(recipe.surface.is_bounded(),
+          "a mesh ends at generators in a bounded surface only; give the rings that bound it");
   require(recipe.start.kind != Start::Kind::points,
           "a mesh that ends at generators does not take points of the start; give a number of "
           "cells, or fixed points on the boundary");
-  const Points3 points = boundary_points(recipe.surface, recipe.cells, recipe.density);
-  recipe.fixed = joined(recipe.fixed, points);
-  return points.cols();
+  return boundary_points(recipe.surface, recipe.cells, recipe.density);
+}
+
+/// Puts generators on lines and on the boundary after the other fixed ones.
+void take_curves(Schedule& schedule) {
+  Recipe& recipe = schedule.recipe;
+  const Points3 boundary = on_boundary(recipe);
+  if (!recipe.lines.empty()) {
+    require(recipe.start.kind != Start::Kind::points,
+            "generators on lines follow from a number of cells; give one, and no points of the "
+            "start");
+    const LinePoints lines = line_points(recipe.lines, recipe.surface, recipe.cells, recipe.density,
+                                         joined(recipe.fixed, boundary));
+    recipe.fixed = joined(recipe.fixed, lines.points);
+    recipe.lines = {};
+    schedule.on_lines = lines.points.cols();
+    schedule.from_lines = lines.farthest;
+  }
+  recipe.fixed = joined(recipe.fixed, boundary);
+  schedule.on_boundary = boundary.cols();
 }
 
 void require_free(const Recipe& recipe) {
@@ -349,7 +372,7 @@ Schedule plan(Recipe recipe) {
   choose_start(all);
   schedule.implied_cells = take_cells(all, asked);
   take_walls(all);
-  schedule.on_boundary = take_boundary(all);
+  take_curves(schedule);
   if (counts && all.start.kind != Start::Kind::points && all.fixed.cols() > schedule.on_boundary)
     all.cells = cells_beside(all.fixed, all.cells, all.density, all.surface);
   require_free(all);

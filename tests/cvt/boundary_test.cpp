@@ -6,6 +6,7 @@
 #include <calotte/check.h>
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -211,6 +212,59 @@ TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
   const Mesh one = with(1, 1), many = with(4, 12);
   CHECK(one.points == many.points);
   CHECK(one.triangles == many.triangles);
+}
+
+namespace {
+
+/// An L with a square hole.
+Surface bent() {
+  DoubleMatrix ring(2, 6), hole(2, 4);
+  ring << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2;
+  hole << 0.3, 0.7, 0.7, 0.3, 0.3, 0.3, 0.7, 0.7;
+  return Surface::plane().within({ring, hole});
+}
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Vector3d a = mesh.points.col(mesh.triangles(0, t)),
+                          u = mesh.points.col(mesh.triangles(1, t)) - a,
+                          v = mesh.points.col(mesh.triangles(2, t)) - a;
+    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  return area;
+}
+
+} // namespace
+
+// Slow: two runs of 1 500 cells.
+TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow]") {
+  for (const bool graded : {false, true}) {
+    CAPTURE(graded);
+    Recipe recipe;
+    recipe.surface = bent();
+    recipe.boundary = Boundary::generators;
+    recipe.cells = 1500;
+    if (graded)
+      recipe.density = {Density::Kind::callable,
+                        {},
+                        [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+                          rho = (1 + x.colwise().squaredNorm().array()).pow(-4).transpose();
+                        }};
+    const Schedule schedule = plan(recipe);
+    const Cvt grid = make_grid(schedule);
+    const Mesh& mesh = grid.mesh;
+    const auto b = schedule.on_boundary;
+    CHECK(mesh.points.leftCols(b) == schedule.recipe.fixed);
+    for (const DoubleMatrix& ring : recipe.surface.rings())
+      for (const auto& corner : ring.colwise())
+        CHECK((mesh.points.topRows<2>().colwise() - corner).colwise().norm().minCoeff() == 0);
+    CHECK(area_of(mesh) == doctest::Approx(recipe.surface.area()).epsilon(1e-12));
+    CHECK(std::ssize(outer_edges(mesh)) == b);
+    CHECK(mesh.triangles.cols() == 2 * 1500 - b); // a ring: Euler's characteristic is 0
+    CHECK(least_angle(mesh) > 33);
+    CHECK(grid.report.converged);
+  }
 }
 
 TEST_CASE("boundary: too few cells are refused in one line") {

@@ -229,6 +229,7 @@ TEST_CASE("errors name the point and the remedy") {
   names([&] { random_points(9, walls); }, "give rings");
   CHECK(error_of([&] { voronoi(delaunay(points, rectangle({0, 0}, {2, 0.5}))); }).index() >= 0);
   names([&] { hexagonal_lattice(9, Surface()); }, "give one of the plane");
-  names([&] { boundary_points(plane, 99); }, "give one of the sphere");
+  CHECK(boundary_points(plane, 99).cols() == 0);
+  names([&] { line_points({}, plane, 99); }, "give rings");
   names([&] { clipped_cells(delaunay(random_sphere(9), cap())); }, "region of the sphere");
 }

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "density/demanded_spacing.h"
+#include "domain/arcs.h"
+#include "exact/space.h"
+#include "generators/room.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace calotte::generators_detail {
+
+/// The shorter arc between two unit vectors, or in the plane the straight line between two places.
+using Segment = Arc;
+
+/// A curve of segments, measured in the edges between neighbours that a density demands along it.
+template <Space S> class Curve {
+public:
+  /// \param spacing which must outlive this.
+  /// \param longest steps in which it is measured, in the unit of the space.
+  /// \param segments one or more, each beginning where the one before ends. \param closed whether
+  ///        the last ends where the first begins.
+  Curve(const DemandedSpacing& spacing, double longest, std::vector<Segment> segments, bool closed);
+
+  const std::vector<Segment>& segments() const { return segments_; }
+  bool is_closed() const { return closed_; }
+  double edges() const { return marks_.back().edges; } ///< of the whole
+
+  struct Place {
+    Vec3 at;
+    std::size_t segment;
+  };
+  /// The place after a number of edges, from 0 to edges().
+  Place place(double edges) const;
+
+  /// Where generators stand, ascending: at the corners that are kept, and between two of them at
+  /// equal numbers of edges, from 5/8 to 5/4, of an open curve from 3/4 to 3/2. Corners where the
+  /// curve turns by 20 degrees or more are kept, unless one that comes first is nearer than two
+  /// thirds of an edge; the ends of an open curve come first, then sharper corners. A closed curve
+  /// has three or more.
+  std::vector<double> stops() const;
+
+private:
+  /// A place by the number of edges from the start.
+  struct Mark {
+    double edges;
+    std::size_t segment;
+    double along; ///< from the segment's start
+  };
+
+  void measure(std::size_t segment, double longest);
+  double rate_at(std::size_t segment, double along) const;
+  std::vector<double> kept_corners() const;
+
+  const DemandedSpacing& spacing_;
+  std::vector<Segment> segments_;
+  bool closed_;
+  std::vector<Mark> marks_;           ///< a tenth of an edge apart; the last one is the end
+  std::vector<double> corners_ = {0}; ///< edges at the starts of segments, and at the end
+};
+
+/// To the left of a segment; a unit vector.
+template <Space S> Vec3 left_of(const Segment& segment);
+
+/// The longest steps in which curves of a surface are measured: a share of its extent.
+template <Space S> double longest_step(const Surface& surface);
+
+extern template class Curve<Sphere>;
+extern template class Curve<Plane>;
+extern template Vec3 left_of<Sphere>(const Segment& segment);
+extern template Vec3 left_of<Plane>(const Segment& segment);
+extern template double longest_step<Sphere>(const Surface& surface);
+extern template double longest_step<Plane>(const Surface& surface);
+
+} // namespace calotte::generators_detail

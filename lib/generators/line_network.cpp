@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "generators/line_network.h"
+
+#include "base/require.h"
+#include "domain/arcs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace calotte::generators_detail {
+namespace {
+
+using base_detail::require;
+
+class Builder {
+public:
+  explicit Builder(bool sphere) : sphere_(sphere) {}
+
+  void add(const Points3& line, std::size_t number) {
+    std::int32_t before = -1;
+    for (Eigen::Index i = 0; i < line.cols(); ++i) {
+      const std::string name = "line " + std::to_string(number) + ", point " + std::to_string(i);
+      const std::int32_t here = id_of(checked(line.col(i), name));
+      if (before >= 0 && before != here) {
+        if (sphere_) {
+          const Vec3 middle = place(before) + place(here);
+          require(dot(middle, middle) > 1e-20,
+                  name + " is opposite to the one before; give a point between them");
+        }
+        join(before, here);
+      }
+      before = here;
+    }
+  }
+
+  LineNetwork network() {
+    trace();
+    LineNetwork out;
+    for (const auto& near : near_)
+      out.neighbours.push_back(static_cast<int>(near.size()));
+    out.places = std::move(places_);
+    out.chains = std::move(chains_);
+    return out;
+  }
+
+private:
+  Vec3 checked(const Eigen::Vector3d& x, const std::string& name) const {
+    require(x.allFinite(), name + " is not finite; correct it");
+    require(sphere_ ? !x.isZero(0) : x.z() == 0,
+            name + (sphere_ ? " is no direction" : " has a z that is not 0") + "; correct it");
+    const Vec3 at{x.x(), x.y(), x.z()};
+    return sphere_ ? domain_detail::as_unit(at) : at;
+  }
+
+  const Vec3& place(std::int32_t id) const { return places_[static_cast<std::size_t>(id)]; }
+  std::vector<std::int32_t>& near(std::int32_t id) { return near_[static_cast<std::size_t>(id)]; }
+
+  std::int32_t id_of(const Vec3& at) {
+    const auto [found, is_new] = ids_.try_emplace({at.x + 0.0, at.y + 0.0, at.z + 0.0}, // no -0
+                                                  static_cast<std::int32_t>(places_.size()));
+    if (is_new) {
+      places_.push_back(at);
+      near_.emplace_back();
+    }
+    return found->second;
+  }
+
+  void join(std::int32_t a, std::int32_t b) {
+    if (std::find(near(a).begin(), near(a).end(), b) != near(a).end())
+      return;
+    near(a).push_back(b);
+    near(b).push_back(a);
+  }
+
+  /// From a place to its neighbour and on, to a place that is an end or a confluence, or back.
+  void follow(std::int32_t from, std::int32_t to) {
+    std::vector<std::int32_t>& chain = chains_.emplace_back();
+    chain.push_back(from);
+    while (true) {
+      passed_.insert(std::minmax(from, to));
+      chain.push_back(to);
+      if (near(to).size() != 2 || to == chain.front())
+        return;
+      const std::int32_t next = near(to)[near(to)[0] == from ? 1 : 0];
+      from = to;
+      to = next;
+    }
+  }
+
+  void follow_all(std::int32_t from) {
+    for (const std::int32_t to : near(from))
+      if (!passed_.contains(std::minmax(from, to)))
+        follow(from, to);
+  }
+
+  void trace() {
+    const auto count = static_cast<std::int32_t>(places_.size());
+    for (std::int32_t id = 0; id < count; ++id)
+      if (near(id).empty())
+        chains_.push_back({id});
+      else if (near(id).size() != 2)
+        follow_all(id);
+    for (std::int32_t id = 0; id < count; ++id) // loops
+      if (near(id).size() == 2)
+        follow_all(id);
+  }
+
+  bool sphere_;
+  std::map<std::array<double, 3>, std::int32_t> ids_;
+  std::vector<Vec3> places_;
+  std::vector<std::vector<std::int32_t>> near_; ///< neighbours of each place
+  std::set<std::pair<std::int32_t, std::int32_t>> passed_;
+  std::vector<std::vector<std::int32_t>> chains_;
+};
+
+} // namespace
+
+LineNetwork network_of(const std::vector<Points3>& lines, bool sphere) {
+  Builder builder(sphere);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    builder.add(lines[k], k);
+  return builder.network();
+}
+
+} // namespace calotte::generators_detail

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/generators.h>
+
+#include "base/points.h"
+#include "base/require.h"
+#include "curve/box_tree.h"
+#include "curve/hilbert.h"
+#include "density/demanded_spacing.h"
+#include "density/hexagons.h"
+#include "domain/surface.h"
+#include "generators/curve.h"
+#include "generators/line_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace calotte {
+namespace {
+
+using namespace generators_detail;
+using base_detail::require;
+
+/// A tree of places; those of a plane are in the order of lines, which keeps neighbours together.
+BoxTree tree_of(const std::vector<Vec3>& places, bool sphere) {
+  std::vector<Box3> boxes;
+  std::vector<std::uint64_t> keys;
+  for (const Vec3& p : places) {
+    boxes.push_back({p, p});
+    keys.push_back(sphere ? curve_key(to_cube(p)) : keys.size());
+  }
+  return {boxes, keys};
+}
+
+/// Places where generators may stand, the most important ones first: confluences, ends, then those
+/// along the lines.
+template <Space S> class Candidates {
+public:
+  Candidates(const LineNetwork& network, const DemandedSpacing& spacing, double longest)
+      : spacing_(spacing) {
+    const auto is = [&](std::size_t id, bool confluence) {
+      return network.neighbours[id] != 2 && (network.neighbours[id] > 2) == confluence;
+    };
+    for (const bool confluence : {true, false})
+      for (std::size_t id = 0; id < network.places.size(); ++id)
+        if (is(id, confluence))
+          places_.push_back(network.places[id]);
+    for (const std::vector<std::int32_t>& chain : network.chains)
+      if (chain.size() > 1)
+        add(network, chain, longest);
+  }
+
+  const std::vector<Vec3>& places() const { return places_; }
+  const std::vector<Curve<S>>& curves() const { return curves_; }
+
+private:
+  void add(const LineNetwork& network, const std::vector<std::int32_t>& chain, double longest) {
+    const auto place = [&](std::size_t k) {
+      return network.places[static_cast<std::size_t>(chain[k])];
+    };
+    std::vector<Segment> segments;
+    for (std::size_t k = 1; k < chain.size(); ++k)
+      segments.push_back({place(k - 1), place(k)});
+    const bool loop = chain.front() == chain.back() &&
+                      network.neighbours[static_cast<std::size_t>(chain.front())] == 2;
+    curves_.emplace_back(spacing_, longest, std::move(segments), loop);
+    const std::vector<double> stops = curves_.back().stops();
+    for (std::size_t k = loop ? 0 : 1; k + (loop ? 0 : 1) < stops.size(); ++k)
+      places_.push_back(curves_.back().place(stops[k]).at);
+  }
+
+  const DemandedSpacing& spacing_;
+  std::vector<Vec3> places_;
+  std::vector<Curve<S>> curves_;
+};
+
+double edge_at(const DemandedSpacing& spacing, const Vec3& x) {
+  const double h = spacing.at(x);
+  return hexagon_width(h * h);
+}
+
+/// Those of some places that are not nearer than two thirds of the demanded edge to one before
+/// them, or to other points.
+std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& places,
+                        const DemandedSpacing& spacing, bool sphere) {
+  constexpr double nearest = 2.0 / 3;
+  std::vector<Vec3> all = others;
+  all.insert(all.end(), places.begin(), places.end());
+  std::vector<std::uint8_t> taken(all.size(), 0);
+  std::fill_n(taken.begin(), others.size(), 1);
+  const BoxTree tree = tree_of(all, sphere);
+  std::vector<Vec3> kept;
+  for (std::size_t k = others.size(); k < all.size(); ++k) {
+    const double reach = nearest * edge_at(spacing, all[k]);
+    bool near = false;
+    tree.visit([&](const Box3& box) { return !near && square_from(box, all[k]) < reach * reach; },
+               [&](std::int32_t other) { near = near || taken[static_cast<std::size_t>(other)]; });
+    if (near)
+      continue;
+    taken[k] = 1;
+    kept.push_back(all[k]);
+  }
+  return kept;
+}
+
+/// The largest distance of a place on curves from the nearest of some points, over the demanded
+/// edge there.
+template <Space S>
+double farthest(const std::vector<Curve<S>>& curves, const std::vector<Vec3>& points,
+                const DemandedSpacing& spacing) {
+  constexpr double step = 0.05; // edges
+  const BoxTree tree = tree_of(points, S::on_sphere);
+  double most = 0;
+  for (const Curve<S>& curve : curves) {
+    const auto samples = static_cast<std::int64_t>(std::ceil(curve.edges() / step));
+    for (std::int64_t k = 0; k <= samples; ++k) {
+      const Vec3 at = curve
+                          .place(curve.edges() * static_cast<double>(k) /
+                                 static_cast<double>(std::max<std::int64_t>(samples, 1)))
+                          .at;
+      double least = std::numeric_limits<double>::infinity();
+      tree.visit([&](const Box3& box) { return square_from(box, at) < least; },
+                 [&](std::int32_t i) {
+                   const Vec3 off = points[static_cast<std::size_t>(i)] - at;
+                   least = std::min(least, dot(off, off));
+                 });
+      most = std::max(most, std::sqrt(least) / edge_at(spacing, at));
+    }
+  }
+  return most;
+}
+
+std::vector<Vec3> columns_of(const Points3& points, bool sphere) {
+  std::vector<Vec3> columns;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec3& x = base_detail::column(points, i);
+    columns.push_back(sphere ? domain_detail::as_unit(x) : x);
+  }
+  return columns;
+}
+
+void require_inside(const std::vector<Points3>& lines, const Surface& surface) {
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (Eigen::Index i = 0; i < lines[k].cols(); ++i)
+      require(surface.contains(lines[k].col(i)),
+              "line " + std::to_string(k) + ", point " + std::to_string(i) +
+                  " is outside the surface; cut the lines to its extent");
+}
+
+template <Space S>
+LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& surface,
+                           std::int64_t cells, const Density& density, const Points3& beside) {
+  constexpr std::int64_t samples = 65536;
+  const DemandedSpacing spacing(surface, density, static_cast<double>(cells), samples);
+  const LineNetwork network = network_of(lines, S::on_sphere);
+  require_inside(lines, surface);
+  const Candidates<S> candidates(network, spacing, longest_step<S>(surface));
+  const std::vector<Vec3> others = columns_of(beside, S::on_sphere);
+  std::vector<Vec3> points = apart(others, candidates.places(), spacing, S::on_sphere);
+  LinePoints out;
+  out.points.resize(3, std::ssize(points));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    base_detail::set_column(out.points, static_cast<std::int64_t>(k), points[k]);
+  points.insert(points.end(), others.begin(), others.end());
+  if (!points.empty())
+    out.farthest = farthest(candidates.curves(), points, spacing);
+  return out;
+}
+
+} // namespace
+
+LinePoints line_points(const std::vector<Points3>& lines, const Surface& surface,
+                       std::int64_t cells, const Density& density, const Points3& beside) {
+  require(cells >= 3 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
+                                                  "; give 3 to " + std::to_string(most_points));
+  if (surface.is_sphere())
+    return points_on_lines<Sphere>(lines, surface, cells, density, beside);
+  domain_detail::require_finite_plane(surface);
+  return points_on_lines<Plane>(lines, surface, cells, density, beside);
+}
+
+} // namespace calotte

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/density.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/grid.h>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Eigen::Vector3d at(double lon, double lat) {
+  return {std::cos(lat * degree) * std::cos(lon * degree),
+          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
+}
+
+Points3 line_of(const std::vector<std::pair<double, double>>& places) {
+  Points3 line(3, std::ssize(places));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    line.col(static_cast<Eigen::Index>(k)) = at(places[k].first, places[k].second);
+  return line;
+}
+
+/// The distance of neighbours in a uniform grid of the sphere.
+double width(double cells) { return std::sqrt(2 / std::sqrt(3.0) * 4 * std::numbers::pi / cells); }
+
+double least_distance(const Points3& points) {
+  double least = 4;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      least = std::min(least, (points.col(i) - points.col(j)).norm());
+  return least;
+}
+
+double distance_to(const Points3& points, const Eigen::Vector3d& x) {
+  return (points.colwise() - x).colwise().norm().minCoeff();
+}
+
+/// The largest distance of places along lines from the nearest point, place by place.
+double farthest(const std::vector<Points3>& lines, const Points3& points) {
+  double most = 0;
+  for (const Points3& line : lines)
+    for (Eigen::Index k = 1; k < line.cols(); ++k)
+      for (int i = 0; i <= 400; ++i) {
+        const Eigen::Vector3d x =
+            ((1 - i / 400.0) * line.col(k - 1) + i / 400.0 * line.col(k)).normalized();
+        most = std::max(most, distance_to(points, x));
+      }
+  return most;
+}
+
+std::string message_of(const std::vector<Points3>& lines, const Surface& surface = {}) {
+  try {
+    line_points(lines, surface, 1000);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// Three rivers, one over the date line, that meet at 175 E 10 N.
+std::vector<Points3> rivers() {
+  return {line_of({{150, 30}, {160, 22}, {175, 10}}), line_of({{-160, 35}, {-175, 25}, {175, 10}}),
+          line_of({{175, 10}, {176, -20}})};
+}
+
+} // namespace
+
+TEST_CASE("lines: confluences and ends stay, neighbours are at the demanded distance") {
+  const std::vector<Points3> lines = rivers();
+  for (const std::int64_t cells : {500, 5000, 50000}) {
+    CAPTURE(cells);
+    const double h = width(static_cast<double>(cells));
+    const LinePoints found = line_points(lines, {}, cells);
+    for (const auto& [lon, lat] : {std::pair{175, 10}, {150, 30}, {-160, 35}, {176, -20}})
+      CHECK(distance_to(found.points, at(lon, lat)) < 1e-15);
+    CHECK(least_distance(found.points) > 0.66 * h);
+    CHECK(((found.points.colwise().norm().array() - 1).abs() < 1e-15).all());
+    CHECK(found.farthest == doctest::Approx(farthest(lines, found.points) / h).epsilon(0.02));
+    CHECK(found.farthest < 0.8);
+  }
+}
+
+TEST_CASE("lines: how they are cut, repeated or ordered does not matter") {
+  const std::vector<Points3> whole = rivers();
+  std::vector<Points3> parts;
+  for (const Points3& line : whole)
+    for (Eigen::Index k = 1; k < line.cols(); ++k)
+      parts.emplace_back(line.middleCols(k - 1, 2));
+  parts.push_back(parts.front());
+  const Points3 one = line_points(whole, {}, 3000).points,
+                other = line_points(parts, {}, 3000).points;
+  REQUIRE(one.cols() == other.cols());
+  for (Eigen::Index i = 0; i < one.cols(); ++i)
+    CHECK(distance_to(other, one.col(i)) < 1e-14);
+}
+
+TEST_CASE("lines: those that run side by side or cross share generators") {
+  std::vector<std::pair<double, double>> north, south, across;
+  for (int k = 0; k <= 20; ++k) {
+    north.emplace_back(3 * k, 0.2);
+    south.emplace_back(3 * k, -0.2);
+    across.emplace_back(31 + 0.1 * k, 1.5 * k - 15);
+  }
+  const std::vector<Points3> lines{line_of(north), line_of(south), line_of(across)};
+  const std::int64_t cells = 2000;
+  const LinePoints found = line_points(lines, {}, cells);
+  CHECK(least_distance(found.points) > 0.66 * width(cells));
+  CHECK(found.farthest < 1.3);
+  CHECK(found.points.cols() < 1.3 * (60 + 30) * degree / width(cells));
+}
+
+TEST_CASE("lines: loops, points, the pole, and a density") {
+  std::vector<std::pair<double, double>> ring;
+  for (int k = 0; k <= 36; ++k)
+    ring.emplace_back(10 * k, 80);
+  ring.back() = ring.front();
+  const std::vector<Points3> lines{line_of(ring), Points3(at(0, 90)), line_of({{0, -60}, {0, 60}})};
+  const Density density = tanh_bump(at(0, 0), 20 * degree, 10 * degree, 1.0 / 256);
+  const std::int64_t cells = 20000;
+  const Points3 points = line_points(lines, {}, cells, density).points;
+  CHECK(distance_to(points, at(0, 90)) == 0);
+  // Along the meridian cells are four times finer in the bump than far from it.
+  std::vector<double> latitudes;
+  for (const auto& p : points.colwise())
+    if (std::abs(p.y()) < 1e-12 && p.x() > 0 && std::abs(p.z()) < 0.9)
+      latitudes.push_back(std::asin(p.z()) / degree);
+  std::sort(latitudes.begin(), latitudes.end());
+  const auto middle = std::lower_bound(latitudes.begin(), latitudes.end(), 0);
+  CHECK((latitudes[1] - latitudes[0]) / (*middle - *(middle - 1)) ==
+        doctest::Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("lines: generators keep their distance from others") {
+  const Points3 beside = line_points({rivers().front()}, {}, 3000).points;
+  const Points3 rest = line_points(rivers(), {}, 3000, {}, beside).points;
+  Points3 all(3, beside.cols() + rest.cols());
+  all << beside, rest;
+  CHECK(least_distance(all) > 0.66 * width(3000));
+}
+
+TEST_CASE("lines: a grid keeps them, in the plane, too") {
+  Recipe recipe;
+  recipe.surface = rectangle({0, 0}, {2, 1});
+  recipe.cells = 600;
+  Points3 line(3, 3);
+  line << 0.3, 1, 1.7, 0.5, 0.6, 0.4, 0, 0, 0;
+  recipe.lines = {line};
+  const Schedule schedule = plan(recipe);
+  CHECK(schedule.on_lines > 20);
+  CHECK(schedule.recipe.fixed.cols() == schedule.on_lines);
+  const Cvt grid = make_grid(schedule);
+  CHECK(grid.mesh.points.cols() == 600);
+  CHECK(grid.mesh.points.leftCols(schedule.on_lines) == schedule.recipe.fixed);
+  CHECK(distance_to(grid.mesh.points, line.col(0)) == 0);
+  CHECK(distance_to(grid.mesh.points, line.col(2)) == 0);
+}
+
+TEST_CASE("lines: bad ones are refused in one line with line and point") {
+  CHECK(message_of({line_of({{0, 0}, {1, 0}}), line_of({{0, 0}, {180, 0}})})
+            .find("line 1, point 1 is opposite to the one before") == 0);
+  Points3 zero = line_of({{0, 0}, {1, 1}});
+  zero.col(1).setZero();
+  CHECK(message_of({zero}).find("line 0, point 1 is no direction") == 0);
+  zero(0, 1) = std::nan("");
+  CHECK(message_of({zero}).find("line 0, point 1 is not finite") == 0);
+  CHECK(message_of({line_of({{0, 0}, {30, 0}})}, circle(at(0, 0), 10 * degree))
+            .find("line 0, point 1 is outside the surface") == 0);
+  CHECK(line_points({}, {}, 1000).points.cols() == 0);
+}
