@@ -60,6 +60,8 @@ PointLines read_point_lines(const std::string& path, Columns columns = Columns::
 /// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, all
 /// of them one domain. Positions are taken as x and y, in any unit; a third coordinate is ignored.
 ///
+/// .msh: the closed rings of edges of JIGSAW's euclidean-mesh with NDIMS=2.
+///
 /// Other suffixes: text with a corner x y on each line, in the order of the ring, in the syntax of
 /// read_points() with Columns::xy. A blank line, or a line that starts with `>` (as in GMT's
 /// multi-segment files), ends a ring.
@@ -239,7 +241,10 @@ CellWidth read_density_raster(const std::string& path, const Surface& region = {
 /// \throws Error parse, naming the variable and its index; file.
 PlanarRaster read_planar_raster(const std::string& path);
 
-/// Reads the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
+/// Reads cell widths of a plane. A file of suffix .msh is JIGSAW's: a euclidean-grid, or a
+/// euclidean-mesh of NDIMS=2 with a value at each point, which are interpolated as in
+/// read_cell_width(), beyond the points with the nearest one's. Of others the function reads
+/// the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
 /// domain, which is that of x and y. Where cellWidth and x both have an attribute `units`, widths
 /// in km are converted to metres and the reverse, see kilometres_in().
 /// \throws Error parse, naming the variable and its index; file.

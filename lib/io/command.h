@@ -6,10 +6,12 @@
 #include <calotte/export.h>
 #include <calotte/mesh_file.h>
 #include <calotte/surface.h>
+#include <calotte/types.h>
 #include <calotte/write.h>
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What the library knows of files and formats for its command. The header is not installed; of lib
 /// it is all that tools includes.
@@ -36,6 +38,41 @@ bool is_netcdf(const MeshFile& file);
 /// \param format not by_name.
 /// \throws Error invalid_argument.
 void require_planar_format(const std::string& path, const Surface& plane, Format format);
+
+/// Whether a file is GeoJSON with a line: LineString or MultiLineString; false for any other path.
+/// \throws Error parse, file.
+bool holds_lines(const std::string& path);
+
+// ---- Files of JIGSAW (.msh), whose lengths have one unit of any kind
+
+/// What a mesh is made of.
+struct JigsawGeometry {
+  Surface surface;   ///< the sphere, or the part of a plane between the closed rings of its edges
+  double radius = 1; ///< of the sphere
+  /// Its other edges and points, which the mesh follows: on the sphere directions, in a plane x y
+  /// 0.
+  std::vector<Points3> lines;
+};
+
+/// Reads the geometry of an ellipsoid-mesh, or of a euclidean-mesh of NDIMS=2.
+/// \throws Error parse: radii that differ, another kind, a plane without a closed ring of edges; as
+///         read_domain(); file.
+JigsawGeometry read_jigsaw_geometry(const std::string& path);
+
+/// Points of a mesh of any kind, 3 x n, and whether the tag of each fixes it.
+struct JigsawPoints {
+  Points3 points;
+  std::vector<bool> fixed;
+};
+
+/// \param plane whether they are x y of a plane, and not directions.
+/// \throws Error parse; file.
+JigsawPoints read_jigsaw_points(const std::string& path, bool plane);
+
+/// Lowers the values of a grid to the largest ones whose gradient is at most its SLOPE, which is
+/// one number, see limit_gradient(), and writes the file anew, with the same nodes. \param radius
+/// of the sphere, if the file gives none. \throws Error parse; file.
+void limit_jigsaw_values(const std::string& path, double radius);
 
 } // namespace calotte
 CALOTTE_API_END

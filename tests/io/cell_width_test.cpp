@@ -694,7 +694,8 @@ TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
   CHECK(spoiled("VALUE=325", "VALUE=324").find("more or fewer lines") != std::string::npos);
   CHECK(spoiled("VALUE=325", "VALUE=326").find("cut short") != std::string::npos);
   CHECK(spoiled("VALUE=325", "VALUE=x").find("not a count of lines") != std::string::npos);
-  CHECK(spoiled("GRID", "TREE").find("no cell widths in a file of the kind") != std::string::npos);
+  CHECK(spoiled("GRID", "TREE").find("no cell widths of the sphere in a file") !=
+        std::string::npos);
   CHECK(spoiled("COORD=2", "COORD=1").find("comes twice") != std::string::npos);
   CHECK(spoiled("MSHID", "MESH").find("not a count of lines") == std::string::npos);
   CHECK(refusal(folder("empty.msh", "")).find("no MSHID") != std::string::npos);

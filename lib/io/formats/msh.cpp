@@ -9,14 +9,34 @@
 namespace calotte::io_detail {
 
 void put_msh(const Sink& sink, const Mesh& mesh) {
+  // The tag 0 ends the lines of points, edges and triangles.
   Writer out(sink);
-  out.text("# JIGSAW mesh made by calotte\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=");
-  out.number(std::int64_t{mesh.points.cols()}).text("\n");
-  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
-    for (const double coordinate : mesh.points.col(i))
-      out.number(coordinate).text(";");
-    out.text("0\n"); // a tag, which JIGSAW expects of points and triangles
+  const bool plane = !mesh.surface.is_sphere();
+  const Eigen::Index n = mesh.points.cols();
+  out.text("# JIGSAW mesh made by calotte\nMSHID=3;EUCLIDEAN-MESH\n");
+  out.text(plane ? "NDIMS=2\nPOINT=" : "NDIMS=3\nPOINT=").number(std::int64_t{n}).text("\n");
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (int k = 0; k < (plane ? 2 : 3); ++k)
+      out.number(mesh.points(k, i)).text(";");
+    out.text("0\n");
   }
+  out.text("POWER=").number(std::int64_t{n}).text(";1\n"); // weights of a Voronoi diagram
+  for (Eigen::Index i = 0; i < n; ++i)
+    out.text("0\n");
+  const auto ends_here = [&](Eigen::Index t, int v) { return mesh.neighbours(v, t) < 0; };
+  std::int64_t outer = 0;
+  for (Eigen::Index t = 0; t < mesh.neighbours.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      outer += ends_here(t, v) ? 1 : 0;
+  if (outer > 0)
+    out.text("EDGE2=").number(outer).text("\n");
+  for (Eigen::Index t = 0; outer > 0 && t < mesh.neighbours.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      if (ends_here(t, v))
+        out.number(std::int64_t{mesh.triangles((v + 1) % 3, t)})
+            .text(";")
+            .number(std::int64_t{mesh.triangles((v + 2) % 3, t)})
+            .text(";0\n");
   out.text("TRIA3=").number(std::int64_t{mesh.triangles.cols()}).text("\n");
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     for (const std::int32_t site : mesh.triangles.col(t))
@@ -37,10 +57,7 @@ RawMesh get_msh(std::istream& in, const std::string& name) {
     return {with_z(file.points), file.triangles};
   if (file.dimensions == 3)
     return {file.points, file.triangles};
-  const auto& [a, b, c] = file.radii;
-  if (a != b || b != c)
-    throw Error(ErrorCode::parse, name + ": the radii differ; only meshes of a sphere are read");
-  return {a * directions_of(file, name), file.triangles};
+  return {radius_of(file, name) * directions_of(file, name), file.triangles};
 }
 
 } // namespace calotte::io_detail

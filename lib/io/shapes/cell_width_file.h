@@ -5,6 +5,7 @@
 #include "io/shapes/room.h"
 
 #include <calotte/cell_width.h>
+#include <calotte/planar_raster.h>
 
 #include <iosfwd>
 #include <string>
@@ -24,6 +25,7 @@ double kilometres_of(const NetcdfReader& file, const std::string& variable);
 CellWidth read_cell_width_netcdf(const std::string& path, const Surface& region);
 CellWidth read_density_netcdf(const std::string& path, const Surface& region);
 CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Surface& region);
+PlanarCellWidth read_planar_cell_width_msh(const std::string& path);
 CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
                                   const PolygonWidths& widths);
 

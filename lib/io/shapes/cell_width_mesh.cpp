@@ -3,17 +3,14 @@
 
 #include "base/elementary.h"
 #include "base/lonlat.h"
-#include "base/parallel.h"
-#include "base/vec3.h"
-#include "delaunay/delaunay.h"
+#include "base/points.h"
 #include "density/cell_width_field.h"
-#include "exact/predicates.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
+#include <calotte/locate.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -21,84 +18,90 @@
 namespace calotte::io_detail {
 namespace {
 
-Vec3 column(const Points3& points, Eigen::Index j) {
-  return {points(0, j), points(1, j), points(2, j)};
+/// The width of each site: of points that are one site, that of the first.
+DoubleVector of_sites(const Mesh& mesh, const DoubleVector& widths) {
+  DoubleVector of_site(mesh.points.cols());
+  for (Eigen::Index i = widths.size(); i-- > 0;)
+    of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];
+  return of_site;
 }
 
-/// The position of a direction relative to a triangle: its determinants with each edge, across from
-/// vertices 0 to 2. All are positive inside.
-std::array<double, 3> weights_in(const Mesh& mesh, std::int32_t triangle, const Vec3& p) {
-  std::array<Vec3, 3> corners;
-  for (int i = 0; i < 3; ++i)
-    corners[static_cast<std::size_t>(i)] =
-        normalised(column(mesh.points, mesh.triangles(i, triangle))) - p;
-  // Computed from the corners relative to p, which avoids cancellation: det(p, b, c) = det(p, b -
-  // p, c - p).
-  return {dot(p, cross(corners[1], corners[2])), dot(p, cross(corners[2], corners[0])),
-          dot(p, cross(corners[0], corners[1]))};
-}
-
-/// Walks from a triangle to one that contains p, across the edge that p is farthest beyond. The
-/// walk ends among Delaunay triangles; the number of steps is limited because signs are rounded.
-std::int32_t locate(const Mesh& mesh, std::int32_t triangle, const Vec3& p) {
-  for (Eigen::Index step = 0; step < mesh.triangles.cols(); ++step) {
-    const std::array<double, 3> weights = weights_in(mesh, triangle, p);
-    const auto least = std::min_element(weights.begin(), weights.end());
-    if (*least >= -1e-15)
-      break;
-    triangle = mesh.neighbours(least - weights.begin(), triangle);
+/// Fills the values of a grid, which is first x second, by interpolation on the mesh.
+/// \param place(i, j) position of a node.
+template <class Place>
+void fill(const Mesh& mesh, const DoubleVector& of_site, const Place& place, DoubleMatrix& values) {
+  constexpr Eigen::Index at_once = 1 << 20; // positions
+  const Eigen::Index nx = values.rows(), rows = std::max<Eigen::Index>(1, at_once / nx);
+  for (Eigen::Index begin = 0; begin < values.cols(); begin += rows) {
+    const Eigen::Index end = std::min(begin + rows, values.cols());
+    Points3 places(3, nx * (end - begin));
+    for (Eigen::Index j = begin; j < end; ++j)
+      for (Eigen::Index i = 0; i < nx; ++i)
+        base_detail::set_column(places, (j - begin) * nx + i, place(i, j));
+    const Locations found = locate(mesh, places);
+    for (Eigen::Index k = 0; k < places.cols(); ++k) {
+      double width = of_site[found.nearest[k]];
+      if (const std::int32_t t = found.triangle[k]; t >= 0) {
+        width = 0;
+        for (int v = 0; v < 3; ++v)
+          width += found.weights(v, k) * of_site[mesh.triangles(v, t)];
+      }
+      values(k % nx, begin + k / nx) = width;
+    }
   }
-  return triangle;
 }
 
-double interpolate(const Mesh& mesh, const DoubleVector& widths, std::int32_t triangle,
-                   const Vec3& p) {
-  const std::array<double, 3> weights = weights_in(mesh, triangle, p);
-  double sum = 0, total = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double weight = std::max(0.0, weights[static_cast<std::size_t>(i)]);
-    sum += weight * widths[mesh.triangles(i, triangle)];
-    total += weight;
-  }
-  return sum / total;
-}
-
-/// Half of the spacing, in degrees, that a tenth of the edges are shorter than.
-double step_for(const Mesh& mesh) {
-  constexpr double finest = 0.05, coarsest = 1;
+/// The length that a tenth of the edges are shorter than.
+double short_edge(const Mesh& mesh) {
   std::vector<double> squares;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 edge = normalised(column(mesh.points, mesh.triangles(i, t))) -
-                        normalised(column(mesh.points, mesh.triangles((i + 1) % 3, t)));
-      squares.push_back(dot(edge, edge));
-    }
+    for (int i = 0; i < 3; ++i)
+      squares.push_back(
+          (mesh.points.col(mesh.triangles(i, t)) - mesh.points.col(mesh.triangles((i + 1) % 3, t)))
+              .squaredNorm());
   const auto tenth = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 10);
   std::nth_element(squares.begin(), tenth, squares.end());
-  const double spacing = 2 * arc_sine(0.5 * std::sqrt(*tenth)) * 180 / std::numbers::pi;
-  return std::clamp(0.5 * spacing, finest, coarsest);
+  return std::sqrt(*tenth);
 }
 
 } // namespace
 
 CellWidth resampled(const Points3& points, const DoubleVector& widths) {
-  const Mesh mesh = delaunay(points);
+  constexpr double finest = 0.05, coarsest = 1; // degrees
+  Mesh mesh = delaunay(points);
   if (!mesh.closed())
     throw Error(ErrorCode::invalid_argument,
                 "the points lie within a hemisphere; give widths on the "
                 "whole sphere");
-  DoubleVector of_site(mesh.points.cols());
-  for (Eigen::Index i = points.cols(); i-- > 0;) // the lowest duplicate is assigned last
-    of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];
-  CellWidth grid = regular_grid(step_for(mesh));
-  for_each_task(grid.latitudes.size(), [&](std::int64_t j) {
-    std::int32_t triangle = 0;
-    for (Eigen::Index i = 0; i < grid.longitudes.size(); ++i) {
-      const Vec3 p = from_lonlat(grid.longitudes[i], grid.latitudes[j]);
-      triangle = locate(mesh, triangle, p);
-      grid.widths(i, j) = interpolate(mesh, of_site, triangle, p);
-    }
-  });
+  mesh.points.colwise().normalize();
+  const double spacing = 2 * arc_sine(0.5 * short_edge(mesh)) * 180 / std::numbers::pi;
+  CellWidth grid = regular_grid(std::clamp(0.5 * spacing, finest, coarsest));
+  fill(
+      mesh, of_sites(mesh, widths),
+      [&](Eigen::Index i, Eigen::Index j) {
+        return from_lonlat(grid.longitudes[i], grid.latitudes[j]);
+      },
+      grid.widths);
+  return grid;
+}
+
+PlanarCellWidth resampled_in_plane(const Points2& points, const DoubleVector& widths) {
+  constexpr double most_nodes = 4e6;
+  const Mesh mesh = delaunay(points, Surface::plane());
+  const Eigen::Vector2d low = points.rowwise().minCoeff(), size = points.rowwise().maxCoeff() - low;
+  const double step = std::max(0.5 * short_edge(mesh), std::sqrt(size.x() * size.y() / most_nodes));
+  const auto axis = [&](int k) {
+    const auto intervals = std::max<Eigen::Index>(1, std::llround(std::ceil(size[k] / step)));
+    return DoubleVector(DoubleVector::LinSpaced(intervals + 1, low[k], low[k] + size[k]));
+  };
+  PlanarCellWidth grid{axis(0), axis(1), {}};
+  grid.widths.resize(grid.x.size(), grid.y.size());
+  fill(
+      mesh, of_sites(mesh, widths),
+      [&](Eigen::Index i, Eigen::Index j) {
+        return Vec3{grid.x[i], grid.y[j], 0};
+      },
+      grid.widths);
   return grid;
 }
 

@@ -2,6 +2,7 @@
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/cell_width_mesh.h"
 #include "io/shapes/jigsaw.h"
+#include "io/shapes/planar_grid.h"
 
 #include <calotte/error.h>
 
@@ -16,14 +17,8 @@ constexpr double degrees = 180 / std::numbers::pi;
   throw Error(ErrorCode::parse, name + ": " + problem);
 }
 
-void require_count(const JigsawFile& file, std::size_t nodes, const std::string& name) {
-  if (file.values.size() != nodes)
-    refuse(name, "VALUE has " + std::to_string(file.values.size()) + " widths for " +
-                     std::to_string(nodes) + " nodes; give one for each");
-}
-
 CellWidth of_grid(const JigsawFile& file, const std::string& name, const Surface& region) {
-  require_count(file, file.x_grid.size() * file.y_grid.size(), name);
+  require_values(file, file.x_grid.size() * file.y_grid.size(), name);
   Raster raster;
   raster.longitude_name = "COORD=1";
   raster.latitude_name = "COORD=2";
@@ -40,13 +35,17 @@ CellWidth of_grid(const JigsawFile& file, const std::string& name, const Surface
   return checked(std::move(raster), name, region);
 }
 
-CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
-  require_count(file, static_cast<std::size_t>(file.points.cols()), name);
-  const DoubleVector widths = Eigen::Map<const DoubleVector>(
-      file.values.data(), static_cast<Eigen::Index>(file.values.size()));
-  for (Eigen::Index i = 0; i < widths.size(); ++i)
-    if (!(widths[i] > 0))
+/// One width for each point.
+DoubleVector widths_of_points(const JigsawFile& file, const std::string& name) {
+  require_values(file, static_cast<std::size_t>(file.points.cols()), name);
+  for (std::size_t i = 0; i < file.values.size(); ++i)
+    if (!(file.values[i] > 0))
       refuse(name, "VALUE of point " + std::to_string(i) + " is not positive; correct it");
+  return vector_of(file.values);
+}
+
+CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
+  const DoubleVector widths = widths_of_points(file, name);
   try {
     return resampled(directions_of(file, name), widths);
   } catch (const Error& error) {
@@ -64,8 +63,26 @@ CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const S
     return of_grid(file, name, region);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
     return of_mesh(file, name);
-  refuse(name, "no cell widths in a file of the kind \"" + file.kind +
+  refuse(name, "no cell widths of the sphere in a file of the kind \"" + file.kind +
                    "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
+}
+
+PlanarCellWidth read_planar_cell_width_msh(const std::string& path) {
+  const JigsawFile file = read_jigsaw(path);
+  if (file.kind == "euclidean-mesh" && file.dimensions == 2)
+    return resampled_in_plane(Points2(file.points), widths_of_points(file, path));
+  if (file.kind != "euclidean-grid")
+    refuse(path, "no cell widths of a plane in a file of the kind \"" + file.kind +
+                     "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
+  const auto nx = std::ssize(file.x_grid), ny = std::ssize(file.y_grid);
+  require_values(file, file.x_grid.size() * file.y_grid.size(), path);
+  return checked({.x = vector_of(file.x_grid),
+                  .y = vector_of(file.y_grid),
+                  .values = Eigen::Map<const DoubleMatrix>(file.values.data(), ny, nx).transpose(),
+                  .x_name = "COORD=1",
+                  .y_name = "COORD=2",
+                  .value_name = "VALUE"},
+                 path);
 }
 
 } // namespace calotte::io_detail

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
-#include "io/bytes/text.h"
 #include "io/netcdf/netcdf_writer.h"
+#include "io/shapes/jigsaw.h"
 
 #include <calotte/error.h>
 #include <calotte/write.h>
@@ -47,22 +46,14 @@ void write_netcdf(const std::string& path, const CellWidth& widths) {
 
 void write_jigsaw(const std::string& path, const CellWidth& widths) {
   constexpr double radians = std::numbers::pi / 180;
-  OutputFile file(path);
-  Writer out([&](std::string_view bytes) { file.append(bytes); });
-  out.text("MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n");
-  const auto axis = [&](std::int64_t number, const DoubleVector& degrees) {
-    out.text("COORD=").number(number).text(";").number(std::int64_t{degrees.size()}).text("\n");
-    for (const double value : degrees)
-      out.number(value * radians).text("\n");
-  };
-  axis(1, widths.longitudes);
-  axis(2, widths.latitudes);
-  out.text("VALUE=").number(std::int64_t{widths.widths.size()}).text(";1\n");
-  for (Eigen::Index i = 0; i < widths.widths.rows(); ++i)
-    for (Eigen::Index j = 0; j < widths.widths.cols(); ++j)
-      out.number(widths.widths(i, j)).text("\n");
-  out.flush();
-  file.commit();
+  JigsawFile grid{.kind = "ellipsoid-grid", .dimensions = 2};
+  for (const double longitude : widths.longitudes)
+    grid.x_grid.push_back(longitude * radians);
+  for (const double latitude : widths.latitudes)
+    grid.y_grid.push_back(latitude * radians);
+  const DoubleMatrix by_latitude = widths.widths.transpose();
+  grid.values.assign(by_latitude.data(), by_latitude.data() + by_latitude.size());
+  write_jigsaw_grid(path, grid);
 }
 
 } // namespace

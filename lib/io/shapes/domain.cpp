@@ -2,6 +2,7 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/text.h"
+#include "io/command.h"
 #include "io/shapes/geojson_polygons.h"
 
 #include <calotte/error.h>
@@ -105,11 +106,21 @@ Surface domain_of(const Rings& rings) {
   return Surface::plane().within(std::move(all));
 }
 
+/// The closed rings of edges of a mesh of JIGSAW.
+Surface domain_of_jigsaw(const std::string& path) {
+  const Surface surface = read_jigsaw_geometry(path).surface;
+  if (surface.is_sphere())
+    throw Error(ErrorCode::parse, path + ": a geometry of the sphere; give one of a plane");
+  return surface;
+}
+
 } // namespace
 
 Surface read_domain(const std::string& path) {
-  std::ifstream in = open_input(path);
   const std::string suffix = suffix_of(path);
+  if (suffix == ".msh")
+    return domain_of_jigsaw(path);
+  std::ifstream in = open_input(path);
   const bool json = suffix == ".geojson" || suffix == ".json";
   const Rings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
   try {

@@ -3,6 +3,8 @@
 
 #include "base/lonlat.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
+#include "io/command.h"
 #include "io/shapes/geojson.h"
 
 #include <calotte/error.h>
@@ -57,6 +59,20 @@ std::vector<Points3> read_lines(std::istream& in, const std::string& name) {
 
 } // namespace
 } // namespace io_detail
+
+bool holds_lines(const std::string& path) {
+  const std::string suffix = io_detail::suffix_of(path);
+  if (suffix != ".geojson" && suffix != ".json")
+    return false;
+  std::ifstream in = io_detail::open_input(path);
+  bool found = false;
+  io_detail::read_features(in, path, [&](const io_detail::GeoFeature& feature) {
+    io_detail::for_each_geometry(feature, path, [&](const std::string& type, const auto&) {
+      found = found || type == "LineString" || type == "MultiLineString";
+    });
+  });
+  return found;
+}
 
 std::vector<Points3> read_lines(const std::string& path) {
   std::ifstream in = io_detail::open_input(path);

@@ -2,6 +2,7 @@
 #include "io/shapes/jigsaw.h"
 
 #include "base/lonlat.h"
+#include "io/bytes/file.h"
 #include "io/bytes/text.h"
 
 #include <calotte/error.h>
@@ -64,10 +65,14 @@ private:
       grid(whole<2>(what));
     else if (name == "point")
       points(whole<1>(what)[0]);
+    else if (name == "edge2")
+      edges(whole<1>(what)[0]);
     else if (name == "tria3")
       triangles(whole<1>(what)[0]);
     else if (name == "value")
       file_.values = numbers(whole<1>(what)[0], 1);
+    else if (name == "slope")
+      file_.slopes = numbers(whole<1>(what)[0], 1);
     else if (name == "radii")
       radii(what);
     else
@@ -84,7 +89,7 @@ private:
 
   /// One for all axes, or three.
   void radii(std::string_view text) {
-    std::array<double, 3>& radii = file_.radii;
+    std::array<double, 3>& radii = file_.radii.emplace();
     if (parse_columns(text, 3, radii.data()).outcome != Outcome::ok) {
       parse(text, 1, radii.data());
       radii.fill(radii[0]);
@@ -118,13 +123,12 @@ private:
       reader_.fail(describe(read));
   }
 
-  /// The first columns of so many lines, line by line. A tag may end the lines: one that is missing
-  /// shows that the last number was cut short.
-  std::vector<double> numbers(std::int64_t lines, int columns, int tags = 0) {
+  /// The first columns of so many lines, line by line.
+  std::vector<double> numbers(std::int64_t lines, int columns) {
     std::vector<double> values;
     std::array<double, 4> row{};
     for (std::int64_t i = 0; i < lines; ++i) {
-      parse(next(), columns + tags, row.data());
+      parse(next(), columns, row.data());
       for (int c = 0; c < columns; ++c)
         if (!std::isfinite(row[static_cast<std::size_t>(c)]))
           reader_.fail("NaN or an infinite number; correct it");
@@ -146,10 +150,23 @@ private:
     if (file_.dimensions != 2 && file_.dimensions != 3)
       reader_.fail("points of " + std::to_string(file_.dimensions) +
                    " dimensions; write NDIMS=2 or NDIMS=3 before them");
-    const std::vector<double> all = numbers(count, file_.dimensions, 1);
-    file_.points = Eigen::Map<const DoubleMatrix>(all.data(), file_.dimensions,
-                                                  static_cast<Eigen::Index>(all.size()) /
-                                                      static_cast<Eigen::Index>(file_.dimensions));
+    const int columns = file_.dimensions + 1;
+    const std::vector<double> all = numbers(count, columns);
+    const Eigen::Map<const DoubleMatrix> rows(all.data(), columns,
+                                              std::ssize(all) / static_cast<Eigen::Index>(columns));
+    file_.points = rows.topRows(file_.dimensions);
+    for (const double tag : rows.bottomRows<1>().reshaped())
+      file_.fixed.push_back(tag < 0);
+  }
+
+  void edges(std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::array<std::int64_t, 3> ids{}; // and a tag
+      parse(next(), 3, ids.data());
+      if (std::min(ids[0], ids[1]) < 0 || std::max(ids[0], ids[1]) >= most_points)
+        reader_.fail("an edge's end is no number of a point; count the points from 0");
+      file_.edges.push_back({static_cast<std::int32_t>(ids[0]), static_cast<std::int32_t>(ids[1])});
+    }
   }
 
   void triangles(std::int64_t count) {
@@ -170,6 +187,13 @@ private:
 
   /// Points may follow the triangles.
   void require_vertices() const {
+    for (std::size_t e = 0; e < file_.edges.size(); ++e)
+      if (const std::int32_t last = std::max(file_.edges[e][0], file_.edges[e][1]);
+          last >= file_.points.cols())
+        throw Error(ErrorCode::parse, reader_.name() + ": edge " + std::to_string(e) +
+                                          " has the point " + std::to_string(last) +
+                                          ", but there are " + std::to_string(file_.points.cols()) +
+                                          ", counted from 0");
     for (Eigen::Index t = 0; t < file_.triangles.cols(); ++t)
       if (file_.triangles.col(t).maxCoeff() >= file_.points.cols())
         throw Error(ErrorCode::parse,
@@ -189,6 +213,25 @@ private:
 
 JigsawFile read_jigsaw(std::istream& in, const std::string& name) {
   return Sections(in, name).read();
+}
+
+JigsawFile read_jigsaw(const std::string& path) {
+  std::ifstream in = open_input(path);
+  return read_jigsaw(in, path);
+}
+
+double radius_of(const JigsawFile& file, const std::string& name) {
+  const auto& [a, b, c] = file.radii.value_or(std::array<double, 3>{1, 1, 1});
+  if (a != b || b != c)
+    throw Error(ErrorCode::parse, name + ": the radii differ; only meshes of a sphere are read");
+  return a;
+}
+
+void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name) {
+  if (file.values.size() != nodes)
+    throw Error(ErrorCode::parse, name + ": VALUE has " + std::to_string(file.values.size()) +
+                                      " widths for " + std::to_string(nodes) +
+                                      " nodes; give one for each");
 }
 
 Points3 directions_of(const JigsawFile& file, const std::string& name) {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/points.h"
+#include "io/command.h"
+#include "io/shapes/cell_width_file.h"
+#include "io/shapes/jigsaw.h"
+
+#include <calotte/cell_width.h>
+#include <calotte/error.h>
+#include <calotte/read.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+namespace calotte {
+namespace {
+
+using namespace io_detail;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
+  throw Error(ErrorCode::parse, path + ": " + problem);
+}
+
+/// The one slope of a file.
+double slope_of(const JigsawFile& file, const std::string& path) {
+  if (file.slopes.empty())
+    refuse(path, "no SLOPE section; give the largest gradient, SLOPE=1;1 and the number");
+  const auto [least, most] = std::minmax_element(file.slopes.begin(), file.slopes.end());
+  if (*least != *most)
+    refuse(path, "SLOPE differs between nodes; give one number");
+  if (!(*least > 0))
+    refuse(path, "SLOPE is not positive; correct it");
+  return *least;
+}
+
+/// The limited values at the nodes of the file, y running faster.
+std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string& path,
+                                      double radius) {
+  const CellWidth limited = limit_gradient(read_cell_width(path), slope_of(file, path), radius);
+  constexpr double degrees = 180 / std::numbers::pi;
+  const auto ny = std::ssize(file.y_grid);
+  Points3 nodes(3, std::ssize(file.x_grid) * ny);
+  for (Eigen::Index k = 0; k < nodes.cols(); ++k)
+    base_detail::set_column(
+        nodes, k,
+        base_detail::from_lonlat(
+            file.x_grid[static_cast<std::size_t>(k / ny)] * degrees,
+            std::clamp(file.y_grid[static_cast<std::size_t>(k % ny)] * degrees, -90.0, 90.0)));
+  const DoubleVector values = evaluate(limited, nodes);
+  return {values.begin(), values.end()};
+}
+
+std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& path) {
+  PlanarCellWidth limited =
+      limit_gradient(read_planar_cell_width(path), slope_of(file, path), Surface::plane());
+  if (file.x_grid.front() > file.x_grid.back()) // in the order of the file
+    limited.widths.colwise().reverseInPlace();
+  if (file.y_grid.front() > file.y_grid.back())
+    limited.widths.rowwise().reverseInPlace();
+  const DoubleMatrix by_y = limited.widths.transpose();
+  return {by_y.data(), by_y.data() + by_y.size()};
+}
+
+} // namespace
+
+void limit_jigsaw_values(const std::string& path, double radius) {
+  JigsawFile file = read_jigsaw(path);
+  std::vector<double> values;
+  if (file.kind == "ellipsoid-grid")
+    values = limited_on_sphere(file, path, file.radii ? radius_of(file, path) : radius);
+  else if (file.kind == "euclidean-grid")
+    values = limited_in_plane(file, path);
+  else
+    refuse(path, "values of the kind \"" + file.kind +
+                     "\"; give a grid: ellipsoid-grid or euclidean-grid");
+  for (std::size_t i = 0; i < values.size(); ++i) // rounding at a node raises none
+    file.values[i] = std::min(file.values[i], values[i]);
+  write_jigsaw_grid(path, file);
+}
+
+} // namespace calotte
