@@ -231,7 +231,11 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   std::cerr << "calotte: not well-centred: " + cells +
                    formatted("%.2g", report.iterations.back().shape_excess) + " beyond" +
                    (report.worst_cell < 0 ? " its limit" : "," + where) +
-                   "; the mesh is written; make the widths smoother, or give more cells\n";
+                   "; the mesh is written; " +
+                   (request.density->widths.in_km() && !request.density->widths.uniform
+                        ? "make the widths smoother (--gradient)"
+                        : "make the density smoother") +
+                   ", or give more cells\n";
   finish(not_well_centred);
 }
 
@@ -295,7 +299,7 @@ void write_result(const CvtRequest& request, const Run& run, Outcome& outcome, P
   outcome.grid =
       part_line(request.mesh, run.input.recipe, write_file_of(request, run, outcome.mesh, options));
   if (!request.report.empty())
-    write_file(request.report, to_json(request, made.stop, outcome.report, outcome.cells,
+    write_file(request.report, to_json(request, run.schedule, outcome.report, outcome.cells,
                                        outcome.area, outcome.threads, outcome.states));
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every choice of a recipe has the bits of the command, and errors name what does not fit."""
+import json
 import os
 import subprocess
 import sys
@@ -113,6 +114,18 @@ def test_a_channel(tmp_path, walls, density):
     assert grid.cells.period[k] == 0 and grid.mesh.surface.period[k] > BOX.period[k]
     assert calotte.check(grid.mesh) and len(grid.voronoi().cells) == len(grid.cells)
     assert repr(grid).startswith(f"<calotte.Cvt: {len(grid.cells)} cells")
+
+
+def test_lines(tmp_path):
+    lines = [[(-105, 47), (-90, 38)], [(-80, 40), (-90, 38)], [(-90, 38), (-90, 30)]]
+    path = tmp_path / "rivers.geojson"
+    path.write_text(json.dumps({"type": "MultiLineString", "coordinates": lines}))
+    run("cvt", "--cell-width", "500km", "--fixed", path, "-o", tmp_path / "command.vtp")
+    made = calotte.read(tmp_path / "command.vtp").points
+    for given in (path, lines, [calotte.from_lonlat(*np.transpose(line)) for line in lines]):
+        assert (calotte.cvt(cell_width=500, lines=given).mesh.points == made).all()
+    assert (made[0] == calotte.from_lonlat(-90, 38)).all()  # where they meet
+    refuses("line 0, point 1 is opposite", calotte.cvt, cell_width=500, lines=[[(0, 0), (180, 0)]])
 
 
 def test_a_limited_area_with_fixed_points(tmp_path):

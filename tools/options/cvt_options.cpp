@@ -58,7 +58,8 @@ void add_start(CLI::App& command, CvtRequest& request) {
   command
       .add_option(
           "--fixed", request.fixed,
-          "Generators that stay where they are: a file such as START. They are part of the "
+          "Generators that stay where they are: a file such as START, or lines that generators "
+          "follow, such as rivers (.geojson of LineString). They are part of the "
           "number of cells and come first in the mesh. The start multilevel puts the other "
           "ones where these are not as dense as demanded; for density and random, or beside "
           "START, they may be anywhere")

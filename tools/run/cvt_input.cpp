@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_input.h"
 
+#include "io/command.h"
+#include "options/files.h"
 #include "options/format_options.h"
 #include "options/point_file.h"
 #include "options/region_option.h"
@@ -11,6 +13,7 @@
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace calotte::tools {
@@ -40,6 +43,20 @@ Points3 read(const CvtRequest& request, const std::string& path, const std::stri
   origin = {std::move(file.name), std::move(file.lines)};
   configuration = fingerprint(name, Points2(file.points.topRows<2>()));
   return std::move(file.points);
+}
+
+/// Whether a file of fixed generators holds lines instead of points.
+bool has_lines(const CvtRequest& request) {
+  return !request.fixed.empty() && request.fixed != "-" && holds_lines(request.fixed);
+}
+
+/// Lines that generators follow.
+std::vector<Points3> read_fixed_lines(const CvtRequest& request, CvtInput& input) {
+  if (planar(request))
+    refuse(request.fixed + ": lines of longitude and latitude; in a plane give points");
+  input.fixed_file.name = request.fixed;
+  input.fixed = "lines of " + checksum_of(request.fixed) + "\n";
+  return read_lines(request.fixed);
 }
 
 // ---- The recipe
@@ -134,7 +151,9 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.merge_within = merging.merge_within;
   if (!request.points.empty())
     recipe.start.points = read(request, request.points, "points", input.file, input.points);
-  if (!request.fixed.empty())
+  if (has_lines(request))
+    recipe.lines = read_fixed_lines(request, input);
+  else if (!request.fixed.empty())
     recipe.fixed = read(request, request.fixed, "fixed", input.fixed_file, input.fixed);
   return input;
 }
@@ -143,6 +162,8 @@ Schedule plan_of(const CvtInput& input) {
   try {
     return plan(input.recipe);
   } catch (const Error& error) {
+    if (std::string_view(error.what()).starts_with("line "))
+      throw Error(error.code(), input.fixed_file.name + ": " + error.what(), error.index());
     rethrow_with_line(error, input);
   }
 }
@@ -158,7 +179,8 @@ void require_used(const CvtRequest& request, const Schedule& schedule) {
 std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& input,
                                   const Schedule& schedule) {
   const WidthWords& words = request.density->widths;
-  const std::int64_t cells = schedule.recipe.cells, fixed = input.recipe.fixed.cols();
+  const std::int64_t cells = schedule.recipe.cells,
+                     fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
   if (input.recipe.planar_widths)
@@ -171,10 +193,16 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
     notes = notes_on(*input.recipe.widths, words,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
                                                                         : std::nullopt);
+  if (schedule.on_lines > 0)
+    notes.push_back(request.fixed + ": " + std::to_string(input.recipe.lines.size()) +
+                    " lines hold " + std::to_string(schedule.on_lines) +
+                    " generators; no place on them is farther from one than " +
+                    formatted("%.2f", schedule.from_lines) + " of the cell width there");
   if (follows && fixed > 0)
-    notes.push_back(std::to_string(fixed) + " fixed points leave room for " +
-                    std::to_string(cells - fixed) + " free ones: " + std::to_string(cells) +
-                    " cells");
+    notes.push_back(std::to_string(fixed) +
+                    (schedule.on_lines > 0 ? " fixed generators" : " fixed points") +
+                    " leave room for " + std::to_string(cells - fixed) +
+                    " free ones: " + std::to_string(cells) + " cells");
   if (schedule.recipe.start.kind == Start::Kind::continuation &&
       schedule.first == Start::Kind::density)
     notes.push_back(

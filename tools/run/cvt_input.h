@@ -21,7 +21,8 @@ struct CvtInput {
   };
   Recipe recipe;
   File fixed_file, file; ///< of the fixed points, which come first in a run, and of the start's
-  /// Checksums of these points, lines "name value" of a run's configuration.
+  /// Checksums of these points and of the lines of --fixed, lines "name value" of a run's
+  /// configuration.
   std::string points, fixed;
 };
 

@@ -58,9 +58,10 @@ template <class List> Json array_of(const List& list) {
 
 } // namespace
 
-std::string to_json(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states) {
+  const Stop& stop = schedule.recipe.stop;
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density_names(*request.density);
@@ -74,6 +75,9 @@ std::string to_json(const CvtRequest& request, const Stop& stop, const CvtReport
     json["cells_beyond_limits"] = report.cells_beyond_limits;
     json["worst_cell"] = report.worst_cell;
   }
+  if (schedule.on_lines > 0)
+    json["lines"] = {{"generators", schedule.on_lines},
+                     {"farthest_in_widths", schedule.from_lines}};
   json["residual"] = report.residual;
   json["cells"] = cells;
   json["area"] = area;

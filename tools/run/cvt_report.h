@@ -15,7 +15,7 @@ namespace calotte::tools {
 /// \param states that the run kept.
 /// \param threads number of threads.
 /// \param area area of the sphere or the domain.
-std::string to_json(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states);
 

@@ -411,7 +411,16 @@ def _take_start(recipe, start):
         raise Error("the number of cells is 0; give a larger one, or None where widths give it")
 
 
-def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None,
+def _take_lines(recipe, lines):
+    """Lines from a file or from arrays."""
+    if isinstance(lines, (str, os.PathLike)):
+        recipe.take_lines(os.fspath(lines))
+    elif lines is not None:
+        recipe.lines = [_arguments.points_of(recipe.surface, line, "points of a line")
+                        for line in lines]
+
+
+def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None, lines=None,
             earth_radius=EARTH_RADIUS_KM, **fields):
     """The recipe of the arguments of cvt(), and the widths, or None."""
     recipe = _calotte.Recipe()
@@ -432,6 +441,7 @@ def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None,
         recipe.widths = widths
     if fixed is not None:
         recipe.fixed = _arguments.points_of(surface, fixed, "fixed points")
+    _take_lines(recipe, lines)
     _take_start(recipe, start)
     return recipe, widths
 
@@ -455,7 +465,8 @@ def _reporting(progress):
 
 def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = None,
         cell_width: WidthLike = None, surface: SurfaceLike | None = None,
-        fixed: ArrayLike | None = None, seed: int = _USUAL.seed,
+        fixed: ArrayLike | None = None,
+        lines: Path | Sequence[ArrayLike] | None = None, seed: int = _USUAL.seed,
         method: str = _USUAL.method, norm: str = _USUAL.norm, tolerance: float | None = None,
         max_iterations: int = _USUAL.max_iterations, well_centred: bool | None = None,
         least_spacing: float = _USUAL.least_spacing, insertion_rounds: int | None = None,
@@ -483,6 +494,9 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     fixed: generators that stay, as those of the start; the first cells of the result. A number of
         cells includes them, points of the start do not; without a number, free ones are added where
         the fixed ones leave the widths unmet.
+    lines: that generators follow, such as rivers: a file, GeoJSON of LineString; or arrays as of
+        fixed, one for each line. They are at the demanded distances; ends and confluences have one.
+        They follow the fixed ones in the result.
     seed: of random points. method: auto, lloyd, lbfgs or lbfgs-laplacian.
     norm: that is compared with the tolerance: l2, linf, l2-scaled or linf-scaled.
     tolerance: default 1e-6, and 1e-4 with well_centred.
@@ -518,7 +532,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     True
     """
     recipe, _ = _recipe(
-        start, density, cell_width, surface, fixed, earth_radius, seed=seed, method=method,
+        start, density, cell_width, surface, fixed, lines, earth_radius, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,

@@ -6,6 +6,7 @@
 #include <calotte/error.h>
 #include <calotte/grid.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -19,6 +20,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace calotte::python {
 namespace {
@@ -122,6 +124,19 @@ void add_recipe(py::module_& module) {
       type, "points", [](auto& recipe) -> auto& { return recipe.start.points; });
   add_points_field(
       type, "fixed", [](auto& recipe) -> auto& { return recipe.fixed; });
+  type.def_property(
+      "lines", [](const Recipe& recipe) { return std::ssize(recipe.lines); },
+      [](Recipe& recipe, const std::vector<Doubles>& lines) {
+        recipe.lines.clear();
+        for (const Doubles& line : lines) {
+          const auto given = columns(line);
+          Points3& all = recipe.lines.emplace_back(Points3::Zero(3, given.cols()));
+          all.topRows(given.rows()) = given;
+        }
+      });
+  type.def("take_lines", [](Recipe& recipe, const std::string& path) {
+    recipe.lines = call([&] { return read_lines(path); });
+  });
   add_word(
       type, "kind", "kind of start", start_words(),
       [](auto& recipe) -> auto& { return recipe.start.kind; });
