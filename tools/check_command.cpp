@@ -163,8 +163,8 @@ void run(const MeshSource& source) {
 void add_check(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "check",
-      "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points, and "
-      "compares the other variables of a NetCDF file with it.");
+      "Proves in exact arithmetic that a mesh is the Delaunay triangulation of its points. It "
+      "compares the other variables of a NetCDF file with it, too.");
   auto source = add_mesh_source(*command);
   add_plane(*command, *source);
   set_help(*command,

@@ -246,8 +246,8 @@ void run(const Request& request) {
 void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "info",
-      "Measures a mesh of the sphere or the plane: spacing, quality of "
-      "cells and triangles, and distance from a CVT. calotte help measures explains the words.");
+      "Measures a mesh: spacing, quality of cells and triangles, and distance from a CVT. calotte "
+      "help measures explains the words.");
   auto request = std::make_shared<Request>();
   request->source = add_mesh_source(*command);
   add_plane(*command, *request->source);

@@ -296,8 +296,8 @@ void add_cells(CLI::App& command, Request& request) {
 void add_plan(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "plan",
-      "Describes the grid that calotte cvt would make, without making it: cells, widths and "
-      "their gradient, and estimates of time, memory and file sizes.");
+      "Describes the grid that calotte cvt would make, without making it. It prints cells, widths "
+      "and their gradient, and estimates of time, memory and file sizes.");
   auto request = std::make_shared<Request>();
   request->density = add_density(*command);
   add_cells(*command, *request);

@@ -84,7 +84,7 @@ struct LinePoints {
 };
 
 /// Generators along lines such as rivers, for Recipe::fixed: at the distances of neighbours that a
-/// density demands of so many generators, from 3/4 to 3/2 of it. The lines are one network, however
+/// density demands of so many generators, from 5/6 to 5/3 of it. The lines are one network, however
 /// they are cut into parts. Where three lines or more meet, and where one ends, there is a
 /// generator, and where a line turns by 20 degrees or more, unless a sharper corner is nearer than
 /// two thirds of that distance. Of two generators nearer than that one is left out, of a

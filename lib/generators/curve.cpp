@@ -114,8 +114,10 @@ template <Space S> std::vector<double> Curve<S>::kept_corners() const {
 template <Space S> std::vector<double> Curve<S>::stops() const {
   constexpr double fewest = 3; // of a closed curve
   // Longer edges would let other generators come between their ends, and a boundary is closed.
-  const double slack = closed_ ? 0.25 : 0.5;
-  const auto number = [&](double edges) { return std::max(1.0, std::ceil(edges - slack)); };
+  // Along a line they may: shapes beside generators that do not move are better if these are not
+  // dense.
+  const double wide = closed_ ? 1 : 1.1, slack = closed_ ? 0.25 : 0.5;
+  const auto number = [&](double edges) { return std::max(1.0, std::ceil(edges / wide - slack)); };
   std::vector<double> corners = kept_corners();
   if (corners.empty())
     corners.push_back(0);

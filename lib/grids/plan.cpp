@@ -121,12 +121,12 @@ void choose_start(Recipe& recipe) {
   Start& start = recipe.start;
   const bool plane = !recipe.surface.is_sphere(),
              follows = recipe.surface.is_sphere() && recipe.surface.is_bounded(),
-             beside = recipe.fixed.cols() > 0 || !recipe.lines.empty() ||
-                      recipe.boundary == Boundary::generators;
+             beside = recipe.fixed.cols() > 0 || !recipe.lines.empty(),
+             ends = recipe.boundary == Boundary::generators;
   if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
     start.kind = Start::Kind::points;
   if (start.kind == Start::Kind::automatic) {
-    if ((follows || beside || !recipe.density.uniform()) && !recipe.stop.iterations &&
+    if ((follows || beside || ends || !recipe.density.uniform()) && !recipe.stop.iterations &&
         !start.bisections)
       start.kind = Start::Kind::multilevel;
     else

@@ -27,6 +27,16 @@ if(EXISTS ${PREFIX}/bin/calotte)
   endif()
 endif()
 
+# The programs of JIGSAW's names find it.
+if(EXISTS ${PREFIX}/bin/calotte)
+  foreach(name jigsaw marche)
+    execute_process(COMMAND ${PREFIX}/libexec/calotte/jigsaw/${name} --help OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+    if(NOT output MATCHES "calotte ${name}")
+      message(FATAL_ERROR "the installed ${name} is not calotte ${name}: ${output}")
+    endif()
+  endforeach()
+endif()
+
 # Its manual pages and completions. Their text comes from the command: one option stands for all.
 if(EXISTS ${PREFIX}/bin/calotte)
   foreach(file man/man1/calotte-cvt.1 bash-completion/completions/calotte zsh/site-functions/_calotte)

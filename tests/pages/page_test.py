@@ -25,7 +25,7 @@ BLOCK = re.compile(r"(?:`(?P<file>[\w./]+)`:\n\n)?^```(?P<language>\w+)\n(?P<tex
 SCRIPT = re.compile(r"^(tools/\w+)\b.*$", re.M)
 INSTALLING = re.compile(r"^((?:/usr/bin/)?python3 -m venv|env/bin/pip)\b.*$", re.M)
 INSTALLED = re.compile(r"^env/bin/python\b", re.M)
-FILES = {"c", "cpp", "cmake", "python", "toml", "json"}
+FILES = {"c", "cpp", "cmake", "python", "toml", "json", "ini"}
 START = """set -euo pipefail
 export PATH=$PWD/build/release/tools:$PATH COLUMNS=80
 trap 'echo "{page}: this command failed: $BASH_COMMAND" >&2' ERR

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/topics.h"
 
+#include "text/jigsaw_options.h"
 #include "text/text.h"
 
 #include <calotte/write.h>
@@ -230,6 +231,7 @@ const std::vector<Topic>& topics() {
       {"widths", "Rules for widths in km, in a TOML file", widths},
       {"region", "Syntax of --region: shapes and files", region},
       {"measures", "Meaning of what info and view measure", measures},
+      {"jig", "Options of JIGSAW, and what is made of each", jigsaw_options()},
       {"exit-codes", "Meaning of the exit codes", codes}};
   return all;
 }

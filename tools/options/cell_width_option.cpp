@@ -41,11 +41,6 @@ CLI::Validator width_or_file() {
           ""};
 }
 
-/// One width at all nodes of the coarsest grid.
-CellWidth uniform_widths(double km) {
-  return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, DoubleMatrix::Constant(2, 2, km)};
-}
-
 constexpr double fewest = 12, most = 1 << 30;
 
 /// The number of cells of a uniform grid for the number that its width requires; 0 if there is
@@ -134,7 +129,7 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
               "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
               "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), polygons "
               "(.geojson), or rules (.toml), see calotte help widths. In the plane a number in its "
-              "unit, or NetCDF cellWidth(y, x)")
+              "unit, NetCDF cellWidth(y, x), or JIGSAW's spacings")
           ->check(width_or_file())
           ->type_name("KM|FILE")
           ->excludes(density);
@@ -169,6 +164,16 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
       ->excludes(file);
 }
 
+CellWidth uniform_widths(double km) {
+  return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, DoubleMatrix::Constant(2, 2, km)};
+}
+
+PlanarCellWidth uniform_planar_widths(double width) {
+  constexpr double far = 1e30; // the largest coordinate of a domain
+  return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}},
+          DoubleMatrix::Constant(2, 2, width)};
+}
+
 std::string name_of(const WidthWords& words) {
   return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
@@ -182,13 +187,12 @@ PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane
   if (words.with_unit)
     refuse("--cell-width " + shortest(*words.uniform) +
            "km: the plane has the unit of its coordinates; give a number in that unit");
-  if (words.uniform) {
-    constexpr double far = 1e30; // the largest coordinate of a domain
-    return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}},
-            DoubleMatrix::Constant(2, 2, *words.uniform)};
-  }
-  if (std::filesystem::path(words.file).extension() != ".nc")
-    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc)");
+  if (words.uniform)
+    return uniform_planar_widths(*words.uniform);
+  if (const auto suffix = std::filesystem::path(words.file).extension();
+      suffix != ".nc" && suffix != ".msh")
+    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc) "
+                        "or JIGSAW's spacings (.msh)");
   PlanarCellWidth widths = read_planar_cell_width(words.file);
   return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }

@@ -38,6 +38,11 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 /// \pre words.in_km().
 std::string name_of(const WidthWords& words);
 
+/// One width at all nodes of the coarsest grid, km.
+CellWidth uniform_widths(double km);
+/// The same in a plane, in its unit.
+PlanarCellWidth uniform_planar_widths(double width);
+
 /// Reads widths from either file, or makes uniform ones, and limits their gradient; those of a
 /// density raster have no unit.
 /// \pre words.given().

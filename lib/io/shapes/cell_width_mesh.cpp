@@ -73,7 +73,8 @@ CellWidth resampled(const Points3& points, const DoubleVector& widths) {
     throw Error(ErrorCode::invalid_argument,
                 "the points lie within a hemisphere; give widths on the "
                 "whole sphere");
-  mesh.points.colwise().normalize();
+  for (auto&& point : mesh.points.colwise())
+    point.normalize();
   const double spacing = 2 * arc_sine(0.5 * short_edge(mesh)) * 180 / std::numbers::pi;
   CellWidth grid = regular_grid(std::clamp(0.5 * spacing, finest, coarsest));
   fill(

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "io/command.h"
+#include "options/cell_width_option.h"
+#include "options/files.h"
+#include "options/jig_file.h"
+#include "options/partition_options.h"
+#include "options/warning.h"
+#include "run/cvt_forecast.h"
+#include "run/progress.h"
+#include "text/text.h"
+
+#include <calotte/grid.h>
+#include <calotte/io.h>
+
+#include <CLI/App.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace calotte::tools {
+namespace {
+
+/// The unit and the bounds of widths.
+struct Sizes {
+  double scale = 1;                                                 ///< of the values of a file
+  double least = 0, most = std::numeric_limits<double>::infinity(); ///< after it
+
+  void apply(DoubleMatrix& widths) const {
+    widths = (scale * widths).cwiseMin(most).cwiseMax(least);
+  }
+};
+
+/// The mean side of the box around a geometry, the unit of relative widths.
+double extent_of(const JigsawGeometry& geometry) {
+  if (geometry.surface.is_sphere())
+    return 2 * geometry.radius;
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()),
+                 high = -low;
+  for (const DoubleMatrix& ring : geometry.surface.rings()) {
+    low = low.min(ring.rowwise().minCoeff().array());
+    high = high.max(ring.rowwise().maxCoeff().array());
+  }
+  return (high - low).mean();
+}
+
+Sizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
+  constexpr double usual_most = 0.02;
+  const std::string scale = jig.word("HFUN_SCAL", "relative");
+  if (scale != "relative" && scale != "absolute")
+    jig.refuse("HFUN_SCAL", "give RELATIVE or ABSOLUTE");
+  const double extent = extent_of(geometry);
+  Sizes sizes;
+  sizes.scale = scale == "relative" ? extent : 1;
+  sizes.most = std::min(extent, sizes.scale * jig.number("HFUN_HMAX").value_or(usual_most));
+  sizes.least = sizes.scale * std::max(0.0, jig.number("HFUN_HMIN").value_or(0));
+  if (!(sizes.most > 0))
+    jig.refuse("HFUN_HMAX", "give a number > 0");
+  if (!(sizes.least <= sizes.most))
+    jig.refuse("HFUN_HMIN", "give a number that is not above HFUN_HMAX");
+  return sizes;
+}
+
+void take_widths(const JigFile& jig, const JigsawGeometry& geometry, Recipe& recipe) {
+  const Sizes sizes = sizes_of(jig, geometry);
+  const std::optional<std::string> file = jig.text("HFUN_FILE");
+  if (geometry.surface.is_sphere()) {
+    recipe.widths = file ? read_cell_width(*file) : uniform_widths(sizes.most);
+    if (file)
+      sizes.apply(recipe.widths->widths);
+  } else {
+    recipe.planar_widths = file ? read_planar_cell_width(*file) : uniform_planar_widths(sizes.most);
+    if (file)
+      sizes.apply(recipe.planar_widths->widths);
+  }
+}
+
+/// The points of INIT_FILE: fixed ones, or with MESH_ITER = 0 all generators.
+/// \returns a remark, or "".
+std::string take_points(const JigFile& jig, Recipe& recipe) {
+  const std::optional<std::string> file = jig.text("INIT_FILE");
+  const bool alone = jig.whole("MESH_ITER").value_or(1) == 0;
+  if (!file && alone)
+    jig.refuse("MESH_ITER", "0 needs INIT_FILE, whose points are then the grid's");
+  if (!file)
+    return "";
+  if (alone && !recipe.surface.is_sphere())
+    jig.refuse("MESH_ITER", "0 applies to the sphere only; leave it out");
+  const JigsawPoints init = read_jigsaw_points(*file, !recipe.surface.is_sphere());
+  std::vector<Eigen::Index> fixed, free;
+  for (std::size_t i = 0; i < init.fixed.size(); ++i)
+    (init.fixed[i] ? fixed : free).push_back(static_cast<Eigen::Index>(i));
+  recipe.fixed = init.points(Eigen::all, fixed);
+  if (alone) {
+    recipe.start.points = init.points(Eigen::all, free);
+    recipe.start.kind = Start::Kind::points;
+    recipe.stop.well_centred = true;
+    return "";
+  }
+  return free.empty() ? ""
+                      : *file + ": " + std::to_string(free.size()) +
+                            " points without a negative tag have no effect: the grid does not "
+                            "depend on where it starts; with MESH_ITER=0 it has these alone";
+}
+
+/// What to mesh, and remarks on options.
+struct Job {
+  Recipe recipe;
+  double radius = 1; ///< of the sphere
+  std::vector<std::string> remarks;
+};
+
+Job job_of(const JigFile& jig) {
+  if (const int dimensions = jig.whole("MESH_DIMS").value_or(2); dimensions != 2)
+    jig.refuse("MESH_DIMS", std::to_string(dimensions) + "; only surfaces, 2, are meshed");
+  JigsawGeometry geometry = read_jigsaw_geometry(jig.file("GEOM_FILE"));
+  Job job;
+  Recipe& recipe = job.recipe;
+  recipe.surface = geometry.surface;
+  recipe.radius_km = job.radius = geometry.radius;
+  take_widths(jig, geometry, recipe);
+  job.remarks = jig.ignored();
+  if (const std::string remark = take_points(jig, recipe); !remark.empty())
+    job.remarks.push_back(remark);
+  const bool given = recipe.start.kind == Start::Kind::points;
+  if (recipe.surface.is_bounded() && !given)
+    recipe.boundary = Boundary::generators;
+  if (!given)
+    recipe.lines = std::move(geometry.lines);
+  return job;
+}
+
+Cvt grid_of(const Job& job, const std::optional<int>& threads, Progress& progress) {
+  Cvt grid;
+  with_threads(threads, [&] {
+    const Schedule schedule = plan(job.recipe);
+    RunOptions options;
+    options.progress = [&](const calotte::Progress& now) {
+      progress.stage(describe(*now.run, schedule), std::to_string(now.run->bisections_left));
+      return Next::proceed;
+    };
+    grid = make_grid(schedule, std::move(options));
+  });
+  return grid;
+}
+
+void run(const std::string& path) {
+  const JigFile jig(path);
+  const std::string output = jig.file("MESH_FILE");
+  require_outputs({{"mesh", output}},
+                  {path, jig.file("GEOM_FILE"), jig.text("HFUN_FILE").value_or(""),
+                   jig.text("INIT_FILE").value_or("")});
+  const int threads = jig.whole("NUMTHREAD").value_or(0);
+  Progress progress;
+  progress.stage("reading the widths");
+  const Job job = job_of(jig);
+  if (jig.whole("VERBOSITY").value_or(0) > 0)
+    for (const std::string& remark : job.remarks)
+      std::cout << "calotte: " + remark + "\n";
+  Cvt grid = grid_of(job, threads > 0 ? std::optional(threads) : std::nullopt, progress);
+  const std::int64_t cells = grid.mesh.points.cols();
+  progress.stage("writing " + output);
+  grid.mesh.points *= job.radius;
+  write(output, grid.mesh, {.format = Format::msh});
+  std::cout << output + ": " + std::to_string(cells) + " points, " +
+                   std::to_string(grid.mesh.triangles.cols()) + " triangles, " +
+                   (grid.report.well_centred ? "well-centred, " : "") +
+                   formatted("%.2f", grid.report.seconds) + " s\n";
+  if (!grid.report.well_centred)
+    warn(std::to_string(grid.report.cells_beyond_limits) +
+         " cells have shapes beyond the limits of models; make the widths smoother");
+}
+
+} // namespace
+
+void add_jigsaw(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "jigsaw",
+      "Makes a mesh as JIGSAW's program of this name does. It reads the same options and files, "
+      "and writes the same format. With libexec/calotte/jigsaw before other folders in PATH, "
+      "programs that call jigsaw call this. See calotte help jig.");
+  auto path = std::make_shared<std::string>();
+  command->add_option("FILE", *path, "Options of JIGSAW (.jig)")->required()->type_name("FILE.jig");
+  set_help(*command, {.common = {},
+                      .examples = {"calotte jigsaw mesh.jig",
+                                   "calotte jigsaw mesh.jig && calotte info mesh.msh"}});
+  command->callback([path] { run(*path); });
+}
+
+} // namespace calotte::tools
