@@ -13,6 +13,8 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
+struct Coast;
+
 namespace density_detail {
 class WidthRule;
 }
@@ -51,6 +53,13 @@ struct DepthRule {
   double least = 0;             ///< km, > 0: where the sea is shallow, and at the shore
 };
 
+/// How widths follow from the sea's channels and straits.
+struct ChannelRule {
+  double cells = 0;    ///< across a channel, > 0
+  double least = 0;    ///< km, > 0: in channels that are narrower than so many such cells
+  double widest = 500; ///< km, > 0, of the channels that count. Default 500.
+};
+
 /// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
 /// made of them. Lengths are in km on a sphere of radius earth_radius_km, and widths are positive.
 /// A value that is cheap to copy; copies share what is prepared for queries, and any number of
@@ -86,6 +95,22 @@ public:
   /// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
   ///         the conditions of HeightRaster.
   static Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
+
+  /// By the width of channels and straits, max(least, width / cells); where there is none, nothing.
+  ///
+  /// The width at a point of the sea is twice the distance R from the shore. It counts if two of
+  /// the nearest points of the shore lie in directions more than 120 degrees apart, and at least 6
+  /// R from each other along the shore, or on different shores: in straits, also between islands,
+  /// and in inlets that are about as long as wide, but not in wider bays. The rule holds in the
+  /// circles of radius R about such points; limit_gradient() is exact. The points are the
+  /// circumcentres of Delaunay triangles of points along the shore (Dey and Zhao, Algorithmica 38,
+  /// 2004), and R errs by less than 1/100.
+  ///
+  /// \throws Error invalid_argument for a value of the rule out of range; naming ring and corner of
+  ///         the coast, one that is no direction or opposite to the one before; for a least width
+  ///         that cuts the coast into more than 20 million pieces. As delaunay() for a shore along
+  ///         one great circle.
+  static Widths by_channel(const Coast& coast, const ChannelRule& rule);
 
   /// What a rule says of places where it says nothing, km: wider than any other, so that others
   /// hold in a minimum.

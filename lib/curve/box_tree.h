@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace calotte::curve_detail {
@@ -39,19 +41,38 @@ inline double square_from(const Box3& box, const Vec3& p) {
   return dot(beyond, beyond);
 }
 
-/// Items sorted along the space-filling curve, below a binary tree of boxes: node k has the
+/// Items sorted along the space-filling curve, below a binary tree of their bounds: node k has the
 /// children 2k and 2k + 1.
-class BoxTree {
+/// \tparam Bounds what is known of an item, or of all items below a node: by default that there are
+///         none; joined(a, b) holds for those of a and of b.
+template <class Bounds> class BoundsTree {
 public:
-  BoxTree() = default;
+  BoundsTree() = default;
 
-  /// \param boxes of the items.
+  /// \param bounds of the items.
   /// \param keys of the items along the curve, see hilbert.h.
-  BoxTree(const std::vector<Box3>& boxes, const std::vector<std::uint64_t>& keys);
+  BoundsTree(const std::vector<Bounds>& bounds, const std::vector<std::uint64_t>& keys)
+      : order_(bounds.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(), [&](std::int32_t a, std::int32_t b) {
+      return std::pair(keys[static_cast<std::size_t>(a)], a) <
+             std::pair(keys[static_cast<std::size_t>(b)], b);
+    });
+    for (const std::int32_t item : order_)
+      own_.push_back(bounds[static_cast<std::size_t>(item)]);
+    while (leaves_ * items_of_leaf < order_.size())
+      leaves_ *= 2;
+    nodes_.resize(2 * leaves_);
+    for (std::size_t leaf = 0; leaf < leaves_; ++leaf)
+      for (std::size_t k = first_of(leaf); k < first_of(leaf + 1); ++k)
+        nodes_[leaves_ + leaf] = joined(nodes_[leaves_ + leaf], own_[k]);
+    for (std::size_t node = leaves_ - 1; node > 0; --node)
+      nodes_[node] = joined(nodes_[2 * node], nodes_[2 * node + 1]);
+  }
 
-  /// Calls body(item) once for each item whose box satisfies meets(box). The order of the calls is
-  /// a function of the items alone.
-  /// \param meets true for a box that contains one for which it is true.
+  /// Calls body(item) once for each item whose bounds satisfy meets(bounds). The order of the calls
+  /// is a function of the items alone.
+  /// \param meets true for bounds that contain some for which it is true.
   template <class Meets, class Body> void visit(const Meets& meets, const Body& body) const {
     if (order_.empty())
       return;
@@ -60,7 +81,7 @@ public:
     waiting[count++] = 1;
     while (count > 0) {
       const std::size_t node = waiting[--count];
-      if (!meets(boxes_[node]))
+      if (!meets(nodes_[node]))
         continue;
       if (node < leaves_) {
         waiting[count++] = 2 * node + 1;
@@ -79,9 +100,11 @@ private:
   std::size_t first_of(std::size_t leaf) const { return leaf * order_.size() / leaves_; }
 
   std::vector<std::int32_t> order_; ///< items along the curve
-  std::vector<Box3> own_;           ///< of the items, in this order
-  std::vector<Box3> boxes_;         ///< of the nodes
+  std::vector<Bounds> own_;         ///< of the items, in this order
+  std::vector<Bounds> nodes_;       ///< of the nodes
   std::size_t leaves_ = 1;
 };
+
+using BoxTree = BoundsTree<Box3>;
 
 } // namespace calotte::curve_detail

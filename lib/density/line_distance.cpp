@@ -16,18 +16,7 @@ using base_detail::require;
 
 bool is_point(const Arc& arc) { return same_direction(arc.from, arc.to); }
 
-/// Adds an arc in parts that are short, as boxes of long ones hold much else.
-void add_parts(const Arc& arc, std::vector<Arc>& arcs) {
-  constexpr double longest = 0.1; // of a chord
-  const Vec3 apart = arc.to - arc.from;
-  if (dot(apart, apart) <= longest * longest) {
-    arcs.push_back(arc);
-    return;
-  }
-  const Vec3 middle = normalised(arc.from + arc.to);
-  add_parts({arc.from, middle}, arcs);
-  add_parts({middle, arc.to}, arcs);
-}
+constexpr double longest = 0.1; ///< of a chord: boxes of long arcs hold much else
 
 std::vector<Arc> arcs_of(const std::vector<Points3>& lines) {
   std::vector<Arc> arcs;
@@ -47,7 +36,7 @@ std::vector<Arc> arcs_of(const std::vector<Points3>& lines) {
       if (i == 0 ? line.cols() == 1 : same_direction(before, at))
         arcs.push_back({at, at});
       else if (i > 0)
-        add_parts({before, at}, arcs);
+        for_each_short_part({before, at}, longest, [&](const Arc& part) { arcs.push_back(part); });
       before = at;
     }
   }

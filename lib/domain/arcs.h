@@ -38,6 +38,16 @@ template <class Body> void for_each_part(const Arc& arc, const Body& body, int m
   for_each_part({between, arc.to}, body, most_cuts - 1);
 }
 
+/// body(part) for the parts of an arc, which is bisected until their chords are at most `longest`.
+template <class Body> void for_each_short_part(const Arc& arc, double longest, const Body& body) {
+  const Vec3 apart = arc.to - arc.from;
+  if (dot(apart, apart) <= longest * longest)
+    return body(arc);
+  const Vec3 middle = normalised(arc.from + arc.to);
+  for_each_short_part({arc.from, middle}, longest, body);
+  for_each_short_part({middle, arc.to}, longest, body);
+}
+
 /// orientation() of unit vectors: the sign of det(a, b, c) for the stored doubles.
 inline int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
   const int sign = orientation_filter(a, b, c);

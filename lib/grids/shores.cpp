@@ -1,27 +1,140 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "grids/shores.h"
+
+#include "base/points.h"
+#include "base/require.h"
+#include "domain/rings.h"
+#include "exact/predicates.h"
+
 #include <calotte/ocean.h>
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte {
+namespace grids_detail {
+namespace {
+
+/// Without those that repeat the one before.
+std::vector<Vec3> corners_of(const Points3& ring, std::int64_t number) {
+  domain_detail::require_directions(ring, number);
+  std::vector<Vec3> corners;
+  for (Eigen::Index i = 0; i < ring.cols(); ++i) {
+    const Vec3 corner = as_unit(column(ring, i));
+    if (!corners.empty() && same_direction(corners.back(), corner))
+      continue;
+    const Vec3 middle = corners.empty() ? corner : corners.back() + corner;
+    require(dot(middle, middle) > 1e-20,
+            "ring " + std::to_string(number) + " of the coast, corner " + std::to_string(i) +
+                " is opposite to the one before; give a corner between them");
+    corners.push_back(corner);
+  }
+  return corners;
+}
+
+std::array<double, 6> ends(const Vec3& from, const Vec3& to) {
+  return {from.x, from.y, from.z, to.x, to.y, to.z};
+}
+
+using Start = std::pair<std::array<double, 3>, std::size_t>; ///< of an arc, and its index
+
+std::array<double, 3> place_of(const Vec3& x) { return {x.x, x.y, x.z}; }
+
+/// The arcs as they follow each other.
+std::vector<ShoreArc> in_shores(const std::vector<Arc>& arcs) {
+  std::vector<Start> starts;
+  for (std::size_t k = 0; k < arcs.size(); ++k)
+    starts.emplace_back(place_of(arcs[k].from), k);
+  std::sort(starts.begin(), starts.end());
+  std::vector<bool> used(arcs.size());
+  const auto after = [&](std::size_t arc) {
+    const std::array<double, 3> end = place_of(arcs[arc].to);
+    // Where several begin, the ring goes on with the next one.
+    if (arc + 1 < arcs.size() && !used[arc + 1] && place_of(arcs[arc + 1].from) == end)
+      return arc + 1;
+    for (auto next = std::lower_bound(starts.begin(), starts.end(), Start{end, 0});
+         next != starts.end() && next->first == end; ++next)
+      if (!used[next->second])
+        return next->second;
+    return arcs.size();
+  };
+  std::vector<ShoreArc> shores;
+  std::int32_t shore = 0;
+  for (std::size_t first = 0; first < arcs.size(); ++first) {
+    if (used[first])
+      continue;
+    for (std::size_t arc = first; arc < arcs.size(); arc = after(arc)) {
+      used[arc] = true;
+      shores.push_back({arcs[arc], shore});
+    }
+    ++shore;
+  }
+  return shores;
+}
+
+std::vector<SideCells::Corner> corners_between(const std::vector<ShoreArc>& shore) {
+  std::vector<SideCells::Corner> corners;
+  for (std::int32_t k = 0; k < std::ssize(shore); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const std::int32_t next = k + 1 < std::ssize(shore) ? k + 1 : 0;
+    const Vec3 &to = shore[at].arc.to, &from = shore[static_cast<std::size_t>(next)].arc.from;
+    if (to.x == from.x && to.y == from.y && to.z == from.z)
+      corners.push_back({k, next});
+  }
+  return corners;
+}
+
+/// Most corners have land to their left; at some, coasts that are simplified cross themselves.
+bool inside_is_land(const SideCells& cells, const std::vector<SideCells::Corner>& corners) {
+  const auto left = std::count_if(corners.begin(), corners.end(), [&](SideCells::Corner corner) {
+    return cells.inside_is_left(corner);
+  });
+  return 2 * left > std::ssize(corners);
+}
+
+std::vector<Arc> arcs_of(const std::vector<ShoreArc>& shore) {
+  std::vector<Arc> arcs;
+  for (const ShoreArc& each : shore)
+    arcs.push_back(each.arc);
+  return arcs;
+}
+
+} // namespace
+
+CoastSides::CoastSides(const std::vector<ShoreArc>& shore)
+    : cells_(arcs_of(shore), corners_between(shore).front()) {
+  if (!inside_is_land(cells_, corners_between(shore)))
+    std::swap(land_, sea_);
+}
+
+std::vector<ShoreArc> shore_arcs(const Coast& coast) {
+  std::vector<Arc> all;
+  for (std::size_t r = 0; r < coast.rings.size(); ++r) {
+    const std::vector<Vec3> corners = corners_of(coast.rings[r], static_cast<std::int64_t>(r));
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      all.push_back({corners[k], corners[k + 1 < corners.size() ? k + 1 : 0]});
+  }
+  std::vector<std::array<double, 6>> sorted;
+  for (const Arc& arc : all)
+    sorted.push_back(ends(arc.from, arc.to));
+  std::sort(sorted.begin(), sorted.end());
+  std::erase_if(all, [&](const Arc& arc) {
+    return std::binary_search(sorted.begin(), sorted.end(), ends(arc.to, arc.from));
+  });
+  return in_shores(all);
+}
+
+} // namespace grids_detail
 
 std::vector<Points3> shores(const Coast& coast) {
-  using Ends = std::array<double, 6>;
-  std::vector<Ends> arcs;
-  for (const Points3& ring : coast.rings)
-    for (Eigen::Index i = 0; i < ring.cols(); ++i) {
-      const auto from = ring.col(i), to = ring.col((i + 1) % ring.cols());
-      arcs.push_back({from.x(), from.y(), from.z(), to.x(), to.y(), to.z()});
-    }
-  std::vector<Ends> sorted = arcs;
-  std::sort(sorted.begin(), sorted.end());
   std::vector<Points3> lines;
-  for (const Ends& arc : arcs)
-    if (!std::binary_search(sorted.begin(), sorted.end(),
-                            Ends{arc[3], arc[4], arc[5], arc[0], arc[1], arc[2]}))
-      lines.emplace_back(Eigen::Map<const Points3>(arc.data(), 3, 2));
+  for (const grids_detail::ShoreArc& shore : grids_detail::shore_arcs(coast)) {
+    const auto& [from, to] = shore.arc;
+    lines.emplace_back(3, 2) << from.x, to.x, from.y, to.y, from.z, to.z;
+  }
   return lines;
 }
 

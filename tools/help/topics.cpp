@@ -65,6 +65,9 @@ A rule has one of these keys, which says what it is, and the keys after it:
                           far, the widths at 0 and from the distance `over` on; or
                           profile = [[KM, WIDTH], ...]; between
   lines = FILE            `width` up to the distance `over`; beyond it the rule says nothing
+  channels = FILE         at least `cells` cells across the channels and straits of a coast, up to
+                          `widest`, default 500 km, but no cell below `least`; elsewhere the rule
+                          says nothing
   heights = FILE          by the depth of the sea, from NetCDF heights(lat, lon) in metres, of
                           `variable`, if it has several: period = "12.42h" and cells, the number
                           of cells in the length of a wave; or rossby = CELLS in a Rossby radius; or

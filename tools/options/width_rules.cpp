@@ -6,6 +6,7 @@
 #include "text/text.h"
 
 #include <calotte/error.h>
+#include <calotte/ocean.h>
 #include <calotte/read.h>
 
 #include <algorithm>
@@ -143,6 +144,7 @@ private:
         {"latitude", &RuleReader::latitude},
         {"distance-to", &RuleReader::distance},
         {"lines", &RuleReader::lines},
+        {"channels", &RuleReader::channels},
         {"heights", &RuleReader::heights},
         {"raster", &RuleReader::raster},
         {"polygons", &RuleReader::polygons},
@@ -226,6 +228,14 @@ private:
                                {{{0, width}, {over, width}, {over + edge, Widths::no_demand}}});
   }
 
+  Widths channels(RuleTable& table) {
+    const std::string path = file(table, "channels");
+    ChannelRule rule{.cells = table.number("cells"), .least = table.number("least")};
+    if (table.take("widest") != nullptr)
+      rule.widest = table.number("widest");
+    return Widths::by_channel(read_coast(path), rule);
+  }
+
   Widths heights(RuleTable& table) {
     const std::string path = file(table, "heights");
     const HeightRaster raster =
@@ -285,8 +295,8 @@ RulesOutline outline_of_rules(const std::string& path) {
         self(self, item);
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
-        static const std::set<std::string_view> named{"distance-to", "lines",    "raster",
-                                                      "heights",     "polygons", "within"};
+        static const std::set<std::string_view> named{
+            "distance-to", "lines", "raster", "channels", "heights", "polygons", "within"};
         if (const auto* const text = value.as_string(); text && named.contains(key.str()))
           outline.files.push_back(beside(path, text->get()));
         self(self, value);

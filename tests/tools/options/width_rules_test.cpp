@@ -38,6 +38,8 @@ public:
     test::write_text(
         folder_ / "island.geojson",
         R"({"type": "Polygon", "coordinates": [[[0, 0], [20, 0], [20, 20], [0, 0]]]})");
+    test::write_text(folder_ / "islands.geojson", R"({"type": "MultiPolygon", "coordinates":
+        [[[[-9, -5], [-1, -5], [-1, 5], [-9, -5]]], [[[9, 5], [1, 5], [1, -5], [9, 5]]]]})");
     test::write_text(folder_ / "points.txt", "0 90\n180 0\n");
   }
   std::string path() const { return folder_ / "w.toml"; }
@@ -79,6 +81,11 @@ TEST_CASE("each rule of a file is that of the library") {
   CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
                  places()));
+  CHECK(rules.widths("min = [50, {channels = \"islands.geojson\", cells = 4, least = 10}]") ==
+        evaluate(
+            Widths::minimum({50.0, Widths::by_channel(read_coast(rules.beside("islands.geojson")),
+                                                      {.cells = 4, .least = 10})}),
+            places()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
   CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
@@ -140,9 +147,10 @@ TEST_CASE("files of rules that are none are refused with their line") {
   const Rules rules;
   CHECK(rules.refused("width = 60") ==
         ": a file of widths has one table, [cell-width]; see calotte help widths");
-  CHECK(rules.refused("[cell-width]\nwidths = 60") ==
-        " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, heights, "
-        "raster, polygons, width");
+  CHECK(
+      rules.refused("[cell-width]\nwidths = 60") ==
+      " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, channels, "
+      "heights, raster, polygons, width");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
         " line 2: width is not a positive number; give one");
   CHECK(rules.refused("[cell-width]\n\nmin = [60,\n {width = 5, over = 3}]") ==

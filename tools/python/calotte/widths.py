@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, _calotte
 from ._calotte import Widths
 
-__all__ = ["Widths", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
+__all__ = ["Widths", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
 
 
 def rule(widths):
@@ -76,6 +76,15 @@ def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, v
         raise _calotte.Error("give period and cells, or rossby, or slope")
     (kind, value), = given
     return _calotte.widths_by_depth(str(path), variable, kind, value, period or 0.0, least)
+
+
+def by_channel(coast, least, *, cells, widest=500):
+    """Widths of which so many cells lie across each channel and strait; elsewhere the rule says nothing.
+
+    coast: a file of polygons, GeoJSON or GSHHG's .nc. least: the width in channels narrower than so many.
+    widest: of the channels that count, km.
+    """
+    return _calotte.widths_by_channel(str(coast), cells, least, widest)
 
 
 def minimum(*widths):

@@ -3,6 +3,7 @@
 #include "members.h"
 #include "module.h"
 
+#include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/widths.h>
 
@@ -61,6 +62,12 @@ Widths by_depth(const std::string& path, const std::string& variable, const std:
   });
 }
 
+Widths by_channel(const std::string& path, double cells, double least, double widest) {
+  return call([&] {
+    return Widths::by_channel(read_coast(path), {.cells = cells, .least = least, .widest = widest});
+  });
+}
+
 } // namespace
 
 void add_widths(py::module_& module) {
@@ -92,6 +99,7 @@ void add_widths(py::module_& module) {
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);
   module.def("widths_by_depth", &by_depth);
+  module.def("widths_by_channel", &by_channel);
   module.def("combined_widths", &combined);
   module.def("widths_times", [](const Widths& widths, double factor) {
     return call([&] { return Widths::product(widths, factor); });

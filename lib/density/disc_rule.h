@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "curve/box_tree.h"
+#include "density/room.h"
+#include "density/width_rules.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace calotte::density_detail {
+
+/// The width within a distance of a place.
+struct Disc {
+  Vec3 centre;   ///< unit vector
+  double radius; ///< km
+  double width;  ///< km
+};
+
+/// Of some discs.
+struct DiscBounds {
+  Box3 centres;
+  double radius = 0, width = Widths::no_demand; ///< the largest, the least
+};
+DiscBounds joined(const DiscBounds& a, const DiscBounds& b);
+
+/// The least width of the discs that contain a place, and elsewhere nothing; with a limited
+/// gradient the least of what grows from them: an additively weighted distance.
+class DiscRule : public WidthRule {
+public:
+  explicit DiscRule(std::vector<Disc> discs);
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override;
+  double least() const override;
+  /// The way from a disc is straight.
+  std::shared_ptr<const WidthRule> limited(double gradient) const override;
+
+private:
+  /// What copies with other gradients share.
+  struct Discs {
+    std::vector<Disc> all;
+    BoundsTree<DiscBounds> tree;
+  };
+
+  DiscRule(std::shared_ptr<const Discs> discs, double gradient)
+      : discs_(std::move(discs)), gradient_(gradient) {}
+  double grown(double width, double beyond) const;
+  double width_at(const Vec3& place, const Disc& disc) const;
+
+  std::shared_ptr<const Discs> discs_;
+  double gradient_; ///< km per km; infinite without a limit
+};
+
+} // namespace calotte::density_detail

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/elementary.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "density/disc_rule.h"
+#include "grids/shores.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/widths.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+// The circumcentres of the Delaunay triangles of points along the shore sample the medial axis of
+// the sea: the places with two nearest points of the shore or more.
+
+namespace calotte {
+namespace grids_detail {
+namespace {
+
+using density_detail::Disc;
+
+/// Points along the shores.
+struct ShorePoints {
+  struct Position {
+    std::int32_t shore;
+    double along; ///< the shore, radians
+  };
+  Points3 points;
+  std::vector<Position> positions;
+  std::vector<double> lengths; ///< by shore, radians
+};
+
+/// \param step the largest distance between neighbours, radians.
+ShorePoints points_along(const std::vector<ShoreArc>& arcs, double step) {
+  constexpr double most = 20e6;
+  double length = 0;
+  for (const auto& [arc, shore] : arcs)
+    length += norm(arc.to - arc.from);
+  require(length / step < most, "the least width cuts the coast into more than 20 million pieces; "
+                                "give a larger one");
+  std::vector<Vec3> points;
+  ShorePoints all;
+  all.lengths.resize(static_cast<std::size_t>(arcs.back().shore) + 1);
+  for (const auto& [arc, shore] : arcs)
+    for_each_short_part(arc, step, [&, number = shore](const Arc& part) {
+      double& along = all.lengths[static_cast<std::size_t>(number)];
+      points.push_back(part.from);
+      all.positions.push_back({number, along});
+      along += 2 * arc_sine(0.5 * norm(part.to - part.from));
+    });
+  all.points.resize(3, std::ssize(points));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    set_column(all.points, static_cast<std::int64_t>(k), points[k]);
+  return all;
+}
+
+/// The circle through three points of the shore.
+struct Circle {
+  std::array<std::int32_t, 3> points;
+  Vec3 centre;
+  double chord, radius; ///< from the centre to a point: straight, and along the sphere, radians
+};
+
+Circle circle_through(const ShorePoints& shore, const std::array<std::int32_t, 3>& points) {
+  const Vec3 &a = column(shore.points, points[0]), &b = column(shore.points, points[1]),
+             &c = column(shore.points, points[2]);
+  const Vec3 centre = normalised(cross(b - a, c - a));
+  const double chord = norm(centre - a);
+  return {points, centre, chord, 2 * arc_sine(std::min(1.0, 0.5 * chord))};
+}
+
+/// The length of the shore between two points; infinite if they are on different shores.
+double length_between(const ShorePoints& shore, std::int32_t a, std::int32_t b) {
+  const ShorePoints::Position &from = shore.positions[static_cast<std::size_t>(a)],
+                              &to = shore.positions[static_cast<std::size_t>(b)];
+  if (from.shore != to.shore)
+    return std::numeric_limits<double>::infinity();
+  const double way = std::abs(from.along - to.along);
+  return std::min(way, shore.lengths[static_cast<std::size_t>(from.shore)] - way);
+}
+
+/// Whether a circle without points inside lies in a channel: two of its points are far apart both
+/// around the circle and along the shore.
+bool lies_across(const Circle& circle, const ShorePoints& shore) {
+  constexpr double apart_around =
+      3; // the square of the chord of 120 degrees, of a circle of radius 1
+  constexpr double apart_along = 6; // in radii
+  const double square = circle.chord * circle.chord,
+               flat = square * (1 - 0.25 * square); // of the radius in the circle's plane
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t a = circle.points[k], b = circle.points[(k + 1) % 3];
+    const Vec3 apart = column(shore.points, a) - column(shore.points, b);
+    if (dot(apart, apart) > apart_around * flat &&
+        length_between(shore, a, b) > apart_along * circle.radius)
+      return true;
+  }
+  return false;
+}
+
+/// By site of a mesh the first point of the input.
+std::vector<std::int32_t> first_inputs(const Mesh& mesh) {
+  std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
+  for (std::size_t k = mesh.site_of_input.size(); k-- > 0;)
+    inputs[static_cast<std::size_t>(mesh.site_of_input[k])] = static_cast<std::int32_t>(k);
+  return inputs;
+}
+
+/// \param step of the points, radians.
+std::vector<Disc> discs_of(const ShorePoints& shore, const CoastSides& sides,
+                           const ChannelRule& rule, double step) {
+  const Mesh mesh = delaunay(shore.points);
+  const std::vector<std::int32_t> inputs = first_inputs(mesh);
+  const auto input = [&](std::int32_t site) { return inputs[static_cast<std::size_t>(site)]; };
+  const std::int64_t count = mesh.triangles.cols();
+  std::vector<std::vector<Disc>> of_block(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t from, std::int64_t to) {
+    for (std::int64_t t = from; t != to; ++t) {
+      const auto corners = mesh.triangles.col(t);
+      const Circle circle =
+          circle_through(shore, {input(corners[0]), input(corners[1]), input(corners[2])});
+      const double width = 2 * earth_radius_km * circle.radius;
+      if (width <= rule.widest && lies_across(circle, shore) && sides.is_sea(circle.centre))
+        of_block[static_cast<std::size_t>(block)].push_back(
+            // A little larger, as between two circles some of the shore is in neither.
+            {circle.centre, earth_radius_km * (circle.radius + 0.25 * step),
+             std::max(rule.least, width / rule.cells)});
+    }
+  });
+  std::vector<Disc> all;
+  for (const std::vector<Disc>& some : of_block)
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+void require_positive(double value, const char* name) {
+  require(value > 0 && std::isfinite(value),
+          std::string("the ") + name + " of a rule of channels, " + base_detail::shortly(value) +
+              ", is not positive; give one");
+}
+
+} // namespace
+} // namespace grids_detail
+
+Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
+  using namespace grids_detail;
+  require_positive(rule.cells, "number of cells");
+  require_positive(rule.least, "least width");
+  require_positive(rule.widest, "widest channel");
+  const std::vector<ShoreArc> shore = shore_arcs(coast);
+  if (shore.empty())
+    return no_demand;
+  // The circles through points that are an eighth of their width apart err by less than 1/100.
+  const double step = std::min(rule.cells * rule.least, rule.widest) / 8 / earth_radius_km;
+  const ShorePoints points = points_along(shore, step);
+  return Widths(
+      std::make_shared<density_detail::DiscRule>(discs_of(points, CoastSides(shore), rule, step)));
+}
+
+} // namespace calotte
