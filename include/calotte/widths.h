@@ -53,6 +53,9 @@ struct DepthRule {
   double least = 0;             ///< km, > 0: where the sea is shallow, and at the shore
 };
 
+/// Where a rule by the distance from a coast holds.
+enum class CoastSide { both, sea, land };
+
 /// How widths follow from the sea's channels and straits.
 struct ChannelRule {
   double cells = 0;    ///< across a channel, > 0
@@ -89,6 +92,15 @@ public:
   /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
   ///         direction, no line; naming the node, a profile that is none.
   static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+
+  /// By the distance from the shores of a coast: > 0 in the sea, < 0 on land.
+  /// \param profile of the distance in km. With a single side, of the distance on it, from 0 on; on
+  ///        the other side the rule says nothing.
+  /// \throws Error invalid_argument, naming ring and corner: one that is no direction, or opposite
+  ///         to the one before; for a coast without shores; naming the node, a profile that is
+  ///         none.
+  static Widths by_coast(const Coast& coast, const WidthProfile& profile,
+                         CoastSide side = CoastSide::both);
 
   /// By the depth at the nodes of a raster. Of land, but for nodes next to the sea, the rule says
   /// nothing.

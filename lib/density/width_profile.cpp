@@ -77,9 +77,10 @@ double ProfileCurve::least() const {
       ->width;
 }
 
-bool ProfileCurve::grows() const {
-  return std::is_sorted(nodes_.begin(), nodes_.end(),
-                        [](const Node& a, const Node& b) { return a.width < b.width; });
+bool ProfileCurve::grows_from_zero() const {
+  return std::adjacent_find(nodes_.begin(), nodes_.end(), [](const Node& from, const Node& to) {
+           return (to.x > 0 && to.width < from.width) || (from.x < 0 && to.width > from.width);
+         }) == nodes_.end();
 }
 
 ProfileCurve ProfileCurve::limited(double slope) const {

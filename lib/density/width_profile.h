@@ -30,7 +30,8 @@ public:
   }
 
   double least() const;
-  bool grows() const; ///< nowhere falls
+  /// Whether it nowhere falls away from 0, in either direction.
+  bool grows_from_zero() const;
 
   /// The largest curve below this one whose slope is at most `slope`, per unit of the number.
   ProfileCurve limited(double slope) const;

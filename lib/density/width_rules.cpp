@@ -94,22 +94,30 @@ private:
 
 class DistanceRule : public WidthRule {
 public:
-  DistanceRule(std::shared_ptr<const LineDistance> distance, ProfileCurve curve)
-      : distance_(std::move(distance)), curve_(std::move(curve)) {}
+  using IsBehind = std::function<bool(const Vec3&)>;
+
+  /// \param is_behind of places where distances are negative; null for none.
+  DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve)
+      : distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)) {
+  }
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     (*distance_)(places, widths);
-    for (double& width : widths)
-      width = curve_(width * earth_radius_km);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double distance = widths[k] * earth_radius_km;
+      widths[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
+    }
   }
   double least() const override { return curve_.least(); }
   /// The distance changes by no more than the way; towards the line by as much.
   Rule limited(double gradient) const override {
-    return curve_.grows() ? std::make_shared<DistanceRule>(distance_, curve_.limited(gradient))
-                          : nullptr;
+    return curve_.grows_from_zero()
+               ? std::make_shared<DistanceRule>(distance_, is_behind_, curve_.limited(gradient))
+               : nullptr;
   }
 
 private:
   std::shared_ptr<const LineDistance> distance_;
+  IsBehind is_behind_;
   ProfileCurve curve_;
 };
 
@@ -207,6 +215,14 @@ constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
 
 std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullptr; }
 
+std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
+                                               std::function<bool(const Vec3&)> is_behind,
+                                               const WidthProfile& profile) {
+  ProfileCurve curve(profile, "a distance", is_behind ? -half_round : 0, half_round);
+  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(is_behind),
+                                        std::move(curve));
+}
+
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient) {
   if (Rule exact = rule->limited(gradient))
@@ -272,9 +288,7 @@ Widths Widths::by_latitude(const WidthProfile& profile) {
 }
 
 Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
-  ProfileCurve curve(profile, "a distance", 0, half_round);
-  return Widths(
-      std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(curve)));
+  return Widths(rule_of_sides(lines, nullptr, profile));
 }
 
 Widths Widths::minimum(const std::vector<Widths>& of) {

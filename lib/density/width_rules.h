@@ -6,8 +6,10 @@
 
 #include <calotte/widths.h>
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace calotte::density_detail {
 
@@ -28,6 +30,13 @@ public:
   /// The rule with a limited gradient if no raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient) const;
 };
+
+/// A rule by the distance from lines, which is negative at places where `is_behind` is true.
+/// \param lines closed boundaries of these places. \param profile of the distance in km.
+/// \throws Error invalid_argument as Widths::by_distance().
+std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
+                                               std::function<bool(const Vec3&)> is_behind,
+                                               const WidthProfile& profile);
 
 /// Any rule with a limited gradient.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,

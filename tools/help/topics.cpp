@@ -63,7 +63,9 @@ A rule has one of these keys, which says what it is, and the keys after it:
   latitude = [[DEGREES, KM], ...]   by latitude; between
   distance-to = FILE      by the distance from the nearest line, side or point of a file: near and
                           far, the widths at 0 and from the distance `over` on; or
-                          profile = [[KM, WIDTH], ...]; between
+                          profile = [[KM, WIDTH], ...]; between. Of polygons or a coast also
+                          side = "sea" or "land": on the other side the rule says nothing. In a
+                          profile with negative distances, these are on land
   lines = FILE            `width` up to the distance `over`; beyond it the rule says nothing
   channels = FILE         at least `cells` cells across the channels and straits of a coast, up to
                           `widest`, default 500 km, but no cell below `least`; elsewhere the rule

@@ -212,11 +212,24 @@ private:
 
   Widths distance(RuleTable& table) {
     const std::string path = file(table, "distance-to");
-    if (table.has("profile"))
-      return Widths::by_distance(read_shapes(path), table.pairs("profile"));
+    const WidthProfile profile = table.has("profile") ? table.pairs("profile") : growing(table);
+    if (table.has("side"))
+      return Widths::by_coast(read_coast(path), profile, side(table));
+    return profile.nodes.front()[0] < 0 ? Widths::by_coast(read_coast(path), profile)
+                                        : Widths::by_distance(read_shapes(path), profile);
+  }
+
+  static WidthProfile growing(RuleTable& table) {
     const double near = table.number("near"), far = table.number("far"),
                  over = table.number("over");
-    return Widths::by_distance(read_shapes(path), {{{0, near}, {over, far}}, table.between()});
+    return {{{0, near}, {over, far}}, table.between()};
+  }
+
+  static CoastSide side(RuleTable& table) {
+    const std::string word = table.text("side", "sea or land");
+    if (word != "sea" && word != "land")
+      table.refuse("side", "is \"" + word + "\"; give sea or land");
+    return word == "sea" ? CoastSide::sea : CoastSide::land;
   }
 
   /// A band about lines; beyond it the rule says nothing.

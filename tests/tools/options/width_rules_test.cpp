@@ -86,6 +86,13 @@ TEST_CASE("each rule of a file is that of the library") {
             Widths::minimum({50.0, Widths::by_channel(read_coast(rules.beside("islands.geojson")),
                                                       {.cells = 4, .least = 10})}),
             places()));
+  const Coast island = read_coast(rules.beside("island.geojson"));
+  CHECK(rules.widths(
+            "distance-to = \"island.geojson\"\nprofile = [[-200, 60], [0, 10], [600, 60]]") ==
+        evaluate(Widths::by_coast(island, {{{-200, 60}, {0, 10}, {600, 60}}}), places()));
+  CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600\n"
+                     "side = \"land\"") ==
+        evaluate(Widths::by_coast(island, grows, CoastSide::land), places()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
   CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
@@ -162,6 +169,9 @@ TEST_CASE("files of rules that are none are refused with their line") {
         " line 1: node 1 of a profile of the latitude is at 100, outside -90 to 90; correct it");
   CHECK(rules.refused("[cell-width]\ndistance-to = \"line.geojson\"\nnear = 10") ==
         " line 1: the rule needs far; give a number");
+  CHECK(
+      rules.refused("[cell-width]\ndistance-to = \"island.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
+                    "side = \"left\"") == " line 6: side is \"left\"; give sea or land");
   CHECK(rules.refused("[cell-width]\nmin = []") ==
         " line 2: min holds no rules; give [{...}, {...}]");
   CHECK(rules.refused("[cell-width]\nwidth = 5\nbetween = \"smooth\"")

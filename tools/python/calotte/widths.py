@@ -45,18 +45,27 @@ def by_latitude(nodes, *, smooth=False):
     return _calotte.widths_by_latitude(_nodes(nodes, "latitudes and widths"), smooth)
 
 
-def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False):
+def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None):
     """Widths by the distance from the nearest of some lines.
 
     lines: a file of lines, polygons or a coast, GeoJSON or GSHHG's .nc, or of points, .txt; one line
         as n x 2 longitudes and latitudes in degrees, or a list of such.
     near, far, over: the width at a line, and that from the distance `over` on; or
-    profile: pairs of a distance and a width. smooth: as for by_latitude().
+    profile: pairs of a distance and a width; with a file of polygons or a coast, negative distances
+        are on land. smooth: as for by_latitude().
+    side: "sea" or "land" of such a file, for a rule that says nothing on the other side.
     """
+    if side not in (None, "sea", "land"):
+        raise _calotte.Error(f"the side {side!r} of a coast is neither sea nor land; give one of these")
     if (profile is None) != all(value is not None for value in (near, far, over)):
         raise _calotte.Error("give near, far and over, or a profile, but not both")
     nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
-    if isinstance(lines, str) or hasattr(lines, "__fspath__"):
+    is_file = isinstance(lines, str) or hasattr(lines, "__fspath__")
+    if side or nodes.min(axis=0, initial=0)[0] < 0:
+        if not is_file:
+            raise _calotte.Error("lines have no side of sea or land; give a file of polygons or a coast")
+        return _calotte.widths_by_coast(str(lines), nodes, smooth, side or "both")
+    if is_file:
         return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth)
     many = len(lines) > 0 and np.ndim(lines[0]) == 2
     return _calotte.widths_by_distance(

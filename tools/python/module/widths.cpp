@@ -39,6 +39,17 @@ Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool
       [&, of = profile(nodes, smooth)] { return Widths::by_distance(read_shapes(path), of); });
 }
 
+/// \param side both, sea or land.
+Widths by_coast(const std::string& path, const Doubles& nodes, bool smooth,
+                const std::string& side) {
+  return call([&, of = profile(nodes, smooth)] {
+    return Widths::by_coast(read_coast(path), of,
+                            side == "sea"    ? CoastSide::sea
+                            : side == "land" ? CoastSide::land
+                                             : CoastSide::both);
+  });
+}
+
 /// The library's functions of several widths, by name.
 Widths combined(const std::string& name, const std::vector<Widths>& of) {
   return call([&] {
@@ -98,6 +109,7 @@ void add_widths(py::module_& module) {
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);
+  module.def("widths_by_coast", &by_coast);
   module.def("widths_by_depth", &by_depth);
   module.def("widths_by_channel", &by_channel);
   module.def("combined_widths", &combined);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/directions.h"
+#include "support/files.h"
+#include "support/gshhg.h"
+
+#include <calotte/generators.h>
+#include <calotte/ocean.h>
+#include <calotte/widths.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+// Widths by the distance from a coast, apart in the sea and on land.
+
+using namespace calotte;
+using calotte::test::angle;
+using calotte::test::direction;
+using calotte::test::error_of;
+
+namespace {
+
+constexpr double radians = std::numbers::pi / 180, round = std::numbers::pi * earth_radius_km;
+
+/// A width that tells the distance.
+const WidthProfile tells{{{-round, 1e6 - round}, {round, 1e6 + round}}};
+
+DoubleVector distances(const Coast& coast, const Points3& places) {
+  return evaluate(Widths::by_coast(coast, tells), places).array() - 1e6;
+}
+
+} // namespace
+
+TEST_CASE("distances from a coast are positive in the sea and negative on land") {
+  // An island over the north pole, and a lake with an island in it over the date line.
+  const Eigen::Vector3d pole = direction(0, 90), lake = direction(180, 0);
+  const auto ring = [](const Eigen::Vector3d& centre, double radius) -> Points3 {
+    return circle(centre, radius * radians, 4000).rings().front();
+  };
+  const Coast coast{
+      {ring(pole, 10), ring(lake, 50), ring(lake, 30).rowwise().reverse(), ring(lake, 5)}};
+  const Points3 places = random_sphere(5000, 1);
+  const DoubleVector got = distances(coast, places);
+  double worst = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const double from_lake = angle(lake, places.col(i)) / radians,
+                 from_pole = angle(pole, places.col(i)) / radians;
+    // From the nearest circle, and from the island at the pole, which the ring does not reach.
+    const double nearest = from_lake > 30     ? std::max(from_lake - 50, 30 - from_lake)
+                           : from_lake > 17.5 ? 30 - from_lake
+                                              : from_lake - 5,
+                 expected = std::min(nearest, from_pole - 10);
+    worst = std::max(worst, std::abs(got[i] - expected * radians * earth_radius_km));
+  }
+  CHECK(worst < 0.01); // km, of the polygons
+}
+
+TEST_CASE("one side of a coast says nothing of the other") {
+  const Coast coast = test::gshhg('c');
+  const WidthProfile grows{{{0, 10}, {600, 60}}};
+  const Points3 places = random_sphere(20000, 2);
+  const DoubleVector away = distances(coast, places),
+                     either = evaluate(Widths::by_distance(shores(coast), grows), places),
+                     sea = evaluate(Widths::by_coast(coast, grows, CoastSide::sea), places),
+                     land = evaluate(Widths::by_coast(coast, grows, CoastSide::land), places);
+  CHECK((sea.cwiseMin(land) - either).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(((sea.array() < Widths::no_demand) == (away.array() >= 0)).all());
+  CHECK(((land.array() < Widths::no_demand) == (away.array() < 0)).all());
+  const double part = (away.array() < 0).cast<double>().mean();
+  CHECK(part == doctest::Approx(coast.area / (4 * std::numbers::pi)).epsilon(0.03));
+  // Limited, the width grows inland from that of the shore.
+  const DoubleVector limited =
+      evaluate(Widths::by_coast(coast, grows, CoastSide::sea).limit_gradient(0.05), places);
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    CHECK(limited[i] ==
+          doctest::Approx(away[i] < 0 ? 10 - 0.05 * away[i] : std::min(60.0, 10 + 0.05 * away[i])));
+}
+
+TEST_CASE("profiles of a coast that are none are refused by name") {
+  const auto message = [](const Coast& coast, const WidthProfile& profile, CoastSide side) {
+    return std::string(error_of([&] { Widths::by_coast(coast, profile, side); }).what());
+  };
+  CHECK(message({}, {{{0, 1}}}, CoastSide::both) ==
+        "the coast has no shore to be distant from; give rings");
+  CHECK(message(test::gshhg('c'), {{{-10, 5}, {0, 1}}}, CoastSide::sea) ==
+        "node 0 of a profile of a distance is at -10, outside 0 to 20015.1; correct it");
+}
