@@ -157,12 +157,12 @@ enum class RasterValues {
 /// Reads a raster of land from a NetCDF file: variable(lat, lon) with the coordinates of
 /// read_cell_width(). The attributes scale_factor and add_offset apply. A value of NaN or
 /// _FillValue is an error.
-/// \throws Error parse, naming the variable and its index; file.
-LandRaster read_land_raster(const std::string& path, const std::string& variable,
+/// \param variable default: the only one of two dimensions.
+/// \throws Error parse, naming the variable and its index, and for a file with several; file.
+LandRaster read_land_raster(const std::string& path, const std::string& variable = {},
                             RasterValues values = RasterValues::height);
 
-/// Reads heights in the same way. \param variable default: the only one of two dimensions.
-/// \throws Error as read_land_raster; parse for a file with several.
+/// Reads heights in the same way. \throws Error as read_land_raster.
 HeightRaster read_heights(const std::string& path, const std::string& variable = {});
 
 /// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude

@@ -14,6 +14,7 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 struct Coast;
+struct LandRaster;
 
 namespace density_detail {
 class WidthRule;
@@ -61,6 +62,30 @@ struct ChannelRule {
   double cells = 0;    ///< across a channel, > 0
   double least = 0;    ///< km, > 0: in channels that are narrower than so many such cells
   double widest = 500; ///< km, > 0, of the channels that count. Default 500.
+};
+
+/// How far one rule holds rather than another: a share from 0 to 1 for every place of the sphere. A
+/// value that is cheap to copy.
+class Share {
+public:
+  /// 1 in a region and on its boundary, 0 outside.
+  /// \throws Error invalid_argument for a plane.
+  Share(const Surface& region); // NOLINT(google-explicit-constructor): a region is a share
+  /// By the distance from the boundary of a region: > 0 outside, < 0 inside.
+  /// \param profile shares of the distance in km, instead of widths.
+  /// \throws Error invalid_argument for a plane, and for the whole sphere; naming the node, a
+  ///         profile that is none, or a share that is not 0 to 1.
+  Share(const Surface& region, const WidthProfile& profile);
+  /// The fractions of a raster, linear between its nodes in longitude and latitude. Such a raster
+  /// need not be one of land.
+  /// \throws Error invalid_argument for a raster that violates the conditions of LandRaster.
+  Share(const LandRaster& raster); // NOLINT(google-explicit-constructor)
+
+  /// A rule of the library: 1 more than the share, as widths are positive.
+  const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
+
+private:
+  std::shared_ptr<const density_detail::WidthRule> rule_;
 };
 
 /// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
@@ -139,8 +164,10 @@ public:
   static Widths product(const Widths& widths, double factor);
   /// At least `least` and at most `most`.
   static Widths clamp(const Widths& widths, double least, double most);
-  /// One rule within a region, another outside.
-  static Widths where(const Surface& region, const Widths& inside, const Widths& outside);
+  /// One rule within a region, or where a share is 1/2 or more, another outside.
+  static Widths where(const Share& share, const Widths& inside, const Widths& outside);
+  /// (1 - t) a + t b with the share t.
+  static Widths blend(const Widths& a, const Widths& b, const Share& t);
 
   /// The largest widths below these that change by at most g km per km, over the poles and the date
   /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;

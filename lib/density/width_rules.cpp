@@ -175,27 +175,54 @@ public:
   }
 };
 
-/// One rule within a region, another outside.
+/// 2 within a region, 1 outside: a share and 1.
 class RegionRule : public WidthRule {
 public:
-  RegionRule(Surface region, Rule inside, Rule outside)
-      : region_(std::move(region)), inside_(std::move(inside)), outside_(std::move(outside)) {
-    domain_detail::require_sphere(region_, "widths within a region are");
-  }
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    std::vector<double> others(widths.size());
-    inside_->evaluate(places, widths);
-    outside_->evaluate(places, others);
+  explicit RegionRule(Surface region) : region_(std::move(region)) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
-      if (!region_.contains({places[k].x, places[k].y, places[k].z}))
-        widths[k] = others[k];
+      values[k] = region_.contains({places[k].x, places[k].y, places[k].z}) ? 2 : 1;
   }
-  double least() const override { return std::min(inside_->least(), outside_->least()); }
+  double least() const override { return 1; }
 
 private:
   Surface region_;
-  Rule inside_, outside_;
 };
+
+/// (1 - t) a + t b. \tparam Weight t of a share.
+template <double (*Weight)(double)> class BlendRule : public WidthRule {
+public:
+  BlendRule(Rule a, Rule b, const Share& share)
+      : a_(std::move(a)), b_(std::move(b)), share_(share.rule()) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    std::vector<double> others(widths.size()), shares(widths.size());
+    a_->evaluate(places, widths);
+    b_->evaluate(places, others);
+    share_->evaluate(places, shares);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double t = Weight(shares[k] - 1);
+      widths[k] = t == 1 ? others[k] : widths[k] + t * (others[k] - widths[k]);
+    }
+  }
+  double least() const override { return std::min(a_->least(), b_->least()); }
+
+private:
+  Rule a_, b_, share_;
+};
+
+double all_of(double share) { return share; }
+double rounded(double share) { return share >= 0.5 ? 1 : 0; }
+
+/// The rings of a region as closed lines.
+std::vector<Points3> boundary_of(const Surface& region) {
+  std::vector<Points3> lines;
+  for (const DoubleMatrix& ring : region.rings()) {
+    Points3 line(3, ring.cols() + 1);
+    line << ring, ring.col(0);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
 
 std::vector<Rule> rules_of(const std::vector<Widths>& widths) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
@@ -302,8 +329,36 @@ Widths Widths::product(const Widths& widths, double factor) {
 Widths Widths::clamp(const Widths& widths, double least, double most) {
   return minimum({maximum({widths, least}), most});
 }
-Widths Widths::where(const Surface& region, const Widths& inside, const Widths& outside) {
-  return Widths(std::make_shared<RegionRule>(region, inside.rule(), outside.rule()));
+Widths Widths::where(const Share& share, const Widths& inside, const Widths& outside) {
+  return Widths(std::make_shared<BlendRule<rounded>>(outside.rule(), inside.rule(), share));
+}
+Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
+  return Widths(std::make_shared<BlendRule<all_of>>(a.rule(), b.rule(), t));
+}
+
+Share::Share(const Surface& region) {
+  domain_detail::require_sphere(region, "widths within a region are");
+  rule_ = std::make_shared<RegionRule>(region);
+}
+
+Share::Share(const Surface& region, const WidthProfile& profile) {
+  domain_detail::require_sphere(region, "widths within a region are");
+  require(region.is_bounded(),
+          "the whole sphere has no boundary to be distant from; give a region");
+  WidthProfile more = profile;
+  for (std::size_t k = 0; k < more.nodes.size(); ++k) {
+    double& share = more.nodes[k][1];
+    require(share >= 0 && share <= 1, "node " + std::to_string(k) +
+                                          " of a profile of a distance has the share " +
+                                          shortly(share) + "; give 0 to 1");
+    share += 1;
+  }
+  rule_ = rule_of_sides(
+      boundary_of(region),
+      [region](const Vec3& place) {
+        return region.contains({place.x, place.y, place.z});
+      },
+      more);
 }
 
 } // namespace calotte

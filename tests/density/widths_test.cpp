@@ -118,6 +118,25 @@ TEST_CASE("rules are combined place by place") {
     CHECK(w[i] == (region.contains(places.col(i)) ? 10 : z[i]));
 }
 
+TEST_CASE("two rules blend by the distance from a region") {
+  const Points3 places = random_sphere(2000, 4);
+  const Eigen::Vector3d centre = direction(170, 80);
+  const Surface region = circle(centre, 0.3, 4000);
+  const Widths a = Widths::by_latitude({{{-90, 20}, {90, 80}}}), b = 10.0;
+  const DoubleVector of_a = evaluate(a, places);
+  const DoubleVector sharp = evaluate(Widths::blend(a, b, region), places);
+  CHECK(sharp == evaluate(Widths::where(region, b, a), places));
+  const WidthProfile falls{{{-500, 1}, {1000, 0}}};
+  const DoubleVector blend = evaluate(Widths::blend(a, b, Share(region, falls)), places),
+                     where = evaluate(Widths::where(Share(region, falls), b, a), places);
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const double distance = earth_radius_km * (angle(centre, places.col(i)) - 0.3),
+                 t = std::clamp((1000 - distance) / 1500, 0.0, 1.0);
+    CHECK(blend[i] == doctest::Approx((1 - t) * of_a[i] + t * 10).epsilon(1e-4));
+    CHECK(where[i] == (t >= 0.5 ? 10 : of_a[i]));
+  }
+}
+
 TEST_CASE("limited rules are those of cones, exactly where they grow from lines or by latitude") {
   const std::vector<Points3> points{line({{10, 89}}), line({{180, 0}}), line({{0, 0}})};
   const Widths steep = Widths::by_distance(points, {{{0, 10}, {100, 300}}}),
@@ -213,6 +232,13 @@ TEST_CASE("widths that are none are refused by name") {
   CHECK(message([] { Widths::minimum({}); }) == "there are no widths to combine; give one or more");
   CHECK(message([] { Widths::where(Surface::plane(), 1.0, 2.0); }).find("sphere") !=
         std::string::npos);
+  const Surface region = circle({1, 0, 0}, 0.5);
+  CHECK(message([&] {
+          Share(region, {{{0, 1}, {9, -1}}});
+        }) == "node 1 of a profile of a distance has the share -1; give 0 to 1");
+  CHECK(message([] {
+          Share(Surface::sphere(), {{{0, 1}, {9, 0}}});
+        }) == "the whole sphere has no boundary to be distant from; give a region");
   CHECK(message([] { sampled(Widths(1.0), 20); }) ==
         "the step 20 of a raster is out of range; give 0.01 to 10 degrees");
 }

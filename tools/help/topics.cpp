@@ -77,12 +77,17 @@ A rule has one of these keys, which says what it is, and the keys after it:
   raster = FILE           widths of a NetCDF raster, or of JIGSAW's .msh
   polygons = FILE         of GeoJSON: inside, outside, transition, as the options of that name
   min = [RULES]           the least of several; a number is a rule, too; max, sum likewise
+  blend = [A, B]          (1 - t) A + t B, with the share t of B from 0 to 1 in share = FILE: NetCDF
+                          t(lat, lon), of `variable`, if it has several; or a region, in which t is
+                          1. Outside, t falls to 0 at the distance `over`; or profile = [[KM, T],
+                          ...] from its boundary, negative inside; between
 
 Any rule takes also, in this order:
 
   times = FACTOR          of the widths
   least = KM, most = KM   limits of the widths
-  within = FILE           a region, see calotte help region; outside it the rule says nothing
+  within = FILE           a region, see calotte help region, or NetCDF t(lat, lon) from 0 to 1;
+                          outside it, or where t is below 1/2, the rule says nothing
   gradient = G            the largest widths that are nowhere above the rule's and change by at most
                           G km per km, such as 0.03: grids of steep widths have bad cells
 

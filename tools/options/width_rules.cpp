@@ -138,17 +138,12 @@ private:
   /// A rule has one of these keys, which says what it is; the first that is there.
   static const std::vector<std::pair<std::string, Source>>& sources() {
     static const std::vector<std::pair<std::string, Source>> all{
-        {"min", &RuleReader::least},
-        {"max", &RuleReader::greatest},
-        {"sum", &RuleReader::sum},
-        {"latitude", &RuleReader::latitude},
-        {"distance-to", &RuleReader::distance},
-        {"lines", &RuleReader::lines},
-        {"channels", &RuleReader::channels},
-        {"heights", &RuleReader::heights},
-        {"raster", &RuleReader::raster},
-        {"polygons", &RuleReader::polygons},
-        {"width", &RuleReader::constant}};
+        {"min", &RuleReader::least},         {"max", &RuleReader::greatest},
+        {"sum", &RuleReader::sum},           {"blend", &RuleReader::blend},
+        {"latitude", &RuleReader::latitude}, {"distance-to", &RuleReader::distance},
+        {"lines", &RuleReader::lines},       {"channels", &RuleReader::channels},
+        {"heights", &RuleReader::heights},   {"raster", &RuleReader::raster},
+        {"polygons", &RuleReader::polygons}, {"width", &RuleReader::constant}};
     return all;
   }
 
@@ -175,7 +170,7 @@ private:
     if (table.take("most") != nullptr)
       widths = Widths::minimum({widths, table.number("most")});
     if (table.take("within") != nullptr)
-      widths = Widths::where(read_region(file(table, "within")), widths, Widths::no_demand);
+      widths = Widths::where(share_in(file(table, "within")), widths, Widths::no_demand);
     if (table.take("gradient") != nullptr)
       widths = widths.limit_gradient(table.number("gradient"));
     table.require_all_taken();
@@ -207,6 +202,35 @@ private:
   Widths least(RuleTable& table) { return Widths::minimum(parts(table, "min")); }
   Widths greatest(RuleTable& table) { return Widths::maximum(parts(table, "max")); }
   Widths sum(RuleTable& table) { return Widths::sum(parts(table, "sum")); }
+
+  Widths blend(RuleTable& table) {
+    const std::vector<Widths> both = parts(table, "blend");
+    if (both.size() != 2)
+      table.refuse("blend", "holds " + std::to_string(both.size()) + " rules; give [A, B]");
+    return Widths::blend(both[0], both[1], share(table));
+  }
+
+  /// Of a region, or of a raster.
+  static Share share_in(const std::string& path) {
+    if (std::filesystem::path(path).extension() == ".nc")
+      return read_land_raster(path, {}, RasterValues::land_fraction);
+    return read_region(path);
+  }
+
+  Share share(RuleTable& table) {
+    const std::string path = file(table, "share");
+    if (table.has("variable"))
+      return read_land_raster(path, table.text("variable", "its name"),
+                              RasterValues::land_fraction);
+    if (table.has("profile"))
+      return Share(read_region(path), table.pairs("profile"));
+    if (table.take("over") != nullptr) {
+      const double over = table.number("over");
+      return Share(read_region(path), {{{0, 1}, {over, 0}}, table.between()});
+    }
+    return share_in(path);
+  }
+
   Widths constant(RuleTable& table) { return table.number("width"); }
   Widths latitude(RuleTable& table) { return Widths::by_latitude(table.pairs("latitude")); }
 
@@ -309,7 +333,7 @@ RulesOutline outline_of_rules(const std::string& path) {
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
         static const std::set<std::string_view> named{
-            "distance-to", "lines", "raster", "channels", "heights", "polygons", "within"};
+            "distance-to", "lines", "raster", "channels", "heights", "polygons", "share", "within"};
         if (const auto* const text = value.as_string(); text && named.contains(key.str()))
           outline.files.push_back(beside(path, text->get()));
         self(self, value);

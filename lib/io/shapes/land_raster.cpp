@@ -29,7 +29,19 @@ double land_of(RasterValues values, double value) {
   return std::clamp(values == RasterValues::land_fraction ? value : 1 - value, 0.0, 1.0);
 }
 
-Raster read_scaled(const NetcdfReader& file, const std::string& variable, const RasterLaw& law) {
+std::string only_raster(const NetcdfReader& file) {
+  std::vector<std::string> found;
+  for (const std::string& name : file.variable_names())
+    if (file.shape_of(name).size() == 2 && file.is_numeric(name))
+      found.push_back(name);
+  if (found.size() != 1)
+    file.fail(std::to_string(found.size()) +
+              " variables have two dimensions; name one, or give a file with one");
+  return found.front();
+}
+
+Raster read_scaled(const NetcdfReader& file, const std::string& given, const RasterLaw& law) {
+  const std::string variable = given.empty() ? only_raster(file) : given;
   Raster raster = read_raster(file, variable);
   const double scale = file.number(variable, "scale_factor", 1),
                offset = file.number(variable, "add_offset", 0);
@@ -38,23 +50,10 @@ Raster read_scaled(const NetcdfReader& file, const std::string& variable, const 
   return ordered(std::move(raster), file.path(), law);
 }
 
-std::string only_raster(const NetcdfReader& file) {
-  std::vector<std::string> found;
-  for (const std::string& name : file.variable_names())
-    if (file.shape_of(name).size() == 2 && file.is_numeric(name))
-      found.push_back(name);
-  if (found.size() != 1)
-    file.fail(std::to_string(found.size()) +
-              " variables have two dimensions; name the one that has the heights");
-  return found.front();
-}
-
 } // namespace
 
 HeightRaster read_heights(const std::string& path, const std::string& variable) {
-  const NetcdfReader file(path);
-  Raster raster = read_scaled(file, variable.empty() ? only_raster(file) : variable,
-                              law_of(RasterValues::height));
+  Raster raster = read_scaled(NetcdfReader(path), variable, law_of(RasterValues::height));
   return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
 }
 

@@ -63,6 +63,26 @@ private:
   Scratch folder_;
 };
 
+/// A raster of one value at latitudes -90, 0 and 90 and four longitudes.
+void write_raster(const std::string& path, double value) {
+  int file = 0, lat = 0, lon = 0, latitudes = 0, longitudes = 0, heights = 0;
+  REQUIRE(nc_create(path.c_str(), NC_CLOBBER, &file) == NC_NOERR);
+  CHECK(nc_def_dim(file, "lat", 3, &lat) == NC_NOERR);
+  CHECK(nc_def_dim(file, "lon", 4, &lon) == NC_NOERR);
+  const std::array<int, 2> both{lat, lon};
+  CHECK(nc_def_var(file, "lat", NC_DOUBLE, 1, &lat, &latitudes) == NC_NOERR);
+  CHECK(nc_def_var(file, "lon", NC_DOUBLE, 1, &lon, &longitudes) == NC_NOERR);
+  CHECK(nc_def_var(file, "z", NC_DOUBLE, 2, both.data(), &heights) == NC_NOERR);
+  CHECK(nc_enddef(file) == NC_NOERR);
+  const std::array<double, 3> south_to_north{-90, 0, 90};
+  const std::array<double, 4> eastward{0, 90, 180, 270};
+  const std::vector<double> values(12, value);
+  CHECK(nc_put_var_double(file, latitudes, south_to_north.data()) == NC_NOERR);
+  CHECK(nc_put_var_double(file, longitudes, eastward.data()) == NC_NOERR);
+  CHECK(nc_put_var_double(file, heights, values.data()) == NC_NOERR);
+  CHECK(nc_close(file) == NC_NOERR);
+}
+
 } // namespace
 
 TEST_CASE("each rule of a file is that of the library") {
@@ -113,6 +133,21 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
   CHECK(band == DoubleVector{{5, 60, 60, 60, 60}});
   const DoubleVector part = rules.widths("width = 5\nwithin = \"island.geojson\"");
   CHECK(part[2] >= Widths::no_demand);
+  write_raster(rules.beside("half.nc"), 0.5);
+  CHECK(rules.widths("width = 5\nwithin = \"half.nc\"") == DoubleVector::Constant(5, 5));
+  CHECK(rules.widths("blend = [20, 30]\nshare = \"half.nc\"") == DoubleVector::Constant(5, 25));
+  const Surface island = read_region(rules.beside("island.geojson"));
+  CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"") ==
+        evaluate(Widths::where(island, 20.0, 60.0), places()));
+  CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"\nover = 3000") ==
+        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{0, 1}, {3000, 0}}})), places()));
+  CHECK(rules.widths(
+            "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
+        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{-500, 1}, {0, 0.5}}})), places()));
+  CHECK(rules.refused("[cell-width]\nblend = [60, 20, 5]\nshare = \"half.nc\"") ==
+        " line 2: blend holds 3 rules; give [A, B]");
+  CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==
+        " line 3: share is no text; give the name of a file in quotes");
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
   test::write_text(rules.path(),
                    "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
@@ -122,22 +157,7 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
 
 TEST_CASE("heights of a file give the widths of waves") {
   const Rules rules;
-  int file = 0, lat = 0, lon = 0, latitudes = 0, longitudes = 0, heights = 0;
-  REQUIRE(nc_create(rules.beside("sea.nc").c_str(), NC_CLOBBER, &file) == NC_NOERR);
-  CHECK(nc_def_dim(file, "lat", 3, &lat) == NC_NOERR);
-  CHECK(nc_def_dim(file, "lon", 4, &lon) == NC_NOERR);
-  const std::array<int, 2> both{lat, lon};
-  CHECK(nc_def_var(file, "lat", NC_DOUBLE, 1, &lat, &latitudes) == NC_NOERR);
-  CHECK(nc_def_var(file, "lon", NC_DOUBLE, 1, &lon, &longitudes) == NC_NOERR);
-  CHECK(nc_def_var(file, "z", NC_DOUBLE, 2, both.data(), &heights) == NC_NOERR);
-  CHECK(nc_enddef(file) == NC_NOERR);
-  const std::array<double, 3> south_to_north{-90, 0, 90};
-  const std::array<double, 4> eastward{0, 90, 180, 270};
-  const std::vector<double> depths(12, -4000);
-  CHECK(nc_put_var_double(file, latitudes, south_to_north.data()) == NC_NOERR);
-  CHECK(nc_put_var_double(file, longitudes, eastward.data()) == NC_NOERR);
-  CHECK(nc_put_var_double(file, heights, depths.data()) == NC_NOERR);
-  CHECK(nc_close(file) == NC_NOERR);
+  write_raster(rules.beside("sea.nc"), -4000);
   const DoubleVector widths =
       rules.widths("heights = \"sea.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2");
   CHECK(widths[0] == doctest::Approx(std::sqrt(9.80665 * 4000) * 12.42 * 3600 / 60 / 1000));
@@ -154,10 +174,10 @@ TEST_CASE("files of rules that are none are refused with their line") {
   const Rules rules;
   CHECK(rules.refused("width = 60") ==
         ": a file of widths has one table, [cell-width]; see calotte help widths");
-  CHECK(
-      rules.refused("[cell-width]\nwidths = 60") ==
-      " line 1: a rule has one of the keys min, max, sum, latitude, distance-to, lines, channels, "
-      "heights, raster, polygons, width");
+  CHECK(rules.refused("[cell-width]\nwidths = 60") ==
+        " line 1: a rule has one of the keys min, max, sum, blend, latitude, distance-to, lines, "
+        "channels, "
+        "heights, raster, polygons, width");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
         " line 2: width is not a positive number; give one");
   CHECK(rules.refused("[cell-width]\n\nmin = [60,\n {width = 5, over = 3}]") ==

@@ -14,9 +14,10 @@ a rule goes in wherever cell widths do. Distances are along great circles, and k
 import numpy as np
 
 from . import _arguments, _calotte
-from ._calotte import Widths
+from ._calotte import Share, Widths
 
-__all__ = ["Widths", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule", "sum", "where"]
+__all__ = ["Widths", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule",
+           "share", "sum", "where"]
 
 
 def rule(widths):
@@ -111,9 +112,36 @@ def sum(*widths):  # noqa: A001: of the module
     return _calotte.combined_widths("sum", [rule(one) for one in widths])
 
 
+def share(region, over=None, *, profile=None, smooth=False, variable=""):
+    """A share from 0 to 1 for every place, for where() and blend().
+
+    region: a Surface, or a file of one: 1 inside and 0 outside; or a NetCDF file with t(lat, lon), the
+        shares themselves, linear between nodes. variable: of a file with several.
+    over: outside the region the share falls to 0 at this distance, km; or
+    profile: pairs of the distance from the region's boundary, negative inside, and a share. smooth: as
+        for by_latitude().
+    """
+    if isinstance(region, Share):
+        return region
+    if over is not None and profile is not None:
+        raise _calotte.Error("give over, or a profile, but not both")
+    if str(region).endswith(".nc"):
+        return _calotte.share_of_raster(str(region), variable)
+    surface = _arguments.surface(region)
+    if over is None and profile is None:
+        return _calotte.share_of_region(surface)
+    nodes = _nodes([(0, 1), (over, 0)] if profile is None else profile, "distances and shares")
+    return _calotte.share_by_distance(surface, nodes, smooth)
+
+
 def where(region, inside, outside):
-    """One rule within a region, another outside it. region: a Surface, or a file of one."""
-    return _calotte.widths_where(_arguments.surface(region), rule(inside), rule(outside))
+    """One rule within a region, another outside it. region: as for share(); inside is from 1/2 on."""
+    return _calotte.widths_where(share(region), rule(inside), rule(outside))
+
+
+def blend(a, b, t):
+    """(1 - t) a + t b, with a share t, or what share() takes as its region."""
+    return _calotte.widths_blend(rule(a), rule(b), share(t))
 
 
 def _at(self, longitudes, latitudes):
