@@ -171,8 +171,9 @@ HeightRaster read_heights(const std::string& path, const std::string& variable =
 /// \throws Error parse, naming the feature; file.
 std::vector<Points3> read_lines(const std::string& path);
 
-/// Reads what widths may depend on the distance from: lines as read_lines(), the shores of a file
-/// as read_coast(), or, from a .txt, points of longitude and latitude, each a line of its own.
+/// Reads what widths may depend on the distance from: of GeoJSON lines as read_lines() and the
+/// shores of polygons as read_coast(), which may stand in one file; the shores of a coast of GSHHG;
+/// or, from a .txt, points of longitude and latitude, each a line of its own.
 /// \throws Error as these functions.
 std::vector<Points3> read_shapes(const std::string& path);
 

@@ -297,6 +297,28 @@ TEST_CASE("lines: features, collections and single geometries") {
   }
 }
 
+TEST_CASE("shapes: lines and the shores of polygons, of one file or of two") {
+  const Scratch scratch;
+  const std::string path = scratch / "a.geojson";
+  const auto read = [&](const std::string& text) {
+    calotte::write_file(path, text);
+    return calotte::read_shapes(path);
+  };
+  const std::string line = R"({"type":"LineString","coordinates":[[0,0],[90,0],[0,90]]})";
+  const std::string polygon = R"({"type":"Polygon","coordinates":[[[5,5],[6,5],[5,6],[5,5]]]})";
+  const std::vector<Points3> of_line = read(line);
+  CHECK(of_line == calotte::read_lines(path));
+  const std::vector<Points3> of_polygon = read(polygon);
+  CHECK(of_polygon == calotte::shores(calotte::read_coast(path)));
+  CHECK(read(collection({line, polygon})).size() == 4);
+  const auto message = [&](const std::string& text) {
+    return std::string(error_of([&] { read(text); }).what()).substr(path.size() + 2);
+  };
+  CHECK(message(collection({})) == "no lines or polygons; give geometries of these");
+  CHECK(message(collection({polygon, R"({"type":"Polygon","coordinates":[[[5,5],[6,5]]]})"})) ==
+        "feature 1: ring 0 has fewer than 3 places; leave it out");
+}
+
 TEST_CASE("lines that are refused, by their feature") {
   const Scratch scratch;
   const std::string path = scratch / "a.geojson";

@@ -33,6 +33,8 @@ WrittenRing ring_of(const GeoRing& positions, const std::string& name, const std
   return ring;
 }
 
+} // namespace
+
 GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
   GeoArea area{geometry.where, {}};
   const std::optional<GeoPosition> inside = inside_of(geometry, name);
@@ -49,8 +51,6 @@ GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
     return area;
   });
 }
-
-} // namespace
 
 void require_degrees(const GeoPosition& position, const std::string& name,
                      const std::string& what) {
@@ -73,7 +73,7 @@ std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::str
 
 std::vector<GeoArea> read_areas(std::istream& in, const std::string& name) {
   std::vector<GeoArea> areas;
-  const GeoPolygons polygons = read_polygons(in, name, {"[longitude, latitude]", "give degrees"});
+  const GeoPolygons polygons = read_polygons(in, name, lonlat_pair());
   for (const GeoGeometry& geometry : polygons.geometries)
     areas.push_back(area_of(geometry, name));
   return areas;

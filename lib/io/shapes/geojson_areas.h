@@ -27,10 +27,14 @@ struct GeoArea {
   std::vector<WrittenRing> rings;
 };
 
-/// The areas of all geometries of a file. An outer ring encloses its polygon, and a hole what is
-/// left out of it (see enclose_left()), unless the feature names a place inside: then its rings,
-/// joined, are those around this place. \throws Error parse, naming the feature and its ring; of a
-/// place inside, as region_around().
+inline GeoPair lonlat_pair() { return {"[longitude, latitude]", "give degrees"}; }
+
+/// An outer ring encloses its polygon, and a hole what is left out of it (see enclose_left()),
+/// unless the feature names a place inside: then its rings, joined, are those around this place.
+/// \throws Error parse, naming the feature and its ring; of a place inside, as region_around().
+GeoArea area_of(const GeoGeometry& geometry, const std::string& name);
+
+/// The areas of all geometries of a file. \throws Error as area_of().
 std::vector<GeoArea> read_areas(std::istream& in, const std::string& name);
 
 } // namespace calotte::io_detail

@@ -5,7 +5,7 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
 #include "io/command.h"
-#include "io/shapes/geojson.h"
+#include "io/shapes/geojson_lines.h"
 
 #include <calotte/error.h>
 
@@ -14,9 +14,10 @@
 
 namespace calotte {
 namespace io_detail {
-namespace {
 
 using Json = nlohmann::json;
+
+namespace {
 
 /// \param where names the file and the feature.
 Points3 line_of(const Json& positions, const std::string& where) {
@@ -36,38 +37,32 @@ Points3 line_of(const Json& positions, const std::string& where) {
   return places;
 }
 
-std::vector<Points3> read_lines(std::istream& in, const std::string& name) {
-  std::vector<Points3> lines;
-  read_features(in, name, [&](const GeoFeature& feature) {
-    const std::string where = name + ": " + feature.where;
-    for_each_geometry(feature, name, [&](const std::string& type, const Json& coordinates) {
-      if (type == "LineString")
-        lines.push_back(line_of(coordinates, where));
-      else if (type == "MultiLineString")
-        for (const Json& part : coordinates)
-          lines.push_back(line_of(part, where));
-      else
-        throw Error(ErrorCode::parse, where + "an object of the type \"" + type +
-                                          "\" is no line; give LineString or MultiLineString");
-    });
-  });
-  if (lines.empty())
-    throw Error(ErrorCode::parse,
-                name + ": no lines; give LineString or MultiLineString geometries");
-  return lines;
+} // namespace
+
+void add_lines(const GeoFeature& feature, const std::string& type, const Json& coordinates,
+               const std::string& name, std::vector<Points3>& lines) {
+  const std::string where = name + ": " + feature.where;
+  if (type == "LineString")
+    lines.push_back(line_of(coordinates, where));
+  else if (type == "MultiLineString")
+    for (const Json& part : coordinates)
+      lines.push_back(line_of(part, where));
+  else
+    throw Error(ErrorCode::parse, where + "an object of the type \"" + type +
+                                      "\" is no line; give LineString or MultiLineString");
 }
 
-} // namespace
 } // namespace io_detail
 
 bool holds_lines(const std::string& path) {
-  const std::string suffix = io_detail::suffix_of(path);
+  using namespace io_detail;
+  const std::string suffix = suffix_of(path);
   if (suffix != ".geojson" && suffix != ".json")
     return false;
-  std::ifstream in = io_detail::open_input(path);
+  std::ifstream in = open_input(path);
   bool found = false;
-  io_detail::read_features(in, path, [&](const io_detail::GeoFeature& feature) {
-    io_detail::for_each_geometry(feature, path, [&](const std::string& type, const auto&) {
+  read_features(in, path, [&](const GeoFeature& feature) {
+    for_each_geometry(feature, path, [&](const std::string& type, const Json&) {
       found = found || type == "LineString" || type == "MultiLineString";
     });
   });
@@ -75,8 +70,18 @@ bool holds_lines(const std::string& path) {
 }
 
 std::vector<Points3> read_lines(const std::string& path) {
-  std::ifstream in = io_detail::open_input(path);
-  return io_detail::read_lines(in, path);
+  using namespace io_detail;
+  std::ifstream in = open_input(path);
+  std::vector<Points3> lines;
+  read_features(in, path, [&](const GeoFeature& feature) {
+    for_each_geometry(feature, path, [&](const std::string& type, const Json& coordinates) {
+      add_lines(feature, type, coordinates, path, lines);
+    });
+  });
+  if (lines.empty())
+    throw Error(ErrorCode::parse,
+                path + ": no lines; give LineString or MultiLineString geometries");
+  return lines;
 }
 
 } // namespace calotte

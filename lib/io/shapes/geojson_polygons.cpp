@@ -10,40 +10,27 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Collector {
+/// Of one geometry.
+class PolygonReader {
 public:
-  Collector(const std::string& name, const GeoPair& pair) : name_(name), pair_(pair) {}
+  PolygonReader(const std::string& name, const GeoPair& pair, const std::string& where)
+      : name_(name), pair_(pair), where_(where) {}
 
-  GeoPolygons read(std::istream& in) {
-    Json members = read_features(in, name_, [&](const GeoFeature& feature) {
-      where_ = feature.where;
-      for_each_geometry(feature, name_, [&](const std::string& type, const Json& coordinates) {
-        geometry(feature, type, coordinates);
-      });
-    });
-    where_.clear();
-    if (geometries_.empty())
-      fail("no polygons; give Polygon or MultiPolygon geometries");
-    return {std::move(geometries_), std::move(members)};
+  std::vector<GeoPolygon> read(const std::string& type, const Json& coordinates) {
+    if (!is_polygon(type))
+      fail("a geometry of the type " + in_quotes(type) +
+           " has no inside; give Polygon or MultiPolygon");
+    if (type == "Polygon")
+      return {polygon(coordinates)};
+    std::vector<GeoPolygon> polygons;
+    for (const Json& part : coordinates)
+      polygons.push_back(polygon(part));
+    return polygons;
   }
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
     throw Error(ErrorCode::parse, name_ + ": " + where_ + problem);
-  }
-
-  void geometry(const GeoFeature& feature, const std::string& type, const Json& coordinates) {
-    if (type != "Polygon" && type != "MultiPolygon")
-      fail("a geometry of the type " + in_quotes(type) +
-           " has no inside; give Polygon or MultiPolygon");
-    GeoGeometry geometry{where_, feature.properties, {}};
-    rings_ = 0;
-    if (type == "Polygon")
-      geometry.polygons.push_back(polygon(coordinates));
-    else
-      for (const Json& part : coordinates)
-        geometry.polygons.push_back(polygon(part));
-    geometries_.push_back(std::move(geometry));
   }
 
   GeoPolygon polygon(const Json& rings) {
@@ -81,15 +68,30 @@ private:
 
   const std::string& name_;
   const GeoPair& pair_;
-  std::string where_;
-  std::int64_t rings_ = 0; ///< of the geometry, before the one being read
-  std::vector<GeoGeometry> geometries_;
+  const std::string& where_;
+  std::int64_t rings_ = 0; ///< before the one being read
 };
 
 } // namespace
 
+bool is_polygon(const std::string& type) { return type == "Polygon" || type == "MultiPolygon"; }
+
+GeoGeometry polygons_of(const GeoFeature& feature, const std::string& type, const Json& coordinates,
+                        const std::string& name, const GeoPair& pair) {
+  return {feature.where, feature.properties,
+          PolygonReader(name, pair, feature.where).read(type, coordinates)};
+}
+
 GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPair& pair) {
-  return Collector(name, pair).read(in);
+  GeoPolygons all;
+  all.members = read_features(in, name, [&](const GeoFeature& feature) {
+    for_each_geometry(feature, name, [&](const std::string& type, const Json& coordinates) {
+      all.geometries.push_back(polygons_of(feature, type, coordinates, name, pair));
+    });
+  });
+  if (all.geometries.empty())
+    throw Error(ErrorCode::parse, name + ": no polygons; give Polygon or MultiPolygon geometries");
+  return all;
 }
 
 } // namespace calotte::io_detail

@@ -33,6 +33,15 @@ struct GeoPolygons {
   nlohmann::json members; ///< of the file's object, besides its features
 };
 
+/// Whether a type of geometries has an inside: Polygon or MultiPolygon.
+bool is_polygon(const std::string& type);
+
+/// The polygons of one geometry of a feature.
+/// \throws Error parse as read_polygons(); for another type.
+GeoGeometry polygons_of(const GeoFeature& feature, const std::string& type,
+                        const nlohmann::json& coordinates, const std::string& name,
+                        const GeoPair& pair);
+
 /// All polygons of a file. Coordinates must be numbers, of any value; rings have at least three
 /// places.
 /// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon; file.
