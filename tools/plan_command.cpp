@@ -27,6 +27,7 @@
 #include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 
+#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -62,16 +63,29 @@ struct Plan {
   std::vector<CvtLevel> levels; ///< of the run
   SpacingSurvey spacing;
   std::optional<double> radius_km; ///< of the sphere, if known
+  double width_seconds = 0;        ///< that widths in km took
+  std::vector<RuleShare> rules;    ///< of the widths, if there are any
   int threads = 1;
   CvtCosts costs;
 };
 
-Recipe recipe_of(const Request& request) {
+/// What a plan begins with.
+struct Input {
   Recipe recipe;
+  std::optional<WidthRules> rules;
+  double seconds = 0; ///< that the widths took
+};
+
+Input input_of(const Request& request) {
+  Input input;
+  Recipe& recipe = input.recipe;
   const WidthWords& words = request.density->widths;
   if (!request.part.region.empty())
     recipe.surface = region_of(request.part.region, request.part.inside, words.radius);
+  const auto start = std::chrono::steady_clock::now();
   Resolution resolution = resolution_of(*request.density, recipe.surface);
+  input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  input.rules = std::move(resolution.rules);
   recipe.cells = request.cells.value_or(0);
   if (resolution.widths)
     recipe.widths = std::move(resolution.widths);
@@ -80,7 +94,7 @@ Recipe recipe_of(const Request& request) {
   recipe.radius_km = words.radius;
   recipe.limited_area = request.part.limited_area;
   recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
-  return recipe;
+  return input;
 }
 
 /// Widths in km: on the whole sphere all quantities follow from the file's nodes.
@@ -97,7 +111,8 @@ SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor,
           steepest_of(scaled, words, factor)};
 }
 
-Plan plan_of(const Request& request, const Recipe& recipe, const Schedule& schedule) {
+Plan plan_of(const Request& request, const Input& input, const Schedule& schedule) {
+  const Recipe& recipe = input.recipe;
   Plan plan;
   plan.density = density_name(*request.density);
   plan.region = request.part.region;
@@ -112,8 +127,12 @@ Plan plan_of(const Request& request, const Recipe& recipe, const Schedule& sched
   else if (request.sphere_radius)
     plan.radius_km = *request.sphere_radius / metres;
   plan.spacing = survey(recipe, made, plan.factor, request.density->widths);
-  if (recipe.widths)
+  if (recipe.widths) {
     plan.doubt = doubt_of(*recipe.widths, request.density->widths);
+    plan.width_seconds = input.seconds;
+  }
+  if (input.rules)
+    plan.rules = rule_shares(*input.rules, recipe.surface);
   plan.threads = tbb::this_task_arena::max_concurrency();
   plan.costs = cvt_costs(plan.cells, made.density, made.surface, plan.threads);
   return plan;
@@ -137,6 +156,11 @@ std::string duration(double seconds) {
     return formatted("%.2g", seconds) + " s";
   return seconds < 2 * hour ? formatted("%.2g", seconds / minute) + " min"
                             : formatted("%.2g", seconds / hour) + " h";
+}
+
+std::string percent(double share) {
+  constexpr double hundred = 100;
+  return formatted("%5.1f", hundred * share) + "%";
 }
 
 std::string gradient_words(const Gradient& gradient) {
@@ -175,6 +199,13 @@ std::string table(const Plan& plan) {
   row("steepest gradient", gradient_words(plan.spacing.steepest));
   for (const CvtLevel& level : plan.levels)
     row("level of the run", level_words(level));
+  if (plan.width_seconds > 0)
+    row("time of the widths", duration(plan.width_seconds));
+  if (!plan.rules.empty())
+    out << "rules, and where each gives the width:\n";
+  for (const RuleShare& rule : plan.rules)
+    out << "  " << std::left << std::setw(30) << rule.name << " " << percent(rule.area)
+        << " of the area, " << percent(rule.cells) << " of the cells\n";
   out << "estimates for " << plan.threads
       << (plan.threads == 1 ? " thread, within a factor of 3:\n"
                             : " threads, within a factor of 3:\n");
@@ -203,6 +234,10 @@ std::string to_json(const Plan& plan) {
   json["gradient"] = {{"slope", plan.spacing.steepest.slope},
                       {"longitude", plan.spacing.steepest.longitude},
                       {"latitude", plan.spacing.steepest.latitude}};
+  if (plan.width_seconds > 0)
+    json["width_seconds"] = plan.width_seconds;
+  for (const RuleShare& rule : plan.rules)
+    json["rules"].push_back({{"name", rule.name}, {"area", rule.area}, {"cells", rule.cells}});
   for (const CvtLevel& level : plan.levels)
     json["levels"].push_back(
         {{"cells", level.cells}, {"insertion_rounds", level.insertion_rounds}});
@@ -254,17 +289,17 @@ void require_request(const Request& request) {
 Plan make_plan(const Request& request) {
   Progress progress;
   progress.stage("reading the density");
-  const Recipe recipe = recipe_of(request);
+  const Input input = input_of(request);
   Plan plan;
   with_threads(request.threads, [&] {
-    const Schedule schedule = calotte::plan(recipe);
-    plan = plan_of(request, recipe, schedule);
+    const Schedule schedule = calotte::plan(input.recipe);
+    plan = plan_of(request, input, schedule);
     progress.stage("drawing " + request.picture);
     if (!request.picture.empty())
       draw_widths(request, schedule.recipe.density, plan);
   });
   if (!request.raster.empty())
-    calotte::write(request.raster, *recipe.widths);
+    calotte::write(request.raster, *input.recipe.widths);
   if (!request.report.empty())
     write_file(request.report, to_json(plan));
   return plan;

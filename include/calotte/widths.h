@@ -188,6 +188,12 @@ private:
 /// \throws Error invalid_argument for another number of rows, and for a direction that is none.
 DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 
+/// The rule of a minimum that gives the width at each of n places: its index in the list of
+/// Widths::minimum(), the first of equal ones. Also of a minimum whose gradient is limited: the
+/// rule from which the width grows. 0 for any other rule. \param places as for evaluate(). \throws
+/// Error as there.
+Ids active_rules(const Widths& minimum, const PointsRef& places);
+
 /// The widths at the nodes of a regular raster with nodes at the poles.
 /// \param step largest distance of rows and of columns, degrees, from 0.01 to 10. Default 0: that
 ///        of the least width, within 0.05 to 1 degree.

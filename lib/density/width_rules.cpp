@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -159,18 +160,22 @@ double product_of(double a, double b) { return a * b; }
 class MinimumRule : public CombinedRule {
 public:
   explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
+  void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const override {
+    std::vector<double> least(places.size(), std::numeric_limits<double>::infinity()),
+        widths(least);
+    for (std::size_t part = 0; part < parts().size(); ++part) {
+      parts()[part]->evaluate(places, widths);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if (widths[k] < least[k]) {
+          least[k] = widths[k];
+          active[k] = static_cast<std::int32_t>(part);
+        }
+    }
+  }
   Rule limited(double gradient) const override {
-    std::vector<Rule> limited, others;
+    std::vector<Rule> limited;
     for (const Rule& part : parts())
-      if (Rule own = part->limited(gradient))
-        limited.push_back(std::move(own));
-      else
-        others.push_back(part);
-    if (others.empty())
-      return std::make_shared<MinimumRule>(std::move(limited));
-    if (limited.empty())
-      return nullptr;
-    limited.push_back(density_detail::limited(std::make_shared<MinimumRule>(others), gradient));
+      limited.push_back(density_detail::limited(part, gradient));
     return std::make_shared<MinimumRule>(std::move(limited));
   }
 };
@@ -236,9 +241,24 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
   return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
 }
 
+/// body(block, begin) for blocks of unit vectors.
+template <class Body> void for_each_block_of(const PointsRef& places, const Body& body) {
+  const base_detail::Points3Ref x = base_detail::directions_of(places);
+  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    std::vector<Vec3> block;
+    for (std::int64_t i = begin; i != end; ++i)
+      block.push_back(domain_detail::as_unit({x(0, i), x(1, i), x(2, i)}));
+    body(block, begin);
+  });
+}
+
 constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
 
 } // namespace
+
+void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> active) const {
+  std::fill(active.begin(), active.end(), 0);
+}
 
 std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullptr; }
 
@@ -292,15 +312,19 @@ Widths Widths::limit_gradient(double gradient) const {
 }
 
 DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
-  const base_detail::Points3Ref x = base_detail::directions_of(places);
-  DoubleVector values(x.cols());
-  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::vector<Vec3> block;
-    for (std::int64_t i = begin; i != end; ++i)
-      block.push_back(domain_detail::as_unit({x(0, i), x(1, i), x(2, i)}));
+  DoubleVector values(places.cols());
+  for_each_block_of(places, [&](const std::vector<Vec3>& block, std::int64_t begin) {
     widths.rule()->evaluate(block, {values.data() + begin, block.size()});
   });
   return values;
+}
+
+Ids active_rules(const Widths& minimum, const PointsRef& places) {
+  Ids active(places.cols());
+  for_each_block_of(places, [&](const std::vector<Vec3>& block, std::int64_t begin) {
+    minimum.rule()->find_active(block, {active.data() + begin, block.size()});
+  });
+  return active;
 }
 
 CellWidth sampled(const Widths& widths, double step) {

@@ -6,6 +6,7 @@
 
 #include <calotte/widths.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -23,6 +24,9 @@ public:
 
   /// \param places unit vectors. Where each lies next to the one before, it takes less time.
   virtual void evaluate(std::span<const Vec3> places, std::span<double> widths) const = 0;
+
+  /// By place the part of a minimum that is the least, by index; 0 of other rules.
+  virtual void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const;
 
   /// A bound from below of all widths, km, > 0.
   virtual double least() const = 0;

@@ -159,6 +159,31 @@ TEST_CASE("limited rules are those of cones, exactly where they grow from lines 
   CHECK((both - got.cwiseMin(evaluate(step, places))).cwiseAbs().maxCoeff() < 1e-9);
 }
 
+TEST_CASE("the active rule of a minimum is the least one") {
+  const Points3 places = random_sphere(3000, 5);
+  const Widths lines = Widths::by_distance({line({{10, 89}})}, {{{0, 10}, {100, 300}}}),
+               inside = Widths::where(circle({1, 0, 0}, 0.4), 40.0, Widths::no_demand);
+  for (const bool limited : {false, true}) {
+    const auto made = [&](const Widths& rule) {
+      return limited ? rule.limit_gradient(0.03) : rule;
+    };
+    const Widths widths = made(Widths::minimum({200.0, lines, inside}));
+    const std::vector<Widths> parts{200.0, made(lines), made(inside)};
+    const DoubleVector width = evaluate(widths, places);
+    const Ids active = active_rules(widths, places);
+    std::vector<DoubleVector> each;
+    for (const Widths& part : parts)
+      each.push_back(evaluate(part, places));
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+      CHECK(each[static_cast<std::size_t>(active[i])][i] == width[i]);
+      for (std::int32_t k = 0; k < active[i]; ++k)
+        CHECK(each[static_cast<std::size_t>(k)][i] > width[i]);
+    }
+    CHECK(active.maxCoeff() == 2);
+  }
+  CHECK(active_rules(200.0, places).isZero());
+}
+
 TEST_CASE("other limited rules are limited at the nodes of a raster") {
   const Surface region = circle({0, 0, 1}, 0.3);
   const Widths inside = Widths::where(region, 40.0, 200.0);

@@ -66,6 +66,25 @@ TEST_CASE("widths in km: the cells that they imply, or a factor on them") {
         doctest::Approx(480 / radius * 180 / pi).epsilon(1e-3));
 }
 
+TEST_CASE("of rules the plan tells where each gives the width") {
+  const Bench bench;
+  bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[0, 90], [0, 89]]})");
+  bench.file("w.toml", "[cell-width]\nmin = [400, {latitude = [[-0.001, 800], [0, 200]]}, "
+                       "{lines = \"line.geojson\", width = 100, over = 1000}]");
+  const nlohmann::json json = plan(bench, "--cell-width w.toml");
+  REQUIRE(json["rules"].size() == 3);
+  CHECK(json["rules"][2]["name"] == "lines line.geojson");
+  CHECK(json["rules"][0]["area"].get<double>() == doctest::Approx(0.5).epsilon(0.02));
+  const double around = json["rules"][2]["area"].get<double>();
+  CHECK(json["rules"][2]["cells"].get<double>() ==
+        doctest::Approx(16 * around / (0.5 + 4 * (0.5 - around) + 16 * around)).epsilon(0.05));
+  CHECK(json["width_seconds"].get<double>() > 0);
+  const std::string table = bench.run("plan --cell-width w.toml").out;
+  CHECK(table.find("time of the widths") != std::string::npos);
+  CHECK(table.find("  latitude ") != std::string::npos);
+  CHECK(table.find("% of the area, ") != std::string::npos);
+}
+
 TEST_CASE("the steepest gradient of widths grows with the factor on them") {
   const Bench bench;
   // 5 km per degree, and 10 from 30 to 35 N

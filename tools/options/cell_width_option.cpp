@@ -75,8 +75,7 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
 bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
 /// \throws Error invalid_argument for rules that say nothing of a place.
-CellWidth sampled_rules(const std::string& path) {
-  const WidthRules rules = read_width_rules(path);
+CellWidth sampled_rules(const WidthRules& rules, const std::string& path) {
   CellWidth widths = sampled(rules.widths, rules.step);
   Eigen::Index column = 0, row = 0;
   if (widths.widths.maxCoeff(&column, &row) >= 0.5 * Widths::no_demand)
@@ -87,9 +86,9 @@ CellWidth sampled_rules(const std::string& path) {
 }
 
 /// The widths without a limit of their gradient.
-CellWidth read_as_given(const WidthWords& words, const Surface& region) {
+ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
-    return read_density_raster(words.raster, region);
+    return {read_density_raster(words.raster, region), {}};
   if (words.uniform || !is_geojson(words.file))
     for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
                                       {words.outside, "--outside-width"},
@@ -97,15 +96,19 @@ CellWidth read_as_given(const WidthWords& words, const Surface& region) {
       if (value)
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
   if (words.uniform)
-    return uniform_widths(*words.uniform);
-  if (is_toml(words.file))
-    return sampled_rules(words.file);
-  return read_cell_width(words.file,
-                         {.inside = words.inside.value_or(0),
-                          .outside = words.outside.value_or(0),
-                          .transition = words.transition.value_or(0),
-                          .radius_km = words.radius},
-                         region);
+    return {uniform_widths(*words.uniform), {}};
+  if (is_toml(words.file)) {
+    WidthRules rules = read_width_rules(words.file);
+    CellWidth raster = sampled_rules(rules, words.file);
+    return {std::move(raster), std::move(rules)};
+  }
+  return {read_cell_width(words.file,
+                          {.inside = words.inside.value_or(0),
+                           .outside = words.outside.value_or(0),
+                           .transition = words.transition.value_or(0),
+                           .radius_km = words.radius},
+                          region),
+          {}};
 }
 
 /// A gradient above 0, in km per km.
@@ -178,9 +181,13 @@ std::string name_of(const WidthWords& words) {
   return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
 
-CellWidth read_widths(const WidthWords& words, const Surface& region) {
-  CellWidth widths = read_as_given(words, region);
-  return words.gradient ? limit_gradient(widths, *words.gradient, words.radius) : widths;
+ReadWidths read_widths(const WidthWords& words, const Surface& region) {
+  ReadWidths widths = read_as_given(words, region);
+  if (words.gradient)
+    widths.raster = limit_gradient(widths.raster, *words.gradient, words.radius);
+  if (words.gradient && widths.rules)
+    widths.rules->widths = widths.rules->widths.limit_gradient(*words.gradient);
+  return widths;
 }
 
 PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane) {

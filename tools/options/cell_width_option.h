@@ -2,6 +2,7 @@
 #pragma once
 
 #include "help/cli_forward.h"
+#include "options/width_rules.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/planar_raster.h>
@@ -43,12 +44,18 @@ CellWidth uniform_widths(double km);
 /// The same in a plane, in its unit.
 PlanarCellWidth uniform_planar_widths(double width);
 
+/// Widths, and the rules that they are of, if there are any.
+struct ReadWidths {
+  CellWidth raster;
+  std::optional<WidthRules> rules;
+};
+
 /// Reads widths from either file, or makes uniform ones, and limits their gradient; those of a
 /// density raster have no unit.
 /// \pre words.given().
 /// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons.
 /// \param region which a raster must cover.
-CellWidth read_widths(const WidthWords& words, const Surface& region = {});
+ReadWidths read_widths(const WidthWords& words, const Surface& region = {});
 
 /// The same in the plane. \pre words.in_km().
 /// \throws Error as read_planar_cell_width; invalid_argument for a width with a unit, and for

@@ -30,6 +30,7 @@ struct Resolution {
   Density density;
   std::optional<CellWidth> widths;              ///< in km, where --cell-width gives them
   std::optional<PlanarCellWidth> planar_widths; ///< the same in the unit of the plane
+  std::optional<WidthRules> rules;              ///< that make the widths, if there are any
 };
 
 /// Reads the file, if there is one.

@@ -6,15 +6,18 @@
 #include "text/text.h"
 
 #include <calotte/error.h>
+#include <calotte/generators.h>
 #include <calotte/ocean.h>
 #include <calotte/read.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace calotte::tools {
@@ -36,6 +39,9 @@ public:
     refuse_line(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
                 key + " " + problem);
   }
+
+  /// Whether there is a key that nobody took before.
+  bool takes(const std::string& key) { return taken_.insert(key).second && has(key); }
 
   const toml::node* take(const std::string& key) {
     taken_.insert(key);
@@ -129,7 +135,7 @@ public:
                       ": a file of widths has one table, [cell-width]; see calotte help widths");
     double step = 0;
     Widths widths = rule_of(*table, &step);
-    return {std::move(widths), step};
+    return {std::move(widths), step, names_of(*table)};
   }
 
 private:
@@ -138,12 +144,18 @@ private:
   /// A rule has one of these keys, which says what it is; the first that is there.
   static const std::vector<std::pair<std::string, Source>>& sources() {
     static const std::vector<std::pair<std::string, Source>> all{
-        {"min", &RuleReader::least},         {"max", &RuleReader::greatest},
-        {"sum", &RuleReader::sum},           {"blend", &RuleReader::blend},
-        {"latitude", &RuleReader::latitude}, {"distance-to", &RuleReader::distance},
-        {"lines", &RuleReader::lines},       {"channels", &RuleReader::channels},
-        {"heights", &RuleReader::heights},   {"raster", &RuleReader::raster},
-        {"polygons", &RuleReader::polygons}, {"width", &RuleReader::constant}};
+        {"min", nullptr}, // see rule_of()
+        {"max", &RuleReader::greatest},
+        {"sum", &RuleReader::sum},
+        {"blend", &RuleReader::blend},
+        {"latitude", &RuleReader::latitude},
+        {"distance-to", &RuleReader::distance},
+        {"lines", &RuleReader::lines},
+        {"channels", &RuleReader::channels},
+        {"heights", &RuleReader::heights},
+        {"raster", &RuleReader::raster},
+        {"polygons", &RuleReader::polygons},
+        {"width", &RuleReader::constant}};
     return all;
   }
 
@@ -152,29 +164,67 @@ private:
     RuleTable table(path_, given);
     if (step != nullptr && table.take("step") != nullptr)
       *step = table.number("step");
-    for (const auto& [key, source] : sources())
-      if (table.has(key))
-        return changed(table, table.made([&] { return (this->*source)(table); }));
+    const auto& [key, source] = source_of(given);
+    // What changes a minimum changes its rules, so that active_rules() tells them apart.
+    const bool least = key == "min";
+    std::vector<Widths> rules =
+        least ? parts(table, key)
+              : std::vector{table.made([&, source = source] { return (this->*source)(table); })};
+    change(table, rules);
+    table.require_all_taken();
+    return Widths::minimum(rules);
+  }
+
+  const std::pair<std::string, Source>& source_of(const toml::table& rule) const {
     std::vector<std::string> keys;
-    for (const auto& [key, source] : sources())
-      keys.push_back(key);
-    refuse_line(path_, given.source().begin.line, "a rule has one of the keys " + joined(keys));
+    for (const auto& known : sources()) {
+      if (rule.contains(known.first))
+        return known;
+      keys.push_back(known.first);
+    }
+    refuse_line(path_, rule.source().begin.line, "a rule has one of the keys " + joined(keys));
+  }
+
+  /// Of the rules of a minimum, or of the one rule: "distance-to coast.geojson".
+  std::vector<std::string> names_of(const toml::table& rule) const {
+    const std::string key = source_of(rule).first;
+    if (key != "min") {
+      const std::optional<std::string> file = rule[key].value_exact<std::string>();
+      const std::optional<double> number = rule[key].value<double>();
+      return {key + (file ? " " + *file : number ? " " + shortest(*number) : "")};
+    }
+    std::vector<std::string> names;
+    for (const toml::node& item : *rule[key].as_array())
+      names.push_back(item.is_table() ? joined(names_of(*item.as_table()))
+                                      : "width " + shortest(item.value_or(0.0)));
+    return names;
   }
 
   /// What any rule may have: a part of the sphere, a factor, limits.
-  Widths changed(RuleTable& table, Widths widths) {
-    if (table.take("times") != nullptr)
-      widths = Widths::product(widths, table.number("times"));
-    if (table.take("least") != nullptr)
-      widths = Widths::maximum({widths, table.number("least")});
-    if (table.take("most") != nullptr)
-      widths = Widths::minimum({widths, table.number("most")});
-    if (table.take("within") != nullptr)
-      widths = Widths::where(share_in(file(table, "within")), widths, Widths::no_demand);
-    if (table.take("gradient") != nullptr)
-      widths = widths.limit_gradient(table.number("gradient"));
-    table.require_all_taken();
-    return widths;
+  void change(RuleTable& table, std::vector<Widths>& rules) {
+    const auto each = [&](const auto& changed) {
+      std::transform(rules.begin(), rules.end(), rules.begin(), changed);
+    };
+    if (table.takes("times"))
+      each([factor = table.number("times")](const Widths& rule) {
+        return Widths::product(rule, factor);
+      });
+    if (table.takes("least")) // else the rule itself has it
+      each([least = table.number("least")](const Widths& rule) {
+        return Widths::maximum({rule, least});
+      });
+    if (table.takes("most"))
+      each([most = table.number("most")](const Widths& rule) {
+        return Widths::minimum({rule, most});
+      });
+    if (table.takes("within"))
+      each([share = share_in(file(table, "within"))](const Widths& rule) {
+        return Widths::where(share, rule, Widths::no_demand);
+      });
+    if (table.takes("gradient"))
+      each([gradient = table.number("gradient")](const Widths& rule) {
+        return rule.limit_gradient(gradient);
+      });
   }
 
   std::string file(RuleTable& table, const std::string& key) {
@@ -199,7 +249,6 @@ private:
     return parts;
   }
 
-  Widths least(RuleTable& table) { return Widths::minimum(parts(table, "min")); }
   Widths greatest(RuleTable& table) { return Widths::maximum(parts(table, "max")); }
   Widths sum(RuleTable& table) { return Widths::sum(parts(table, "sum")); }
 
@@ -322,6 +371,37 @@ private:
 } // namespace
 
 WidthRules read_width_rules(const std::string& path) { return RuleReader(path).rules(); }
+
+namespace {
+
+/// Random points of a surface, each near the one before, for which rules take less time.
+Points3 sorted_points(const Surface& surface) {
+  constexpr std::int64_t count = 200'000;
+  constexpr double bands = 100; // of latitude, in each hemisphere
+  const Points3 points = random_points(count, surface);
+  std::vector<std::tuple<double, double, Eigen::Index>> order;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    order.emplace_back(std::floor(bands * points(2, i)), std::atan2(points(1, i), points(0, i)), i);
+  std::sort(order.begin(), order.end());
+  Points3 sorted(3, points.cols());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    sorted.col(static_cast<Eigen::Index>(k)) = points.col(std::get<2>(order[k]));
+  return sorted;
+}
+
+} // namespace
+
+std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface) {
+  const Points3 places = sorted_points(surface);
+  const DoubleVector cells = evaluate(rules.widths, places).array().pow(-2);
+  const Ids active = active_rules(rules.widths, places);
+  std::vector<RuleShare> shares;
+  for (std::size_t rule = 0; rule < rules.names.size(); ++rule) {
+    const auto here = (active.array() == static_cast<std::int32_t>(rule)).cast<double>();
+    shares.push_back({rules.names[rule], here.mean(), (here * cells.array()).sum() / cells.sum()});
+  }
+  return shares;
+}
 
 RulesOutline outline_of_rules(const std::string& path) {
   const toml::table root = read_toml(path);

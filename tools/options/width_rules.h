@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/surface.h>
 #include <calotte/widths.h>
 
 #include <optional>
@@ -11,13 +12,24 @@ namespace calotte::tools {
 
 struct WidthRules {
   Widths widths;
-  double step = 0; ///< of their raster, as sampled() has it
+  double step = 0;                ///< of their raster, as sampled() has it
+  std::vector<std::string> names; ///< of the rules that active_rules() numbers
 };
 
 /// Reads the table [cell-width] of a TOML file; see calotte help widths. Names of files are
 /// relative to its folder. \throws Error parse, naming the line and the key; as the readers of the
 /// files.
 WidthRules read_width_rules(const std::string& path);
+
+/// Where a rule gives the width.
+struct RuleShare {
+  std::string name;
+  double area, cells; ///< shares of those of the surface, 0 to 1
+};
+
+/// Of each rule of a minimum, within 1/1000 or so.
+/// \param surface the sphere or a region of it.
+std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface);
 
 /// What a file of rules says of itself.
 struct RulesOutline {

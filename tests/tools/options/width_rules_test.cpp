@@ -155,6 +155,28 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 
+TEST_CASE("the rules of a minimum have names and shares of the area and of the cells") {
+  const Rules rules;
+  const WidthRules read = rules.read(
+      "[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200], [0, 200], "
+      "[0.001, 25]]}, {lines = \"line.geojson\", width = 5, over = 200}]");
+  CHECK(read.names == std::vector<std::string>{"width 100", "latitude", "lines line.geojson"});
+  const std::vector<RuleShare> shares = rule_shares(read, Surface::sphere());
+  REQUIRE(shares.size() == 3);
+  CHECK(shares[1].area == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(shares[0].area + shares[1].area + shares[2].area == doctest::Approx(1));
+  CHECK(shares[0].cells + shares[1].cells + shares[2].cells == doctest::Approx(1));
+  // The south has half of the area, of cells four times as wide.
+  CHECK(shares[0].cells / shares[1].cells ==
+        doctest::Approx(shares[0].area / shares[1].area / 16).epsilon(0.02));
+  const Surface south = channel(-1.5707963267948966, -0.5);
+  CHECK(rule_shares(read, south)[0].area == doctest::Approx(1));
+  CHECK(rule_shares(rules.read("[cell-width]\nlatitude = [[-90, 60], [90, 20]]\nmost = 40"),
+                    Surface::sphere())[0]
+            .area == 1);
+  CHECK(rules.read("[cell-width]\nwidth = 60").names == std::vector<std::string>{"width 60"});
+}
+
 TEST_CASE("heights of a file give the widths of waves") {
   const Rules rules;
   write_raster(rules.beside("sea.nc"), -4000);
