@@ -52,14 +52,18 @@ Points3 line(const std::vector<std::array<double, 2>>& places) {
   return points;
 }
 
-/// Over a pole, over the date line, nearly half way round, in short steps, and a point.
+/// Over a pole, over the date line, nearly half way round, also over both poles, in short steps,
+/// and a point.
 std::vector<Points3> lines() {
-  std::vector<Points3> all{line({{10, 70}, {-170, 70}, {-160, 40}}), line({{175, -10}, {-175, 10}}),
-                           line({{20, -5}, {199, 4}}), line({{80, -40}}),
+  std::vector<Points3> all{line({{10, 70}, {-170, 70}, {-160, 40}}),
+                           line({{175, -10}, {-175, 10}}),
+                           line({{20, -5}, {199, 4}}),
+                           line({{80, -40}}),
+                           line({{-120, -89.99}, {-120, 0}, {60, 89.95}, {60, 0.02}}),
                            line({{100, -60}, {100, -60}, {101, -61}})};
   test::Random random(3);
   std::vector<std::array<double, 2>> walk{{-60, 0}};
-  for (int k = 0; k < 400; ++k)
+  for (int k = 0; k < 60; ++k)
     walk.push_back({walk.back()[0] + random.real(-1, 1), walk.back()[1] + random.real(-1, 1)});
   all.push_back(line(walk));
   return all;
@@ -79,7 +83,7 @@ double distance_of(const std::vector<Points3>& lines, const Eigen::Vector3d& pla
 
 TEST_CASE("distances are those to arcs and points") {
   const std::vector<Points3> all = lines();
-  const Points3 places = random_sphere(2000, 1);
+  const Points3 places = random_sphere(100'000, 1);
   const double round = std::numbers::pi * earth_radius_km;
   const DoubleVector widths =
       evaluate(Widths::by_distance(all, {{{0, 1}, {round, 1 + round}}}), places);
