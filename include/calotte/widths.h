@@ -118,6 +118,14 @@ public:
   ///         direction, no line; naming the node, a profile that is none.
   static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
 
+  /// One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
+  ///
+  /// \param lines as for by_distance().
+  /// \param width km, > 0.
+  /// \param over the distance, km, > 0.
+  /// \throws Error invalid_argument as by_distance().
+  static Widths around(const std::vector<Points3>& lines, double width, double over);
+
   /// By the distance from the shores of a coast: > 0 in the sea, < 0 on land.
   /// \param profile of the distance in km. With a single side, of the distance on it, from 0 on; on
   ///        the other side the rule says nothing.
@@ -190,8 +198,10 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 
 /// The rule of a minimum that gives the width at each of n places: its index in the list of
 /// Widths::minimum(), the first of equal ones. Also of a minimum whose gradient is limited: the
-/// rule from which the width grows. 0 for any other rule. \param places as for evaluate(). \throws
-/// Error as there.
+/// rule from which the width grows. 0 for any other rule.
+///
+/// \param places as for evaluate().
+/// \throws Error as there.
 Ids active_rules(const Widths& minimum, const PointsRef& places);
 
 /// The widths at the nodes of a regular raster with nodes at the poles.

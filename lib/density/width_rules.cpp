@@ -342,6 +342,11 @@ Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile
   return Widths(rule_of_sides(lines, nullptr, profile));
 }
 
+Widths Widths::around(const std::vector<Points3>& lines, double width, double over) {
+  constexpr double edge = 1e-6; // km
+  return by_distance(lines, {{{0, width}, {over, width}, {over + edge, no_demand}}});
+}
+
 Widths Widths::minimum(const std::vector<Widths>& of) {
   return Widths(std::make_shared<MinimumRule>(rules_of(of)));
 }

@@ -2,6 +2,9 @@
 """Rules for cell widths: what their words say, and that the command makes the same grid of them."""
 import json
 import os
+import pathlib
+import re
+import runpy
 import subprocess
 
 import numpy as np
@@ -11,6 +14,7 @@ import calotte
 from calotte import widths
 
 COMMAND = os.environ.get("CALOTTE_COMMAND", "calotte")
+ROOT = pathlib.Path(__file__).parents[2]
 RADIUS = 6371.0
 ROUND = [np.arange(0, 360, 30), np.linspace(-75, 75, 12)]
 
@@ -56,6 +60,54 @@ min = [900, {latitude = [[0, 900], [90, 600]]},
     assert calotte.quality(grid.mesh, cell_width=rule).obtuse == 0
 
 
+def written(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    return tmp_path / name
+
+
+def test_rules_by_a_coast(tmp_path):
+    square = [[[-10, -10], [10, -10], [10, 10], [-10, 10], [-10, -10]]]
+    coast = written(tmp_path, "c.geojson", json.dumps({"type": "Polygon", "coordinates": square}))
+    sides = widths.distance_to(coast, profile=[(-20015, 20115), (0, 100), (20015, 20115)])
+    km = RADIUS * np.pi / 180
+    assert sides([15, 7], [0, 0]) == pytest.approx([100 + 4.924 * km, 100 + 2.955 * km], rel=1e-3)
+    sea = widths.distance_to(coast, near=10, far=60, over=600, side="sea")
+    assert sea(0, 0) > 1e8 and sea(10, 0) == pytest.approx(10, abs=1e-3) and sea(50, 0) == 60
+    land = widths.distance_to(coast, near=10, far=60, over=600, side="land")
+    assert land(0, 0) == 60 and land(50, 0) > 1e8
+    assert widths.by_channel(coast, 5, cells=4)(0, 0) > 1e8
+    band = widths.around([(-10, 0), (10, 0)], 5, 200)
+    assert band(0, 1) == 5 and band(0, 2) > 1e8
+
+
+def test_two_rules_blend():
+    lon, lat = ROUND
+    region = "circle=0,90,60deg"
+    assert (widths.blend(20, 10, region)(lon, lat) == widths.where(region, 10, 20)(lon, lat)).all()
+    t = widths.share(region, over=3335.8)  # 30 degrees
+    assert widths.blend(20, 10, t)(0, 15) == pytest.approx(15, abs=0.01)
+    t = widths.share(region, profile=[(-3335.8, 1), (0, 0)])
+    assert widths.blend(20, 10, t)(0, 45) == pytest.approx(15, abs=0.01)
+
+
+def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
+    page = (ROOT / "tools/manual/cell-widths.md").read_text()
+    for name in ("ocean.toml", "straits.geojson", "bathymetry.py", "ocean.py"):
+        text = re.search(rf"`{name}`:\n\n```\w+\n(.*?)^```$", page, re.M | re.S)[1]
+        written(tmp_path, name, text)
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path("bathymetry.py")
+    rule = runpy.run_path("ocean.py")["rule"]
+    subprocess.run([COMMAND, "plan", "--cell-width", "ocean.toml", "--raster", "w.nc", "--report", "plan.json"],
+                   check=True, capture_output=True)
+    raster = calotte._arguments.cell_width("w.nc")
+    same = rule.sampled(0.25)
+    assert np.array(raster.widths) == pytest.approx(np.array(same.widths), rel=1e-12)
+    rules = json.loads((tmp_path / "plan.json").read_text())["rules"]
+    assert [one["name"].split()[0] for one in rules] == ["latitude", "distance-to", "channels", "lines", "heights"]
+    assert all(one["area"] > 0 for one in rules[:4]) and np.sum([one["cells"] for one in rules]) == pytest.approx(1)
+
+
 @pytest.mark.parametrize("make, words", [
     (lambda: widths.by_latitude([1, 2]), "pairs"),
     (lambda: widths.by_latitude([(0, 10), (100, 20)]), "outside -90 to 90"),
@@ -63,6 +115,10 @@ min = [900, {latitude = [[0, 900], [90, 600]]},
     (lambda: widths.distance_to([(0, 0)], 1, 2, 3, profile=[(0, 1)]), "not both"),
     (lambda: widths.rule(-5), "-5 is not a positive number"),
     (lambda: widths.minimum(), "no widths"),
+    (lambda: widths.distance_to([(0, 0)], 1, 2, 3, side="sea"), "lines have no side"),
+    (lambda: widths.distance_to("a.nc", 1, 2, 3, side="left"), "neither sea nor land"),
+    (lambda: widths.share("circle=0,90,60deg", 5, profile=[(0, 1)]), "not both"),
+    (lambda: widths.share("circle=0,90,60deg", profile=[(0, 2)]), "share 2; give 0 to 1"),
     (lambda: widths.rule(5).limit_gradient(0), "gradient"),
 ])
 def test_what_is_no_rule(make, words):

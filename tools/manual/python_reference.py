@@ -24,7 +24,7 @@ GROUPS = [
                   "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
 ]
-WIDTHS = ["by_latitude", "distance_to", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
+WIDTHS = ["by_latitude", "distance_to", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
 KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Voronoi", "Locations", "Cvt", "Level", "Plan", "Quality",
          "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 

@@ -305,13 +305,10 @@ private:
     return word == "sea" ? CoastSide::sea : CoastSide::land;
   }
 
-  /// A band about lines; beyond it the rule says nothing.
   Widths lines(RuleTable& table) {
     const std::string path = file(table, "lines");
     const double width = table.number("width"), over = table.number("over");
-    constexpr double edge = 1e-6; // km
-    return Widths::by_distance(read_shapes(path),
-                               {{{0, width}, {over, width}, {over + edge, Widths::no_demand}}});
+    return Widths::around(read_shapes(path), width, over);
   }
 
   Widths channels(RuleTable& table) {

@@ -16,7 +16,7 @@ import numpy as np
 from . import _arguments, _calotte
 from ._calotte import Share, Widths
 
-__all__ = ["Widths", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule",
+__all__ = ["Share", "Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule",
            "share", "sum", "where"]
 
 
@@ -35,6 +35,15 @@ def _nodes(pairs, what):
     if nodes.ndim != 2 or nodes.shape[1] != 2:
         raise _calotte.Error(f"{what} have the shape {nodes.shape}; give pairs of a number and a width")
     return np.ascontiguousarray(nodes)
+
+
+def _is_file(lines):
+    return isinstance(lines, str) or hasattr(lines, "__fspath__")
+
+
+def _lines(lines):
+    many = len(lines) > 0 and np.ndim(lines[0]) == 2
+    return [_arguments.sphere_points(line) for line in (lines if many else [lines])]
 
 
 def by_latitude(nodes, *, smooth=False):
@@ -61,16 +70,24 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     if (profile is None) != all(value is not None for value in (near, far, over)):
         raise _calotte.Error("give near, far and over, or a profile, but not both")
     nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
-    is_file = isinstance(lines, str) or hasattr(lines, "__fspath__")
+    is_file = _is_file(lines)
     if side or nodes.min(axis=0, initial=0)[0] < 0:
         if not is_file:
             raise _calotte.Error("lines have no side of sea or land; give a file of polygons or a coast")
         return _calotte.widths_by_coast(str(lines), nodes, smooth, side or "both")
     if is_file:
         return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth)
-    many = len(lines) > 0 and np.ndim(lines[0]) == 2
-    return _calotte.widths_by_distance(
-        [_arguments.sphere_points(line) for line in (lines if many else [lines])], nodes, smooth)
+    return _calotte.widths_by_distance(_lines(lines), nodes, smooth)
+
+
+def around(lines, width, over):
+    """One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
+
+    lines: as for distance_to(). width, over: the distance, km.
+    """
+    if _is_file(lines):
+        return _calotte.widths_around_file(str(lines), width, over)
+    return _calotte.widths_around(_lines(lines), width, over)
 
 
 def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, variable=""):

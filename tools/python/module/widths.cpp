@@ -27,11 +27,17 @@ Widths by_latitude(const Doubles& nodes, bool smooth) {
 }
 
 /// \param lines n x 3 each.
-Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool smooth) {
+std::vector<Points3> points_of(const std::vector<Doubles>& lines) {
   std::vector<Points3> all;
   for (const Doubles& line : lines)
     all.emplace_back(columns(line));
-  return call([&, of = profile(nodes, smooth)] { return Widths::by_distance(all, of); });
+  return all;
+}
+
+Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool smooth) {
+  return call([all = points_of(lines), of = profile(nodes, smooth)] {
+    return Widths::by_distance(all, of);
+  });
 }
 
 Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool smooth) {
@@ -109,6 +115,12 @@ void add_widths(py::module_& module) {
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);
+  module.def("widths_around", [](const std::vector<Doubles>& lines, double width, double over) {
+    return call([&, all = points_of(lines)] { return Widths::around(all, width, over); });
+  });
+  module.def("widths_around_file", [](const std::string& path, double width, double over) {
+    return call([&] { return Widths::around(read_shapes(path), width, over); });
+  });
   module.def("widths_by_coast", &by_coast);
   module.def("widths_by_depth", &by_depth);
   module.def("widths_by_channel", &by_channel);
