@@ -173,9 +173,11 @@ std::vector<Points3> read_lines(const std::string& path);
 
 /// Reads what widths may depend on the distance from: of GeoJSON lines as read_lines() and the
 /// shores of polygons as read_coast(), which may stand in one file; the shores of a coast of GSHHG;
-/// or, from a .txt, points of longitude and latitude, each a line of its own.
+/// or, from a .txt, points of longitude and latitude, each a line of its own. In a plane positions
+/// are x and y, lines have z = 0, and polygons give their rings.
+/// \param surface the sphere or a plane. Default: the sphere.
 /// \throws Error as these functions.
-std::vector<Points3> read_shapes(const std::string& path);
+std::vector<Points3> read_shapes(const std::string& path, const Surface& surface = {});
 
 /// A variable of a NetCDF file with one number for each cell.
 struct CellField {

@@ -3,6 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
+#include <calotte/planar_raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -64,17 +65,16 @@ struct ChannelRule {
   double widest = 500; ///< km, > 0, of the channels that count. Default 500.
 };
 
-/// How far one rule holds rather than another: a share from 0 to 1 for every place of the sphere. A
+/// How far one rule holds rather than another: a share from 0 to 1 for every place. A
 /// value that is cheap to copy.
 class Share {
 public:
   /// 1 in a region and on its boundary, 0 outside.
-  /// \throws Error invalid_argument for a plane.
   Share(const Surface& region); // NOLINT(google-explicit-constructor): a region is a share
   /// By the distance from the boundary of a region: > 0 outside, < 0 inside.
-  /// \param profile shares of the distance in km, instead of widths.
-  /// \throws Error invalid_argument for a plane, and for the whole sphere; naming the node, a
-  ///         profile that is none, or a share that is not 0 to 1.
+  /// \param profile shares of the distance, instead of widths.
+  /// \throws Error invalid_argument for a surface without a boundary; naming the node, a profile
+  ///         that is none, or a share that is not 0 to 1.
   Share(const Surface& region, const WidthProfile& profile);
   /// The fractions of a raster, linear between its nodes in longitude and latitude. Such a raster
   /// need not be one of land.
@@ -88,8 +88,10 @@ private:
   std::shared_ptr<const density_detail::WidthRule> rule_;
 };
 
-/// Cell widths of the sphere as an expression: rules, each a width for every place, and what is
-/// made of them. Lengths are in km on a sphere of radius earth_radius_km, and widths are positive.
+/// Cell widths as an expression: rules, each a width for every place, and what is made of them.
+/// Lengths are in km on a sphere of radius earth_radius_km, in a plane in its unit, and widths are
+/// positive. Rules of the sphere and of a plane do not mix. Those of a plane are numbers, rasters,
+/// and by distance.
 /// A value that is cheap to copy; copies share what is prepared for queries, and any number of
 /// threads may ask them.
 ///
@@ -102,7 +104,8 @@ public:
   /// \throws Error invalid_argument unless it is > 0 and finite.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
   /// \throws Error invalid_argument as density_of().
-  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
+  Widths(const CellWidth& raster);       // NOLINT(google-explicit-constructor)
+  Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor): the same
   /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
 
@@ -110,21 +113,27 @@ public:
   /// \throws Error invalid_argument, naming the node, for a profile that is none.
   static Widths by_latitude(const WidthProfile& profile);
 
-  /// By the distance from the nearest of some lines, along great circles.
-  /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle; one point
-  ///        is a line, too. See read_shapes() and shores().
-  /// \param profile of the distance in km, from 0 on.
+  /// By the distance from the nearest of some lines, along great circles; in a plane straight, also
+  /// over land.
+  /// \param lines each 3 x points, directions, joined by arcs shorter than a half circle, in a
+  /// plane
+  ///        x y 0; one point is a line, too. See read_shapes() and shores().
+  /// \param profile of the distance, from 0 on.
+  /// \param surface the sphere or a plane, whose boundary and periods have no effect.
   /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
   ///         direction, no line; naming the node, a profile that is none.
-  static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile);
+  static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
+                            const Surface& surface = {});
 
   /// One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
   ///
   /// \param lines as for by_distance().
-  /// \param width km, > 0.
-  /// \param over the distance, km, > 0.
+  /// \param width > 0.
+  /// \param over the distance, > 0.
+  /// \param surface as for by_distance().
   /// \throws Error invalid_argument as by_distance().
-  static Widths around(const std::vector<Points3>& lines, double width, double over);
+  static Widths around(const std::vector<Points3>& lines, double width, double over,
+                       const Surface& surface = {});
 
   /// By the distance from the shores of a coast: > 0 in the sea, < 0 on land.
   /// \param profile of the distance in km. With a single side, of the distance on it, from 0 on; on
@@ -179,10 +188,13 @@ public:
 
   /// The largest widths below these that change by at most g km per km, over the poles and the date
   /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;
-  /// others at the nodes of a raster, see limit_gradient(const CellWidth&).
+  /// others at the nodes of a raster, see limit_gradient(const CellWidth&). In a plane these are
+  /// refused: limit their raster in its domain, see limit_gradient(const PlanarCellWidth&).
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;
+
+  bool is_of_plane() const; ///< whether some of its rules are
 
   /// What copies share.
   const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
@@ -191,8 +203,8 @@ private:
   std::shared_ptr<const density_detail::WidthRule> rule_;
 };
 
-/// The widths in km at n places.
-/// \param places 3 x n directions.
+/// The widths at n places.
+/// \param places 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
 /// \throws Error invalid_argument for another number of rows, and for a direction that is none.
 DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 
@@ -209,6 +221,14 @@ Ids active_rules(const Widths& minimum, const PointsRef& places);
 ///        of the least width, within 0.05 to 1 degree.
 /// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
 CellWidth sampled(const Widths& widths, double step = 0);
+
+/// The same of a plane, over the box around its boundary or over its periods.
+/// \param plane of finite area.
+/// \param step largest distance of rows and of columns, > 0, for at most 20 million nodes. Default
+///        0: half of the least width, or what gives 4 million nodes.
+/// \throws Error invalid_argument for the sphere, a plane that has no end, a step out of range, and
+///         widths of the sphere.
+PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step = 0);
 
 } // namespace calotte
 CALOTTE_API_END

@@ -13,20 +13,25 @@
 
 namespace calotte::density_detail {
 
-/// Distances on the unit sphere from the nearest of many arcs and points.
+/// Distances from the nearest of many segments and points: arcs of the unit sphere, or straight
+/// lines of a plane.
 class LineDistance {
 public:
   /// \param lines see Widths::by_distance(). \throws Error as there.
-  explicit LineDistance(const std::vector<Points3>& lines);
+  LineDistance(const std::vector<Points3>& lines, bool sphere);
 
-  /// Radians, at unit vectors. Where each lies next to the one before, it takes less time.
-  void operator()(std::span<const Vec3> places, std::span<double> angles) const;
+  bool on_sphere() const { return sphere_; }
+
+  /// Radians at unit vectors, in a plane its unit at x y 0. Where each place lies next to the one
+  /// before, it takes less time.
+  void operator()(std::span<const Vec3> places, std::span<double> distances) const;
 
 private:
   double square_from(std::int32_t item, const Vec3& p) const;
 
-  std::vector<Arc> arcs_; ///< of a point both ends are the same
-  ArcTree tree_;
+  bool sphere_;
+  std::vector<Arc> arcs_; ///< or straight lines; of a point both ends are the same
+  BoxTree tree_;
 };
 
 } // namespace calotte::density_detail

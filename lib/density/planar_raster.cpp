@@ -21,6 +21,8 @@ using base_detail::require;
 using base_detail::shortly;
 using density_detail::Axis;
 using density_detail::draw;
+using density_detail::field_of;
+using density_detail::PlanarField;
 using domain_detail::require_plane;
 
 const char* const widths_are = "cell widths by x and y are";
@@ -61,27 +63,8 @@ void require_raster(const PlanarRaster& raster) {
       "negative, infinite or NaN");
 }
 
-/// Values on a grid, which finds intervals in constant time.
-struct Field {
-  Axis x, y;
-  DoubleMatrix values;
-
-  double at(double px, double py) const {
-    const std::int64_t i = x.interval(px), j = y.interval(py);
-    const double u = x.fraction(i, px), v = y.fraction(j, py);
-    const double low = values(i, j) + u * (values(i + 1, j) - values(i, j)),
-                 high = values(i, j + 1) + u * (values(i + 1, j + 1) - values(i, j + 1));
-    return low + v * (high - low);
-  }
-};
-
 Axis axis_of(const DoubleVector& values) {
   return Axis(std::vector<double>(values.begin(), values.end()));
-}
-
-Field field_of(const PlanarCellWidth& given) {
-  density_detail::require_widths(given);
-  return {axis_of(given.x), axis_of(given.y), given.widths};
 }
 
 double widest_step(const DoubleVector& values) {
@@ -106,12 +89,17 @@ void density_detail::require_widths(const PlanarCellWidth& widths) {
       "not positive and finite");
 }
 
+density_detail::PlanarField density_detail::field_of(const PlanarCellWidth& widths) {
+  require_widths(widths);
+  return {axis_of(widths.x), axis_of(widths.y), widths.widths};
+}
+
 Density density_of(const PlanarRaster& raster) {
   require_raster(raster);
   Density density;
   density.kind = Density::Kind::callable;
-  density.callable = [field = std::make_shared<const Field>(
-                          Field{axis_of(raster.x), axis_of(raster.y), raster.density})](
+  density.callable = [field = std::make_shared<const PlanarField>(
+                          PlanarField{axis_of(raster.x), axis_of(raster.y), raster.density})](
                          const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       rho[i] = field->at(x(0, i), x(1, i));
@@ -122,7 +110,7 @@ Density density_of(const PlanarRaster& raster) {
 Density density_of(const PlanarCellWidth& cell_width) {
   Density density;
   density.kind = Density::Kind::callable;
-  density.callable = [field = std::make_shared<const Field>(field_of(cell_width)),
+  density.callable = [field = std::make_shared<const PlanarField>(field_of(cell_width)),
                       least = cell_width.widths.minCoeff()](const Eigen::Ref<const Points3>& x,
                                                             Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
@@ -136,7 +124,7 @@ Density density_of(const PlanarCellWidth& cell_width) {
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) {
   require_plane(surface, widths_are);
   constexpr std::int64_t samples = 1 << 18;
-  const Field field = field_of(cell_width);
+  const PlanarField field = field_of(cell_width);
   const Points3 places = draw(samples, Density{}, surface, 1);
   double sum = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {

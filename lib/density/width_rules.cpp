@@ -10,6 +10,7 @@
 #include "density/cell_width_field.h"
 #include "density/gradient_limit.h"
 #include "density/line_distance.h"
+#include "density/planar_raster.h"
 #include "density/width_profile.h"
 #include "domain/surface.h"
 
@@ -35,9 +36,9 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 class ConstantRule : public WidthRule {
 public:
-  explicit ConstantRule(double width) : width_(width) {
+  explicit ConstantRule(double width) : WidthRule(RuleSpace::any), width_(width) {
     require(width > 0 && std::isfinite(width),
-            "the cell width " + shortly(width) + " is not a positive number; give km");
+            "the cell width " + shortly(width) + " is not a positive number; give one");
   }
   void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
     std::fill(widths.begin(), widths.end(), width_);
@@ -66,6 +67,20 @@ public:
 
 private:
   WidthField field_;
+};
+
+class PlanarRasterRule : public WidthRule {
+public:
+  explicit PlanarRasterRule(const PlanarCellWidth& raster)
+      : WidthRule(RuleSpace::plane), field_(field_of(raster)) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    for (std::size_t k = 0; k < places.size(); ++k)
+      widths[k] = field_.at(places[k].x, places[k].y);
+  }
+  double least() const override { return field_.values.minCoeff(); }
+
+private:
+  PlanarField field_;
 };
 
 class LatitudeRule : public WidthRule {
@@ -99,12 +114,14 @@ public:
 
   /// \param is_behind of places where distances are negative; null for none.
   DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve)
-      : distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)) {
+      : WidthRule(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
+        distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)) {
   }
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     (*distance_)(places, widths);
+    const double unit = distance_->on_sphere() ? earth_radius_km : 1;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double distance = widths[k] * earth_radius_km;
+      const double distance = widths[k] * unit;
       widths[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
     }
   }
@@ -122,12 +139,24 @@ private:
   ProfileCurve curve_;
 };
 
+/// Where several rules hold together.
+RuleSpace common_space(const std::vector<Rule>& rules) {
+  RuleSpace space = RuleSpace::any;
+  for (const Rule& rule : rules) {
+    require(space == RuleSpace::any || rule->space() == RuleSpace::any || rule->space() == space,
+            "some widths are of the sphere and some of a plane; give those of one of them");
+    if (rule->space() != RuleSpace::any)
+      space = rule->space();
+  }
+  return space;
+}
+
 /// What is made of several rules, place by place.
 class CombinedRule : public WidthRule {
 public:
   using Combine = double (*)(double, double);
   CombinedRule(std::vector<Rule> parts, Combine combine)
-      : parts_(std::move(parts)), combine_(combine) {}
+      : WidthRule(common_space(parts)), parts_(std::move(parts)), combine_(combine) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     parts_.front()->evaluate(places, widths);
     std::vector<double> others(widths.size());
@@ -183,7 +212,9 @@ public:
 /// 2 within a region, 1 outside: a share and 1.
 class RegionRule : public WidthRule {
 public:
-  explicit RegionRule(Surface region) : region_(std::move(region)) {}
+  explicit RegionRule(Surface region)
+      : WidthRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
+        region_(std::move(region)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
       values[k] = region_.contains({places[k].x, places[k].y, places[k].z}) ? 2 : 1;
@@ -198,7 +229,8 @@ private:
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
   BlendRule(Rule a, Rule b, const Share& share)
-      : a_(std::move(a)), b_(std::move(b)), share_(share.rule()) {}
+      : WidthRule(common_space({a, b, share.rule()})), a_(std::move(a)), b_(std::move(b)),
+        share_(share.rule()) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     std::vector<double> others(widths.size()), shares(widths.size());
     a_->evaluate(places, widths);
@@ -222,11 +254,30 @@ double rounded(double share) { return share >= 0.5 ? 1 : 0; }
 std::vector<Points3> boundary_of(const Surface& region) {
   std::vector<Points3> lines;
   for (const DoubleMatrix& ring : region.rings()) {
-    Points3 line(3, ring.cols() + 1);
-    line << ring, ring.col(0);
+    Points3 line = Points3::Zero(3, ring.cols() + 1); // z of a plane
+    line.topRows(ring.rows()) << ring, ring.col(0);
     lines.push_back(std::move(line));
   }
   return lines;
+}
+
+/// What a raster of a plane covers.
+struct PlaneBox {
+  Eigen::Vector2d low, size;
+
+  double area() const { return size.prod(); }
+  /// Nodes from the low to the high end of x or y.
+  DoubleVector axis(int k, double step) const {
+    const auto intervals = std::max<Eigen::Index>(1, std::llround(std::ceil(size[k] / step)));
+    return DoubleVector::LinSpaced(intervals + 1, low[k], low[k] + size[k]);
+  }
+};
+
+PlaneBox box_of(const Surface& plane) {
+  if (!plane.is_bounded())
+    return {Eigen::Vector2d::Zero(), plane.period()};
+  const Box2& box = domain_detail::outline_of<Plane>(plane)->box();
+  return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
 }
 
 std::vector<Rule> rules_of(const std::vector<Widths>& widths) {
@@ -241,18 +292,23 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
   return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
 }
 
-/// body(block, begin) for blocks of unit vectors.
-template <class Body> void for_each_block_of(const PointsRef& places, const Body& body) {
-  const base_detail::Points3Ref x = base_detail::directions_of(places);
+/// body(block, begin) for blocks of places of a rule's space: unit vectors, or x y 0.
+template <class Body>
+void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& body) {
+  const bool plane = space == RuleSpace::plane;
+  const Points3 x = plane ? Points3(base_detail::with_z(base_detail::plane_points_of(places)))
+                          : Points3(base_detail::directions_of(places));
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::vector<Vec3> block;
     for (std::int64_t i = begin; i != end; ++i)
-      block.push_back(domain_detail::as_unit({x(0, i), x(1, i), x(2, i)}));
+      block.push_back(plane ? base_detail::column(x, i)
+                            : domain_detail::as_unit(base_detail::column(x, i)));
     body(block, begin);
   });
 }
 
 constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
+constexpr double farthest_in_plane = 1e30;
 
 } // namespace
 
@@ -264,16 +320,20 @@ std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullp
 
 std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
                                                std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile) {
-  ProfileCurve curve(profile, "a distance", is_behind ? -half_round : 0, half_round);
-  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines), std::move(is_behind),
-                                        std::move(curve));
+                                               const WidthProfile& profile, bool sphere) {
+  const double farthest = sphere ? half_round : farthest_in_plane;
+  ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
+  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines, sphere),
+                                        std::move(is_behind), std::move(curve));
 }
 
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient) {
   if (Rule exact = rule->limited(gradient))
     return exact;
+  require(
+      rule->space() != RuleSpace::plane,
+      "the gradient of such widths of a plane depends on the domain; limit that of their raster");
   return std::make_shared<RasterRule>(limit_gradient(sample(*rule, step_for(*rule)), gradient));
 }
 
@@ -283,6 +343,8 @@ double step_for(const WidthRule& rule) {
 }
 
 CellWidth sample(const WidthRule& rule, double step) {
+  require(rule.space() != RuleSpace::plane,
+          "the widths are those of a plane; give the domain that they are for");
   CellWidth raster = regular_grid(step);
   const Eigen::Index columns = raster.longitudes.size();
   std::vector<double> zeros(static_cast<std::size_t>(columns), 0);
@@ -304,7 +366,10 @@ using namespace density_detail;
 
 Widths::Widths(double width) : rule_(std::make_shared<ConstantRule>(width)) {}
 Widths::Widths(const CellWidth& raster) : rule_(std::make_shared<RasterRule>(raster)) {}
+Widths::Widths(const PlanarCellWidth& raster) : rule_(std::make_shared<PlanarRasterRule>(raster)) {}
 Widths::Widths(std::shared_ptr<const WidthRule> rule) : rule_(std::move(rule)) {}
+
+bool Widths::is_of_plane() const { return rule_->space() == RuleSpace::plane; }
 
 Widths Widths::limit_gradient(double gradient) const {
   require_gradient(gradient);
@@ -313,7 +378,8 @@ Widths Widths::limit_gradient(double gradient) const {
 
 DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
   DoubleVector values(places.cols());
-  for_each_block_of(places, [&](const std::vector<Vec3>& block, std::int64_t begin) {
+  const RuleSpace space = widths.rule()->space();
+  for_each_block_of(places, space, [&](const std::vector<Vec3>& block, std::int64_t begin) {
     widths.rule()->evaluate(block, {values.data() + begin, block.size()});
   });
   return values;
@@ -321,7 +387,8 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
 
 Ids active_rules(const Widths& minimum, const PointsRef& places) {
   Ids active(places.cols());
-  for_each_block_of(places, [&](const std::vector<Vec3>& block, std::int64_t begin) {
+  const RuleSpace space = minimum.rule()->space();
+  for_each_block_of(places, space, [&](const std::vector<Vec3>& block, std::int64_t begin) {
     minimum.rule()->find_active(block, {active.data() + begin, block.size()});
   });
   return active;
@@ -333,18 +400,45 @@ CellWidth sampled(const Widths& widths, double step) {
   return sample(*widths.rule(), step == 0 ? step_for(*widths.rule()) : step);
 }
 
+PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
+  domain_detail::require_plane(plane, "a raster of x and y is");
+  domain_detail::require_finite_plane(plane);
+  const WidthRule& rule = *widths.rule();
+  require(rule.space() != RuleSpace::sphere,
+          "the widths are those of the sphere; give rules of a plane");
+  const PlaneBox box = box_of(plane);
+  constexpr double most_nodes = 2e7;
+  require(step == 0 || (step > 0 && box.area() / (step * step) <= most_nodes),
+          "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
+              shortly(most_nodes) + " nodes; give another one");
+  constexpr double usual_nodes = 4e6;
+  const double chosen =
+      step > 0 ? step : std::max(rule.least() / 2, std::sqrt(box.area() / usual_nodes));
+  PlanarCellWidth raster{box.axis(0, chosen), box.axis(1, chosen), {}};
+  raster.widths.resize(raster.x.size(), raster.y.size());
+  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
+    std::vector<Vec3> row;
+    for (const double x : raster.x)
+      row.push_back({x, raster.y[j], 0});
+    rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
+  });
+  return raster;
+}
+
 Widths Widths::by_latitude(const WidthProfile& profile) {
   return Widths(
       std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter)));
 }
 
-Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile) {
-  return Widths(rule_of_sides(lines, nullptr, profile));
+Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
+                           const Surface& surface) {
+  return Widths(rule_of_sides(lines, nullptr, profile, surface.is_sphere()));
 }
 
-Widths Widths::around(const std::vector<Points3>& lines, double width, double over) {
-  constexpr double edge = 1e-6; // km
-  return by_distance(lines, {{{0, width}, {over, width}, {over + edge, no_demand}}});
+Widths Widths::around(const std::vector<Points3>& lines, double width, double over,
+                      const Surface& surface) {
+  const double edge = 1e-9 * over;
+  return by_distance(lines, {{{0, width}, {over, width}, {over + edge, no_demand}}}, surface);
 }
 
 Widths Widths::minimum(const std::vector<Widths>& of) {
@@ -365,15 +459,11 @@ Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
   return Widths(std::make_shared<BlendRule<all_of>>(a.rule(), b.rule(), t));
 }
 
-Share::Share(const Surface& region) {
-  domain_detail::require_sphere(region, "widths within a region are");
-  rule_ = std::make_shared<RegionRule>(region);
-}
+Share::Share(const Surface& region) : rule_(std::make_shared<RegionRule>(region)) {}
 
 Share::Share(const Surface& region, const WidthProfile& profile) {
-  domain_detail::require_sphere(region, "widths within a region are");
-  require(region.is_bounded(),
-          "the whole sphere has no boundary to be distant from; give a region");
+  require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "
+                               "region");
   WidthProfile more = profile;
   for (std::size_t k = 0; k < more.nodes.size(); ++k) {
     double& share = more.nodes[k][1];
@@ -387,7 +477,7 @@ Share::Share(const Surface& region, const WidthProfile& profile) {
       [region](const Vec3& place) {
         return region.contains({place.x, place.y, place.z});
       },
-      more);
+      more, region.is_sphere());
 }
 
 } // namespace calotte

@@ -14,15 +14,21 @@
 
 namespace calotte::density_detail {
 
-/// A width for every place of the sphere. Immutable.
+/// Where a rule gives widths: a number does everywhere.
+enum class RuleSpace { any, sphere, plane };
+
+/// A width for every place. Immutable.
 class WidthRule {
 public:
-  WidthRule() = default;
+  explicit WidthRule(RuleSpace space = RuleSpace::sphere) : space_(space) {}
   WidthRule(const WidthRule&) = delete;
   WidthRule& operator=(const WidthRule&) = delete;
   virtual ~WidthRule() = default;
 
-  /// \param places unit vectors. Where each lies next to the one before, it takes less time.
+  RuleSpace space() const { return space_; }
+
+  /// \param places unit vectors, in a plane x y 0. Where each lies next to the one before, it takes
+  /// less time.
   virtual void evaluate(std::span<const Vec3> places, std::span<double> widths) const = 0;
 
   /// By place the part of a minimum that is the least, by index; 0 of other rules.
@@ -33,14 +39,18 @@ public:
 
   /// The rule with a limited gradient if no raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient) const;
+
+private:
+  RuleSpace space_;
 };
 
 /// A rule by the distance from lines, which is negative at places where `is_behind` is true.
-/// \param lines closed boundaries of these places. \param profile of the distance in km.
+/// \param lines closed boundaries of these places. \param profile of the distance, on the sphere in
+///        km.
 /// \throws Error invalid_argument as Widths::by_distance().
 std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
                                                std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile);
+                                               const WidthProfile& profile, bool sphere = true);
 
 /// Any rule with a limited gradient.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,

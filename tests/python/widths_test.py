@@ -124,3 +124,19 @@ def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
 def test_what_is_no_rule(make, words):
     with pytest.raises(calotte.Error, match=words):
         make()
+
+
+def test_rules_of_a_plane():
+    lake = calotte.rectangle((0, 0), (4, 3))
+    shore = widths.distance_to([[(0, 0), (4, 0)], [(0, 3), (4, 3)]], 0.1, 0.4, 1, surface=lake)
+    rule = widths.minimum(shore, widths.around([[(2, 1.5)]], 0.12, 0.3, surface=lake))
+    assert rule.of_plane and not widths.rule(60).of_plane
+    x, y = np.meshgrid(np.linspace(0, 4, 41), np.linspace(0, 3, 31))
+    exact = np.minimum(0.1 + 0.3 * np.minimum(y, 3 - y), 0.4)
+    exact[np.hypot(x - 2, y - 1.5) <= 0.3] = 0.12
+    assert np.abs(rule(x, y) - exact).max() < 1e-12
+    grid = calotte.cvt(cell_width=shore, surface=lake)
+    near = grid.mesh.points[:, 1] < 0.5
+    assert near.sum() > 0.25 * len(near)
+    with pytest.raises(calotte.Error, match="some widths are of the sphere"):
+        widths.minimum(shore, widths.by_latitude([(0, 60)]))

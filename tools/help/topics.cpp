@@ -98,6 +98,10 @@ Any rule takes also, in this order:
 A FILE of lines is GeoJSON of lines or of polygons, a coast of GSHHG (.nc), or points (.txt):
 longitude and latitude a line. Names are relative to the folder of the TOML file. Distances are along
 great circles.
+
+In a plane lengths are in its unit, files are of x and y, and distances straight. The rules width,
+distance-to, lines, raster, min, max, sum and blend apply; a region is a file of --domain, and step
+is a length. The gradient of all rules is limited in the domain, round its islands.
 )";
 
 constexpr const char* region =

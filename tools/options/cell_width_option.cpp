@@ -85,6 +85,17 @@ CellWidth sampled_rules(const WidthRules& rules, const std::string& path) {
   return widths;
 }
 
+/// The same of a plane, with the limit of their gradient in it.
+PlanarCellWidth sampled_rules_of_plane(const std::string& path, const Surface& plane) {
+  const WidthRules rules = read_width_rules(path, plane);
+  PlanarCellWidth widths = sampled(rules.widths, plane, rules.step);
+  Eigen::Index i = 0, j = 0;
+  if (widths.widths.maxCoeff(&i, &j) >= 0.5 * Widths::no_demand)
+    refuse(path + ": no rule gives a width at x " + shortest(widths.x[i]) + ", y " +
+           shortest(widths.y[j]) + "; add one that holds everywhere, such as { width = 60 }");
+  return rules.gradient ? limit_gradient(widths, *rules.gradient, plane) : widths;
+}
+
 /// The widths without a limit of their gradient.
 ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
@@ -132,7 +143,7 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
               "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
               "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), polygons "
               "(.geojson), or rules (.toml), see calotte help widths. In the plane a number in its "
-              "unit, NetCDF cellWidth(y, x), or JIGSAW's spacings")
+              "unit, NetCDF cellWidth(y, x), JIGSAW's spacings, or rules")
           ->check(width_or_file())
           ->type_name("KM|FILE")
           ->excludes(density);
@@ -197,10 +208,11 @@ PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane
   if (words.uniform)
     return uniform_planar_widths(*words.uniform);
   if (const auto suffix = std::filesystem::path(words.file).extension();
-      suffix != ".nc" && suffix != ".msh")
-    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc) "
-                        "or JIGSAW's spacings (.msh)");
-  PlanarCellWidth widths = read_planar_cell_width(words.file);
+      suffix != ".nc" && suffix != ".msh" && suffix != ".toml")
+    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) "
+                        "(.nc), JIGSAW's spacings (.msh), or rules (.toml)");
+  PlanarCellWidth widths = is_toml(words.file) ? sampled_rules_of_plane(words.file, plane)
+                                               : read_planar_cell_width(words.file);
   return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }
 

@@ -124,7 +124,7 @@ private:
 
 class RuleReader {
 public:
-  explicit RuleReader(const std::string& path) : path_(path) {}
+  RuleReader(const std::string& path, const Surface& surface) : path_(path), surface_(surface) {}
 
   WidthRules rules() {
     const toml::table root = read_toml(path_);
@@ -133,38 +133,49 @@ public:
       throw Error(ErrorCode::parse,
                   path_ +
                       ": a file of widths has one table, [cell-width]; see calotte help widths");
-    double step = 0;
-    Widths widths = rule_of(*table, &step);
-    return {std::move(widths), step, names_of(*table)};
+    WidthRules rules{.widths = Widths::no_demand};
+    rules.widths = rule_of(*table, &rules);
+    rules.names = names_of(*table);
+    return rules;
   }
 
 private:
   using Source = Widths (RuleReader::*)(RuleTable&);
 
+  struct Key {
+    std::string name;
+    Source source;
+    bool in_plane; ///< as well as on the sphere
+  };
+
   /// A rule has one of these keys, which says what it is; the first that is there.
-  static const std::vector<std::pair<std::string, Source>>& sources() {
-    static const std::vector<std::pair<std::string, Source>> all{
-        {"min", nullptr}, // see rule_of()
-        {"max", &RuleReader::greatest},
-        {"sum", &RuleReader::sum},
-        {"blend", &RuleReader::blend},
-        {"latitude", &RuleReader::latitude},
-        {"distance-to", &RuleReader::distance},
-        {"lines", &RuleReader::lines},
-        {"channels", &RuleReader::channels},
-        {"heights", &RuleReader::heights},
-        {"raster", &RuleReader::raster},
-        {"polygons", &RuleReader::polygons},
-        {"width", &RuleReader::constant}};
+  static const std::vector<Key>& sources() {
+    static const std::vector<Key> all{{"min", nullptr, true}, // see rule_of()
+                                      {"max", &RuleReader::greatest, true},
+                                      {"sum", &RuleReader::sum, true},
+                                      {"blend", &RuleReader::blend, true},
+                                      {"latitude", &RuleReader::latitude, false},
+                                      {"distance-to", &RuleReader::distance, true},
+                                      {"lines", &RuleReader::lines, true},
+                                      {"channels", &RuleReader::channels, false},
+                                      {"heights", &RuleReader::heights, false},
+                                      {"raster", &RuleReader::raster, true},
+                                      {"polygons", &RuleReader::polygons, false},
+                                      {"width", &RuleReader::constant, true}};
     return all;
   }
 
-  /// \param step takes the key of that name; null where a rule has none.
-  Widths rule_of(const toml::table& given, double* step = nullptr) {
+  /// \param all takes the keys of the whole; null for a rule in it.
+  Widths rule_of(const toml::table& given, WidthRules* all = nullptr) {
     RuleTable table(path_, given);
-    if (step != nullptr && table.take("step") != nullptr)
-      *step = table.number("step");
-    const auto& [key, source] = source_of(given);
+    if (all != nullptr && table.take("step") != nullptr)
+      all->step = table.number("step");
+    if (all != nullptr && !surface_.is_sphere() && table.take("gradient") != nullptr)
+      all->gradient = table.number("gradient");
+    const auto& [key, source, in_plane] = source_of(given);
+    if (!in_plane && !surface_.is_sphere())
+      table.refuse(key, "applies to the sphere only; in a plane give distance-to, lines, raster or "
+                        "width");
     // What changes a minimum changes its rules, so that active_rules() tells them apart.
     const bool least = key == "min";
     std::vector<Widths> rules =
@@ -175,19 +186,19 @@ private:
     return Widths::minimum(rules);
   }
 
-  const std::pair<std::string, Source>& source_of(const toml::table& rule) const {
+  const Key& source_of(const toml::table& rule) const {
     std::vector<std::string> keys;
     for (const auto& known : sources()) {
-      if (rule.contains(known.first))
+      if (rule.contains(known.name))
         return known;
-      keys.push_back(known.first);
+      keys.push_back(known.name);
     }
     refuse_line(path_, rule.source().begin.line, "a rule has one of the keys " + joined(keys));
   }
 
   /// Of the rules of a minimum, or of the one rule: "distance-to coast.geojson".
   std::vector<std::string> names_of(const toml::table& rule) const {
-    const std::string key = source_of(rule).first;
+    const std::string key = source_of(rule).name;
     if (key != "min") {
       const std::optional<std::string> file = rule[key].value_exact<std::string>();
       const std::optional<double> number = rule[key].value<double>();
@@ -259,11 +270,16 @@ private:
     return Widths::blend(both[0], both[1], share(table));
   }
 
-  /// Of a region, or of a raster.
-  static Share share_in(const std::string& path) {
-    if (std::filesystem::path(path).extension() == ".nc")
+  /// A part of the sphere or of the plane.
+  Surface part_in(const std::string& path) const {
+    return surface_.is_sphere() ? read_region(path) : read_domain(path);
+  }
+
+  /// Of such a part, or of a raster.
+  Share share_in(const std::string& path) const {
+    if (surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc")
       return read_land_raster(path, {}, RasterValues::land_fraction);
-    return read_region(path);
+    return part_in(path);
   }
 
   Share share(RuleTable& table) {
@@ -272,10 +288,10 @@ private:
       return read_land_raster(path, table.text("variable", "its name"),
                               RasterValues::land_fraction);
     if (table.has("profile"))
-      return Share(read_region(path), table.pairs("profile"));
+      return Share(part_in(path), table.pairs("profile"));
     if (table.take("over") != nullptr) {
       const double over = table.number("over");
-      return Share(read_region(path), {{{0, 1}, {over, 0}}, table.between()});
+      return Share(part_in(path), {{{0, 1}, {over, 0}}, table.between()});
     }
     return share_in(path);
   }
@@ -286,10 +302,11 @@ private:
   Widths distance(RuleTable& table) {
     const std::string path = file(table, "distance-to");
     const WidthProfile profile = table.has("profile") ? table.pairs("profile") : growing(table);
-    if (table.has("side"))
+    if (surface_.is_sphere() && table.has("side"))
       return Widths::by_coast(read_coast(path), profile, side(table));
-    return profile.nodes.front()[0] < 0 ? Widths::by_coast(read_coast(path), profile)
-                                        : Widths::by_distance(read_shapes(path), profile);
+    return surface_.is_sphere() && profile.nodes.front()[0] < 0
+               ? Widths::by_coast(read_coast(path), profile)
+               : Widths::by_distance(read_shapes(path, surface_), profile, surface_);
   }
 
   static WidthProfile growing(RuleTable& table) {
@@ -308,7 +325,7 @@ private:
   Widths lines(RuleTable& table) {
     const std::string path = file(table, "lines");
     const double width = table.number("width"), over = table.number("over");
-    return Widths::around(read_shapes(path), width, over);
+    return Widths::around(read_shapes(path, surface_), width, over, surface_);
   }
 
   Widths channels(RuleTable& table) {
@@ -349,7 +366,12 @@ private:
     return measure->value * unit->second;
   }
 
-  Widths raster(RuleTable& table) { return read_cell_width(file(table, "raster")); }
+  Widths raster(RuleTable& table) {
+    const std::string path = file(table, "raster");
+    if (surface_.is_sphere())
+      return read_cell_width(path);
+    return read_planar_cell_width(path);
+  }
 
   Widths polygons(RuleTable& table) {
     const std::string path = file(table, "polygons");
@@ -363,11 +385,14 @@ private:
   }
 
   const std::string& path_;
+  const Surface& surface_;
 };
 
 } // namespace
 
-WidthRules read_width_rules(const std::string& path) { return RuleReader(path).rules(); }
+WidthRules read_width_rules(const std::string& path, const Surface& surface) {
+  return RuleReader(path, surface).rules();
+}
 
 namespace {
 

@@ -12,14 +12,17 @@ namespace calotte::tools {
 
 struct WidthRules {
   Widths widths;
-  double step = 0;                ///< of their raster, as sampled() has it
-  std::vector<std::string> names; ///< of the rules that active_rules() numbers
+  double step = 0; ///< of their raster, as sampled() has it
+  /// Of a plane: the limit of all of it, which is that of the raster in its domain.
+  std::optional<double> gradient = {};
+  std::vector<std::string> names = {}; ///< of the rules that active_rules() numbers
 };
 
 /// Reads the table [cell-width] of a TOML file; see calotte help widths. Names of files are
-/// relative to its folder. \throws Error parse, naming the line and the key; as the readers of the
-/// files.
-WidthRules read_width_rules(const std::string& path);
+/// relative to its folder.
+/// \param surface the sphere or a plane, which the rules are of.
+/// \throws Error parse, naming the line and the key; as the readers of the files.
+WidthRules read_width_rules(const std::string& path, const Surface& surface = {});
 
 /// Where a rule gives the width.
 struct RuleShare {

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 namespace {
 
 /// \param where names the file and the feature.
-Points3 line_of(const Json& positions, const std::string& where) {
+Points3 line_of(const Json& positions, const std::string& where, bool plane) {
   const auto fail = [&](const std::string& problem) {
     throw Error(ErrorCode::parse, where + problem);
   };
@@ -28,10 +28,11 @@ Points3 line_of(const Json& positions, const std::string& where) {
     fail("a line without places; leave it out");
   Points3 places(3, std::ssize(positions));
   for (std::size_t k = 0; k < positions.size(); ++k) {
-    if (!is_position(positions[k]) || !are_degrees(position_of(positions[k])))
-      fail(positions[k].dump() + " is no position [longitude, latitude]; give degrees");
-    const auto [longitude, latitude] = position_of(positions[k]);
-    const Vec3 place = from_lonlat(longitude, latitude);
+    if (!is_position(positions[k]) || !(plane || are_degrees(position_of(positions[k]))))
+      fail(positions[k].dump() + (plane ? " is no position [x, y]; give two numbers"
+                                        : " is no position [longitude, latitude]; give degrees"));
+    const auto [x, y] = position_of(positions[k]);
+    const Vec3 place = plane ? Vec3{x, y, 0} : from_lonlat(x, y);
     places.col(static_cast<Eigen::Index>(k)) << place.x, place.y, place.z;
   }
   return places;
@@ -40,13 +41,13 @@ Points3 line_of(const Json& positions, const std::string& where) {
 } // namespace
 
 void add_lines(const GeoFeature& feature, const std::string& type, const Json& coordinates,
-               const std::string& name, std::vector<Points3>& lines) {
+               const std::string& name, std::vector<Points3>& lines, bool plane) {
   const std::string where = name + ": " + feature.where;
   if (type == "LineString")
-    lines.push_back(line_of(coordinates, where));
+    lines.push_back(line_of(coordinates, where, plane));
   else if (type == "MultiLineString")
     for (const Json& part : coordinates)
-      lines.push_back(line_of(part, where));
+      lines.push_back(line_of(part, where, plane));
   else
     throw Error(ErrorCode::parse, where + "an object of the type \"" + type +
                                       "\" is no line; give LineString or MultiLineString");

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// Lines of GeoJSON on the sphere.
+/// Lines of GeoJSON.
 namespace calotte::io_detail {
 
-/// Adds the lines of one geometry of a feature, unit columns.
+/// Adds the lines of one geometry of a feature, unit columns; in a plane x y 0.
 /// \throws Error parse, naming the feature; for a type other than LineString and MultiLineString.
 void add_lines(const GeoFeature& feature, const std::string& type,
                const nlohmann::json& coordinates, const std::string& name,
-               std::vector<Points3>& lines);
+               std::vector<Points3>& lines, bool plane = false);
 
 } // namespace calotte::io_detail

@@ -192,6 +192,36 @@ TEST_CASE("heights of a file give the widths of waves") {
         " line 1: the rule needs least; give a number");
 }
 
+TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the domain") {
+  const Rules rules;
+  const Surface plane = rectangle({0, 0}, {200, 100});
+  test::write_text(rules.beside("pier.geojson"),
+                   R"({"type": "LineString", "coordinates": [[100, 500], [100, 20]]})");
+  test::write_text(rules.beside("bay.txt"), "0 0\n50 0\n50 50\n0 50\n");
+  test::write_text(rules.path(), "[cell-width]\ngradient = 0.2\nstep = 5\nmin = [\n"
+                                 "{distance-to = \"pier.geojson\", near = 1, far = 9, over = 80},\n"
+                                 "{width = 2, within = \"bay.txt\"}]");
+  const WidthRules read = read_width_rules(rules.path(), plane);
+  CHECK(read.gradient == 0.2);
+  CHECK(read.step == 5);
+  const DoubleVector widths = evaluate(read.widths, Points2{{100, 140, 25}, {50, 50, 25}});
+  CHECK(widths[0] == doctest::Approx(1));
+  CHECK(widths[1] == doctest::Approx(5));
+  CHECK(widths[2] == doctest::Approx(2));
+  const auto refused = [&](const std::string& text) {
+    test::write_text(rules.path(), text);
+    const std::string message =
+        test::error_of([&] { read_width_rules(rules.path(), plane); }).what();
+    return message.substr(rules.path().size());
+  };
+  CHECK(refused("[cell-width]\n\nlatitude = [[0, 60]]") ==
+        " line 3: latitude applies to the sphere only; in a plane give distance-to, lines, raster "
+        "or width");
+  CHECK(refused("[cell-width]\ndistance-to = \"pier.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
+                "side = \"sea\"")
+            .starts_with(" line 6: the rule does not take side"));
+}
+
 TEST_CASE("files of rules that are none are refused with their line") {
   const Rules rules;
   CHECK(rules.refused("width = 60") ==

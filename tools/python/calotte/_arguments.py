@@ -135,13 +135,15 @@ def cell_width(widths, earth_radius=EARTH_RADIUS_KM, surface=None):
 
 def widths(given, plane, earth_radius=EARTH_RADIUS_KM, surface=None):
     """Widths of the sphere in km, or those of a plane in its unit."""
-    return planar_cell_width(given) if plane else cell_width(given, earth_radius, surface)
+    return planar_cell_width(given, surface) if plane else cell_width(given, earth_radius, surface)
 
 
-def planar_cell_width(widths):
-    """Widths of a number, a raster or a file in the unit of the plane, as PlanarCellWidth."""
+def planar_cell_width(widths, surface=None):
+    """Widths of a number, a raster, a file or a rule in the unit of the plane, as PlanarCellWidth."""
     if isinstance(widths, _calotte.PlanarCellWidth):
         return widths
+    if isinstance(widths, _calotte.Widths):
+        return widths.sampled_in(surface)
     if isinstance(widths, str) and (parts := measure(widths)):
         if parts[1]:
             raise Error(f"the cell width is {widths!r}; the plane has the unit of its coordinates, "

@@ -2,7 +2,8 @@
 """Rules for cell widths: a width in km for every place of the Earth.
 
 Rules, numbers of km, rasters and functions of longitude and latitude go in wherever a rule does, and
-a rule goes in wherever cell widths do. Distances are along great circles, and km.
+a rule goes in wherever cell widths do. Distances are along great circles, and km. With a plane as its
+surface, a rule has the plane's unit, and places are x and y.
 
 >>> from calotte import widths
 >>> coast = widths.distance_to([(-10, 0), (10, 0)], near=10, far=60, over=600)
@@ -24,6 +25,8 @@ def rule(widths):
     """A number of km, a raster, a file or a function of longitude and latitude, as a rule."""
     if isinstance(widths, Widths):
         return widths
+    if isinstance(widths, _calotte.PlanarCellWidth):
+        return Widths(widths)
     value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
     if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
         return Widths(float(value))
@@ -41,9 +44,9 @@ def _is_file(lines):
     return isinstance(lines, str) or hasattr(lines, "__fspath__")
 
 
-def _lines(lines):
+def _lines(lines, surface):
     many = len(lines) > 0 and np.ndim(lines[0]) == 2
-    return [_arguments.sphere_points(line) for line in (lines if many else [lines])]
+    return [_arguments.points_of(surface, line) for line in (lines if many else [lines])]
 
 
 def by_latitude(nodes, *, smooth=False):
@@ -55,7 +58,8 @@ def by_latitude(nodes, *, smooth=False):
     return _calotte.widths_by_latitude(_nodes(nodes, "latitudes and widths"), smooth)
 
 
-def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None):
+def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None,
+                surface=None):
     """Widths by the distance from the nearest of some lines.
 
     lines: a file of lines, polygons or a coast, GeoJSON or GSHHG's .nc, or of points, .txt; one line
@@ -64,7 +68,10 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     profile: pairs of a distance and a width; with a file of polygons or a coast, negative distances
         are on land. smooth: as for by_latitude().
     side: "sea" or "land" of such a file, for a rule that says nothing on the other side.
+    surface: a plane, whose lines are n x 2, or a file of x and y, .geojson or .txt; distances are
+        straight. Default: the sphere.
     """
+    surface = _arguments.surface(surface)
     if side not in (None, "sea", "land"):
         raise _calotte.Error(f"the side {side!r} of a coast is neither sea nor land; give one of these")
     if (profile is None) != all(value is not None for value in (near, far, over)):
@@ -72,22 +79,23 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     nodes = _nodes([(0, near), (over, far)] if profile is None else profile, "distances and widths")
     is_file = _is_file(lines)
     if side or nodes.min(axis=0, initial=0)[0] < 0:
-        if not is_file:
+        if not (is_file and surface.is_sphere):
             raise _calotte.Error("lines have no side of sea or land; give a file of polygons or a coast")
         return _calotte.widths_by_coast(str(lines), nodes, smooth, side or "both")
     if is_file:
-        return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth)
-    return _calotte.widths_by_distance(_lines(lines), nodes, smooth)
+        return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth, surface)
+    return _calotte.widths_by_distance(_lines(lines, surface), nodes, smooth, surface)
 
 
-def around(lines, width, over):
+def around(lines, width, over, *, surface=None):
     """One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
 
-    lines: as for distance_to(). width, over: the distance, km.
+    lines, surface: as for distance_to(). width, over: the distance, km.
     """
+    surface = _arguments.surface(surface)
     if _is_file(lines):
-        return _calotte.widths_around_file(str(lines), width, over)
-    return _calotte.widths_around(_lines(lines), width, over)
+        return _calotte.widths_around_file(str(lines), width, over, surface)
+    return _calotte.widths_around(_lines(lines, surface), width, over, surface)
 
 
 def by_depth(path, least, *, cells=None, period=None, rossby=None, slope=None, variable=""):
@@ -162,10 +170,10 @@ def blend(a, b, t):
 
 
 def _at(self, longitudes, latitudes):
-    """The widths in km at longitudes and latitudes in degrees, which are broadcast."""
+    """The widths in km at longitudes and latitudes in degrees, of a plane at x and y; broadcast."""
     lon, lat = np.broadcast_arrays(np.asarray(longitudes, float), np.asarray(latitudes, float))
     places = np.stack([lon.ravel(), lat.ravel()], axis=1)
-    return self.at(_calotte.from_lonlat(places)).reshape(lon.shape)[()]
+    return self.at(places if self.of_plane else _calotte.from_lonlat(places)).reshape(lon.shape)[()]
 
 
 def _to_xarray(self, step=0):

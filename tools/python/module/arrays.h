@@ -23,6 +23,16 @@ inline Eigen::Map<const Eigen::MatrixXd> columns(const Doubles& points) {
   return {points.data(), points.shape(1), points.shape(0)};
 }
 
+/// The same of several arrays; z is 0 where they have two columns.
+inline std::vector<Points3> lines_of(const std::vector<Doubles>& lines) {
+  std::vector<Points3> all;
+  for (const Doubles& line : lines) {
+    const auto given = columns(line);
+    all.emplace_back(Points3::Zero(3, given.cols())).topRows(given.rows()) = given;
+  }
+  return all;
+}
+
 /// An array over the memory of a matrix, which `owner` keeps alive: columns become rows, n x k, and
 /// a vector n numbers.
 template <class Matrix> py::array array_over(const Matrix& matrix, py::handle owner) {

@@ -126,14 +126,7 @@ void add_recipe(py::module_& module) {
       type, "fixed", [](auto& recipe) -> auto& { return recipe.fixed; });
   type.def_property(
       "lines", [](const Recipe& recipe) { return std::ssize(recipe.lines); },
-      [](Recipe& recipe, const std::vector<Doubles>& lines) {
-        recipe.lines.clear();
-        for (const Doubles& line : lines) {
-          const auto given = columns(line);
-          Points3& all = recipe.lines.emplace_back(Points3::Zero(3, given.cols()));
-          all.topRows(given.rows()) = given;
-        }
-      });
+      [](Recipe& recipe, const std::vector<Doubles>& lines) { recipe.lines = lines_of(lines); });
   type.def("take_lines", [](Recipe& recipe, const std::string& path) {
     recipe.lines = call([&] { return read_lines(path); });
   });

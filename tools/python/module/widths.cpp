@@ -26,23 +26,19 @@ Widths by_latitude(const Doubles& nodes, bool smooth) {
   return call([of = profile(nodes, smooth)] { return Widths::by_latitude(of); });
 }
 
-/// \param lines n x 3 each.
-std::vector<Points3> points_of(const std::vector<Doubles>& lines) {
-  std::vector<Points3> all;
-  for (const Doubles& line : lines)
-    all.emplace_back(columns(line));
-  return all;
-}
-
-Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool smooth) {
-  return call([all = points_of(lines), of = profile(nodes, smooth)] {
-    return Widths::by_distance(all, of);
+/// \param lines n x 3 each, in a plane n x 2.
+Widths by_distance(const std::vector<Doubles>& lines, const Doubles& nodes, bool smooth,
+                   const Surface& surface) {
+  return call([&, all = lines_of(lines), of = profile(nodes, smooth)] {
+    return Widths::by_distance(all, of, surface);
   });
 }
 
-Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool smooth) {
-  return call(
-      [&, of = profile(nodes, smooth)] { return Widths::by_distance(read_shapes(path), of); });
+Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool smooth,
+                             const Surface& surface) {
+  return call([&, of = profile(nodes, smooth)] {
+    return Widths::by_distance(read_shapes(path, surface), of, surface);
+  });
 }
 
 /// \param side both, sea or land.
@@ -91,6 +87,10 @@ void add_widths(py::module_& module) {
   py::class_<Widths> widths(module, "Widths", "A rule for the width of cells, for every place.");
   widths.def(py::init([](double width) { return call([&] { return Widths(width); }); }))
       .def(py::init([](const CellWidth& raster) { return call([&] { return Widths(raster); }); }))
+      .def(py::init(
+          [](const PlanarCellWidth& raster) { return call([&] { return Widths(raster); }); }))
+      .def_property_readonly("of_plane", &Widths::is_of_plane,
+                             "True for rules of a plane, in its unit.")
       .def(
           "limit_gradient",
           [](const Widths& widths, double gradient) {
@@ -104,22 +104,31 @@ void add_widths(py::module_& module) {
             const auto sites = columns(points);
             return handed_over(call([&] { return evaluate(widths, sites); }));
           },
-          "(n,) the widths at n x 3 directions, km.")
+          "(n,) the widths at n x 3 directions, km; of a plane at n x 2 places, in its unit.")
       .def(
           "sampled",
           [](const Widths& widths, double step) {
             return call([&] { return sampled(widths, step); });
           },
           py::arg("step") = 0,
-          "A CellWidth with nodes so many degrees apart; 0: by its least width.");
+          "A CellWidth with nodes so many degrees apart; 0: by its least width.")
+      .def(
+          "sampled_in",
+          [](const Widths& widths, const Surface& plane, double step) {
+            return call([&] { return sampled(widths, plane, step); });
+          },
+          py::arg("plane"), py::arg("step") = 0,
+          "A PlanarCellWidth over a plane, with nodes so far apart; 0: by its least width.");
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);
-  module.def("widths_around", [](const std::vector<Doubles>& lines, double width, double over) {
-    return call([&, all = points_of(lines)] { return Widths::around(all, width, over); });
+  module.def("widths_around", [](const std::vector<Doubles>& lines, double width, double over,
+                                 const Surface& surface) {
+    return call([&, all = lines_of(lines)] { return Widths::around(all, width, over, surface); });
   });
-  module.def("widths_around_file", [](const std::string& path, double width, double over) {
-    return call([&] { return Widths::around(read_shapes(path), width, over); });
+  module.def("widths_around_file", [](const std::string& path, double width, double over,
+                                      const Surface& surface) {
+    return call([&] { return Widths::around(read_shapes(path, surface), width, over, surface); });
   });
   module.def("widths_by_coast", &by_coast);
   module.def("widths_by_depth", &by_depth);
