@@ -232,10 +232,10 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
                    formatted("%.2g", report.iterations.back().shape_excess) + " beyond" +
                    (report.worst_cell < 0 ? " its limit" : "," + where) +
                    "; the mesh is written; " +
-                   (request.density->widths.in_km() && !request.density->widths.uniform
-                        ? "make the widths smoother (--gradient)"
-                        : "make the density smoother") +
-                   ", or give more cells\n";
+                   (request.density->widths.uniform   ? ""
+                    : request.density->widths.in_km() ? "make the widths smoother (--gradient), or "
+                                                      : "make the density smoother, or ") +
+                   "give more cells\n";
   finish(not_well_centred);
 }
 

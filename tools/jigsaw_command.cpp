@@ -173,9 +173,11 @@ void run(const std::string& path) {
                    std::to_string(grid.mesh.triangles.cols()) + " triangles, " +
                    (grid.report.well_centred ? "well-centred, " : "") +
                    formatted("%.2f", grid.report.seconds) + " s\n";
-  if (!grid.report.well_centred)
+  if (grid.report.cells_beyond_limits > 0)
     warn(std::to_string(grid.report.cells_beyond_limits) +
-         " cells have shapes beyond the limits of models; make the widths smoother");
+         " cells have shapes beyond the limits of models" +
+         (jig.text("HFUN_FILE") ? "; make the widths smoother, such as by marche"
+                                : ", beside lines or the boundary; give a smaller HFUN_HMAX"));
 }
 
 } // namespace

@@ -132,7 +132,7 @@ Plan plan_of(const Request& request, const Input& input, const Schedule& schedul
     plan.width_seconds = input.seconds;
   }
   if (input.rules)
-    plan.rules = rule_shares(*input.rules, recipe.surface);
+    plan.rules = rule_shares(*input.rules, recipe.surface, made.density);
   plan.threads = tbb::this_task_arena::max_concurrency();
   plan.costs = cvt_costs(plan.cells, made.density, made.surface, plan.threads);
   return plan;

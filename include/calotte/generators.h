@@ -84,7 +84,7 @@ struct LinePoints {
 };
 
 /// Generators along lines such as rivers, for Recipe::fixed: at the distances of neighbours that a
-/// density demands of so many generators, from 5/6 to 5/3 of it. The lines are one network, however
+/// density demands of so many generators, from 2/3 to 5/3 of it. The lines are one network, however
 /// they are cut into parts. Where three lines or more meet, and where one ends, there is a
 /// generator, and where a line turns by 20 degrees or more, unless a sharper corner is nearer than
 /// two thirds of that distance. Of two generators nearer than that one is left out, of a
@@ -96,7 +96,8 @@ struct LinePoints {
 /// \param cells number of generators of the run, 3 to 2^30.
 /// \param beside other fixed generators, 3 x m, from which the result keeps that distance, too.
 /// \throws Error invalid_argument, naming line and point: no direction, not finite, opposite
-///         neighbours; a point outside the surface; an ill-formed density; cells out of range.
+///         neighbours; a point outside the surface; a line that crosses what the surface leaves
+///         out, or is in a periodic plane; an ill-formed density; cells out of range.
 LinePoints line_points(const std::vector<Points3>& lines, const Surface& surface,
                        std::int64_t cells, const Density& density = {},
                        const Points3& beside = Points3(3, 0));

@@ -165,11 +165,12 @@ LandRaster read_land_raster(const std::string& path, const std::string& variable
 /// Reads heights in the same way. \throws Error as read_land_raster.
 HeightRaster read_heights(const std::string& path, const std::string& variable = {});
 
-/// Reads lines on the sphere from GeoJSON: LineString and MultiLineString geometries of longitude
-/// and latitude in degrees, alone or in features or collections.
-/// \returns for each line its points, unit columns.
+/// Reads lines from GeoJSON: LineString and MultiLineString geometries of longitude and latitude in
+/// degrees, in a plane of x and y, alone or in features or collections.
+/// \param surface the sphere or a plane. Default: the sphere.
+/// \returns for each line its points, unit columns, in a plane x y 0.
 /// \throws Error parse, naming the feature; file.
-std::vector<Points3> read_lines(const std::string& path);
+std::vector<Points3> read_lines(const std::string& path, const Surface& surface = {});
 
 /// Reads what widths may depend on the distance from: of GeoJSON lines as read_lines() and the
 /// shores of polygons as read_coast(), which may stand in one file; the shores of a coast of GSHHG;

@@ -103,9 +103,10 @@ public:
   /// One width everywhere.
   /// \throws Error invalid_argument unless it is > 0 and finite.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
-  /// \throws Error invalid_argument as density_of().
-  Widths(const CellWidth& raster);       // NOLINT(google-explicit-constructor)
-  Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor): the same
+  /// Of the sphere. \throws Error invalid_argument as density_of().
+  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
+  /// Of a plane. \throws Error invalid_argument as density_of().
+  Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
 
@@ -119,7 +120,7 @@ public:
   /// plane
   ///        x y 0; one point is a line, too. See read_shapes() and shores().
   /// \param profile of the distance, from 0 on.
-  /// \param surface the sphere or a plane, whose boundary and periods have no effect.
+  /// \param surface the sphere or a plane, whose boundary has no effect.
   /// \throws Error invalid_argument, naming line and point: opposite neighbours, a point that is no
   ///         direction, no line; naming the node, a profile that is none.
   static Widths by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,

@@ -58,6 +58,19 @@ std::vector<Arc> arcs_of(const std::vector<Points3>& lines, bool sphere) {
   return arcs;
 }
 
+/// And their copies in the periods around that of a plane.
+std::vector<Arc> with_copies(std::vector<Arc> lines, const Eigen::Vector2d& period) {
+  const std::size_t own = lines.size();
+  for (const int i : {-1, 0, 1})
+    for (const int j : {-1, 0, 1}) {
+      const Vec3 shift{i * period.x(), j * period.y(), 0};
+      if ((i == 0 || period.x() > 0) && (j == 0 || period.y() > 0) && (i != 0 || j != 0))
+        for (std::size_t k = 0; k < own; ++k)
+          lines.push_back({lines[k].from + shift, lines[k].to + shift});
+    }
+  return lines;
+}
+
 /// In the order of the lines, which keeps neighbours together.
 BoxTree tree_in_plane(const std::vector<Arc>& lines) {
   std::vector<Box3> boxes;
@@ -71,9 +84,9 @@ BoxTree tree_in_plane(const std::vector<Arc>& lines) {
 
 } // namespace
 
-LineDistance::LineDistance(const std::vector<Points3>& lines, bool sphere)
-    : sphere_(sphere), arcs_(arcs_of(lines, sphere)),
-      tree_(sphere ? ArcTree(arcs_) : tree_in_plane(arcs_)) {}
+LineDistance::LineDistance(const std::vector<Points3>& lines, const Surface& surface)
+    : sphere_(surface.is_sphere()), arcs_(with_copies(arcs_of(lines, sphere_), surface.period())),
+      tree_(sphere_ ? ArcTree(arcs_) : tree_in_plane(arcs_)) {}
 
 double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
   const Arc& arc = arcs_[static_cast<std::size_t>(item)];

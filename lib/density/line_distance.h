@@ -6,6 +6,7 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 
+#include <calotte/surface.h>
 #include <calotte/types.h>
 
 #include <span>
@@ -18,7 +19,7 @@ namespace calotte::density_detail {
 class LineDistance {
 public:
   /// \param lines see Widths::by_distance(). \throws Error as there.
-  LineDistance(const std::vector<Points3>& lines, bool sphere);
+  LineDistance(const std::vector<Points3>& lines, const Surface& surface);
 
   bool on_sphere() const { return sphere_; }
 

@@ -8,6 +8,7 @@
 #include "density/sampling.h"
 #include "domain/surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -87,6 +88,20 @@ void density_detail::require_widths(const PlanarCellWidth& widths) {
   require_values(
       widths.widths, of + ": width", [](double value) { return value > 0; },
       "not positive and finite");
+}
+
+PlanarCellWidth density_detail::grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size,
+                                          double step, double most_nodes) {
+  const auto intervals = [&](int k) { return std::max(1.0, std::ceil(size[k] / step)); };
+  while ((intervals(0) + 1) * (intervals(1) + 1) > most_nodes)
+    step *= 1.25;
+  const auto axis = [&](int k) {
+    const auto nodes = static_cast<Eigen::Index>(intervals(k)) + 1;
+    return DoubleVector(DoubleVector::LinSpaced(nodes, low[k], low[k] + size[k]));
+  };
+  PlanarCellWidth grid{axis(0), axis(1), {}};
+  grid.widths.resize(grid.x.size(), grid.y.size());
+  return grid;
 }
 
 density_detail::PlanarField density_detail::field_of(const PlanarCellWidth& widths) {

@@ -26,6 +26,12 @@ struct PlanarField {
 /// \throws Error invalid_argument as require_widths().
 PlanarField field_of(const PlanarCellWidth& widths);
 
+/// A grid over a rectangle without values, of at most so many nodes.
+/// \param size of the rectangle; > 0. \param step largest distance of its nodes, > 0, which grows
+///        where these would be more.
+PlanarCellWidth grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size, double step,
+                          double most_nodes);
+
 /// \throws Error invalid_argument unless it meets the conditions of PlanarCellWidth.
 void require_widths(const PlanarCellWidth& widths);
 

@@ -238,7 +238,11 @@ public:
     share_->evaluate(places, shares);
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double t = Weight(shares[k] - 1);
-      widths[k] = t == 1 ? others[k] : widths[k] + t * (others[k] - widths[k]);
+      const bool silent = std::max(widths[k], others[k]) >= 0.5 * Widths::no_demand;
+      if (t == 1 || (silent && t > 0)) // what says nothing has no mean with a width
+        widths[k] = t == 1 ? others[k] : Widths::no_demand;
+      else
+        widths[k] += t * (others[k] - widths[k]);
     }
   }
   double least() const override { return std::min(a_->least(), b_->least()); }
@@ -264,13 +268,6 @@ std::vector<Points3> boundary_of(const Surface& region) {
 /// What a raster of a plane covers.
 struct PlaneBox {
   Eigen::Vector2d low, size;
-
-  double area() const { return size.prod(); }
-  /// Nodes from the low to the high end of x or y.
-  DoubleVector axis(int k, double step) const {
-    const auto intervals = std::max<Eigen::Index>(1, std::llround(std::ceil(size[k] / step)));
-    return DoubleVector::LinSpaced(intervals + 1, low[k], low[k] + size[k]);
-  }
 };
 
 PlaneBox box_of(const Surface& plane) {
@@ -295,14 +292,17 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
 /// body(block, begin) for blocks of places of a rule's space: unit vectors, or x y 0.
 template <class Body>
 void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& body) {
-  const bool plane = space == RuleSpace::plane;
-  const Points3 x = plane ? Points3(base_detail::with_z(base_detail::plane_points_of(places)))
-                          : Points3(base_detail::directions_of(places));
+  const bool plane = space == RuleSpace::plane, sphere = space == RuleSpace::sphere;
+  Points3 x = Points3::Zero(3, places.cols()); // of a number no place matters
+  if (plane)
+    x = base_detail::with_z(base_detail::plane_points_of(places));
+  if (sphere)
+    x = base_detail::directions_of(places);
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::vector<Vec3> block;
     for (std::int64_t i = begin; i != end; ++i)
-      block.push_back(plane ? base_detail::column(x, i)
-                            : domain_detail::as_unit(base_detail::column(x, i)));
+      block.push_back(sphere ? domain_detail::as_unit(base_detail::column(x, i))
+                             : base_detail::column(x, i));
     body(block, begin);
   });
 }
@@ -320,10 +320,11 @@ std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullp
 
 std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
                                                std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile, bool sphere) {
-  const double farthest = sphere ? half_round : farthest_in_plane;
+                                               const WidthProfile& profile,
+                                               const Surface& surface) {
+  const double farthest = surface.is_sphere() ? half_round : farthest_in_plane;
   ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
-  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines, sphere),
+  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines, surface),
                                         std::move(is_behind), std::move(curve));
 }
 
@@ -407,15 +408,13 @@ PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step)
   require(rule.space() != RuleSpace::sphere,
           "the widths are those of the sphere; give rules of a plane");
   const PlaneBox box = box_of(plane);
-  constexpr double most_nodes = 2e7;
-  require(step == 0 || (step > 0 && box.area() / (step * step) <= most_nodes),
+  constexpr double most_nodes = 2e7, usual_nodes = 4e6;
+  require(step == 0 ||
+              (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
           "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
               shortly(most_nodes) + " nodes; give another one");
-  constexpr double usual_nodes = 4e6;
-  const double chosen =
-      step > 0 ? step : std::max(rule.least() / 2, std::sqrt(box.area() / usual_nodes));
-  PlanarCellWidth raster{box.axis(0, chosen), box.axis(1, chosen), {}};
-  raster.widths.resize(raster.x.size(), raster.y.size());
+  PlanarCellWidth raster = step > 0 ? grid_over(box.low, box.size, step, 2 * most_nodes)
+                                    : grid_over(box.low, box.size, rule.least() / 2, usual_nodes);
   base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
     std::vector<Vec3> row;
     for (const double x : raster.x)
@@ -432,7 +431,7 @@ Widths Widths::by_latitude(const WidthProfile& profile) {
 
 Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
                            const Surface& surface) {
-  return Widths(rule_of_sides(lines, nullptr, profile, surface.is_sphere()));
+  return Widths(rule_of_sides(lines, nullptr, profile, surface));
 }
 
 Widths Widths::around(const std::vector<Points3>& lines, double width, double over,
@@ -477,7 +476,7 @@ Share::Share(const Surface& region, const WidthProfile& profile) {
       [region](const Vec3& place) {
         return region.contains({place.x, place.y, place.z});
       },
-      more, region.is_sphere());
+      more, region);
 }
 
 } // namespace calotte

@@ -45,12 +45,14 @@ private:
 };
 
 /// A rule by the distance from lines, which is negative at places where `is_behind` is true.
-/// \param lines closed boundaries of these places. \param profile of the distance, on the sphere in
-///        km.
+/// \param lines closed boundaries of these places.
+///
+/// \param profile of the distance, on the sphere in km. \param surface the sphere or a plane.
 /// \throws Error invalid_argument as Widths::by_distance().
 std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
                                                std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile, bool sphere = true);
+                                               const WidthProfile& profile,
+                                               const Surface& surface = {});
 
 /// Any rule with a limited gradient.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,

@@ -8,6 +8,7 @@
 #include "domain/rings.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
+#include "generators/boundary.h"
 #include "generators/curve.h"
 
 #include <algorithm>
@@ -93,9 +94,6 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
       places.push_back(inside<S>(*outline_of<S>(surface), place, curve.segments()[segment]));
     }
   }
-  require(std::ssize(places) < cells, "the boundary takes " + std::to_string(places.size()) +
-                                          " of the " + std::to_string(cells) +
-                                          " generators; give more cells");
   Points3 points(3, std::ssize(places));
   for (std::size_t i = 0; i < places.size(); ++i)
     base_detail::set_column(points, static_cast<std::int64_t>(i), places[i]);
@@ -104,13 +102,22 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
 
 } // namespace
 
-Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
+Points3 generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
+                                               const Density& density) {
   require(cells >= 4 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
                                                   "; give 4 to " + std::to_string(most_points));
   if (!surface.is_bounded())
     return Points3(3, 0);
   return surface.is_sphere() ? points_on_boundary<Sphere>(surface, cells, density)
                              : points_on_boundary<Plane>(surface, cells, density);
+}
+
+Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
+  Points3 points = all_boundary_points(surface, cells, density);
+  require(points.cols() < std::max<std::int64_t>(cells, 1),
+          "the boundary takes " + std::to_string(points.cols()) + " of the " +
+              std::to_string(cells) + " generators; give more cells");
+  return points;
 }
 
 } // namespace calotte

@@ -35,7 +35,7 @@ public:
   Place place(double edges) const;
 
   /// Where generators stand, ascending: at the corners that are kept, and between two of them at
-  /// equal numbers of edges, from 5/8 to 5/4, of an open curve from 5/6 to 5/3. Corners where the
+  /// equal numbers of edges, from 5/8 to 5/4, of an open curve from 2/3 to 5/3. Corners where the
   /// curve turns by 20 degrees or more are kept, unless one that comes first is nearer than two
   /// thirds of an edge; the ends of an open curve come first, then sharper corners. A closed curve
   /// has three or more.

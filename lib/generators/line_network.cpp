@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -26,7 +27,8 @@ public:
     for (Eigen::Index i = 0; i < line.cols(); ++i) {
       const std::string name = "line " + std::to_string(number) + ", point " + std::to_string(i);
       const std::int32_t here = id_of(checked(line.col(i), name));
-      if (before >= 0 && before != here) {
+      const Vec3 apart = before >= 0 ? place(here) - place(before) : Vec3{};
+      if (dot(apart, apart) > 0) {
         if (sphere_) {
           const Vec3 middle = place(before) + place(here);
           require(dot(middle, middle) > 1e-20,
@@ -98,14 +100,24 @@ private:
         follow(from, to);
   }
 
+  /// In an order that depends on the places alone where the lines leave a choice.
   void trace() {
     const auto count = static_cast<std::int32_t>(places_.size());
+    const auto before = [&](std::int32_t a, std::int32_t b) {
+      const Vec3 &p = place(a), &q = place(b);
+      return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
+    };
+    for (auto& near : near_)
+      std::sort(near.begin(), near.end(), before);
     for (std::int32_t id = 0; id < count; ++id)
       if (near(id).empty())
         chains_.push_back({id});
       else if (near(id).size() != 2)
         follow_all(id);
-    for (std::int32_t id = 0; id < count; ++id) // loops
+    std::vector<std::int32_t> ordered(static_cast<std::size_t>(count));
+    std::iota(ordered.begin(), ordered.end(), 0);
+    std::sort(ordered.begin(), ordered.end(), before);
+    for (const std::int32_t id : ordered) // loops
       if (near(id).size() == 2)
         follow_all(id);
   }

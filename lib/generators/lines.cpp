@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/generators.h>
 
+#include "base/number_text.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "curve/box_tree.h"
@@ -160,6 +161,10 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
   const Candidates<S> candidates(network, spacing, longest_step<S>(surface));
   const std::vector<Vec3> others = columns_of(beside, S::on_sphere);
   std::vector<Vec3> points = apart(others, candidates.places(), spacing, S::on_sphere);
+  for (const Vec3& x : points)
+    require(side_of<S>(outline_of<S>(surface), x) != Side::outside,
+            "a line crosses what the surface leaves out, at " + base_detail::shortly(x.x) + " " +
+                base_detail::shortly(x.y) + " " + base_detail::shortly(x.z) + "; cut it there");
   LinePoints out;
   out.points.resize(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -176,6 +181,8 @@ LinePoints line_points(const std::vector<Points3>& lines, const Surface& surface
                        std::int64_t cells, const Density& density, const Points3& beside) {
   require(cells >= 3 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
                                                   "; give 3 to " + std::to_string(most_points));
+  require(surface.period().isZero(0) || lines.empty(),
+          "lines are not followed in a periodic plane; give fixed points");
   if (surface.is_sphere())
     return points_on_lines<Sphere>(lines, surface, cells, density, beside);
   domain_detail::require_finite_plane(surface);

@@ -5,6 +5,7 @@
 #include "cvt/levels.h"
 #include "cvt/stages.h"
 #include "domain/surface.h"
+#include "generators/boundary.h"
 #include "grids/schedule.h"
 #include "grids/start.h"
 #include "grids/walls.h"
@@ -190,7 +191,8 @@ double with_boundary(const Recipe& recipe, double implied) {
   for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k)
     cells = implied +
             static_cast<double>(
-                boundary_points(recipe.surface, static_cast<std::int64_t>(cells), recipe.density)
+                generators_detail::all_boundary_points(
+                    recipe.surface, static_cast<std::int64_t>(std::max(cells, 4.0)), recipe.density)
                     .cols() /
                 2);
   return std::min(cells, double(most_points));

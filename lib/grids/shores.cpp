@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grids/shores.h"
 
+#include "base/number_text.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/rings.h"
 #include "exact/predicates.h"
 
+#include <calotte/lonlat.h>
 #include <calotte/ocean.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,7 +95,9 @@ bool inside_is_land(const SideCells& cells, const std::vector<SideCells::Corner>
   const auto left = std::count_if(corners.begin(), corners.end(), [&](SideCells::Corner corner) {
     return cells.inside_is_left(corner);
   });
-  return 2 * left > std::ssize(corners);
+  const auto all = std::ssize(corners), most = std::max(left, all - left);
+  require(10 * most >= 9 * all, "areas of land overlap; give them united");
+  return 2 * left > all;
 }
 
 std::vector<Arc> arcs_of(const std::vector<ShoreArc>& shore) {
@@ -102,10 +107,31 @@ std::vector<Arc> arcs_of(const std::vector<ShoreArc>& shore) {
   return arcs;
 }
 
+/// Areas of land that are there twice would leave their sides undecided. Cuts of a coast may repeat
+/// some arcs.
+const std::vector<ShoreArc>& once(const std::vector<ShoreArc>& shore) {
+  constexpr std::size_t share = 20;
+  std::set<std::array<double, 6>> seen;
+  std::size_t repeated = 0;
+  Vec3 last{};
+  for (const ShoreArc& each : shore)
+    if (!seen.insert(ends(each.arc.from, each.arc.to)).second) {
+      ++repeated;
+      last = each.arc.from;
+    }
+  if (share * repeated > shore.size()) {
+    const Points2 at = to_lonlat(Points3(Eigen::Vector3d(last.x, last.y, last.z)));
+    require(false, "areas of land are there twice, one with a corner at longitude " +
+                       base_detail::shortly(at(0, 0)) + ", latitude " +
+                       base_detail::shortly(at(1, 0)) + "; give each once");
+  }
+  return shore;
+}
+
 } // namespace
 
 CoastSides::CoastSides(const std::vector<ShoreArc>& shore)
-    : cells_(arcs_of(shore), corners_between(shore).front()) {
+    : cells_(arcs_of(once(shore)), corners_between(shore).front()) {
   if (!inside_is_land(cells_, corners_between(shore)))
     std::swap(land_, sea_);
 }

@@ -98,6 +98,24 @@ TEST_CASE("widths of a plane: within a part, blended from its boundary, of a ras
   CHECK(evaluate(Widths(raster), places)[1] == doctest::Approx(1.8));
 }
 
+TEST_CASE("widths of a plane: distances go across periods, numbers hold everywhere") {
+  const Widths rule = Widths::by_distance({line_of({{0.5, 0}, {0.5, 10}})}, {{{0, 1}, {5, 6}}},
+                                          Surface::periodic({20, 10}));
+  const DoubleVector widths = evaluate(rule, Points2{{19, 1, 10}, {5, 5, 5}});
+  CHECK(widths[0] == doctest::Approx(2.5));
+  CHECK(widths[1] == doctest::Approx(1.5));
+  CHECK(widths[2] == doctest::Approx(6));
+  CHECK(evaluate(Widths(3.0), Points2{{19, 1}, {5, 5}}) == DoubleVector{{3, 3}});
+}
+
+TEST_CASE("widths of a plane: what says nothing has no mean with a width") {
+  const Widths rock = Widths::around({line_of({{10, 5}})}, 0.5, 2, lake);
+  const Widths blend = Widths::blend(2, rock, Share(lake, {{{-10, 0.5}}}));
+  const DoubleVector widths = evaluate(blend, Points2{{10, 1}, {5, 5}});
+  CHECK(widths[0] == doctest::Approx(1.25));
+  CHECK(widths[1] == Widths::no_demand);
+}
+
 TEST_CASE("widths of a plane: the raster covers the domain and has the rule's values") {
   const Widths rule = Widths::by_distance({line_of({{10, 5}})}, {{{0, 0.1}, {5, 2}}}, lake);
   for (const Surface& plane : {lake, Surface::periodic({20, 10})}) {
@@ -120,7 +138,8 @@ TEST_CASE("widths of a plane: what does not fit is refused in one line") {
         }).find("some widths are of the sphere and some of a plane") == 0);
   CHECK(message_of([&] { sampled(plane); }).find("the widths are those of a plane") == 0);
   CHECK(message_of([&] { sampled(sphere, lake); }).find("the widths are those of the sphere") == 0);
-  CHECK(message_of([&] { sampled(plane, Surface::plane()); }) != "");
+  CHECK(message_of([&] { sampled(plane, Surface::plane()); }).find("the domain: it has no rings") ==
+        0);
   CHECK(message_of([&] { sampled(plane, lake, 1e-6); }).find("the step 1e-06") == 0);
   CHECK(message_of([&] {
           Widths::maximum({plane, 2}).limit_gradient(0.1);

@@ -106,6 +106,24 @@ TEST_CASE("lines: how they are cut, repeated or ordered does not matter") {
     CHECK(distance_to(other, one.col(i)) < 1e-14);
 }
 
+TEST_CASE("lines: a loop has the same generators wherever it is begun or cut") {
+  std::vector<std::pair<double, double>> ring;
+  for (int k = 0; k < 36; ++k)
+    ring.emplace_back(10 * k, 60 + 5 * std::sin(k));
+  const auto from = [&](int first, int last) {
+    std::vector<std::pair<double, double>> part;
+    for (int k = first; k <= last; ++k)
+      part.push_back(ring[static_cast<std::size_t>(k % 36)]);
+    return line_of(part);
+  };
+  const Points3 one = line_points({from(0, 36)}, {}, 3000).points,
+                other = line_points({from(20, 30), from(30, 56)}, {}, 3000).points;
+  REQUIRE(one.cols() == other.cols());
+  CHECK(one.cols() > 20);
+  for (Eigen::Index i = 0; i < one.cols(); ++i)
+    CHECK(distance_to(other, one.col(i)) < 1e-14);
+}
+
 TEST_CASE("lines: those that run side by side or cross share generators") {
   std::vector<std::pair<double, double>> north, south, across;
   for (int k = 0; k <= 20; ++k) {
@@ -178,4 +196,12 @@ TEST_CASE("lines: bad ones are refused in one line with line and point") {
   CHECK(message_of({line_of({{0, 0}, {30, 0}})}, circle(at(0, 0), 10 * degree))
             .find("line 0, point 1 is outside the surface") == 0);
   CHECK(line_points({}, {}, 1000).points.cols() == 0);
+  DoubleMatrix outer(2, 4), hole(2, 4);
+  outer << 0, 9, 9, 0, 0, 0, 9, 9;
+  hole << 3, 6, 6, 3, 3, 3, 6, 6;
+  Points3 across(3, 2);
+  across << 1, 8, 4, 5, 0, 0;
+  CHECK(message_of({across}, Surface::plane().within({outer, hole}))
+            .find("a line crosses what the surface leaves out, at ") == 0);
+  CHECK(message_of({across}, Surface::periodic({9, 9})).find("lines are not followed in a") == 0);
 }

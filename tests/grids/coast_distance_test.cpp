@@ -78,6 +78,20 @@ TEST_CASE("one side of a coast says nothing of the other") {
           doctest::Approx(away[i] < 0 ? 10 - 0.05 * away[i] : std::min(60.0, 10 + 0.05 * away[i])));
 }
 
+TEST_CASE("land that is there twice, or overlaps, has no sides") {
+  const auto square = [](double west, double east) {
+    Points3 ring(3, 4);
+    ring << direction(west, 0), direction(east, 0), direction(east, 10), direction(west, 10);
+    return ring;
+  };
+  const auto message = [](const Coast& coast) {
+    return std::string(error_of([&] { Widths::by_coast(coast, tells); }).what());
+  };
+  CHECK(message({{square(0, 10), square(0, 10)}})
+            .find("areas of land are there twice, one with a corner at longitude ") == 0);
+  CHECK(message({{square(0, 10), square(5, 15)}}) == "areas of land overlap; give them united");
+}
+
 TEST_CASE("shares of a raster are linear between its nodes") {
   LandRaster raster{DoubleVector{{0, 90, 180, 270}}, DoubleVector{{-45, 45}}, DoubleMatrix(4, 2)};
   raster.land.setZero();

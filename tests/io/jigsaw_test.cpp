@@ -59,6 +59,20 @@ TEST_CASE("jigsaw: closed rings of edges bound a domain, others are lines") {
   CHECK(read_domain(scratch / "file.msh") == geometry.surface);
 }
 
+TEST_CASE("jigsaw: a line that ends at a ring leaves it a ring") {
+  const Scratch scratch;
+  std::string river = square; // from the outer ring to the hole, with a branch
+  river.replace(river.find("EDGE2=10"), 8, "EDGE2=13");
+  const JigsawGeometry geometry =
+      read_jigsaw_geometry(written(scratch, river + "10;4;0\n8;0;0\n9;11;0\n"));
+  CHECK(geometry.surface.rings().size() == 2);
+  CHECK(geometry.surface.area() == 81 - 4);
+  Eigen::Index places = 0;
+  for (const Points3& line : geometry.lines)
+    places += line.cols();
+  CHECK(places >= 5);
+}
+
 TEST_CASE("jigsaw: an ellipsoid with equal radii is a sphere, its edges lines") {
   const Scratch scratch;
   const std::string text = "MSHID=3;ELLIPSOID-MESH\nRADII=6371;6371;6371\nNDIMS=2\nPOINT=3\n"
@@ -89,6 +103,12 @@ TEST_CASE("jigsaw: geometries that cannot be meshed are refused") {
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=1\n0;0;1;0\n", "only a sphere");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;1;0\n",
           "no closed ring of edges");
+  const std::string corners = "POINT=5\n0;0;0\n1;0;0\n0;1;0\n-1;0;0\n0;-1;0\n";
+  refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n" + corners +
+              "EDGE2=6\n0;1;0\n1;2;0\n2;0;0\n0;3;0\n3;4;0\n4;0;0\n",
+          "rings of edges touch at the point 0.000000 0.000000");
+  refused(square + "BOUND=8\n0;0;2\n0;1;2\n0;2;2\n0;3;2\n1;4;2\n1;5;2\n1;6;2\n1;7;2\n",
+          "a geometry of 2 parts (BOUND)");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;7;0\n",
           "edge 0 has the point 7");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;-7;0\n", "line 7");

@@ -185,7 +185,7 @@ def test_what_does_not_fit():
     refuses("multilevel only", calotte.cvt, 642, insertion_rounds=1)
     refuses("1 or more", calotte.cvt, 642, iterations=0)
     refuses("limited area", calotte.cvt, cell_width=200.0, limited_area=True)
-    refuses("part of the sphere only", calotte.cvt, 100, boundary="generators")
+    refuses("a bounded surface only", calotte.cvt, 100, boundary="generators")
     refuses("periodic box", calotte.cvt, 100, surface=RECTANGLE, walls="y")
     refuses("no period", calotte.cvt, 100, surface=BOX, walls="xy")
     assert refuses("", calotte.cvt, points[[0, *range(50)]], duplicates="refuse").index == 1

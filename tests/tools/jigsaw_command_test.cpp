@@ -39,6 +39,7 @@ TEST_CASE("jigsaw: one width on the sphere, relative and absolute") {
   const Outcome outcome = bench.run("jigsaw a.jig");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.empty());
   const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.msh");
   // 0.05 of the diameter is 0.1 of the radius.
   const double cells = 4 * 3.14159265 * 2 / (std::sqrt(3.0) * 0.01);

@@ -7,6 +7,7 @@
 #include "text/text.h"
 
 #include <calotte/generators.h>
+#include <calotte/lonlat.h>
 #include <calotte/read.h>
 
 #include <CLI/App.hpp>
@@ -74,14 +75,35 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
 
 bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
+/// Gives nodes outside a surface, of which rules may say nothing, the largest width in it.
+/// \param contains(i, j) whether a node is in it. \param where(i, j) its place in words.
+/// \throws Error invalid_argument for one in it of which the rules say nothing.
+template <class Contains, class Where>
+void settle(DoubleMatrix& widths, const std::string& path, const Contains& contains,
+            const Where& where) {
+  const auto is_silent = [](double width) { return width >= 0.5 * Widths::no_demand; };
+  double widest = 0;
+  for (Eigen::Index j = 0; j < widths.cols(); ++j)
+    for (Eigen::Index i = 0; i < widths.rows(); ++i)
+      if (!is_silent(widths(i, j)))
+        widest = std::max(widest, widths(i, j));
+      else if (contains(i, j))
+        refuse(path + ": no rule gives a width at " + where(i, j) +
+               "; add one that holds everywhere, such as { width = 60 }");
+  widths = widths.unaryExpr([&](double width) { return is_silent(width) ? widest : width; });
+}
+
 /// \throws Error invalid_argument for rules that say nothing of a place.
-CellWidth sampled_rules(const WidthRules& rules, const std::string& path) {
+CellWidth sampled_rules(const WidthRules& rules, const std::string& path, const Surface& region) {
   CellWidth widths = sampled(rules.widths, rules.step);
-  Eigen::Index column = 0, row = 0;
-  if (widths.widths.maxCoeff(&column, &row) >= 0.5 * Widths::no_demand)
-    refuse(path + ": no rule gives a width at " +
-           lonlat_words(widths.longitudes[column], widths.latitudes[row]) +
-           "; add one that holds everywhere, such as { width = 60 }");
+  const auto contains = [&](Eigen::Index column, Eigen::Index row) {
+    return !region.is_bounded() || region.contains(from_lonlat(Points2{{widths.longitudes[column]},
+                                                                       {widths.latitudes[row]}}));
+  };
+  const auto where = [&](Eigen::Index column, Eigen::Index row) {
+    return lonlat_words(widths.longitudes[column], widths.latitudes[row]);
+  };
+  settle(widths.widths, path, contains, where);
   return widths;
 }
 
@@ -89,10 +111,13 @@ CellWidth sampled_rules(const WidthRules& rules, const std::string& path) {
 PlanarCellWidth sampled_rules_of_plane(const std::string& path, const Surface& plane) {
   const WidthRules rules = read_width_rules(path, plane);
   PlanarCellWidth widths = sampled(rules.widths, plane, rules.step);
-  Eigen::Index i = 0, j = 0;
-  if (widths.widths.maxCoeff(&i, &j) >= 0.5 * Widths::no_demand)
-    refuse(path + ": no rule gives a width at x " + shortest(widths.x[i]) + ", y " +
-           shortest(widths.y[j]) + "; add one that holds everywhere, such as { width = 60 }");
+  const auto contains = [&](Eigen::Index i, Eigen::Index j) {
+    return !plane.is_bounded() || plane.contains({widths.x[i], widths.y[j], 0});
+  };
+  const auto where = [&](Eigen::Index i, Eigen::Index j) {
+    return "x " + shortest(widths.x[i]) + ", y " + shortest(widths.y[j]);
+  };
+  settle(widths.widths, path, contains, where);
   return rules.gradient ? limit_gradient(widths, *rules.gradient, plane) : widths;
 }
 
@@ -110,7 +135,7 @@ ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
     return {uniform_widths(*words.uniform), {}};
   if (is_toml(words.file)) {
     WidthRules rules = read_width_rules(words.file);
-    CellWidth raster = sampled_rules(rules, words.file);
+    CellWidth raster = sampled_rules(rules, words.file, region);
     return {std::move(raster), std::move(rules)};
   }
   return {read_cell_width(words.file,

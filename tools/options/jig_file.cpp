@@ -64,7 +64,7 @@ const JigFile::Option* JigFile::find(const std::string& name) const {
 
 std::optional<std::string> JigFile::text(const std::string& name) const {
   const Option* const option = find(name);
-  return option == nullptr ? std::nullopt : std::optional(option->value);
+  return option == nullptr || option->value.empty() ? std::nullopt : std::optional(option->value);
 }
 
 std::string JigFile::word(const std::string& name, const std::string& usual) const {

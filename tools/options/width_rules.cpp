@@ -106,7 +106,7 @@ public:
   }
 
   /// With the place in the file before what the library refuses.
-  template <class Make> Widths made(const Make& make) const {
+  template <class Make> auto made(const Make& make) const -> decltype(make()) {
     try {
       return make();
     } catch (const Error& error) {
@@ -181,7 +181,7 @@ private:
     std::vector<Widths> rules =
         least ? parts(table, key)
               : std::vector{table.made([&, source = source] { return (this->*source)(table); })};
-    change(table, rules);
+    table.made([&] { change(table, rules); });
     table.require_all_taken();
     return Widths::minimum(rules);
   }
@@ -397,10 +397,10 @@ WidthRules read_width_rules(const std::string& path, const Surface& surface) {
 namespace {
 
 /// Random points of a surface, each near the one before, for which rules take less time.
-Points3 sorted_points(const Surface& surface) {
+Points3 sorted_points(const Surface& surface, const Density& density) {
   constexpr std::int64_t count = 200'000;
   constexpr double bands = 100; // of latitude, in each hemisphere
-  const Points3 points = random_points(count, surface);
+  const Points3 points = random_points(count, surface, density);
   std::vector<std::tuple<double, double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     order.emplace_back(std::floor(bands * points(2, i)), std::atan2(points(1, i), points(0, i)), i);
@@ -413,15 +413,18 @@ Points3 sorted_points(const Surface& surface) {
 
 } // namespace
 
-std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface) {
-  const Points3 places = sorted_points(surface);
-  const DoubleVector cells = evaluate(rules.widths, places).array().pow(-2);
-  const Ids active = active_rules(rules.widths, places);
+std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface,
+                                   const Density& density) {
+  // Places that follow the cells find rules of small parts with many of them.
+  const Ids by_area = active_rules(rules.widths, sorted_points(surface, {})),
+            by_cells =
+                active_rules(rules.widths, sorted_points(surface, site_density(density, surface)));
+  const auto share = [](const Ids& active, std::size_t rule) {
+    return (active.array() == static_cast<std::int32_t>(rule)).cast<double>().mean();
+  };
   std::vector<RuleShare> shares;
-  for (std::size_t rule = 0; rule < rules.names.size(); ++rule) {
-    const auto here = (active.array() == static_cast<std::int32_t>(rule)).cast<double>();
-    shares.push_back({rules.names[rule], here.mean(), (here * cells.array()).sum() / cells.sum()});
-  }
+  for (std::size_t rule = 0; rule < rules.names.size(); ++rule)
+    shares.push_back({rules.names[rule], share(by_area, rule), share(by_cells, rule)});
   return shares;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/density.h>
 #include <calotte/surface.h>
 #include <calotte/widths.h>
 
@@ -30,9 +31,11 @@ struct RuleShare {
   double area, cells; ///< shares of those of the surface, 0 to 1
 };
 
-/// Of each rule of a minimum, within 1/1000 or so.
+/// Of each rule of a minimum, within about 1/1000.
 /// \param surface the sphere or a region of it.
-std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface);
+/// \param density that the rules demand.
+std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface,
+                                   const Density& density);
 
 /// What a file of rules says of itself.
 struct RulesOutline {

@@ -52,11 +52,9 @@ bool has_lines(const CvtRequest& request) {
 
 /// Lines that generators follow.
 std::vector<Points3> read_fixed_lines(const CvtRequest& request, CvtInput& input) {
-  if (planar(request))
-    refuse(request.fixed + ": lines of longitude and latitude; in a plane give points");
   input.fixed_file.name = request.fixed;
   input.fixed = "lines of " + checksum_of(request.fixed) + "\n";
-  return read_lines(request.fixed);
+  return read_lines(request.fixed, input.recipe.surface);
 }
 
 // ---- The recipe
@@ -162,7 +160,8 @@ Schedule plan_of(const CvtInput& input) {
   try {
     return plan(input.recipe);
   } catch (const Error& error) {
-    if (std::string_view(error.what()).starts_with("line "))
+    const std::string_view message = error.what();
+    if (message.starts_with("line ") || message.starts_with("a line "))
       throw Error(error.code(), input.fixed_file.name + ": " + error.what(), error.index());
     rethrow_with_line(error, input);
   }

@@ -5,6 +5,7 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "density/cell_width_field.h"
+#include "density/planar_raster.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -90,13 +91,7 @@ PlanarCellWidth resampled_in_plane(const Points2& points, const DoubleVector& wi
   constexpr double most_nodes = 4e6;
   const Mesh mesh = delaunay(points, Surface::plane());
   const Eigen::Vector2d low = points.rowwise().minCoeff(), size = points.rowwise().maxCoeff() - low;
-  const double step = std::max(0.5 * short_edge(mesh), std::sqrt(size.x() * size.y() / most_nodes));
-  const auto axis = [&](int k) {
-    const auto intervals = std::max<Eigen::Index>(1, std::llround(std::ceil(size[k] / step)));
-    return DoubleVector(DoubleVector::LinSpaced(intervals + 1, low[k], low[k] + size[k]));
-  };
-  PlanarCellWidth grid{axis(0), axis(1), {}};
-  grid.widths.resize(grid.x.size(), grid.y.size());
+  PlanarCellWidth grid = density_detail::grid_over(low, size, 0.5 * short_edge(mesh), most_nodes);
   fill(
       mesh, of_sites(mesh, widths),
       [&](Eigen::Index i, Eigen::Index j) {

@@ -58,7 +58,10 @@ CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
 } // namespace
 
 CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Surface& region) {
-  const JigsawFile file = read_jigsaw(in, name);
+  return widths_of(read_jigsaw(in, name), name, region);
+}
+
+CellWidth widths_of(const JigsawFile& file, const std::string& name, const Surface& region) {
   if (file.kind == "ellipsoid-grid")
     return of_grid(file, name, region);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
@@ -68,7 +71,10 @@ CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const S
 }
 
 PlanarCellWidth read_planar_cell_width_msh(const std::string& path) {
-  const JigsawFile file = read_jigsaw(path);
+  return planar_widths_of(read_jigsaw(path), path);
+}
+
+PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& path) {
   if (file.kind == "euclidean-mesh" && file.dimensions == 2)
     return resampled_in_plane(Points2(file.points), widths_of_points(file, path));
   if (file.kind != "euclidean-grid")

@@ -70,13 +70,13 @@ bool holds_lines(const std::string& path) {
   return found;
 }
 
-std::vector<Points3> read_lines(const std::string& path) {
+std::vector<Points3> read_lines(const std::string& path, const Surface& surface) {
   using namespace io_detail;
   std::ifstream in = open_input(path);
   std::vector<Points3> lines;
   read_features(in, path, [&](const GeoFeature& feature) {
     for_each_geometry(feature, path, [&](const std::string& type, const Json& coordinates) {
-      add_lines(feature, type, coordinates, path, lines);
+      add_lines(feature, type, coordinates, path, lines, !surface.is_sphere());
     });
   });
   if (lines.empty())

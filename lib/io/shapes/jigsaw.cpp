@@ -70,7 +70,9 @@ private:
     else if (name == "tria3")
       triangles(whole<1>(what)[0]);
     else if (name == "value")
-      file_.values = numbers(whole<1>(what)[0], 1);
+      values(what);
+    else if (name == "bound")
+      bounds(whole<1>(what)[0]);
     else if (name == "slope")
       file_.slopes = numbers(whole<1>(what)[0], 1);
     else if (name == "radii")
@@ -178,6 +180,21 @@ private:
     }
     file_.triangles =
         Eigen::Map<const Triangles>(all.data(), 3, static_cast<Eigen::Index>(all.size() / 3));
+  }
+
+  void values(const std::string& head) {
+    const std::size_t semicolon = head.find(';');
+    if (semicolon != std::string::npos)
+      file_.values_of_each = whole<1>(head.substr(semicolon + 1))[0];
+    file_.values = numbers(whole<1>(head)[0], 1);
+  }
+
+  /// Each line is a part and what belongs to it.
+  void bounds(std::int64_t count) {
+    std::set<double> parts;
+    for (const double part : numbers(count, 1))
+      parts.insert(part);
+    file_.parts = static_cast<int>(parts.size());
   }
 
   void skip(std::int64_t lines) {

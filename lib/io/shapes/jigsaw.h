@@ -3,6 +3,8 @@
 
 #include "io/shapes/room.h"
 
+#include <calotte/cell_width.h>
+#include <calotte/planar_raster.h>
 #include <calotte/types.h>
 
 #include <array>
@@ -25,12 +27,14 @@ struct JigsawFile {
   DoubleMatrix points = {};
   std::vector<bool> fixed = {};                        ///< by point: its tag is negative
   std::vector<std::array<std::int32_t, 2>> edges = {}; ///< 0-based columns of points
+  int parts = 0;                                       ///< that BOUND tells apart
   Triangles triangles = {};                            ///< 3 x m, 0-based columns of points
   std::optional<std::array<double, 3>> radii = {};     ///< of the ellipsoid
   /// Of a grid; of an ellipsoid-grid longitudes and latitudes in radians.
   std::vector<double> x_grid = {}, y_grid = {};
   /// The first of each point's, or of each node's with y running faster.
   std::vector<double> values = {};
+  std::int64_t values_of_each = 1; ///< in the file
   std::vector<double> slopes = {}; ///< likewise, or one: the largest gradients of the values
 };
 
@@ -49,6 +53,11 @@ double radius_of(const JigsawFile& file, const std::string& name);
 /// Writes a grid of values, with slopes and radii if there are any. The file is complete or absent.
 /// \throws Error file.
 void write_jigsaw_grid(const std::string& path, const JigsawFile& grid);
+
+/// The widths that a file holds, see read_cell_width() and read_planar_cell_width().
+/// \throws Error as these.
+CellWidth widths_of(const JigsawFile& file, const std::string& name, const Surface& region = {});
+PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& name);
 
 /// Throws unless there is a value for each of so many nodes. \throws Error parse.
 void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name);

@@ -6,6 +6,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -36,27 +37,104 @@ std::vector<Points3> lines_of(const JigsawFile& file, const Points3& points) {
   return lines;
 }
 
-/// The rings of a plane bound the domain; the other lines stay.
+Points3 line_of(const LineNetwork& network, const std::vector<std::int32_t>& chain) {
+  Points3 line(3, std::ssize(chain));
+  for (std::size_t k = 0; k < chain.size(); ++k)
+    base_detail::set_column(line, static_cast<std::int64_t>(k),
+                            network.places[static_cast<std::size_t>(chain[k])]);
+  return line;
+}
+
+/// Tells the chains that are part of a closed way from those that are not, which are bridges of
+/// their graph (Tarjan, Inf. Process. Lett. 2, 1974).
+class ClosedWays {
+public:
+  explicit ClosedWays(const LineNetwork& network)
+      : chains_(network.chains), at_(network.places.size()), closed_(chains_.size(), true),
+        entered_(at_.size(), 0), lowest_(at_.size(), 0) {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      at_[static_cast<std::size_t>(chains_[c].front())].push_back(c);
+      if (chains_[c].front() != chains_[c].back())
+        at_[static_cast<std::size_t>(chains_[c].back())].push_back(c);
+      closed_[c] = chains_[c].size() > 1;
+    }
+    for (std::size_t place = 0; place < at_.size(); ++place)
+      if (entered_[place] == 0)
+        walk(place);
+  }
+
+  bool has(std::size_t chain) const { return closed_[chain]; }
+
+private:
+  struct Step {
+    std::size_t place, by, next; ///< entered by a chain; the next one to follow
+  };
+
+  void enter(std::size_t place, std::size_t by, std::vector<Step>& way) {
+    lowest_[place] = entered_[place] = ++count_;
+    way.push_back({place, by, 0});
+  }
+
+  void walk(std::size_t from) {
+    std::vector<Step> way;
+    enter(from, chains_.size(), way);
+    while (!way.empty()) {
+      Step& here = way.back();
+      if (here.next < at_[here.place].size()) {
+        const std::size_t chain = at_[here.place][here.next++];
+        const auto front = static_cast<std::size_t>(chains_[chain].front()),
+                   back = static_cast<std::size_t>(chains_[chain].back()),
+                   other = front == here.place ? back : front;
+        if (chain == here.by)
+          continue;
+        if (entered_[other] == 0)
+          enter(other, chain, way);
+        else
+          lowest_[here.place] = std::min(lowest_[here.place], entered_[other]);
+        continue;
+      }
+      const Step left = here;
+      way.pop_back();
+      if (way.empty())
+        break;
+      const std::size_t before = way.back().place;
+      lowest_[before] = std::min(lowest_[before], lowest_[left.place]);
+      if (lowest_[left.place] > entered_[before])
+        closed_[left.by] = false;
+    }
+  }
+
+  const std::vector<std::vector<std::int32_t>>& chains_;
+  std::vector<std::vector<std::size_t>> at_; ///< chains that end at a place
+  std::vector<bool> closed_;
+  std::vector<std::size_t> entered_, lowest_; ///< by place
+  std::size_t count_ = 0;
+};
+
+/// Closed rings of a plane bound the domain; lines, which may end at them, stay.
 JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
-  const LineNetwork network = generators_detail::network_of(
-      lines_of(file, base_detail::with_z(Points2(file.points))), false);
+  if (file.parts > 1)
+    refuse(path, "a geometry of " + std::to_string(file.parts) +
+                     " parts (BOUND); give each part a file of its own");
   JigsawGeometry out;
+  const LineNetwork all = generators_detail::network_of(
+      lines_of(file, base_detail::with_z(Points2(file.points))), false);
+  const ClosedWays closed(all);
+  std::vector<Points3> sides;
+  for (std::size_t c = 0; c < all.chains.size(); ++c)
+    (closed.has(c) ? sides : out.lines).push_back(line_of(all, all.chains[c]));
+  const LineNetwork network = generators_detail::network_of(sides, false);
   Surface::Rings rings;
   for (const std::vector<std::int32_t>& chain : network.chains) {
-    Points3 line(3, std::ssize(chain));
-    for (std::size_t k = 0; k < chain.size(); ++k)
-      base_detail::set_column(line, static_cast<std::int64_t>(k),
-                              network.places[static_cast<std::size_t>(chain[k])]);
-    const bool ring = chain.size() > 1 && chain.front() == chain.back() &&
-                      network.neighbours[static_cast<std::size_t>(chain.front())] == 2;
-    if (ring)
-      rings.emplace_back(line.topLeftCorner(2, line.cols() - 1));
-    else
-      out.lines.push_back(std::move(line));
+    const Points3 line = line_of(network, chain);
+    if (chain.front() != chain.back() ||
+        network.neighbours[static_cast<std::size_t>(chain.front())] != 2)
+      refuse(path, "rings of edges touch at the point " + std::to_string(line(0, 0)) + " " +
+                       std::to_string(line(1, 0)) + "; let each ring have corners of its own");
+    rings.emplace_back(line.topLeftCorner(2, line.cols() - 1));
   }
   if (rings.empty())
-    refuse(path, "no closed ring of edges that bounds a domain; give rings that other edges do "
-                 "not touch");
+    refuse(path, "no closed ring of edges that bounds a domain; give one");
   try {
     out.surface = Surface::plane().within(std::move(rings));
   } catch (const Error& error) {

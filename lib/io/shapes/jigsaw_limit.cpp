@@ -2,12 +2,10 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "io/command.h"
-#include "io/shapes/cell_width_file.h"
 #include "io/shapes/jigsaw.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/error.h>
-#include <calotte/read.h>
 
 #include <algorithm>
 #include <numbers>
@@ -37,7 +35,7 @@ double slope_of(const JigsawFile& file, const std::string& path) {
 /// The limited values at the nodes of the file, y running faster.
 std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string& path,
                                       double radius) {
-  const CellWidth limited = limit_gradient(read_cell_width(path), slope_of(file, path), radius);
+  const CellWidth limited = limit_gradient(widths_of(file, path), slope_of(file, path), radius);
   constexpr double degrees = 180 / std::numbers::pi;
   const auto ny = std::ssize(file.y_grid);
   Points3 nodes(3, std::ssize(file.x_grid) * ny);
@@ -53,7 +51,7 @@ std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string&
 
 std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& path) {
   PlanarCellWidth limited =
-      limit_gradient(read_planar_cell_width(path), slope_of(file, path), Surface::plane());
+      limit_gradient(planar_widths_of(file, path), slope_of(file, path), Surface::plane());
   if (file.x_grid.front() > file.x_grid.back()) // in the order of the file
     limited.widths.colwise().reverseInPlace();
   if (file.y_grid.front() > file.y_grid.back())
@@ -66,6 +64,8 @@ std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& 
 
 void limit_jigsaw_values(const std::string& path, double radius) {
   JigsawFile file = read_jigsaw(path);
+  if (file.values_of_each > 1)
+    refuse(path, "VALUE has several numbers for each node; give one, the width");
   std::vector<double> values;
   if (file.kind == "ellipsoid-grid")
     values = limited_on_sphere(file, path, file.radii ? radius_of(file, path) : radius);

@@ -161,7 +161,10 @@ TEST_CASE("the rules of a minimum have names and shares of the area and of the c
       "[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200], [0, 200], "
       "[0.001, 25]]}, {lines = \"line.geojson\", width = 5, over = 200}]");
   CHECK(read.names == std::vector<std::string>{"width 100", "latitude", "lines line.geojson"});
-  const std::vector<RuleShare> shares = rule_shares(read, Surface::sphere());
+  const auto shares_of = [](const WidthRules& of, const Surface& surface) {
+    return rule_shares(of, surface, density_of(sampled(of.widths)));
+  };
+  const std::vector<RuleShare> shares = shares_of(read, Surface::sphere());
   REQUIRE(shares.size() == 3);
   CHECK(shares[1].area == doctest::Approx(0.5).epsilon(0.02));
   CHECK(shares[0].area + shares[1].area + shares[2].area == doctest::Approx(1));
@@ -170,9 +173,9 @@ TEST_CASE("the rules of a minimum have names and shares of the area and of the c
   CHECK(shares[0].cells / shares[1].cells ==
         doctest::Approx(shares[0].area / shares[1].area / 16).epsilon(0.02));
   const Surface south = channel(-1.5707963267948966, -0.5);
-  CHECK(rule_shares(read, south)[0].area == doctest::Approx(1));
-  CHECK(rule_shares(rules.read("[cell-width]\nlatitude = [[-90, 60], [90, 20]]\nmost = 40"),
-                    Surface::sphere())[0]
+  CHECK(shares_of(read, south)[0].area == doctest::Approx(1));
+  CHECK(shares_of(rules.read("[cell-width]\nlatitude = [[-90, 60], [90, 20]]\nmost = 40"),
+                  Surface::sphere())[0]
             .area == 1);
   CHECK(rules.read("[cell-width]\nwidth = 60").names == std::vector<std::string>{"width 60"});
 }

@@ -17,8 +17,8 @@ import numpy as np
 from . import _arguments, _calotte
 from ._calotte import Share, Widths
 
-__all__ = ["Share", "Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum", "rule",
-           "share", "sum", "where"]
+__all__ = ["Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum",
+           "rule", "share", "sum", "where"]
 
 
 def rule(widths):

@@ -128,7 +128,7 @@ void add_recipe(py::module_& module) {
       "lines", [](const Recipe& recipe) { return std::ssize(recipe.lines); },
       [](Recipe& recipe, const std::vector<Doubles>& lines) { recipe.lines = lines_of(lines); });
   type.def("take_lines", [](Recipe& recipe, const std::string& path) {
-    recipe.lines = call([&] { return read_lines(path); });
+    recipe.lines = call([&] { return read_lines(path, recipe.surface); });
   });
   add_word(
       type, "kind", "kind of start", start_words(),

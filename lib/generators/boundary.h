@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "generators/room.h"
+
+#include <calotte/density.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+namespace calotte::generators_detail {
+
+/// As boundary_points(), even if there are more of them than generators.
+Points3 all_boundary_points(const Surface& surface, std::int64_t cells, const Density& density);
+
+} // namespace calotte::generators_detail
