@@ -81,7 +81,8 @@ double distance_of(const std::vector<Points3>& lines, const Eigen::Vector3d& pla
 
 } // namespace
 
-TEST_CASE("distances are those to arcs and points") {
+// Slow: 100 000 places against long double.
+TEST_CASE("distances are those to arcs and points [slow]") {
   const std::vector<Points3> all = lines();
   const Points3 places = random_sphere(100'000, 1);
   const double round = std::numbers::pi * earth_radius_km;

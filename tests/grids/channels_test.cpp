@@ -176,7 +176,8 @@ TEST_CASE("the least width of discs, and what grows from them, is that over all"
   }
 }
 
-TEST_CASE("the straits of a coast have about their width") {
+// Slow: all coasts of the world.
+TEST_CASE("the straits of a coast have about their width [slow]") {
   const Coast coast = test::gshhg('l');
   const Widths widths = Widths::by_channel(coast, {.cells = 4, .least = 2});
   const Points3 places = [] {

@@ -155,7 +155,8 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 
-TEST_CASE("the rules of a minimum have names and shares of the area and of the cells") {
+// Slow: hundreds of thousands of places.
+TEST_CASE("the rules of a minimum have names and shares of the area and of the cells [slow]") {
   const Rules rules;
   const WidthRules read = rules.read(
       "[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200], [0, 200], "
