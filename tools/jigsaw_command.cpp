@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,38 +27,15 @@
 namespace calotte::tools {
 namespace {
 
-/// The unit and the bounds of widths.
-struct Sizes {
-  double scale = 1;                                                 ///< of the values of a file
-  double least = 0, most = std::numeric_limits<double>::infinity(); ///< after it
-
-  void apply(DoubleMatrix& widths) const {
-    widths = (scale * widths).cwiseMin(most).cwiseMax(least);
-  }
-};
-
-/// The mean side of the box around a geometry, the unit of relative widths.
-double extent_of(const JigsawGeometry& geometry) {
-  if (geometry.surface.is_sphere())
-    return 2 * geometry.radius;
-  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()),
-                 high = -low;
-  for (const DoubleMatrix& ring : geometry.surface.rings()) {
-    low = low.min(ring.rowwise().minCoeff().array());
-    high = high.max(ring.rowwise().maxCoeff().array());
-  }
-  return (high - low).mean();
-}
-
-Sizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
+JigsawSizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
   constexpr double usual_most = 0.02;
   const std::string scale = jig.word("HFUN_SCAL", "relative");
   if (scale != "relative" && scale != "absolute")
     jig.refuse("HFUN_SCAL", "give RELATIVE or ABSOLUTE");
-  const double extent = extent_of(geometry);
-  Sizes sizes;
-  sizes.scale = scale == "relative" ? extent : 1;
-  sizes.most = std::min(extent, sizes.scale * jig.number("HFUN_HMAX").value_or(usual_most));
+  JigsawSizes sizes;
+  sizes.scale = scale == "relative" ? geometry.extent : 1;
+  sizes.most =
+      std::min(geometry.extent, sizes.scale * jig.number("HFUN_HMAX").value_or(usual_most));
   sizes.least = sizes.scale * std::max(0.0, jig.number("HFUN_HMIN").value_or(0));
   if (!(sizes.most > 0))
     jig.refuse("HFUN_HMAX", "give a number > 0");
@@ -69,17 +45,13 @@ Sizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
 }
 
 void take_widths(const JigFile& jig, const JigsawGeometry& geometry, Recipe& recipe) {
-  const Sizes sizes = sizes_of(jig, geometry);
+  const JigsawSizes sizes = sizes_of(jig, geometry);
   const std::optional<std::string> file = jig.text("HFUN_FILE");
-  if (geometry.surface.is_sphere()) {
-    recipe.widths = file ? read_cell_width(*file) : uniform_widths(sizes.most);
-    if (file)
-      sizes.apply(recipe.widths->widths);
-  } else {
-    recipe.planar_widths = file ? read_planar_cell_width(*file) : uniform_planar_widths(sizes.most);
-    if (file)
-      sizes.apply(recipe.planar_widths->widths);
-  }
+  if (geometry.surface.is_sphere())
+    recipe.widths = file ? read_jigsaw_widths(*file, sizes) : uniform_widths(sizes.most);
+  else
+    recipe.planar_widths =
+        file ? read_planar_jigsaw_widths(*file, sizes) : uniform_planar_widths(sizes.most);
 }
 
 /// The points of INIT_FILE: fixed ones, or with MESH_ITER = 0 all generators.

@@ -3,6 +3,8 @@
 
 #include "base/vector_loops.h"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace calotte::base_detail {
@@ -37,6 +39,15 @@ inline CosSin cos_sin_of_octant(int octant, double part) {
   if (octant / 2 % 2 == 1)
     p = {-p.sin, p.cos};
   return octant >= 4 ? CosSin{-p.cos, -p.sin} : p;
+}
+
+/// Cosine and sine of an angle from 0 to pi.
+inline CosSin cos_sin_of_angle(double angle) {
+  constexpr double octant_width = 0.25 * std::numbers::pi;
+  const int octant = std::min(3, static_cast<int>(angle / octant_width));
+  const double begin = octant * octant_width;
+  const double from_end = octant % 2 == 0 ? angle - begin : begin + octant_width - angle;
+  return cos_sin_of_octant(octant, std::clamp(from_end / octant_width, 0.0, 1.0));
 }
 
 } // namespace calotte::base_detail

@@ -15,7 +15,7 @@ namespace calotte::density_detail {
 /// surface: h = (I / (n rho^(1/2)))^(1/2), I the integral of rho^(1/2) over the surface.
 class DemandedSpacing {
 public:
-  /// \param surface of finite area. \param density which must outlive this.
+  /// \param surface of finite area.
   /// \param samples random places for the integral.
   DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);

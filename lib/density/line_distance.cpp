@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/require.h"
+#include "domain/lines.h"
 #include "domain/outline.h"
 
 #include <algorithm>
@@ -22,36 +23,21 @@ bool is_point(const Arc& arc, bool sphere) {
 
 constexpr double longest = 0.1; ///< of a chord: boxes of long arcs hold much else
 
-template <class Name> Vec3 direction_of(const Eigen::Vector3d& x, const Name& name) {
-  require(x.allFinite() && x.norm() > 0, name() + " is no direction; correct it");
-  return as_unit(Vec3{x.x(), x.y(), x.z()});
-}
-
-template <class Name> Vec3 place_of(const Eigen::Vector3d& x, const Name& name) {
-  require(x.allFinite() && x.z() == 0, name() + " is no place x y 0 of a plane; correct it");
-  return {x.x(), x.y(), 0};
-}
-
 std::vector<Arc> arcs_of(const std::vector<Points3>& lines, bool sphere) {
   std::vector<Arc> arcs;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    const Points3& line = lines[k];
-    Vec3 before{};
-    for (Eigen::Index i = 0; i < line.cols(); ++i) {
-      const auto name = [&] {
-        return "line " + std::to_string(k) + ", point " + std::to_string(i);
-      };
-      const Vec3 at = sphere ? direction_of(line.col(i), name) : place_of(line.col(i), name);
-      const Vec3 middle = before + at;
-      require(!sphere || i == 0 || dot(middle, middle) > 1e-20,
-              name() + " is opposite to the one before; give a point between them");
-      if (i == 0 ? line.cols() == 1 : is_point({before, at}, sphere))
-        arcs.push_back({at, at});
-      else if (i > 0 && !sphere)
-        arcs.push_back({before, at});
-      else if (i > 0)
-        for_each_short_part({before, at}, longest, [&](const Arc& part) { arcs.push_back(part); });
-      before = at;
+    const std::vector<Vec3> places =
+        domain_detail::places_of(lines[k], static_cast<std::int64_t>(k), sphere);
+    if (places.size() == 1)
+      arcs.push_back({places[0], places[0]});
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const Arc arc{places[i - 1], places[i]};
+      if (is_point(arc, sphere))
+        arcs.push_back({arc.to, arc.to});
+      else if (sphere)
+        for_each_short_part(arc, longest, [&](const Arc& part) { arcs.push_back(part); });
+      else
+        arcs.push_back(arc);
     }
   }
   require(!arcs.empty(), "there is no line to be distant from; give one or more points");

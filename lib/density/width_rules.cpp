@@ -44,7 +44,6 @@ public:
     std::fill(widths.begin(), widths.end(), width_);
   }
   double least() const override { return width_; }
-  Rule limited(double) const override { return std::make_shared<ConstantRule>(width_); }
 
 private:
   double width_;
@@ -330,6 +329,8 @@ std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines
 
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient) {
+  if (rule->space() == RuleSpace::any) // made of numbers
+    return rule;
   if (Rule exact = rule->limited(gradient))
     return exact;
   require(

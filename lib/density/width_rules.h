@@ -14,7 +14,7 @@
 
 namespace calotte::density_detail {
 
-/// Where a rule gives widths: a number does everywhere.
+/// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
 
 /// A width for every place. Immutable.
@@ -47,7 +47,9 @@ private:
 /// A rule by the distance from lines, which is negative at places where `is_behind` is true.
 /// \param lines closed boundaries of these places.
 ///
-/// \param profile of the distance, on the sphere in km. \param surface the sphere or a plane.
+/// \param profile of the distance, on the sphere in km.
+///
+/// \param surface the sphere or a plane.
 /// \throws Error invalid_argument as Widths::by_distance().
 std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
                                                std::function<bool(const Vec3&)> is_behind,

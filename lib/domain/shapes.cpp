@@ -26,15 +26,6 @@ std::string in_words(double value) {
   return text;
 }
 
-/// Cosine and sine of an angle from 0 to pi; the same bits on every machine.
-CosSin cos_sin(double angle) {
-  constexpr double octant_width = 0.25 * std::numbers::pi;
-  const int octant = std::min(3, static_cast<int>(angle / octant_width));
-  const double begin = octant * octant_width;
-  const double from_end = octant % 2 == 0 ? angle - begin : begin + octant_width - angle;
-  return cos_sin_of_octant(octant, std::clamp(from_end / octant_width, 0.0, 1.0));
-}
-
 /// Cosine and sine of i/n of a turn.
 CosSin part_of_turn(std::int64_t i, std::int64_t n) {
   const auto octant = static_cast<int>(8 * i / n);
@@ -73,7 +64,7 @@ template <class Place> Points3 ring_of(int corners, const Place& place) {
 
 /// The parallel of a latitude, eastward.
 Points3 parallel(double latitude, int corners) {
-  const CosSin north = cos_sin(std::abs(latitude));
+  const CosSin north = cos_sin_of_angle(std::abs(latitude));
   return ring_of(corners, [&](const CosSin& east) {
     return Vec3{north.cos * east.cos, north.cos * east.sin, std::copysign(north.sin, latitude)};
   });
@@ -98,7 +89,7 @@ Surface circle(const Eigen::Vector3d& centre, double radius, int corners) {
   require(radius >= least_angle && radius <= half_turn - least_angle,
           "the circle's radius is " + in_words(radius) + "; give 1e-6 to pi - 1e-6 radians");
   require_corners(corners);
-  const CosSin away = cos_sin(radius);
+  const CosSin away = cos_sin_of_angle(radius);
   return UncheckedSurface::of_sphere(
       {ring_of(corners, [&, up = up, east = east, north = north](const CosSin& turn) {
         return away.cos * up + away.sin * (turn.cos * north - turn.sin * east);
@@ -117,9 +108,9 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
   require(std::isfinite(bearing), "the ellipse's bearing is not finite; give radians from north");
   require_corners(corners);
   const double turned = std::remainder(bearing, 2 * half_turn);
-  CosSin along = cos_sin(std::abs(turned));
+  CosSin along = cos_sin_of_angle(std::abs(turned));
   along.sin = std::copysign(along.sin, turned);
-  const CosSin a = cos_sin(semi_major), b = cos_sin(semi_minor);
+  const CosSin a = cos_sin_of_angle(semi_major), b = cos_sin_of_angle(semi_minor);
   const Vec3 major = (a.sin / a.cos) * (along.cos * north + along.sin * east),
              minor = (b.sin / b.cos) * (along.sin * north - along.cos * east);
   return UncheckedSurface::of_sphere({ring_of(corners, [&, up = up](const CosSin& turn) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generators/curve.h"
 
+#include "base/circle.h"
+#include "base/elementary.h"
 #include "density/hexagons.h"
 
 #include <calotte/surface.h>
@@ -15,17 +17,20 @@ namespace {
 /// On the sphere an angle.
 template <Space S> double length_of(const Segment& segment) {
   const double chord = norm(segment.to - segment.from);
-  return S::on_sphere ? 2 * std::asin(std::min(1.0, chord / 2)) : chord;
+  return S::on_sphere ? 2 * base_detail::arc_sine(std::min(1.0, chord / 2)) : chord;
 }
 
 template <Space S> Vec3 place_at(const Segment& segment, double along) {
   if (along == 0)
     return segment.from;
-  const double length = length_of<S>(segment);
-  if constexpr (S::on_sphere)
-    return normalised(std::sin(length - along) * segment.from + std::sin(along) * segment.to);
-  else
-    return segment.from + (along / length) * (segment.to - segment.from);
+  const Vec3 chord = segment.to - segment.from;
+  if constexpr (S::on_sphere) {
+    const CosSin way = cos_sin_of_angle(along);
+    return normalised(way.cos * segment.from +
+                      way.sin * normalised(chord - dot(chord, segment.from) * segment.from));
+  } else {
+    return segment.from + (along / length_of<S>(segment)) * chord;
+  }
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "generators/line_network.h"
 
-#include "base/require.h"
-#include "domain/arcs.h"
+#include "domain/lines.h"
 
 #include <algorithm>
 #include <array>
@@ -10,32 +9,20 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace calotte::generators_detail {
 namespace {
 
-using base_detail::require;
-
 class Builder {
 public:
-  explicit Builder(bool sphere) : sphere_(sphere) {}
-
-  void add(const Points3& line, std::size_t number) {
+  void add(const std::vector<Vec3>& line) {
     std::int32_t before = -1;
-    for (Eigen::Index i = 0; i < line.cols(); ++i) {
-      const std::string name = "line " + std::to_string(number) + ", point " + std::to_string(i);
-      const std::int32_t here = id_of(checked(line.col(i), name));
-      const Vec3 apart = before >= 0 ? place(here) - place(before) : Vec3{};
-      if (dot(apart, apart) > 0) {
-        if (sphere_) {
-          const Vec3 middle = place(before) + place(here);
-          require(dot(middle, middle) > 1e-20,
-                  name + " is opposite to the one before; give a point between them");
-        }
+    for (const Vec3& at : line) {
+      const std::int32_t here = id_of(at);
+      const Vec3 apart = before >= 0 ? at - place(before) : Vec3{};
+      if (dot(apart, apart) > 0)
         join(before, here);
-      }
       before = here;
     }
   }
@@ -51,14 +38,6 @@ public:
   }
 
 private:
-  Vec3 checked(const Eigen::Vector3d& x, const std::string& name) const {
-    require(x.allFinite(), name + " is not finite; correct it");
-    require(sphere_ ? !x.isZero(0) : x.z() == 0,
-            name + (sphere_ ? " is no direction" : " has a z that is not 0") + "; correct it");
-    const Vec3 at{x.x(), x.y(), x.z()};
-    return sphere_ ? domain_detail::as_unit(at) : at;
-  }
-
   const Vec3& place(std::int32_t id) const { return places_[static_cast<std::size_t>(id)]; }
   std::vector<std::int32_t>& near(std::int32_t id) { return near_[static_cast<std::size_t>(id)]; }
 
@@ -122,7 +101,6 @@ private:
         follow_all(id);
   }
 
-  bool sphere_;
   std::map<std::array<double, 3>, std::int32_t> ids_;
   std::vector<Vec3> places_;
   std::vector<std::vector<std::int32_t>> near_; ///< neighbours of each place
@@ -133,9 +111,9 @@ private:
 } // namespace
 
 LineNetwork network_of(const std::vector<Points3>& lines, bool sphere) {
-  Builder builder(sphere);
+  Builder builder;
   for (std::size_t k = 0; k < lines.size(); ++k)
-    builder.add(lines[k], k);
+    builder.add(domain_detail::places_of(lines[k], static_cast<std::int64_t>(k), sphere));
   return builder.network();
 }
 

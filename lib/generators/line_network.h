@@ -22,8 +22,7 @@ struct LineNetwork {
 };
 
 /// \param lines each 3 x n, on the sphere directions. \param sphere or in the plane.
-/// \throws Error invalid_argument, naming line and point: not finite, no direction, opposite
-///         neighbours on the sphere, a z in the plane.
+/// \throws Error invalid_argument as domain_detail::places_of().
 LineNetwork network_of(const std::vector<Points3>& lines, bool sphere);
 
 } // namespace calotte::generators_detail

@@ -8,6 +8,8 @@
 #include "curve/hilbert.h"
 #include "density/demanded_spacing.h"
 #include "density/hexagons.h"
+#include "density/line_distance.h"
+#include "domain/lines.h"
 #include "domain/surface.h"
 #include "generators/curve.h"
 #include "generators/line_network.h"
@@ -15,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -110,26 +111,20 @@ std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>
 /// The largest distance of a place on curves from the nearest of some points, over the demanded
 /// edge there.
 template <Space S>
-double farthest(const std::vector<Curve<S>>& curves, const std::vector<Vec3>& points,
+double farthest(const std::vector<Curve<S>>& curves, const LineDistance& from_points,
                 const DemandedSpacing& spacing) {
   constexpr double step = 0.05; // edges
-  const BoxTree tree = tree_of(points, S::on_sphere);
   double most = 0;
   for (const Curve<S>& curve : curves) {
-    const auto samples = static_cast<std::int64_t>(std::ceil(curve.edges() / step));
-    for (std::int64_t k = 0; k <= samples; ++k) {
-      const Vec3 at = curve
-                          .place(curve.edges() * static_cast<double>(k) /
-                                 static_cast<double>(std::max<std::int64_t>(samples, 1)))
-                          .at;
-      double least = std::numeric_limits<double>::infinity();
-      tree.visit([&](const Box3& box) { return square_from(box, at) < least; },
-                 [&](std::int32_t i) {
-                   const Vec3 off = points[static_cast<std::size_t>(i)] - at;
-                   least = std::min(least, dot(off, off));
-                 });
-      most = std::max(most, std::sqrt(least) / edge_at(spacing, at));
-    }
+    const auto samples = std::max<std::int64_t>(1, std::llround(std::ceil(curve.edges() / step)));
+    std::vector<Vec3> places;
+    for (std::int64_t k = 0; k <= samples; ++k)
+      places.push_back(
+          curve.place(curve.edges() * static_cast<double>(k) / static_cast<double>(samples)).at);
+    std::vector<double> distances(places.size());
+    from_points(places, distances);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      most = std::max(most, distances[k] / edge_at(spacing, places[k]));
   }
   return most;
 }
@@ -147,7 +142,7 @@ void require_inside(const std::vector<Points3>& lines, const Surface& surface) {
   for (std::size_t k = 0; k < lines.size(); ++k)
     for (Eigen::Index i = 0; i < lines[k].cols(); ++i)
       require(surface.contains(lines[k].col(i)),
-              "line " + std::to_string(k) + ", point " + std::to_string(i) +
+              domain_detail::name_of_point(static_cast<std::int64_t>(k), i) +
                   " is outside the surface; cut the lines to its extent");
 }
 
@@ -169,9 +164,13 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
   out.points.resize(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)
     base_detail::set_column(out.points, static_cast<std::int64_t>(k), points[k]);
-  points.insert(points.end(), others.begin(), others.end());
-  if (!points.empty())
-    out.farthest = farthest(candidates.curves(), points, spacing);
+  std::vector<Points3> all; // a line each
+  for (const auto& point : out.points.colwise())
+    all.emplace_back(point);
+  for (const auto& point : beside.colwise())
+    all.emplace_back(point);
+  if (!all.empty())
+    out.farthest = farthest(candidates.curves(), LineDistance(all, surface), spacing);
   return out;
 }
 

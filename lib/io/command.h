@@ -3,8 +3,10 @@
 
 #include "io/room.h"
 
+#include <calotte/cell_width.h>
 #include <calotte/export.h>
 #include <calotte/mesh_file.h>
+#include <calotte/planar_raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/write.h>
@@ -39,9 +41,9 @@ bool is_netcdf(const MeshFile& file);
 /// \throws Error invalid_argument.
 void require_planar_format(const std::string& path, const Surface& plane, Format format);
 
-/// Whether a file is GeoJSON with a line: LineString or MultiLineString; false for any other path.
-/// \throws Error parse, file.
-bool holds_lines(const std::string& path);
+/// The lines of a GeoJSON file, as read_lines() has them; none of another path, and of a file of
+/// other geometries. \throws Error parse, also for lines beside other geometries; file.
+std::vector<Points3> lines_in(const std::string& path, const Surface& surface);
 
 // ---- Files of JIGSAW (.msh), whose lengths have one unit of any kind
 
@@ -49,6 +51,7 @@ bool holds_lines(const std::string& path);
 struct JigsawGeometry {
   Surface surface;   ///< the sphere, or the part of a plane between the closed rings of its edges
   double radius = 1; ///< of the sphere
+  double extent = 2; ///< the mean side of the box around it
   /// Its other edges and points, which the mesh follows: on the sphere directions, in a plane x y
   /// 0.
   std::vector<Points3> lines;
@@ -58,6 +61,17 @@ struct JigsawGeometry {
 /// \throws Error parse: radii that differ, another kind, a plane without a closed ring of edges; as
 ///         read_domain(); file.
 JigsawGeometry read_jigsaw_geometry(const std::string& path);
+
+/// How widths of a file are taken: times a factor, then within bounds.
+struct JigsawSizes {
+  double scale = 1;
+  double least = 0, most = 0; ///< least <= most
+};
+
+/// Reads cell widths, which may be 0 where the least one is not. \throws Error as read_cell_width()
+/// and read_planar_cell_width().
+CellWidth read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes);
+PlanarCellWidth read_planar_jigsaw_widths(const std::string& path, const JigsawSizes& sizes);
 
 /// Points of a mesh of any kind, 3 x n, and whether the tag of each fixes it.
 struct JigsawPoints {

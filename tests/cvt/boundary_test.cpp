@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
+#include "support/directions.h"
 #include "support/planes.h"
 #include "support/starts.h"
 
@@ -13,6 +14,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -21,30 +23,20 @@
 #include <vector>
 
 using namespace calotte;
+using calotte::test::direction;
+using calotte::test::directions;
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-Eigen::Vector3d at(double lon, double lat) {
-  return {std::cos(lat * degree) * std::cos(lon * degree),
-          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
-}
-
-Points3 ring_of(const std::vector<std::pair<double, double>>& corners) {
-  Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    ring.col(static_cast<Eigen::Index>(k)) = at(corners[k].first, corners[k].second);
-  return ring;
-}
-
 /// A polygon with a reflex corner, and a hole.
 Region holed() {
-  return {{ring_of({{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 15}, {0, 25}}),
-           ring_of({{28, 8}, {28, 16}, {35, 16}, {35, 8}})}};
+  return {{directions({{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 15}, {0, 25}}),
+           directions({{28, 8}, {28, 16}, {35, 16}, {35, 8}})}};
 }
 
-Density graded() { return tanh_bump(at(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
+Density graded() { return tanh_bump(direction(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
 
 struct Case {
   std::string name;
@@ -53,8 +45,8 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  return {{"circle", circle(at(10, 20), 12 * degree), {}},
-          {"hemisphere", circle(at(10, 20), 90 * degree), {}},
+  return {{"circle", circle(direction(10, 20), 12 * degree), {}},
+          {"hemisphere", circle(direction(10, 20), 90 * degree), {}},
           {"polygon with a hole", holed(), {}},
           {"graded", holed(), graded()}};
 }
@@ -224,17 +216,6 @@ Surface bent() {
   return Surface::plane().within({ring, hole});
 }
 
-double area_of(const Mesh& mesh) {
-  double area = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const Eigen::Vector3d a = mesh.points.col(mesh.triangles(0, t)),
-                          u = mesh.points.col(mesh.triangles(1, t)) - a,
-                          v = mesh.points.col(mesh.triangles(2, t)) - a;
-    area += (u.x() * v.y() - u.y() * v.x()) / 2;
-  }
-  return area;
-}
-
 } // namespace
 
 // Slow: two runs of 1 500 cells.
@@ -259,12 +240,26 @@ TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow
     for (const DoubleMatrix& ring : recipe.surface.rings())
       for (const auto& corner : ring.colwise())
         CHECK((mesh.points.topRows<2>().colwise() - corner).colwise().norm().minCoeff() == 0);
-    CHECK(area_of(mesh) == doctest::Approx(recipe.surface.area()).epsilon(1e-12));
+    CHECK(area_of_triangles(mesh) == doctest::Approx(recipe.surface.area()).epsilon(1e-12));
     CHECK(std::ssize(outer_edges(mesh)) == b);
     CHECK(mesh.triangles.cols() == 2 * 1500 - b); // a ring: Euler's characteristic is 0
     CHECK(least_angle(mesh) > 33);
     CHECK(grid.report.converged);
   }
+}
+
+TEST_CASE("boundary: in the plane the same bits for all threads and regions") {
+  Recipe recipe;
+  recipe.surface = bent();
+  recipe.boundary = Boundary::generators;
+  recipe.cells = 400;
+  const auto with = [&](std::size_t threads, int regions) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return make_grid(recipe, {.partition = {.regions = regions}}).mesh;
+  };
+  const Mesh one = with(1, 1), many = with(4, 12);
+  CHECK(one.points == many.points);
+  CHECK(one.triangles == many.triangles);
 }
 
 TEST_CASE("boundary: too few cells are refused in one line") {

@@ -106,6 +106,8 @@ TEST_CASE("widths of a plane: distances go across periods, numbers hold everywhe
   CHECK(widths[1] == doctest::Approx(1.5));
   CHECK(widths[2] == doctest::Approx(6));
   CHECK(evaluate(Widths(3.0), Points2{{19, 1}, {5, 5}}) == DoubleVector{{3, 3}});
+  const Widths number = Widths::sum({1, 2}).limit_gradient(0.1); // is of no surface
+  CHECK(evaluate(Widths::minimum({rule, number}), Points2{{10}, {5}})[0] == 3);
 }
 
 TEST_CASE("widths of a plane: what says nothing has no mean with a width") {

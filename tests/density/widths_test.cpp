@@ -22,6 +22,7 @@
 using namespace calotte;
 using calotte::test::angle;
 using calotte::test::direction;
+using calotte::test::directions;
 using calotte::test::error_of;
 
 namespace {
@@ -45,27 +46,20 @@ double angle_from_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
   return static_cast<double>(std::min(between(a, p), between(b, p)));
 }
 
-Points3 line(const std::vector<std::array<double, 2>>& places) {
-  Points3 points(3, std::ssize(places));
-  for (std::size_t k = 0; k < places.size(); ++k)
-    points.col(static_cast<Eigen::Index>(k)) = direction(places[k][0], places[k][1]);
-  return points;
-}
-
 /// Over a pole, over the date line, nearly half way round, also over both poles, in short steps,
 /// and a point.
 std::vector<Points3> lines() {
-  std::vector<Points3> all{line({{10, 70}, {-170, 70}, {-160, 40}}),
-                           line({{175, -10}, {-175, 10}}),
-                           line({{20, -5}, {199, 4}}),
-                           line({{80, -40}}),
-                           line({{-120, -89.99}, {-120, 0}, {60, 89.95}, {60, 0.02}}),
-                           line({{100, -60}, {100, -60}, {101, -61}})};
+  std::vector<Points3> all{directions({{10, 70}, {-170, 70}, {-160, 40}}),
+                           directions({{175, -10}, {-175, 10}}),
+                           directions({{20, -5}, {199, 4}}),
+                           directions({{80, -40}}),
+                           directions({{-120, -89.99}, {-120, 0}, {60, 89.95}, {60, 0.02}}),
+                           directions({{100, -60}, {100, -60}, {101, -61}})};
   test::Random random(3);
   std::vector<std::array<double, 2>> walk{{-60, 0}};
   for (int k = 0; k < 60; ++k)
     walk.push_back({walk.back()[0] + random.real(-1, 1), walk.back()[1] + random.real(-1, 1)});
-  all.push_back(line(walk));
+  all.push_back(directions(walk));
   return all;
 }
 
@@ -96,7 +90,7 @@ TEST_CASE("distances are those to arcs and points [slow]") {
 }
 
 TEST_CASE("profiles follow their nodes, and stay beyond them") {
-  const Points3 places = line({{0, -90}, {50, -80}, {10, -45}, {0, 0}, {120, 30}, {7, 90}});
+  const Points3 places = directions({{0, -90}, {50, -80}, {10, -45}, {0, 0}, {120, 30}, {7, 90}});
   const WidthProfile zones{{{-80, 30}, {0, 60}, {60, 20}}};
   const DoubleVector straight = evaluate(Widths::by_latitude(zones), places);
   const DoubleVector expected{{30, 30, 30 + 30 * 35.0 / 80, 60, 40, 20}};
@@ -143,7 +137,8 @@ TEST_CASE("two rules blend by the distance from a region") {
 }
 
 TEST_CASE("limited rules are those of cones, exactly where they grow from lines or by latitude") {
-  const std::vector<Points3> points{line({{10, 89}}), line({{180, 0}}), line({{0, 0}})};
+  const std::vector<Points3> points{directions({{10, 89}}), directions({{180, 0}}),
+                                    directions({{0, 0}})};
   const Widths steep = Widths::by_distance(points, {{{0, 10}, {100, 300}}}),
                limited = steep.limit_gradient(0.03);
   const Points3 places = random_sphere(2000, 3);
@@ -155,7 +150,8 @@ TEST_CASE("limited rules are those of cones, exactly where they grow from lines 
   // A step of latitude: 20 km north of 30 degrees, 100 km from 29 degrees down.
   const Widths step = Widths::by_latitude({{{29, 100}, {30, 20}}}).limit_gradient(0.03);
   const double km = earth_radius_km * radians;
-  const DoubleVector along = evaluate(step, line({{0, 40}, {0, 30}, {0, 20}, {0, 10}, {0, -30}}));
+  const DoubleVector along =
+      evaluate(step, directions({{0, 40}, {0, 30}, {0, 20}, {0, 10}, {0, -30}}));
   const DoubleVector law{{20, 20, 20 + 0.3 * km, 20 + 0.6 * km, 100}};
   CHECK((along - law).cwiseAbs().maxCoeff() < 1e-9);
   // Limited again, nothing changes; the least of both is limited as both are.
@@ -166,7 +162,7 @@ TEST_CASE("limited rules are those of cones, exactly where they grow from lines 
 
 TEST_CASE("the active rule of a minimum is the least one") {
   const Points3 places = random_sphere(3000, 5);
-  const Widths lines = Widths::by_distance({line({{10, 89}})}, {{{0, 10}, {100, 300}}}),
+  const Widths lines = Widths::by_distance({directions({{10, 89}})}, {{{0, 10}, {100, 300}}}),
                inside = Widths::where(circle({1, 0, 0}, 0.4), 40.0, Widths::no_demand);
   for (const bool limited : {false, true}) {
     const auto made = [&](const Widths& rule) {
@@ -193,7 +189,7 @@ TEST_CASE("other limited rules are limited at the nodes of a raster") {
   const Surface region = circle({0, 0, 1}, 0.3);
   const Widths inside = Widths::where(region, 40.0, 200.0);
   const DoubleVector got =
-      evaluate(inside.limit_gradient(0.05), line({{0, 90}, {50, 60}, {0, -30}}));
+      evaluate(inside.limit_gradient(0.05), directions({{0, 90}, {50, 60}, {0, -30}}));
   CHECK(got[0] == 40);
   const double beyond = earth_radius_km * (30 * radians - 0.3);
   CHECK(got[1] == doctest::Approx(40 + 0.05 * beyond).epsilon(0.02));
@@ -208,7 +204,7 @@ TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
   for (Eigen::Index i = 0; i < 3; ++i)
     sea.heights.block(i, 3, 1, 3).setConstant(50); // land
   using Kind = DepthRule::Kind;
-  const Points3 at = line({{100, 30}, {10, -50}, {0, -50}, {120, 0}, {90, 60}});
+  const Points3 at = directions({{100, 30}, {10, -50}, {0, -50}, {120, 0}, {90, 60}});
   const double depth = 3300, speed = std::sqrt(9.80665 * depth);
   const DoubleVector wave = evaluate(
       Widths::by_depth(sea, {.kind = Kind::wavelength, .cells = 60, .period = 44712, .least = 3}),
@@ -251,13 +247,13 @@ TEST_CASE("widths that are none are refused by name") {
           Widths::by_latitude({{{10, 10}, {0, 20}}});
         }) == "node 1 of a profile of the latitude is not above the one before; sort them");
   CHECK(message([] {
-          Widths::by_distance({line({{0, 0}})}, {{{0, 0}}});
+          Widths::by_distance({directions({{0, 0}})}, {{{0, 0}}});
         }) == "node 0 of a profile of a distance has the width 0; give km, > 0");
   CHECK(message([] {
           Widths::by_distance({}, {{{0, 1}}});
         }) == "there is no line to be distant from; give one or more points");
   CHECK(message([] {
-          Widths::by_distance({line({{0, 0}, {180, 0}})}, {{{0, 1}}});
+          Widths::by_distance({directions({{0, 0}, {180, 0}})}, {{{0, 1}}});
         }) == "line 0, point 1 is opposite to the one before; give a point between them");
   CHECK(message([] { Widths::minimum({}); }) == "there are no widths to combine; give one or more");
   const Surface region = circle({1, 0, 0}, 0.5);

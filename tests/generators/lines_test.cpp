@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/directions.h"
+
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -8,6 +10,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,22 +18,12 @@
 #include <vector>
 
 using namespace calotte;
+using calotte::test::direction;
+using calotte::test::directions;
 
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-Eigen::Vector3d at(double lon, double lat) {
-  return {std::cos(lat * degree) * std::cos(lon * degree),
-          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
-}
-
-Points3 line_of(const std::vector<std::pair<double, double>>& places) {
-  Points3 line(3, std::ssize(places));
-  for (std::size_t k = 0; k < places.size(); ++k)
-    line.col(static_cast<Eigen::Index>(k)) = at(places[k].first, places[k].second);
-  return line;
-}
 
 /// The distance of neighbours in a uniform grid of the sphere.
 double width(double cells) { return std::sqrt(2 / std::sqrt(3.0) * 4 * std::numbers::pi / cells); }
@@ -71,8 +64,8 @@ std::string message_of(const std::vector<Points3>& lines, const Surface& surface
 
 /// Three rivers, one over the date line, that meet at 175 E 10 N.
 std::vector<Points3> rivers() {
-  return {line_of({{150, 30}, {160, 22}, {175, 10}}), line_of({{-160, 35}, {-175, 25}, {175, 10}}),
-          line_of({{175, 10}, {176, -20}})};
+  return {directions({{150, 30}, {160, 22}, {175, 10}}),
+          directions({{-160, 35}, {-175, 25}, {175, 10}}), directions({{175, 10}, {176, -20}})};
 }
 
 } // namespace
@@ -84,7 +77,7 @@ TEST_CASE("lines: confluences and ends stay, neighbours are at the demanded dist
     const double h = width(static_cast<double>(cells));
     const LinePoints found = line_points(lines, {}, cells);
     for (const auto& [lon, lat] : {std::pair{175, 10}, {150, 30}, {-160, 35}, {176, -20}})
-      CHECK(distance_to(found.points, at(lon, lat)) < 1e-15);
+      CHECK(distance_to(found.points, direction(lon, lat)) < 1e-15);
     CHECK(least_distance(found.points) > 0.66 * h);
     CHECK(((found.points.colwise().norm().array() - 1).abs() < 1e-15).all());
     CHECK(found.farthest == doctest::Approx(farthest(lines, found.points) / h).epsilon(0.02));
@@ -107,14 +100,14 @@ TEST_CASE("lines: how they are cut, repeated or ordered does not matter") {
 }
 
 TEST_CASE("lines: a loop has the same generators wherever it is begun or cut") {
-  std::vector<std::pair<double, double>> ring;
+  std::vector<std::array<double, 2>> ring;
   for (int k = 0; k < 36; ++k)
-    ring.emplace_back(10 * k, 60 + 5 * std::sin(k));
+    ring.push_back({10.0 * k, 60 + 5 * std::sin(k)});
   const auto from = [&](int first, int last) {
-    std::vector<std::pair<double, double>> part;
+    std::vector<std::array<double, 2>> part;
     for (int k = first; k <= last; ++k)
       part.push_back(ring[static_cast<std::size_t>(k % 36)]);
-    return line_of(part);
+    return directions(part);
   };
   const Points3 one = line_points({from(0, 36)}, {}, 3000).points,
                 other = line_points({from(20, 30), from(30, 56)}, {}, 3000).points;
@@ -125,13 +118,13 @@ TEST_CASE("lines: a loop has the same generators wherever it is begun or cut") {
 }
 
 TEST_CASE("lines: those that run side by side or cross share generators") {
-  std::vector<std::pair<double, double>> north, south, across;
+  std::vector<std::array<double, 2>> north, south, across;
   for (int k = 0; k <= 20; ++k) {
-    north.emplace_back(3 * k, 0.2);
-    south.emplace_back(3 * k, -0.2);
-    across.emplace_back(31 + 0.1 * k, 1.5 * k - 15);
+    north.push_back({3.0 * k, 0.2});
+    south.push_back({3.0 * k, -0.2});
+    across.push_back({31 + 0.1 * k, 1.5 * k - 15});
   }
-  const std::vector<Points3> lines{line_of(north), line_of(south), line_of(across)};
+  const std::vector<Points3> lines{directions(north), directions(south), directions(across)};
   const std::int64_t cells = 2000;
   const LinePoints found = line_points(lines, {}, cells);
   CHECK(least_distance(found.points) > 0.66 * width(cells));
@@ -140,15 +133,16 @@ TEST_CASE("lines: those that run side by side or cross share generators") {
 }
 
 TEST_CASE("lines: loops, points, the pole, and a density") {
-  std::vector<std::pair<double, double>> ring;
+  std::vector<std::array<double, 2>> ring;
   for (int k = 0; k <= 36; ++k)
-    ring.emplace_back(10 * k, 80);
+    ring.push_back({10.0 * k, 80});
   ring.back() = ring.front();
-  const std::vector<Points3> lines{line_of(ring), Points3(at(0, 90)), line_of({{0, -60}, {0, 60}})};
-  const Density density = tanh_bump(at(0, 0), 20 * degree, 10 * degree, 1.0 / 256);
+  const std::vector<Points3> lines{directions(ring), Points3(direction(0, 90)),
+                                   directions({{0, -60}, {0, 60}})};
+  const Density density = tanh_bump(direction(0, 0), 20 * degree, 10 * degree, 1.0 / 256);
   const std::int64_t cells = 20000;
   const Points3 points = line_points(lines, {}, cells, density).points;
-  CHECK(distance_to(points, at(0, 90)) == 0);
+  CHECK(distance_to(points, direction(0, 90)) == 0);
   // Along the meridian cells are four times finer in the bump than far from it.
   std::vector<double> latitudes;
   for (const auto& p : points.colwise())
@@ -185,15 +179,26 @@ TEST_CASE("lines: a grid keeps them, in the plane, too") {
   CHECK(distance_to(grid.mesh.points, line.col(2)) == 0);
 }
 
+TEST_CASE("lines: the same bits for any number of threads") {
+  const Density density = tanh_bump(direction(175, 10), 20 * degree, 10 * degree, 1.0 / 256);
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return line_points(rivers(), {}, 5000, density);
+  };
+  const LinePoints one = with(1), many = with(4);
+  CHECK(one.points == many.points);
+  CHECK(one.farthest == many.farthest);
+}
+
 TEST_CASE("lines: bad ones are refused in one line with line and point") {
-  CHECK(message_of({line_of({{0, 0}, {1, 0}}), line_of({{0, 0}, {180, 0}})})
+  CHECK(message_of({directions({{0, 0}, {1, 0}}), directions({{0, 0}, {180, 0}})})
             .find("line 1, point 1 is opposite to the one before") == 0);
-  Points3 zero = line_of({{0, 0}, {1, 1}});
+  Points3 zero = directions({{0, 0}, {1, 1}});
   zero.col(1).setZero();
   CHECK(message_of({zero}).find("line 0, point 1 is no direction") == 0);
   zero(0, 1) = std::nan("");
-  CHECK(message_of({zero}).find("line 0, point 1 is not finite") == 0);
-  CHECK(message_of({line_of({{0, 0}, {30, 0}})}, circle(at(0, 0), 10 * degree))
+  CHECK(message_of({zero}).find("line 0, point 1 is no direction") == 0);
+  CHECK(message_of({directions({{0, 0}, {30, 0}})}, circle(direction(0, 0), 10 * degree))
             .find("line 0, point 1 is outside the surface") == 0);
   CHECK(line_points({}, {}, 1000).points.cols() == 0);
   DoubleMatrix outer(2, 4), hole(2, 4);

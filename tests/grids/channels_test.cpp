@@ -26,18 +26,12 @@
 using namespace calotte;
 using calotte::test::angle;
 using calotte::test::direction;
+using calotte::test::directions;
 using calotte::test::error_of;
 
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-
-Points3 ring(const std::vector<std::array<double, 2>>& corners) {
-  Points3 points(3, std::ssize(corners));
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    points.col(static_cast<Eigen::Index>(k)) = direction(corners[k][0], corners[k][1]);
-  return points;
-}
 
 Points3 round_ring(double longitude, double latitude, double radius) {
   return circle(direction(longitude, latitude), radius * radians).rings().front();
@@ -46,8 +40,8 @@ Points3 round_ring(double longitude, double latitude, double radius) {
 /// Land west and east of a channel about the meridian 0, which is `south` and `north` degrees wide
 /// on both sides at 40 degrees south and north.
 Coast banks(double south, double north) {
-  return {{ring({{-south, -40}, {-north, 40}, {-25, 40}, {-25, -40}}),
-           ring({{south, -40}, {25, -40}, {25, 40}, {north, 40}})}};
+  return {{directions({{-south, -40}, {-north, 40}, {-25, 40}, {-25, -40}}),
+           directions({{south, -40}, {25, -40}, {25, 40}, {north, 40}})}};
 }
 
 Coast turned(const Coast& coast, const Eigen::Matrix3d& rotation) {
@@ -115,8 +109,8 @@ TEST_CASE("what is no channel demands nothing") {
   CHECK_FALSE(demands({{island}}));
   CHECK_FALSE(demands({{lake}}));
   // A square bay is as wide as deep; a wider one is no inlet.
-  CHECK_FALSE(demands(
-      {{ring({{-5, -5}, {5, -5}, {5, 5}, {1.5, 5}, {1, 3.5}, {-1, 3.5}, {-1.5, 5}, {-5, 5}})}}));
+  CHECK_FALSE(demands({{directions(
+      {{-5, -5}, {5, -5}, {5, 5}, {1.5, 5}, {1, 3.5}, {-1, 3.5}, {-1.5, 5}, {-5, 5}})}}));
   CHECK_FALSE(demands({}));
   CHECK_FALSE(demands({{Points3(island.leftCols(1))}}));
 }
@@ -130,8 +124,9 @@ TEST_CASE("polygons that are cut along a meridian have the channels of the whole
   whole.push_back(west[0]);
   whole.insert(whole.end(), east.begin() + 2, east.end());
   const ChannelRule rule{.cells = 4, .least = 3};
-  const Widths cut = Widths::by_channel({{ring(west), ring(east)}}, rule).limit_gradient(0.03),
-               uncut = Widths::by_channel({{ring(whole)}}, rule);
+  const Widths cut = Widths::by_channel({{directions(west), directions(east)}}, rule)
+                         .limit_gradient(0.03),
+               uncut = Widths::by_channel({{directions(whole)}}, rule);
   const Points3 places = random_sphere(20000, 3);
   CHECK(evaluate(cut, places) == evaluate(uncut.limit_gradient(0.03), places));
   CHECK(evaluate(uncut, direction(180, 9.5))[0] < Widths::no_demand);
@@ -203,6 +198,6 @@ TEST_CASE("rules of channels that are none are refused by name") {
         "the least width of a rule of channels, 0, is not positive; give one");
   CHECK(message(banks(1, 1), {.cells = 1e-3, .least = 1e-3}).find("20 million pieces") !=
         std::string::npos);
-  CHECK(message({{ring({{0, 0}, {180, 0}, {90, 50}})}}, {.cells = 1, .least = 1}) ==
+  CHECK(message({{directions({{0, 0}, {180, 0}, {90, 50}})}}, {.cells = 1, .least = 1}) ==
         "ring 0 of the coast, corner 1 is opposite to the one before; give a corner between them");
 }

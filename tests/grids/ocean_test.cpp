@@ -7,6 +7,7 @@
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
+#include "support/directions.h"
 #include "support/gshhg.h"
 #include "support/planes.h"
 
@@ -24,31 +25,20 @@ using namespace calotte::test;
 
 namespace {
 
-Eigen::Vector3d at(double longitude, double latitude) {
-  const base_detail::Vec3 x = base_detail::from_lonlat(longitude, latitude);
-  return {x.x, x.y, x.z};
-}
-
-Points3 line(const std::vector<std::pair<double, double>>& places) {
-  Points3 columns(3, std::ssize(places));
-  for (std::size_t k = 0; k < places.size(); ++k)
-    columns.col(static_cast<Eigen::Index>(k)) = at(places[k].first, places[k].second);
-  return columns;
-}
-
 // The channels of straits from sea to sea, and lines across them from land to land.
-const Points3 gibraltar = line({{-7.5, 35.9}, {-5.6, 35.95}, {-3.5, 36}}),
-              bosphorus = line({{25.5, 39.6},
-                                {26.2, 40.05},
-                                {26.7, 40.4},
-                                {27.5, 40.7},
-                                {28.9, 40.9},
-                                {29.05, 41.1},
-                                {29.2, 41.5}}),
-              across_gibraltar = line({{-5.6, 37}, {-5.6, 35}}),
-              across_bosphorus = line({{28.2, 41.5}, {29.9, 40.7}}),
-              across_dardanelles = line({{26, 40.6}, {27.2, 39.7}});
-const Eigen::Vector3d atlantic = at(-30, 30), mediterranean = at(18, 35), black_sea = at(34, 43.2);
+const Points3 gibraltar = directions({{-7.5, 35.9}, {-5.6, 35.95}, {-3.5, 36}}),
+              bosphorus = directions({{25.5, 39.6},
+                                      {26.2, 40.05},
+                                      {26.7, 40.4},
+                                      {27.5, 40.7},
+                                      {28.9, 40.9},
+                                      {29.05, 41.1},
+                                      {29.2, 41.5}}),
+              across_gibraltar = directions({{-5.6, 37}, {-5.6, 35}}),
+              across_bosphorus = directions({{28.2, 41.5}, {29.9, 40.7}}),
+              across_dardanelles = directions({{26, 40.6}, {27.2, 39.7}});
+const Eigen::Vector3d atlantic = direction(-30, 30), mediterranean = direction(18, 35),
+                      black_sea = direction(34, 43.2);
 
 /// A uniform grid of the Earth and its land.
 struct Earth {

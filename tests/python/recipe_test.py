@@ -195,7 +195,8 @@ def test_what_does_not_fit():
 def test_widths_of_a_plane_that_are_none():
     refuses("unit of its coordinates", calotte.cvt, cell_width="1km", surface=BOX)
     refuses("y x x", calotte.cvt, cell_width=(np.ones((2, 3)), [0, 1], [0, 1, 2]), surface=BOX)
-    refuses("(values, x, y)", calotte.cvt, cell_width=lambda x, y: x, surface=BOX)
+    refuses("not positive", calotte.cvt, cell_width=lambda x, y: x, surface=BOX)
+    refuses("one number for each", calotte.cvt, cell_width=lambda x, y: x[0], surface=BOX)
     refuses("(values, x, y)", calotte.cvt, cell_width=(1, 2), surface=BOX)
     refuses("", calotte.cvt, cell_width=(0.1 * np.ones((2, 2)), [0, 1], [0, 1]), surface=BOX)
     refuses("not both", calotte.cvt, cell_width=0.1, density="uniform", surface=BOX)

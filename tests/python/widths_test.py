@@ -138,5 +138,8 @@ def test_rules_of_a_plane():
     grid = calotte.cvt(cell_width=shore, surface=lake)
     near = grid.mesh.points[:, 1] < 0.5
     assert near.sum() > 0.25 * len(near)
+    same = calotte.cvt(cell_width=lambda x, y: np.minimum(0.1 + 0.3 * np.minimum(y, 3 - y), 0.4),
+                       surface=lake)
+    assert len(same.mesh) == pytest.approx(len(grid.mesh), rel=0.01)
     with pytest.raises(calotte.Error, match="some widths are of the sphere"):
         widths.minimum(shore, widths.by_latitude([(0, 60)]))

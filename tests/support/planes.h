@@ -141,6 +141,18 @@ inline void require_domain(const PlanarDomain& domain) {
   else
     Surface::plane().within(domain.rings);
 }
+/// The sum of the triangles of a mesh of a plane, counter-clockwise ones > 0.
+inline double area_of_triangles(const Mesh& mesh) {
+  double area = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Vector3d a = mesh.points.col(mesh.triangles(0, t)),
+                          u = mesh.points.col(mesh.triangles(1, t)) - a,
+                          v = mesh.points.col(mesh.triangles(2, t)) - a;
+    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  return area;
+}
+
 inline double area(const Surface& surface) { return surface.area(); }
 inline bool contains(const Surface& surface, const Eigen::Vector3d& place) {
   return surface.contains(place);

@@ -65,16 +65,21 @@ TEST_CASE("jigsaw: a plane's mesh fills its polygon, and ends at edges") {
   REQUIRE(outcome.code == 0);
   CHECK(outcome.out.find("a.jig line 9: OPTM_QLIM has no effect") != std::string::npos);
   const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.msh");
-  double area = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const Eigen::Vector3d a = mesh.points.col(mesh.triangles(0, t)),
-                          u = mesh.points.col(mesh.triangles(1, t)) - a,
-                          v = mesh.points.col(mesh.triangles(2, t)) - a;
-    area += (u.x() * v.y() - u.y() * v.x()) / 2;
-  }
-  CHECK(area == doctest::Approx(81).epsilon(1e-12));
+  CHECK(calotte::area_of_triangles(mesh) == doctest::Approx(81).epsilon(1e-12));
   CHECK(bench.file("mesh.msh").find("\nEDGE2=") != std::string::npos);
   CHECK(bench.file("mesh.msh").find("NDIMS=2\n") != std::string::npos);
+}
+
+TEST_CASE("jigsaw: widths of 0 take the least one") {
+  const Bench bench;
+  bench.file("geom.msh", square);
+  bench.file("hfun.msh", "MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\nCOORD=1;2\n-1\n10\nCOORD=2;2\n-1\n10\n"
+                         "VALUE=4;1\n0\n0\n0.1\n0.1\n");
+  const std::string options = head + "HFUN_FILE=hfun.msh\nHFUN_SCAL=absolute\nHFUN_HMAX=inf\n";
+  bench.file("a.jig", options + "HFUN_HMIN=1\n");
+  CHECK(bench.run("jigsaw a.jig").code == 0);
+  std::filesystem::remove(bench.folder() / "mesh.msh");
+  check_refused(bench, options, "hfun.msh: VALUE[0][0] is not positive and finite");
 }
 
 TEST_CASE("jigsaw: points of negative tags stay, lines are followed, a start alone is kept") {
@@ -141,6 +146,15 @@ TEST_CASE("cvt: --fixed takes lines, and the report says how near generators are
   CHECK(outcome.code == 0);
   CHECK(outcome.err.find("rivers.geojson: 2 lines hold ") != std::string::npos);
   CHECK(bench.file("a.json").find("\"farthest_in_widths\": 0.") != std::string::npos);
+  bench.file("pier.geojson", R"({"type":"LineString","coordinates":[[1,1],[3,2]]})");
+  const Outcome plane = bench.run("cvt --rectangle 0,0,4,3 --cells 400 --fixed pier.geojson "
+                                  "--iterations 20 -o p.vtp");
+  CHECK(plane.code == 0);
+  CHECK(plane.err.find("pier.geojson: 1 line holds ") != std::string::npos);
+  bench.file("both.geojson", R"({"type":"GeometryCollection","geometries":[
+      {"type":"LineString","coordinates":[[1,1],[3,2]]},{"type":"Point","coordinates":[1,1]}]})");
+  CHECK(bench.run("cvt --cells 400 --fixed both.geojson -o b.vtp").err.find("lines beside other") !=
+        std::string::npos);
   const Outcome outside = bench.run(
       "cvt --cell-width 100km --region circle=0,0,2000km --fixed rivers.geojson -o b.vtp");
   CHECK(outside.code == 2);

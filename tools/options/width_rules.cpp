@@ -139,29 +139,38 @@ public:
     return rules;
   }
 
+  /// Whether the value of a key, of a rule or beside it, is the name of a file.
+  static bool names_file(std::string_view key) {
+    return key == "share" || key == "within" ||
+           std::ranges::any_of(
+               sources(), [&](const Key& known) { return known.names_file && known.name == key; });
+  }
+
 private:
   using Source = Widths (RuleReader::*)(RuleTable&);
 
+  /// What names a rule, and how it is read.
   struct Key {
     std::string name;
     Source source;
-    bool in_plane; ///< as well as on the sphere
+    bool in_plane;   ///< as well as on the sphere
+    bool names_file; ///< or has another value
   };
 
   /// A rule has one of these keys, which says what it is; the first that is there.
   static const std::vector<Key>& sources() {
-    static const std::vector<Key> all{{"min", nullptr, true}, // see rule_of()
-                                      {"max", &RuleReader::greatest, true},
-                                      {"sum", &RuleReader::sum, true},
-                                      {"blend", &RuleReader::blend, true},
-                                      {"latitude", &RuleReader::latitude, false},
-                                      {"distance-to", &RuleReader::distance, true},
-                                      {"lines", &RuleReader::lines, true},
-                                      {"channels", &RuleReader::channels, false},
-                                      {"heights", &RuleReader::heights, false},
-                                      {"raster", &RuleReader::raster, true},
-                                      {"polygons", &RuleReader::polygons, false},
-                                      {"width", &RuleReader::constant, true}};
+    static const std::vector<Key> all{{"min", nullptr, true, false}, // see rule_of()
+                                      {"max", &RuleReader::greatest, true, false},
+                                      {"sum", &RuleReader::sum, true, false},
+                                      {"blend", &RuleReader::blend, true, false},
+                                      {"latitude", &RuleReader::latitude, false, false},
+                                      {"distance-to", &RuleReader::distance, true, true},
+                                      {"lines", &RuleReader::lines, true, true},
+                                      {"channels", &RuleReader::channels, false, true},
+                                      {"heights", &RuleReader::heights, false, true},
+                                      {"raster", &RuleReader::raster, true, true},
+                                      {"polygons", &RuleReader::polygons, false, true},
+                                      {"width", &RuleReader::constant, true, false}};
     return all;
   }
 
@@ -172,7 +181,7 @@ private:
       all->step = table.number("step");
     if (all != nullptr && !surface_.is_sphere() && table.take("gradient") != nullptr)
       all->gradient = table.number("gradient");
-    const auto& [key, source, in_plane] = source_of(given);
+    const auto& [key, source, in_plane, names_file] = source_of(given);
     if (!in_plane && !surface_.is_sphere())
       table.refuse(key, "applies to the sphere only; in a plane give distance-to, lines, raster or "
                         "width");
@@ -437,9 +446,7 @@ RulesOutline outline_of_rules(const std::string& path) {
         self(self, item);
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
-        static const std::set<std::string_view> named{
-            "distance-to", "lines", "raster", "channels", "heights", "polygons", "share", "within"};
-        if (const auto* const text = value.as_string(); text && named.contains(key.str()))
+        if (const auto* const text = value.as_string(); text && RuleReader::names_file(key.str()))
           outline.files.push_back(beside(path, text->get()));
         self(self, value);
       }

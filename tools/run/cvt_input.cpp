@@ -45,16 +45,17 @@ Points3 read(const CvtRequest& request, const std::string& path, const std::stri
   return std::move(file.points);
 }
 
-/// Whether a file of fixed generators holds lines instead of points.
-bool has_lines(const CvtRequest& request) {
-  return !request.fixed.empty() && request.fixed != "-" && holds_lines(request.fixed);
-}
-
-/// Lines that generators follow.
-std::vector<Points3> read_fixed_lines(const CvtRequest& request, CvtInput& input) {
+/// Generators that stay, or lines that they follow.
+void read_fixed(const CvtRequest& request, CvtInput& input) {
+  Recipe& recipe = input.recipe;
+  if (request.fixed != "-")
+    recipe.lines = lines_in(request.fixed, recipe.surface);
+  if (recipe.lines.empty()) {
+    recipe.fixed = read(request, request.fixed, "fixed", input.fixed_file, input.fixed);
+    return;
+  }
   input.fixed_file.name = request.fixed;
   input.fixed = "lines of " + checksum_of(request.fixed) + "\n";
-  return read_lines(request.fixed, input.recipe.surface);
 }
 
 // ---- The recipe
@@ -89,6 +90,11 @@ Surface part_of(const CvtRequest& request) {
   return request.part.region.empty()
              ? Surface()
              : region_of(request.part.region, request.part.inside, request.density->widths.radius);
+}
+
+/// "1 line holds", "3 lines hold".
+std::string counted(std::ptrdiff_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 /// "once", "3 times".
@@ -149,10 +155,8 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.merge_within = merging.merge_within;
   if (!request.points.empty())
     recipe.start.points = read(request, request.points, "points", input.file, input.points);
-  if (has_lines(request))
-    recipe.lines = read_fixed_lines(request, input);
-  else if (!request.fixed.empty())
-    recipe.fixed = read(request, request.fixed, "fixed", input.fixed_file, input.fixed);
+  if (!request.fixed.empty())
+    read_fixed(request, input);
   return input;
 }
 
@@ -193,8 +197,9 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
                                                                         : std::nullopt);
   if (schedule.on_lines > 0)
-    notes.push_back(request.fixed + ": " + std::to_string(input.recipe.lines.size()) +
-                    " lines hold " + std::to_string(schedule.on_lines) +
+    notes.push_back(request.fixed + ": " +
+                    counted(std::ssize(input.recipe.lines), "line holds", "lines hold") + " " +
+                    std::to_string(schedule.on_lines) +
                     " generators; no place on them is farther from one than " +
                     formatted("%.2f", schedule.from_lines) + " of the cell width there");
   if (follows && fixed > 0)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/command.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/cell_width_mesh.h"
 #include "io/shapes/jigsaw.h"
@@ -6,6 +7,7 @@
 
 #include <calotte/error.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace calotte::io_detail {
@@ -92,3 +94,25 @@ PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& path
 }
 
 } // namespace calotte::io_detail
+
+namespace calotte {
+namespace {
+
+io_detail::JigsawFile read_sized(const std::string& path, const JigsawSizes& sizes) {
+  io_detail::JigsawFile file = io_detail::read_jigsaw(path);
+  for (double& value : file.values)
+    value = std::max(std::min(sizes.scale * value, sizes.most), sizes.least);
+  return file;
+}
+
+} // namespace
+
+CellWidth read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes) {
+  return io_detail::widths_of(read_sized(path, sizes), path);
+}
+
+PlanarCellWidth read_planar_jigsaw_widths(const std::string& path, const JigsawSizes& sizes) {
+  return io_detail::planar_widths_of(read_sized(path, sizes), path);
+}
+
+} // namespace calotte

@@ -55,19 +55,26 @@ void add_lines(const GeoFeature& feature, const std::string& type, const Json& c
 
 } // namespace io_detail
 
-bool holds_lines(const std::string& path) {
+std::vector<Points3> lines_in(const std::string& path, const Surface& surface) {
   using namespace io_detail;
   const std::string suffix = suffix_of(path);
+  std::vector<Points3> lines;
   if (suffix != ".geojson" && suffix != ".json")
-    return false;
+    return lines;
   std::ifstream in = open_input(path);
-  bool found = false;
+  bool others = false;
   read_features(in, path, [&](const GeoFeature& feature) {
-    for_each_geometry(feature, path, [&](const std::string& type, const Json&) {
-      found = found || type == "LineString" || type == "MultiLineString";
+    for_each_geometry(feature, path, [&](const std::string& type, const Json& coordinates) {
+      if (type == "LineString" || type == "MultiLineString")
+        add_lines(feature, type, coordinates, path, lines, !surface.is_sphere());
+      else
+        others = true;
     });
   });
-  return found;
+  if (others && !lines.empty())
+    throw Error(ErrorCode::parse,
+                path + ": lines beside other geometries; give each in a file of its own");
+  return lines;
 }
 
 std::vector<Points3> read_lines(const std::string& path, const Surface& surface) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
+#include "domain/surface.h"
 #include "generators/line_network.h"
 #include "io/command.h"
 #include "io/shapes/jigsaw.h"
@@ -140,6 +141,8 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
   } catch (const Error& error) {
     refuse(path, error.what());
   }
+  const auto& [low, high] = domain_detail::outline_of<exact_detail::Plane>(out.surface)->box();
+  out.extent = (high.x - low.x + high.y - low.y) / 2;
   return out;
 }
 
@@ -156,6 +159,7 @@ JigsawGeometry read_jigsaw_geometry(const std::string& path) {
                      "NDIMS=2) are meshed");
   JigsawGeometry out;
   out.radius = radius_of(file, path);
+  out.extent = 2 * out.radius;
   if (file.points.cols() > 0)
     out.lines = lines_of(file, directions_of(file, path));
   return out;

@@ -144,6 +144,8 @@ def planar_cell_width(widths, surface=None):
         return widths
     if isinstance(widths, _calotte.Widths):
         return widths.sampled_in(surface)
+    if callable(widths):
+        return _sampled_in(widths, surface)
     if isinstance(widths, str) and (parts := measure(widths)):
         if parts[1]:
             raise Error(f"the cell width is {widths!r}; the plane has the unit of its coordinates, "
@@ -157,9 +159,21 @@ def planar_cell_width(widths, surface=None):
         return _planar_raster(*widths)
     value = np.asarray(widths)
     if value.ndim != 0 or value.dtype.kind not in "fiu":
-        raise Error("give cell widths of a plane as a number in its unit, (values, x, y) or a file")
+        raise Error("give cell widths of a plane as a number in its unit, (values, x, y), a file, a "
+                    "rule or a function of x and y")
     far = np.array([-1e30, 1e30])  # the largest coordinates of a plane
     return _calotte.PlanarCellWidth(np.full((2, 2), float(value)), far, far)
+
+
+def _sampled_in(function, plane):
+    """Widths of a function of x and y at the nodes of a raster over a plane."""
+    nodes = 1e5
+    grid = _calotte.Widths(1.0).sampled_in(plane, math.sqrt(plane.area / nodes))
+    values = numbers(function(*np.meshgrid(grid.x, grid.y)), "cell widths")
+    if values.shape != (grid.y.size, grid.x.size):
+        raise Error("the width function must return one number for each of its points; it returned "
+                    f"the shape {values.shape} for {(grid.y.size, grid.x.size)}")
+    return _planar_raster(values, grid.x, grid.y)
 
 
 def _planar_raster(values, x, y):

@@ -487,7 +487,8 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         (values, longitudes, latitudes) in degrees; an xarray.DataArray over lat and lon, in km or
         in the length of its attribute units; a file as `calotte cvt --cell-width` reads it; or a
         function of arrays of longitudes and latitudes, which is sampled every quarter of a degree.
-        In a plane, in the unit of its coordinates: a number; (values, x, y); or a file.
+        In a plane, in the unit of its coordinates: a number; (values, x, y); a file; a rule of
+        it; or a function of arrays of x and y.
     surface: where the cells are. Default: the sphere. A part of it is one of circle(), ellipse(),
         channel() or polygon(); text as of `calotte cvt --region`, such as "circle=-105,40,1000km";
         or a file of a region. A plane is one of rectangle(), periodic_box() or planar_polygon().

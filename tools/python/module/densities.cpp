@@ -122,6 +122,10 @@ void add_densities(py::module_& module) {
       .def_property_readonly(
           "widths",
           [](py::object self) { return view(self.cast<const PlanarCellWidth&>().widths, self); })
+      .def_property_readonly(
+          "x", [](py::object self) { return view(self.cast<const PlanarCellWidth&>().x, self); })
+      .def_property_readonly(
+          "y", [](py::object self) { return view(self.cast<const PlanarCellWidth&>().y, self); })
       .def("density", [](const PlanarCellWidth& widths) { return density_of(widths); });
   module.def("read_planar_cell_width", &read_planar_cell_width);
 }

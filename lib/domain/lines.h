@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "domain/room.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace calotte::domain_detail {
+
+/// "line 3, point 1".
+std::string name_of_point(std::int64_t line, Eigen::Index point);
+
+/// The places of a line: unit vectors, joined by arcs shorter than a half circle, or x y 0 of a
+/// plane, joined straight. Equal ones may follow each other.
+/// \param line 3 x n. \param number of it, for messages.
+/// \throws Error invalid_argument, naming line and point: no direction, or no place of a plane;
+///         opposite neighbours on the sphere.
+std::vector<Vec3> places_of(const Points3& line, std::int64_t number, bool sphere);
+
+} // namespace calotte::domain_detail
