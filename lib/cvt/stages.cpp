@@ -47,6 +47,25 @@ EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density&
           state.fixed};
 }
 
+constexpr std::int64_t many = 2000; // generators
+
+/// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
+/// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees.
+bool is_resolved(const State& state, const Surface& surface, const Density& density) {
+  constexpr Eigen::Index most_samples = 4096;
+  constexpr double widest = 0.25;
+  const Eigen::Index n = state.points.cols();
+  if (!surface.is_sphere() || n < many)
+    return false;
+  const Eigen::Index stride = (n + most_samples - 1) / most_samples;
+  Points3 samples(3, (n + stride - 1) / stride);
+  for (Eigen::Index k = 0; k < samples.cols(); ++k)
+    samples.col(k) = state.points.col(k * stride);
+  const DoubleVector area = evaluate(density, samples).cwiseSqrt().cwiseInverse();
+  const double mean = area.mean() * static_cast<double>(n) / surface.area();
+  return area.maxCoeff() <= widest * widest * mean; // false if a density is 0
+}
+
 } // namespace
 
 std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left) {
@@ -139,18 +158,17 @@ CvtOptions options_of_descent(const State& state, const Surface& surface,
                               const CvtOptions& options) {
   constexpr int most_in_polish = 60;
   constexpr double fine = 1e-5;
-  constexpr std::int64_t resolving = 2000; // generators, between which a density is nearly linear
   CvtOptions here = options;
   if (state.penalty > 0) {
     here.method = Method::lbfgs;
     here.max_iterations = most_in_polish;
-    if (surface.is_sphere() && state.points.cols() >= resolving)
+    if (is_resolved(state, surface, options.density))
       here.rule = rule_at_sites;
     return here;
   }
   if (options.insertion_rounds == 0 || options.norm == Norm::none)
     return here;
-  if (surface.is_sphere() && state.points.cols() >= resolving)
+  if (is_resolved(state, surface, options.density))
     here.rule = rule_at_sites;
   const Stage next = stage_after(state, options);
   if (next != Stage::insert && next != Stage::bisect) {

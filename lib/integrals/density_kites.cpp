@@ -33,7 +33,6 @@ struct Edge {
   const Rows3 &first, &second; ///< its ends
   const CentreRows& centres;
   const Row &quarter, &cotangent;
-  const Row &rho_first, &rho_second, &rho_centre; ///< set for a density at sites
 };
 
 /// Shares of an edge's ends and of the circumcentre in a node on the first half kite. On the second
@@ -134,37 +133,6 @@ CALOTTE_VECTOR_WIDTHS void place_node(const Lift& given_lift, const Shares& give
   }
 }
 
-/// The density at the circumcentre, linear on the triangle, between the least and the greatest of
-/// the corners. The circumcentre is the sum of (1 - cot B cot C)/2 times corner A.
-CALOTTE_VECTOR_WIDTHS
-void centre_density(const Batch& batch, const TriangleRows& rows, Row& rho) {
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const double a = batch.rho[0][lane], b = batch.rho[1][lane], c = batch.rho[2][lane];
-    const double cot_a = rows.cotangent[0][lane], cot_b = rows.cotangent[1][lane],
-                 cot_c = rows.cotangent[2][lane];
-    const double sum =
-        0.5 * ((1 - cot_b * cot_c) * a + (1 - cot_c * cot_a) * b + (1 - cot_a * cot_b) * c);
-    const double ab_low = a < b ? a : b, ab_high = a < b ? b : a;
-    const double low = ab_low < c ? ab_low : c, high = ab_high < c ? c : ab_high;
-    const double above = sum < low ? low : sum;
-    rho[lane] = above > high ? high : above;
-  }
-}
-
-/// A density that is linear on the triangle, at a node of each edge.
-CALOTTE_VECTOR_WIDTHS
-void linear_density(const Shares& given, const Edge& edge, HalfRows& rho) {
-  const Shares shares = given; // writing to rho cannot change it
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const auto [first, second] =
-        shares(edge.rho_first[lane], edge.rho_second[lane], edge.rho_centre[lane]);
-    rho[lane] = first;
-    rho[lanes + lane] = second;
-  }
-}
-
 using NodeSpan = std::span<double, group * 2 * lanes>;
 NodeSpan all(std::array<HalfRows, group>& rows) {
   return NodeSpan(rows[0].data(), NodeSpan::extent);
@@ -223,25 +191,18 @@ void density_terms(const Triangles& space, const Batch& batch, const TriangleRow
                    const Integrand& integrand, const Array<Vec3>& x, TriangleTerms& terms) {
   assert(integrand.nodes.size() % group == 0);
   const CentreRows centres = centre_rows(space, batch, rows);
-  alignas(64) Row rho_centre;
-  if (integrand.at_sites)
-    centre_density(batch, rows, rho_centre);
   for (VertexTerms& zero : terms)
     zero = {};
   NodeRows nodes;
   for (std::size_t e = 0; e < 3; ++e) {
     const std::size_t a = (e + 1) % 3, b = (e + 2) % 3;
-    const Edge edge{batch.corner[a],   batch.corner[b], centres,      rows.quarter[e],
-                    rows.cotangent[e], batch.rho[a],    batch.rho[b], rho_centre};
+    const Edge edge{batch.corner[a], batch.corner[b], centres, rows.quarter[e], rows.cotangent[e]};
     for (std::size_t first = 0; first < integrand.nodes.size(); first += group) {
       for (std::size_t k = 0; k < group; ++k) {
         const QuadratureRule::Node& node = integrand.nodes[first + k];
         place_node(lift_of(space, node), Shares(node), edge, k, nodes);
-        if (integrand.at_sites)
-          linear_density(Shares(node), edge, nodes.rho[k]);
       }
-      if (!integrand.at_sites)
-        density_at(space, integrand, batch, x, nodes);
+      density_at(space, integrand, batch, x, nodes);
       add_nodes<decltype(lift_of(space, integrand.nodes[0]))>(nodes, edge, terms[a], terms[b]);
     }
   }

@@ -3,6 +3,7 @@
 
 #include "base/vector_loops.h"
 #include "integrals/density_kites.h"
+#include "integrals/linear_kites.h"
 #include "integrals/quads.h"
 #include "integrals/slivers.h"
 #include "integrals/terms.h"
@@ -105,12 +106,14 @@ void sum_batches(const Surface& surface, const Integrand& integrand,
     for (const Sliver& sliver : slivers)
       of_slivers.insert(of_slivers.end(), batch.locals[sliver.lane].begin(),
                         batch.locals[sliver.lane].end());
-    if (integrand.at_sites)
-      gather_density(rho, batch);
-    if (integrand.uniform)
+    if (integrand.uniform) {
       uniform_terms(surface, batch, rows, slivers, sums.mass != nullptr, terms);
-    else
+    } else if (integrand.at_sites) {
+      gather_density(rho, batch);
+      linear_terms(surface, batch, rows, terms);
+    } else {
       density_terms(surface, batch, rows, integrand, x, terms);
+    }
     scatter(batch, terms, sums.moments.begin());
     if (sums.mass != nullptr)
       scatter_mass(batch, terms, *sums.mass);

@@ -230,6 +230,71 @@ TEST_CASE("moments of a density: mass against its integral in closed form") {
   CHECK(std::abs(sum(moments.mass) - integral) < 1e-9);
 }
 
+TEST_CASE("a density at sites: exact where it is linear, in the plane") {
+  // A lattice of triangles, slightly moved: all are acute.
+  Points2 sites(2, 400);
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j)
+      sites.col(20 * i + j) << j + 0.5 * (i % 2) + 0.03 * std::sin(7.0 * i + 3 * j),
+          std::sqrt(0.75) * i + 0.03 * std::cos(5.0 * i - 2 * j);
+  const Mesh mesh = planar_delaunay(sites);
+  std::vector<Eigen::Index> inner_columns; // those along the hull are flat
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    if (((mesh.triangles.col(t).array() / 20 - 10).abs() < 9).all() &&
+        ((mesh.triangles.col(t).unaryExpr([](std::int32_t k) { return k % 20; }).array() - 10)
+             .abs() < 9)
+            .all())
+      inner_columns.push_back(t);
+  const Triangles inner_triangles = mesh.triangles(Eigen::all, inner_columns);
+  Density linear;
+  linear.kind = Density::Kind::callable;
+  linear.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (30 + 0.7 * x.row(0).array() - 0.4 * x.row(1).array()).matrix().transpose();
+  };
+  const auto moments = [&](int rule) {
+    return cell_moments(Generators<Plane>{Plane(), nullptr, 400}, {&column(mesh.points, 0), 400},
+                        inner_triangles, make_integrand(linear, rule, 1));
+  };
+  const Moments at_sites = moments(rule_at_sites), exact = moments(6);
+  int inner = 0;
+  for (int i = 4; i < 17; ++i)
+    for (int j = 4; j < 17; ++j, ++inner) {
+      const int k = 20 * i + j;
+      CHECK(std::abs(at_sites.mass[k] - exact.mass[k]) < 1e-12 * exact.mass[k]);
+      CHECK(std::abs(at_sites.energy[k] - exact.energy[k]) < 1e-12 * exact.energy[k]);
+      const Vec3 apart = at_sites.first[k] - exact.first[k];
+      CHECK(norm(apart) < 1e-12 * exact.mass[k]);
+    }
+  CHECK(inner == 169);
+}
+
+TEST_CASE("a density at sites: second order on the sphere") {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (2 * x.row(2).array() + x.row(0).array()).exp().matrix().transpose();
+  };
+  double before = 0;
+  for (const int level : {3, 4, 5}) {
+    const Mesh mesh = spherical_delaunay(bisected_icosahedron(level));
+    const Moments at_sites = mesh_moments(mesh, density, rule_at_sites),
+                  exact = mesh_moments(mesh, density, 6, 4);
+    double most = 0; // of centroids, in units of the spacing
+    for (std::int64_t i = 0; i < exact.mass.size(); ++i) {
+      const Vec3 x = column(mesh.points, i);
+      most = std::max(most, norm(centroid_of<Sphere>(x, at_sites.first[i]) -
+                                 centroid_of<Sphere>(x, exact.first[i])));
+      CHECK(std::abs(at_sites.energy[i] / exact.energy[i] - 1) < 0.15);
+    }
+    most *= std::sqrt(static_cast<double>(exact.mass.size()));
+    CAPTURE(level);
+    CHECK(most < 0.02);
+    if (before > 0)
+      CHECK(std::log2(before / most) > 1.7);
+    before = most;
+  }
+}
+
 TEST_CASE("moments without masses, which take less work, have the same bits") {
   std::vector<Case> all = cases();
   all.push_back({"163842 bisected", spherical_delaunay(bisected_icosahedron(7))});
