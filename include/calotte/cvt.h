@@ -30,8 +30,10 @@ enum class Norm {
 /// The minimisation method. Methods differ in the number of evaluations of the energy. If edges
 /// flip during a run, methods may reach different local minima.
 enum class Method {
-  automatic, ///< lbfgs far from the minimum, lbfgs_laplacian near it
-  lloyd,     ///< each generator moves to its centroid
+  /// lbfgs far from the minimum and in the short descents of a multilevel run, lbfgs_laplacian near
+  /// the minimum.
+  automatic,
+  lloyd, ///< each generator moves to its centroid
   /// L-BFGS, preconditioned with Lloyd's map (Yang, Gunzburger and Ju, J. Comput. Phys. 2018).
   lbfgs,
   lbfgs_laplacian, ///< L-BFGS, preconditioned with the mesh's graph Laplacian

@@ -79,7 +79,7 @@ struct Stop {
   std::optional<int> iterations = {};
   /// Whether shapes are brought within the limits of models at the end. A pure CVT has few others,
   /// at dislocations, pairs of cells with 5 and 7 neighbours. First, dislocations at short Voronoi
-  /// edges are moved along their rows, the generators around them relax, and the descent goes on.
+  /// edges are moved along their rows, and the generators around them relax.
   /// Then the polish minimises the energy plus a penalty for what is left beyond the limits: angles
   /// of triangles from 38 to 87 degrees, Voronoi edges from 0.21 to 1.1 times the length of the
   /// Delaunay edges across, and these from least_spacing to 1.3 times the spacing that the density

@@ -134,19 +134,17 @@ template <Space S> double Cells<S>::spacing() const {
   return std::sqrt(surface_.area() / static_cast<double>(generators_));
 }
 
-template <Space S> bool Cells<S>::has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const {
+template <Space S> bool Cells<S>::has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const {
   if (outline_ == nullptr)
     return true;
   if constexpr (S::on_sphere) {
-    const Vec3 centre = boundary_ == Boundary::clip
-                            ? cross(place(b) - place(a), place(c) - place(a))
-                            : place(a) + place(b) + place(c);
+    const Vec3 centre = boundary_ == Boundary::clip ? cross(b - a, c - a) : a + b + c;
     return outline_->side(centre) != Side::outside;
   } else {
-    const Vec3 u = offset(place(a), place(b)), v = offset(place(a), place(c));
+    const Vec3 u = offset(a, b), v = offset(a, c);
     const Vec2 centre = boundary_ == Boundary::clip ? circumcentre({u.x, u.y}, {v.x, v.y})
                                                     : Vec2{(u.x + v.x) / 3, (u.y + v.y) / 3};
-    return outline_->side({place(a).x + centre.x, place(a).y + centre.y}) != Side::outside;
+    return outline_->side({a.x + centre.x, a.y + centre.y}) != Side::outside;
   }
 }
 

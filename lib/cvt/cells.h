@@ -59,6 +59,7 @@ public:
   void move(const Points3& points);
 
   const S& space() const { return space_; }
+  std::int64_t generator_count() const { return generators_; }
   std::int64_t places() const { return std::ssize(sites_); } ///< of the mesh: generators come first
   const Vec3& place(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
   PlacedSites<S> placed() const { return {space_, sites_}; }
@@ -66,7 +67,7 @@ public:
   bool has_hull() const { return outline_ != nullptr; } ///< places of the mesh without a generator
   /// Whether the surface has the circumcentre of a triangle of generators; with generators on the
   /// boundary, its centre of mass.
-  bool has_centre(std::int32_t a, std::int32_t b, std::int32_t c) const;
+  bool has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
   Sites sites() const; ///< of the generators; equal ones merged
   /// The mesh of all places.

@@ -118,6 +118,23 @@ void end_descent(State& state, Descent& descent) {
       report.converged ? -1 : state.id[static_cast<std::size_t>(shapes.worst_generator)];
 }
 
+/// Moves dislocations, and polishes shapes, where they are.
+void work_locally(State& state, const CvtOptions& options, RunFunctional& functional,
+                  Descent& descent) {
+  while (may_glide(state, options)) {
+    if (functional.glide(state.points, limits_of_glide(state)) > 0)
+      descent.restart();
+    ++state.glides;
+    conclude(state, options, descent.here().iteration);
+  }
+  const bool at_start = state.iterations_of_level == 1 && state.raised == 0;
+  if (state.penalty > 0 && at_start && !state.report.converged &&
+      functional.polish(state.points) > 0) {
+    descent.restart();
+    conclude(state, options, descent.here().iteration);
+  }
+}
+
 /// How a level ended.
 struct Ending {
   bool stopped = false;
@@ -137,11 +154,11 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
   }
   const double before = state.report.seconds;
   const Clock::time_point start = Clock::now();
-  const std::unique_ptr<Functional> functional =
+  const std::unique_ptr<RunFunctional> functional =
       make_functional(state.points, surface, options, std::move(level));
   ShapeLimits limits = shape_limits;
   limits.least_spacing = options.least_spacing;
-  functional->penalise_shapes(state.penalty, state.demanded_spacing, limits);
+  functional->penalise({state.penalty, state.demanded_spacing, limits});
   functional->hold(fixed_generators(state));
   Descent descent(state, options, *functional);
   const bool resumed = state.iterations_of_level > 0;
@@ -150,9 +167,7 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
     descent.step();
   for (;; descent.step()) {
     conclude(state, options, descent.here().iteration);
-    for (; may_glide(state, options); ++state.glides)
-      if (descent.glide(limits_of_glide(state)))
-        conclude(state, options, descent.here().iteration);
+    work_locally(state, options, *functional, descent);
     const bool ended = level_ended(state, options);
     if (ended)
       end_descent(state, descent);
@@ -207,7 +222,7 @@ Level begin(const Surface& surface, Stage stage, State& state, const CvtOptions&
             Ending&& ending) {
   if (stage == Stage::polish) {
     begin_polish(state);
-    return {};
+    return {std::nullopt, std::move(ending.mesh)};
   }
   if (stage == Stage::raise) {
     begin_raised(state);

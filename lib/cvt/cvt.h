@@ -40,17 +40,19 @@ struct CvtOptions {
   /// bisections before the last has 4^-b times as many.
   std::int64_t cells = 0;
   /// Ends the run with the shapes that models ask for. A pure CVT has few others, at dislocations,
-  /// pairs of cells with 5 and 7 neighbours. First, up to four times after the last descent,
-  /// dislocations at short Voronoi edges are moved along their rows, the generators around them
-  /// relax, and the descent goes on. Then a polish minimises the energy plus the squares of
-  /// excesses over limits that are left: angles of triangles from 38 to 87 degrees, Voronoi edges
-  /// from 0.21 to 1.1 times the length of the Delaunay edges across, and these from 0.8 to 1.3
-  /// times the spacing that the density demands. It moves generators next to such shapes away from
-  /// their centroids. It ends when no cotangent and no such ratio exceeds its limit by more than
-  /// 0.02, after 60 evaluations, or after ten that hardly improve the worst shape; the mesh is
-  /// well-centred if none does by 0.03. Near that the polish goes on, up to twice, with squares of
-  /// four times the weight. A mesh within the limits does not change. A descent before a polish
-  /// also converges when 45 evaluations have not halved its norm. Default false: a pure CVT.
+  /// pairs of cells with 5 and 7 neighbours. First, up to four times at the end of the last
+  /// descent, dislocations at short Voronoi edges are moved along their rows, and the generators
+  /// around them relax; after the first time the descent goes on. Then a polish minimises the
+  /// energy plus the squares of excesses over limits that are left: angles of triangles from 38 to
+  /// 87 degrees, Voronoi edges from 0.21 to 1.1 times the length of the Delaunay edges across, and
+  /// these from 0.8 to 1.3 times the spacing that the density demands. It moves generators next to
+  /// such shapes away from their centroids: at first in subdomains of some hundred cells around
+  /// each shape, then all, where that leaves some. It ends when no cotangent and no such ratio
+  /// exceeds its limit by more than 0.02, after 60 evaluations, or after ten that hardly improve
+  /// the worst shape; the mesh is well-centred if none does by 0.03. Near that the polish goes on,
+  /// up to twice, with squares of four times the weight. A mesh within the limits does not change.
+  /// A descent before a polish also converges when six evaluations have not halved its norm, 45 of
+  /// a run without insertion. Default false: a pure CVT.
   bool well_centred = false;
   /// In a polish: the least length of a Delaunay edge over the spacing that the density demands
   /// there; 0 to 0.95. The shortest edge decides the stable step of gravity waves. Values near 1

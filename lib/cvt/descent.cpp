@@ -60,6 +60,7 @@ void Descent::evaluate(const Points3& points, Evaluation& out) {
   functional_.evaluate(points, state_.final_rule, uses_gradients(), out);
   state_.report.iterations.push_back(out.iteration);
   ++state_.iterations_of_level;
+  ++state_.since_restart;
   ++state_.memory.since_laplacian;
   state_.memory.flipped = state_.memory.flipped || out.iteration.flips > 0 || out.iteration.rebuilt;
 }
@@ -92,13 +93,11 @@ void Descent::step() {
     quasi_newton_step();
 }
 
-bool Descent::glide(const ShapeLimits& limits) {
-  if (functional_.glide(state_.points, limits) == 0)
-    return false;
+void Descent::restart() {
   forget();
   state_.memory.flipped = true;
+  state_.since_restart = 0;
   evaluate(state_.points, here_);
-  return true;
 }
 
 void Descent::end_at_centroids() {
@@ -265,7 +264,7 @@ bool Descent::search(const Line& line) {
     }
     state_.report.iterations.back().accepted = false;
     const double secant = step * slope / (slope - slope_there);
-    step = secant > 0.1 * step ? std::min(secant, 4 * step) : 0.1 * step;
+    step = std::isfinite(rise) && secant > 0.1 * step ? std::min(secant, 4 * step) : 0.1 * step;
   }
   return false;
 }

@@ -29,9 +29,8 @@ public:
   /// One step; the state's points are the new ones, evaluated.
   void step();
 
-  /// Moves dislocations of the state's points, see glide.h, and evaluates them. Returns false if
-  /// there is none to move.
-  bool glide(const ShapeLimits& limits);
+  /// Evaluates the state's points, which have been changed.
+  void restart();
 
   /// The evaluation at the state's points.
   const Evaluation& here() const { return here_; }

@@ -9,6 +9,7 @@
 #include "cvt/cells.h"
 #include "cvt/cvt.h"
 #include "cvt/glide.h"
+#include "cvt/polish.h"
 #include "cvt/shape.h"
 #include "cvt/tessellation.h"
 #include "exact/space.h"
@@ -178,7 +179,7 @@ void count_off_centroid(const Array<SiteTerms>& terms, const DoubleVector& inver
   iteration.largest_offset = std::sqrt(most);
 }
 
-template <Space S> class FunctionalOver final : public Functional {
+template <Space S> class FunctionalOver final : public RunFunctional {
 public:
   FunctionalOver(Cells<S> cells, const Points3& points, const CvtOptions& options, Level&& level)
       : tessellation_(std::move(cells), points, options.partition, std::move(level)),
@@ -193,14 +194,13 @@ public:
 
   void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
 
-  void penalise_shapes(double factor, double spacing, const ShapeLimits& limits) override {
-    penalty_ = factor;
-    demanded_spacing_ = spacing;
-    limits_ = limits;
-  }
+  void penalise(const ShapePenalty& penalty) override { penalty_ = penalty; }
   void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
-    return cvt_detail::glide(tessellation_, points, coarse_, fixed_, limits);
+    return cvt_detail::glide(tessellation_, points, local_input(), limits);
+  }
+  std::int64_t polish(Points3& points) override {
+    return cvt_detail::polish(tessellation_, points, local_input(), penalty_);
   }
   std::vector<CvtRegion> regions() const override { return tessellation_.regions(); }
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const override;
@@ -216,14 +216,13 @@ private:
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(site)] != 0;
   }
   void hold(Rows& weights) const;
+  LocalInput local_input() const { return {density_, coarse_, fixed_}; }
 
   Tessellation<S> tessellation_;
   Density density_;
   Integrand coarse_, fine_;
-  int rule_, final_rule_;       ///< their numbers of points, 0 where none is used
-  double penalty_ = 0;          ///< factor of the penalty of shape.h
-  double demanded_spacing_ = 1; ///< at rho = 1
-  ShapeLimits limits_;
+  int rule_, final_rule_; ///< their numbers of points, 0 where none is used
+  ShapePenalty penalty_;
   std::vector<std::uint8_t> fixed_; ///< by generator, or empty
   Array<SiteTerms> terms_;          ///< of the last evaluation
 };
@@ -278,7 +277,7 @@ void FunctionalOver<S>::evaluate(const Points3& points, bool final_rule, bool wi
     throw Error(ErrorCode::invalid_argument,
                 "the density is zero over a whole cell, or beyond 1e150: "
                 "make it positive everywhere, and smaller");
-  if (penalty_ > 0)
+  if (penalty_.factor > 0)
     add_penalty(points, out);
   iteration.seconds = lap(mark);
 }
@@ -299,15 +298,14 @@ void FunctionalOver<S>::set_centroids(const Points3& points, const Evaluation& a
 
 template <Space S> void FunctionalOver<S>::add_penalty(const Points3& points, Evaluation& out) {
   const DoubleVector inverse_spacing =
-      calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / demanded_spacing_;
-  out.shapes = add_shape_terms(tessellation_.cells(), tessellation_.mesh(),
-                               tessellation_.distorted(inverse_spacing, limits_), inverse_spacing,
-                               limits_, fixed_, penalty_, out.gradient);
+      calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / penalty_.spacing;
+  const ShapeInput<S> input{tessellation_.placed(), inverse_spacing, penalty_.limits, fixed_};
+  out.shapes = add_shape_terms(input, distorted(input), penalty_.factor, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
   });
   count_off_centroid(terms_, inverse_spacing, out.iteration);
-  out.penalty = penalty_ * out.shapes.value;
+  out.penalty = penalty_.factor * out.shapes.value;
   out.iteration.shape_excess = out.shapes.worst;
 }
 
@@ -363,9 +361,9 @@ template <Space S> std::optional<Connectivity> FunctionalOver<S>::take_mesh(cons
 
 } // namespace
 
-std::unique_ptr<Functional> make_functional(const Points3& points, const Surface& surface,
-                                            const CvtOptions& options, Level&& level) {
-  return in_space_of(surface, [&]<class S>(const S&) -> std::unique_ptr<Functional> {
+std::unique_ptr<RunFunctional> make_functional(const Points3& points, const Surface& surface,
+                                               const CvtOptions& options, Level&& level) {
+  return in_space_of(surface, [&]<class S>(const S&) -> std::unique_ptr<RunFunctional> {
     return std::make_unique<FunctionalOver<S>>(
         Cells<S>(surface, options.boundary, options.density, points), points, options,
         std::move(level));

@@ -39,8 +39,8 @@ struct Evaluation {
   double value() const { return iteration.energy + penalty; }
 };
 
-/// The energy as a function of the generators, over cells that persist between calls, and the
-/// motions that generators can make.
+/// The energy as a function of generators, and the motions that these can make: what a Descent
+/// lowers.
 class Functional {
 public:
   virtual ~Functional() = default;
@@ -56,25 +56,6 @@ public:
   /// \pre no penalty.
   virtual void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const = 0;
 
-  /// Adds a factor times the penalty of shape.h to each evaluation from here on.
-  /// \param spacing that the density demands, times rho^(1/4).
-  virtual void penalise_shapes(double factor, double spacing, const ShapeLimits& limits) = 0;
-
-  /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
-  /// it makes no motion.
-  /// \param fixed a flag for each generator; empty if none is held.
-  virtual void hold(std::vector<std::uint8_t> fixed) = 0;
-
-  /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
-  virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;
-
-  virtual std::vector<CvtRegion> regions() const = 0;
-
-  /// Moves out the connectivity of the Delaunay triangulation of the generators at their current
-  /// points. No evaluation may follow. Empty if only a new triangulation gives it, as in a bounded
-  /// plane, where the mesh of this class has a hull of its own.
-  virtual std::optional<Connectivity> take_mesh(const Points3& points) = 0;
-
   /// Sets `to`, whose memory is kept, to x + step d, projected back to the domain of the
   /// generators.
   virtual void retract(const Points3& x, double step, const Points3& d, Points3& to) const = 0;
@@ -85,10 +66,36 @@ public:
   virtual Laplacian laplacian(const Points3& points) = 0;
 };
 
+/// The functional of all generators of a run, over cells that persist between calls.
+class RunFunctional : public Functional {
+public:
+  /// Adds the penalty of shape.h to each evaluation from here on.
+  virtual void penalise(const ShapePenalty& penalty) = 0;
+
+  /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
+  /// it makes no motion.
+  /// \param fixed a flag for each generator; empty if none is held.
+  virtual void hold(std::vector<std::uint8_t> fixed) = 0;
+
+  /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
+  virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;
+
+  /// Polishes shapes by themselves, see polish.h. Returns the number of subdomains; 0 if the points
+  /// stay.
+  virtual std::int64_t polish(Points3& points) = 0;
+
+  virtual std::vector<CvtRegion> regions() const = 0;
+
+  /// Moves out the connectivity of the Delaunay triangulation of the generators at their current
+  /// points. No evaluation may follow. Empty if only a new triangulation gives it, as in a bounded
+  /// plane, where the mesh of this class has a hull of its own.
+  virtual std::optional<Connectivity> take_mesh(const Points3& points) = 0;
+};
+
 /// The functional of a surface, see Cells.
 /// \pre the density of the options is that of surface_density().
 /// \throws Error as Tessellation.
-std::unique_ptr<Functional> make_functional(const Points3& points, const Surface& surface,
-                                            const CvtOptions& options, Level&& level = {});
+std::unique_ptr<RunFunctional> make_functional(const Points3& points, const Surface& surface,
+                                               const CvtOptions& options, Level&& level = {});
 
 } // namespace calotte::cvt_detail

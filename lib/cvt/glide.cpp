@@ -5,12 +5,16 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/cells.h"
-#include "density/hexagons.h"
+#include "cvt/placed_mesh.h"
+#include "cvt/subdomain.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -25,255 +29,220 @@ struct Brink {
   std::array<std::int32_t, 2> triangles; ///< abc and bad, counter-clockwise or not
 };
 
-/// The triangles within some steps across edges, the nearer ones first.
-std::vector<std::int32_t> triangles_around(const Connectivity& mesh, const Brink& brink,
-                                           int steps) {
-  std::vector<std::int32_t> found(brink.triangles.begin(), brink.triangles.end());
-  std::ptrdiff_t before = 0, front = 0; // where the last but one step begins, and the last
-  for (int step = 0; step < steps; ++step) {
-    const std::ptrdiff_t end = std::ssize(found);
-    for (std::ptrdiff_t k = front; k < end; ++k)
-      for (int v = 0; v < 3; ++v)
-        if (const std::int32_t u = mesh.neighbours(v, found[static_cast<std::size_t>(k)]); u >= 0)
-          found.push_back(u);
-    const auto known = found.begin() + before, fresh = found.begin() + end;
-    std::sort(fresh, found.end());
-    found.erase(std::unique(fresh, found.end()), found.end());
-    found.erase(std::remove_if(fresh, found.end(),
-                               [&](std::int32_t t) { return std::find(known, fresh, t) != fresh; }),
-                found.end());
-    before = std::exchange(front, end);
-  }
-  return found;
+/// The shortest Voronoi edges first: an order that the triangulation alone determines.
+bool is_shorter(const Brink& e, const Brink& f) {
+  return std::tie(e.ratio, e.a, e.b) < std::tie(f.ratio, f.a, f.b);
 }
 
-template <Space S> class Glide {
-public:
-  Glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
-        const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits, Effort& effort)
-      : tessellation_(tessellation), points_(points), integrand_(integrand), fixed_(fixed),
-        limits_(limits), effort_(effort) {}
-
-  /// Tries a step at some brinks that are far from each other. Returns their number.
-  std::int64_t step() {
-    const std::vector<Brink> chosen = distant(brinks());
-    if (chosen.empty())
-      return 0;
-    Division all = release(chosen);
-    for (const Brink& brink : chosen)
-      push(brink);
-    relax();
-    tessellation_.resume(std::move(all));
-    return std::ssize(chosen);
-  }
-
-private:
-  const Connectivity& mesh() const { return tessellation_.mesh(); }
-  const Cells<S>& cells() const { return tessellation_.cells(); }
-  bool is_free(std::int32_t site) const {
-    return site < points_.cols() && (fixed_.empty() || fixed_[static_cast<std::size_t>(site)] == 0);
-  }
-
-  bool has_centre(std::int32_t t) const {
-    const auto sites = mesh().triangles.col(t);
-    return cells().has_centre(sites[0], sites[1], sites[2]);
-  }
+/// Finds brinks in a mesh.
+template <Space S> struct Search {
+  const PlacedMesh<S> in;
+  const ShapeLimits& limits;
 
   /// The cotangent of a triangle's angle at its vertex v.
   double cotangent(std::int32_t t, int v) const {
-    const auto at = [&](int i) { return cells().place(mesh().triangles(i, t)); };
-    const Vec3 u = cells().offset(at(v), at(next_vertex(v))),
-               w = cells().offset(at(v), at(previous_vertex(v)));
+    const Vec3 u = in.offset(in.site(t, v), in.site(t, next_vertex(v))),
+               w = in.offset(in.site(t, v), in.site(t, previous_vertex(v)));
     return dot(u, w) / norm(cross(u, w));
   }
 
-  /// The shortest Voronoi edges first: an order that the triangulation alone determines.
-  std::vector<Brink> brinks() const {
-    const std::int64_t count = mesh().triangles.cols();
+  /// Adds the edge across from vertex v of triangle t, if its other triangle does not.
+  /// \param is_free tells whether a site may move.
+  template <class IsFree>
+  void add_if_brink(std::int32_t t, int v, const IsFree& is_free, std::vector<Brink>& out) const {
+    const std::int32_t u = in.across(t, v);
+    const double here = cotangent(t, v);
+    if (u < 0 || here >= std::max(limits.least_edge, limits.least_cotangent))
+      return;
+    const int w = vertex_across(in.mesh.neighbours, u, t);
+    const double beyond = cotangent(u, w), ratio = (here + beyond) / 2;
+    const std::int32_t c = in.site(t, v), d = in.site(u, w);
+    const bool theirs = beyond < here || (beyond == here && d < c);
+    if (theirs || (ratio >= limits.least_edge && here >= limits.least_cotangent))
+      return;
+    const std::int32_t a = in.site(t, next_vertex(v)), b = in.site(t, previous_vertex(v));
+    const bool free = is_free(a) && is_free(b) && is_free(c) && is_free(d);
+    if (free && in.has_centre(t) && in.has_centre(u))
+      out.push_back({ratio, std::min(a, b), std::max(a, b), c, d, {t, u}});
+  }
+};
+
+/// Moves a and b apart, and c and d together, so that cd replaces ab.
+template <Space S> Points3 pushed(const Subdomain<S>& part, const Brink& brink) {
+  constexpr double share = 0.16; // of the width of the cells, about the length of ab over sqrt(2)
+  const PlacedMesh<S> at = part.placed();
+  const Vec3 ab = at.offset(brink.a, brink.b), cd = at.offset(brink.c, brink.d);
+  const Vec3 apart = (1 / norm(ab)) * ab, together = (1 / norm(cd)) * cd;
+  Points3 ways = Points3::Zero(3, part.movable()), to(3, part.movable());
+  set_column(ways, brink.a, -1 * apart);
+  set_column(ways, brink.b, apart);
+  set_column(ways, brink.c, together);
+  set_column(ways, brink.d, -1 * together);
+  part.retract(part.points(), share / std::numbers::sqrt2 * norm(ab), ways, to);
+  return to;
+}
+
+/// An edge by its sites in the mesh, the lower one first.
+using Ends = std::pair<std::int32_t, std::int32_t>;
+
+template <Space S> class Glide {
+public:
+  Glide(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
+        const ShapeLimits& limits)
+      : tessellation_(tessellation), points_(points), input_(input), limits_(limits) {}
+
+  /// Follows dislocations at brinks until there are none. Returns the number of steps.
+  std::int64_t run() {
+    tessellation_.change_mesh(
+        points_, [&](Connectivity& mesh) -> std::optional<std::vector<std::int32_t>> {
+          constexpr int most_rounds = 12; // those near each other follow one after another
+          std::vector<Brink> brinks = all_brinks();
+          for (int round = 0; round < most_rounds && !brinks.empty(); ++round)
+            if (!step(mesh, brinks))
+              return std::nullopt;
+          return std::move(changed_);
+        });
+    return steps_;
+  }
+
+private:
+  bool is_free(std::int32_t site) const {
+    return site < points_.cols() &&
+           (input_.fixed.empty() || input_.fixed[static_cast<std::size_t>(site)] == 0);
+  }
+
+  /// Adds the brinks of a triangle of the mesh.
+  void add_brinks(std::int32_t t, std::vector<Brink>& out) const {
+    const Search<S> search{tessellation_.placed(), limits_};
+    for (int v = 0; v < 3; ++v)
+      search.add_if_brink(
+          t, v, [&](std::int32_t site) { return is_free(site); }, out);
+  }
+
+  std::vector<Brink> all_brinks() const {
+    const std::int64_t count = tessellation_.mesh().triangles.cols();
     std::vector<std::vector<Brink>> parts(static_cast<std::size_t>(block_count(count)));
     for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
       for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
-        for (int v = 0; v < 3; ++v)
-          add_if_brink(t, v, parts[static_cast<std::size_t>(block)]);
+        add_brinks(t, parts[static_cast<std::size_t>(block)]);
     });
     std::vector<Brink> all;
     for (const std::vector<Brink>& part : parts)
       all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(), [](const Brink& e, const Brink& f) {
-      return std::tie(e.ratio, e.a, e.b) < std::tie(f.ratio, f.a, f.b);
-    });
     return all;
   }
 
-  /// Adds the edge across from vertex v of triangle t, if its other triangle does not.
-  void add_if_brink(std::int32_t t, int v, std::vector<Brink>& out) const {
-    const std::int32_t u = mesh().neighbours(v, t);
-    const double here = cotangent(t, v);
-    if (u < 0 || here >= std::max(limits_.least_edge, limits_.least_cotangent))
-      return;
-    const int w = vertex_across(mesh().neighbours, u, t);
-    const double beyond = cotangent(u, w), ratio = (here + beyond) / 2;
-    const bool theirs = beyond < here || (beyond == here && u < t);
-    if (theirs || (ratio >= limits_.least_edge && here >= limits_.least_cotangent))
-      return;
-    const std::array<std::int32_t, 2> ends{mesh().triangles(next_vertex(v), t),
-                                           mesh().triangles(previous_vertex(v), t)};
-    const std::int32_t c = mesh().triangles(v, t), d = mesh().triangles(w, u);
-    const bool free = is_free(ends[0]) && is_free(ends[1]) && is_free(c) && is_free(d);
-    if (free && has_centre(t) && has_centre(u))
-      out.push_back({ratio, std::min(ends[0], ends[1]), std::max(ends[0], ends[1]), c, d, {t, u}});
-  }
-
-  /// The first ones whose generators are not near those of another.
-  std::vector<Brink> distant(std::vector<Brink>&& all) const {
-    constexpr int apart = 3; // triangles
-    std::vector<Brink> chosen;
-    if (all.empty())
-      return chosen;
-    std::vector<std::uint8_t> taken(static_cast<std::size_t>(cells().places()), 0);
-    const auto is_taken = [&](std::int32_t site) {
-      return taken[static_cast<std::size_t>(site)] != 0;
+  /// Follows brinks that are far from each other, and replaces them all by those that are left.
+  /// False if no mesh is left.
+  bool step(Connectivity& mesh, std::vector<Brink>& brinks) {
+    std::sort(brinks.begin(), brinks.end(), is_shorter);
+    std::vector<std::array<std::int32_t, 2>> seeds;
+    for (const Brink& brink : brinks)
+      seeds.push_back(brink.triangles);
+    const ChosenSurroundings around = choose_surroundings(mesh, seeds);
+    const std::vector<Surroundings>& chosen = around.chosen;
+    std::vector<std::vector<Ends>> tried(chosen.size());
+    std::vector<std::int64_t> steps(chosen.size(), 0);
+    const auto task = [&](std::size_t place, Subdomain<S>& part) {
+      const bool sound = follow(brinks[chosen[place].seed], part, tried[place]);
+      steps[place] = sound ? std::ssize(tried[place]) : 0;
+      return sound;
     };
-    for (const Brink& brink : all) {
-      if (is_taken(brink.a) || is_taken(brink.b) || is_taken(brink.c) || is_taken(brink.d))
-        continue;
-      for (const std::int32_t t : triangles_around(mesh(), brink, apart))
-        for (const std::int32_t site : mesh().triangles.col(t))
-          taken[static_cast<std::size_t>(site)] = 1;
-      chosen.push_back(brink);
-    }
-    return chosen;
-  }
-
-  /// Focuses on the generators around the brinks, which may move. Returns the division before.
-  Division release(const std::vector<Brink>& chosen) {
-    constexpr int reach = 12; // triangles, as wide as half as many cells
-    Array<std::int32_t> owner(cells().places());
-    for_each_block(owner.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-      std::fill(owner.begin() + begin, owner.begin() + end, -1);
+    if (!work_in<S>(chosen, task, input_, tessellation_, mesh, points_, changed_))
+      return false;
+    steps_ += std::accumulate(steps.begin(), steps.end(), std::int64_t{0});
+    for (const std::vector<Ends>& edges : tried)
+      tried_.insert(tried_.end(), edges.begin(), edges.end());
+    std::sort(tried_.begin(), tried_.end());
+    std::vector<Brink> next;
+    for (const std::size_t k : around.left)
+      next.push_back(brinks[k]);
+    for (const Surroundings& some : chosen)
+      for (const std::int32_t t : some.triangles)
+        add_brinks(t, next);
+    std::erase_if(next, [&](const Brink& brink) {
+      return std::binary_search(tried_.begin(), tried_.end(), Ends{brink.a, brink.b});
     });
-    std::vector<std::vector<std::int32_t>> around(chosen.size());
-    for_each_task(std::ssize(chosen), [&](std::int64_t k) {
-      const auto brink = static_cast<std::size_t>(k);
-      around[brink] = triangles_around(mesh(), chosen[brink], reach);
+    brinks = std::move(next);
+    return true;
+  }
+
+  /// Follows a dislocation step by step while it is inside a subdomain. False if no mesh is left.
+  /// \param tried the edges at its steps are added.
+  bool follow(const Brink& first, Subdomain<S>& part, std::vector<Ends>& tried) const {
+    constexpr std::ptrdiff_t most_steps = 6;
+    constexpr int most_evaluations = 12;
+    constexpr double near = 0.002; // of the width of a cell
+    tried.emplace_back(first.a, first.b);
+    std::optional<Brink> brink = local(part, first);
+    while (brink) {
+      const Evaluation last =
+          descend(part, pushed(part, *brink), input_, {}, [&](const Evaluation& here, int count) {
+            return here.iteration.linf <= near || count >= most_evaluations;
+          });
+      if (!std::isfinite(last.iteration.energy))
+        return false;
+      brink = std::ssize(tried) < most_steps ? next(part, tried) : std::nullopt;
+      if (brink)
+        tried.push_back(ends(part, *brink));
+    }
+    return true;
+  }
+
+  static Ends ends(const Subdomain<S>& part, const Brink& brink) {
+    return std::minmax(part.sites()[static_cast<std::size_t>(brink.a)],
+                       part.sites()[static_cast<std::size_t>(brink.b)]);
+  }
+
+  /// A brink by local numbers; none if its generators are on the edge of the subdomain.
+  static std::optional<Brink> local(const Subdomain<S>& part, const Brink& brink) {
+    const auto sites = part.sites().first(static_cast<std::size_t>(part.movable()));
+    Brink out = brink;
+    for (std::int32_t* const site : {&out.a, &out.b, &out.c, &out.d}) {
+      const auto at = std::lower_bound(sites.begin(), sites.end(), *site);
+      if (at == sites.end() || *at != *site)
+        return std::nullopt;
+      *site = static_cast<std::int32_t>(at - sites.begin());
+    }
+    return out;
+  }
+
+  /// The shortest brink inside that has not been tried.
+  std::optional<Brink> next(const Subdomain<S>& part, const std::vector<Ends>& tried) const {
+    const Search<S> search{part.placed(), limits_};
+    std::vector<Brink> found;
+    for (std::int32_t t = 0; t < part.triangles(); ++t)
+      for (int v = 0; v < 3; ++v)
+        search.add_if_brink(
+            t, v, [&](std::int32_t site) { return site < part.movable(); }, found);
+    std::erase_if(found, [&](const Brink& brink) {
+      return std::find(tried.begin(), tried.end(), ends(part, brink)) != tried.end();
     });
-    for (std::size_t k = 0; k < chosen.size(); ++k)
-      for (const std::int32_t t : around[k])
-        for (const std::int32_t site : mesh().triangles.col(t))
-          if (is_free(site) && owner[site] < 0)
-            owner[site] = static_cast<std::int32_t>(k);
-    Division all = tessellation_.focus(std::move(owner), static_cast<std::int32_t>(chosen.size()));
-    moving_.clear();
-    begin_.clear();
-    for (const std::vector<std::int32_t>& own : tessellation_.division().ownership.owned) {
-      begin_.push_back(std::ssize(moving_));
-      moving_.insert(moving_.end(), own.begin(), own.end());
-    }
-    return all;
-  }
-
-  /// Moves a and b apart, and c and d together, so that cd replaces ab.
-  void push(const Brink& brink) {
-    constexpr double share = 0.16; // of the width of the cells, about the length of ab over sqrt(2)
-    const Vec3 ab = cells().offset(cells().place(brink.a), cells().place(brink.b)),
-               cd = cells().offset(cells().place(brink.c), cells().place(brink.d));
-    const double step = share / std::numbers::sqrt2 * norm(ab);
-    const std::array<std::int32_t, 4> sites{brink.a, brink.b, brink.c, brink.d};
-    const Vec3 apart = (1 / norm(ab)) * ab, together = (1 / norm(cd)) * cd;
-    const std::array<Vec3, 4> ways{-1 * apart, apart, together, -1 * together};
-    Points3 x(3, 4), d(3, 4), to(3, 4);
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      x.col(static_cast<Eigen::Index>(k)) = points_.col(sites[k]);
-      set_column(d, static_cast<Eigen::Index>(k), ways[k]);
-    }
-    cells().retract(x, step, d, to);
-    for (std::size_t k = 0; k < sites.size(); ++k)
-      points_.col(sites[k]) = to.col(static_cast<Eigen::Index>(k));
-  }
-
-  /// Sets Lloyd's map of the moving generators. Returns the largest distance to it, in widths of
-  /// the cells.
-  double map(Points3& centroids) {
-    std::vector<double> farthest(begin_.size(), 0);
-    const auto receive = [&](const Patch& patch, const Array<Vec3>& x,
-                             const Array<CellMoments>& moments) {
-      const auto region = static_cast<std::size_t>(patch.region);
-      farthest[region] = 0;
-      for (std::int32_t i = 0; i < patch.owned; ++i) {
-        const Vec3& from = Cells<S>::places_wrap
-                               ? column(points_, patch.sites[static_cast<std::size_t>(i)])
-                               : x[i];
-        const Pull pull = Cells<S>::pull(from, moments[i]);
-        const bool valid = pull.mass > 0 && moments[i].energy > 0;
-        const Vec3 to = valid ? pull.centroid : from, way = to - from;
-        set_column(centroids, begin_[region] + i, to);
-        if (valid) // the energy of a hexagon of area A is hexagon_energy A times its mass
-          farthest[region] =
-              std::max(farthest[region], dot(way, way) * pull.mass / moments[i].energy);
-      }
-    };
-    tessellation_.move(points_);
-    tessellation_.integrate_repaired(
-        integrand_, [](bool) {}, receive, effort_);
-    return std::sqrt(density_detail::hexagon_energy *
-                     *std::max_element(farthest.begin(), farthest.end()));
-  }
-
-  /// Lloyd's map with constant momentum (Nesterov, 1983) until all are near their centroids.
-  void relax() {
-    constexpr int most = 60;
-    constexpr double near = 0.001, momentum = 0.8;
-    const std::int64_t n = std::ssize(moving_);
-    Points3 centroids(3, n), before, next(3, n);
-    for (int k = 0; k < most; ++k) {
-      const bool ended = map(centroids) <= near || k + 1 == most;
-      if (before.cols() == n && !ended)
-        cells().retract(centroids, momentum, centroids - before, next);
-      else
-        next = centroids;
-      for (std::int64_t i = 0; i < n; ++i)
-        points_.col(moving_[static_cast<std::size_t>(i)]) = next.col(i);
-      if (ended)
-        break;
-      before = centroids;
-    }
-    tessellation_.move(points_);
-    tessellation_.make_delaunay(effort_);
+    const auto shortest = std::min_element(found.begin(), found.end(), is_shorter);
+    return shortest == found.end() ? std::nullopt : std::optional(*shortest);
   }
 
   Tessellation<S>& tessellation_;
   Points3& points_;
-  const Integrand& integrand_;
-  const std::vector<std::uint8_t>& fixed_;
+  const LocalInput& input_;
   const ShapeLimits& limits_;
-  Effort& effort_;
-  std::vector<std::int32_t> moving_; ///< the generators of all brinks of a step, by brink
-  std::vector<std::int64_t> begin_;  ///< by brink: its first one there
+  std::int64_t steps_ = 0;
+  std::vector<Ends> tried_;           ///< ascending
+  std::vector<std::int32_t> changed_; ///< triangles
 };
 
 } // namespace
 
 template <Space S>
-std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
-                   const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits) {
-  constexpr int most_rounds = 8; // a step may bring another dislocation to its brink
+std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
+                   const ShapeLimits& limits) {
   Effort effort;
   tessellation.move(points);
   tessellation.make_delaunay(effort);
-  Glide<S> glide(tessellation, points, integrand, fixed, limits, effort);
-  std::int64_t steps = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::int64_t tried = glide.step();
-    if (tried == 0)
-      break;
-    steps += tried;
-  }
-  return steps;
+  return Glide<S>(tessellation, points, input, limits).run();
 }
 
-template std::int64_t glide(Tessellation<Sphere>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&, const ShapeLimits&);
-template std::int64_t glide(Tessellation<Plane>&, Points3&, const Integrand&,
-                            const std::vector<std::uint8_t>&, const ShapeLimits&);
+template std::int64_t glide(Tessellation<Sphere>&, Points3&, const LocalInput&, const ShapeLimits&);
+template std::int64_t glide(Tessellation<Plane>&, Points3&, const LocalInput&, const ShapeLimits&);
 
 } // namespace calotte::cvt_detail

@@ -3,12 +3,12 @@
 
 #include "cvt/room.h"
 #include "cvt/shape.h"
+#include "cvt/subdomain.h"
 #include "cvt/tessellation.h"
 
 #include <calotte/types.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace calotte::cvt_detail {
 
@@ -23,12 +23,10 @@ namespace calotte::cvt_detail {
 /// The result has the same bits for any number of threads and regions.
 ///
 /// \param points the generators, which move.
-/// \param integrand of the cells' moments.
 /// \param limits whose least_edge and least_cotangent tell what is short and nearly right.
-/// \param fixed a flag for each generator that does not move; empty if there is none.
 /// \return number of steps that were tried; 0 if no edge is on the brink.
 template <Space S>
-std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const Integrand& integrand,
-                   const std::vector<std::uint8_t>& fixed, const ShapeLimits& limits);
+std::int64_t glide(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
+                   const ShapeLimits& limits);
 
 } // namespace calotte::cvt_detail

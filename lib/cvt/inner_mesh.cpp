@@ -102,8 +102,11 @@ template <Space S> std::vector<std::uint8_t> with_centre(const Mesh& mesh, Bound
   cells.move(mesh.points);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(mesh.triangles.cols()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    keep[static_cast<std::size_t>(t)] =
-        cells.has_centre(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)) ? 1 : 0;
+    keep[static_cast<std::size_t>(t)] = cells.has_centre(column(mesh.points, mesh.triangles(0, t)),
+                                                         column(mesh.points, mesh.triangles(1, t)),
+                                                         column(mesh.points, mesh.triangles(2, t)))
+                                            ? 1
+                                            : 0;
   return keep;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/triangle.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -142,7 +143,7 @@ template <Space S>
 std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites,
                              const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which runs in parallel.
-  const std::int64_t most = std::ssize(sites.points) / 16;
+  const std::int64_t most = std::max<std::int64_t>(std::ssize(sites.points) / 16, 64);
   Repair result;
   std::vector<TriangleEdge> pending = faults.edges;
   for (const std::int32_t t : faults.overturned)

@@ -19,9 +19,8 @@ struct Angle {
   std::int32_t a, b, c;
 };
 
-Angle angle_at(const Connectivity& mesh, std::int32_t t, int v) {
-  return {mesh.triangles(next_vertex(v), t), mesh.triangles(previous_vertex(v), t),
-          mesh.triangles(v, t)};
+template <Space S> Angle angle_at(const PlacedMesh<S>& mesh, std::int32_t t, int v) {
+  return {mesh.site(t, next_vertex(v)), mesh.site(t, previous_vertex(v)), mesh.site(t, v)};
 }
 
 /// The cotangent N/Q of an angle between the sides u and v, N = u v, Q = |u x v|.
@@ -30,9 +29,8 @@ struct Cotangent {
   Vec3 u, v, normal;  ///< unit normal
 
   template <Space S>
-  Cotangent(const Cells<S>& cells, const Angle& angle)
-      : u(cells.offset(cells.place(angle.c), cells.place(angle.a))),
-        v(cells.offset(cells.place(angle.c), cells.place(angle.b))) {
+  Cotangent(const PlacedMesh<S>& mesh, const Angle& angle)
+      : u(mesh.offset(angle.c, angle.a)), v(mesh.offset(angle.c, angle.b)) {
     const Vec3 product = cross(u, v);
     area = norm(product);
     normal = (1 / area) * product;
@@ -86,19 +84,18 @@ Excess excess_of(double value, double lower, double upper) {
 
 template <Space S> class Penalty {
 public:
-  Penalty(const Cells<S>& cells, const Connectivity& mesh, const DoubleVector& inverse_spacing,
-          const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed)
-      : cells_(cells), mesh_(mesh), inverse_spacing_(inverse_spacing), limits_(limits),
-        fixed_(fixed) {}
+  explicit Penalty(const ShapeInput<S>& input)
+      : mesh_(input.mesh), inverse_spacing_(input.inverse_spacing), limits_(input.limits),
+        fixed_(input.fixed) {}
 
   void add_triangle(std::int32_t t, Part& part) const {
     if (!is_inner(t))
       return;
     int v = 0;
-    mesh_.triangles.col(t).minCoeff(&v); // the order of the sums
+    mesh_.mesh.triangles.col(t).minCoeff(&v); // the order of the sums
     for (int k = 0; k < 3; ++k, v = next_vertex(v)) {
       const Angle angle = angle_at(mesh_, t, v);
-      const Cotangent cotangent(cells_, angle);
+      const Cotangent cotangent(mesh_, angle);
       const Excess excess =
           excess_of(cotangent.value, limits_.least_cotangent, limits_.most_cotangent);
       if (excess.size > 0 && may_change(angle))
@@ -120,13 +117,12 @@ private:
     return cotangent < limits_.least_edge || cotangent > limits_.most_edge;
   }
   bool is_inner(std::int32_t t) const {
-    const auto ids = mesh_.triangles.col(t);
-    return ids.maxCoeff() < inverse_spacing_.size() && cells_.has_centre(ids[0], ids[1], ids[2]);
+    return mesh_.mesh.triangles.col(t).maxCoeff() < inverse_spacing_.size() && mesh_.has_centre(t);
   }
 
   /// The length of the side across from a vertex: half of the penalty in each of its triangles.
   void add_side(const Angle& angle, Part& part) const {
-    const Vec3 side = cells_.offset(cells_.place(angle.a), cells_.place(angle.b));
+    const Vec3 side = mesh_.offset(angle.a, angle.b);
     const double length = norm(side),
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
     if (!(demanded > 0)) // where the density is 0, no length is too short
@@ -146,11 +142,11 @@ private:
   /// lower vertex across adds it.
   void add_edge(std::int32_t t, int v, const Angle& angle, const Cotangent& cotangent,
                 Part& part) const {
-    const std::int32_t u = mesh_.neighbours(v, t);
+    const std::int32_t u = mesh_.across(t, v);
     if (u < 0 || !is_inner(u))
       return;
-    const Angle other = angle_at(mesh_, u, vertex_across(mesh_.neighbours, u, t));
-    const Cotangent beyond(cells_, other);
+    const Angle other = angle_at(mesh_, u, vertex_across(mesh_.mesh.neighbours, u, t));
+    const Cotangent beyond(mesh_, other);
     if (beyond_edges(beyond.value) && other.c < angle.c)
       return;
     const Excess excess =
@@ -162,8 +158,7 @@ private:
     part.add_shares(other, beyond, slope);
   }
 
-  const Cells<S>& cells_;
-  const Connectivity& mesh_;
+  const PlacedMesh<S> mesh_;
   const DoubleVector& inverse_spacing_;
   const ShapeLimits& limits_;
   const std::vector<std::uint8_t>& fixed_;
@@ -176,17 +171,15 @@ std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int3
   return {mesh.triangles(v, t), mesh.triangles(next_vertex(v), t)};
 }
 
-} // namespace
-
-template <Space S>
-bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
-                  const DoubleVector& inverse_spacing, const ShapeLimits& limits,
-                  std::int32_t triangle) {
-  const auto ids = mesh.triangles.col(triangle);
-  if (ids.maxCoeff() >= inverse_spacing.size())
+/// Whether a triangle may be beyond a limit.
+template <Space S> bool is_distorted(const ShapeInput<S>& input, std::int32_t triangle) {
+  const PlacedMesh<S>& mesh = input.mesh;
+  const ShapeLimits& limits = input.limits;
+  const auto ids = mesh.mesh.triangles.col(triangle);
+  if (ids.maxCoeff() >= input.inverse_spacing.size())
     return false;
-  const Vec3 &a = cells.place(ids[0]), &b = cells.place(ids[1]), &c = cells.place(ids[2]);
-  const Vec3 ab = cells.offset(a, b), bc = cells.offset(b, c), ca = cells.offset(c, a);
+  const Vec3 ab = mesh.offset(ids[0], ids[1]), bc = mesh.offset(ids[1], ids[2]),
+             ca = mesh.offset(ids[2], ids[0]);
   const Vec3 product = cross(ab, bc);
   const double lower = std::max(limits.least_edge, limits.least_cotangent),
                upper = std::min(limits.most_edge, limits.most_cotangent);
@@ -195,7 +188,7 @@ bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
   if (std::min({at_a, at_b, at_c}) < low || std::max({at_a, at_b, at_c}) > high)
     return true;
   const auto beyond = [&](const Vec3& side, std::int32_t i, std::int32_t j) {
-    const double demanded = (inverse_spacing[i] + inverse_spacing[j]) / 2,
+    const double demanded = (input.inverse_spacing[i] + input.inverse_spacing[j]) / 2,
                  square = dot(side, side) * demanded * demanded;
     return demanded > 0 && (square < limits.least_spacing * limits.least_spacing ||
                             square > limits.most_spacing * limits.most_spacing);
@@ -203,17 +196,32 @@ bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
   return beyond(ab, ids[0], ids[1]) || beyond(bc, ids[1], ids[2]) || beyond(ca, ids[2], ids[0]);
 }
 
+} // namespace
+
+template <Space S> std::vector<std::int32_t> distorted(const ShapeInput<S>& input) {
+  const std::int64_t count = input.mesh.mesh.triangles.cols();
+  std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
+  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+    for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
+      if (is_distorted(input, t))
+        parts[static_cast<std::size_t>(block)].push_back(t);
+  });
+  std::vector<std::int32_t> all;
+  for (const std::vector<std::int32_t>& part : parts)
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 template <Space S>
-ShapeTerms add_shape_terms(const Cells<S>& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
-                           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
+ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t> triangles,
                            double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
-  std::sort(triangles.begin(), triangles.end(),
-            [&](std::int32_t t, std::int32_t u) { return key_of(mesh, t) < key_of(mesh, u); });
+  std::sort(triangles.begin(), triangles.end(), [&](std::int32_t t, std::int32_t u) {
+    return key_of(input.mesh.mesh, t) < key_of(input.mesh.mesh, u);
+  });
   const std::int64_t count = std::ssize(triangles);
   std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  const Penalty<S> penalty(cells, mesh, inverse_spacing, limits, fixed);
+  const Penalty<S> penalty(input);
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
       penalty.add_triangle(triangles[static_cast<std::size_t>(i)],
@@ -236,17 +244,19 @@ ShapeTerms add_shape_terms(const Cells<S>& cells, const Connectivity& mesh,
   return all;
 }
 
-template bool is_distorted(const Cells<Sphere>&, const Connectivity&, const DoubleVector&,
-                           const ShapeLimits&, std::int32_t);
-template bool is_distorted(const Cells<Plane>&, const Connectivity&, const DoubleVector&,
-                           const ShapeLimits&, std::int32_t);
-template ShapeTerms add_shape_terms(const Cells<Sphere>&, const Connectivity&,
-                                    std::vector<std::int32_t>, const DoubleVector&,
-                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
+template <Space S> double shape_excess(const ShapeInput<S>& input, std::int32_t triangle) {
+  Part part;
+  Penalty<S>(input).add_triangle(triangle, part);
+  return part.terms.worst;
+}
+
+template std::vector<std::int32_t> distorted(const ShapeInput<Sphere>&);
+template std::vector<std::int32_t> distorted(const ShapeInput<Plane>&);
+template double shape_excess(const ShapeInput<Sphere>&, std::int32_t);
+template double shape_excess(const ShapeInput<Plane>&, std::int32_t);
+template ShapeTerms add_shape_terms(const ShapeInput<Sphere>&, std::vector<std::int32_t>, double,
                                     Points3&);
-template ShapeTerms add_shape_terms(const Cells<Plane>&, const Connectivity&,
-                                    std::vector<std::int32_t>, const DoubleVector&,
-                                    const ShapeLimits&, const std::vector<std::uint8_t>&, double,
+template ShapeTerms add_shape_terms(const ShapeInput<Plane>&, std::vector<std::int32_t>, double,
                                     Points3&);
 
 } // namespace calotte::cvt_detail

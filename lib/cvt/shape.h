@@ -3,6 +3,7 @@
 
 #include "cvt/cells.h"
 #include "cvt/cvt.h"
+#include "cvt/placed_mesh.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
 
@@ -41,6 +42,13 @@ constexpr ShapeLimits early_glide_limits() {
   return limits;
 }
 
+/// A penalty of a factor times the squares of excesses beyond limits.
+struct ShapePenalty {
+  double factor = 0;  ///< 0 for none
+  double spacing = 1; ///< that the density demands, times rho^(1/4)
+  ShapeLimits limits;
+};
+
 /// The penalty for shapes beyond the limits.
 struct ShapeTerms {
   double value = 0; ///< sum of the squares by which the quantities exceed their limits
@@ -49,25 +57,28 @@ struct ShapeTerms {
   std::int64_t generators = 0;       ///< of all shapes with more than the accepted excess
 };
 
+/// Where shapes are judged.
+template <Space S> struct ShapeInput {
+  PlacedMesh<S> mesh;
+  const DoubleVector& inverse_spacing; ///< 1/h by generator, h the spacing that the density demands
+  const ShapeLimits& limits;
+  const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays; empty if none
+};
+
 /// Computes the penalty, and adds a factor times its derivatives to the gradient. The result has
 /// the same bits for any number of threads and any order of the triangles. In the plane, triangles
 /// with their circumcentre outside the domain do not count, see Cells::has_centre(), nor do
-/// their edges' ratios.
+/// their edges' ratios; shapes of fixed generators alone do not count either.
 ///
 /// \param triangles all that may be beyond a limit; each once.
-/// \param inverse_spacing 1/h by generator, h the spacing that the density demands.
-/// \param fixed a flag for each generator that does not move; empty if there is none. Shapes of
-///        such alone do not count.
 template <Space S>
-ShapeTerms add_shape_terms(const Cells<S>& cells, const Connectivity& mesh,
-                           std::vector<std::int32_t> triangles, const DoubleVector& inverse_spacing,
-                           const ShapeLimits& limits, const std::vector<std::uint8_t>& fixed,
+ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t> triangles,
                            double factor, Points3& gradient);
 
-/// Whether a triangle may be beyond a limit.
-template <Space S>
-bool is_distorted(const Cells<S>& cells, const Connectivity& mesh,
-                  const DoubleVector& inverse_spacing, const ShapeLimits& limits,
-                  std::int32_t triangle);
+/// The largest excess of a triangle beyond the limits, and of its edges.
+template <Space S> double shape_excess(const ShapeInput<S>& input, std::int32_t triangle);
+
+/// The triangles that may be beyond a limit, each once, in any order.
+template <Space S> std::vector<std::int32_t> distorted(const ShapeInput<S>& input);
 
 } // namespace calotte::cvt_detail

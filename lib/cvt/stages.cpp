@@ -81,14 +81,19 @@ const CvtIteration& last_accepted(const State& state) {
 }
 
 bool creeps(const State& state, const CvtOptions& options) {
-  constexpr std::ptrdiff_t window = 45;
+  constexpr int with_descent = 1; // glide after which the descent goes on
   constexpr double progress = 0.5;
-  const std::vector<CvtIteration>& all = state.report.iterations;
-  if (!options.well_centred || options.norm == Norm::none || state.penalty > 0 ||
-      state.iterations_of_level <= window)
+  // After insertion only dislocations are out of balance; other starts are so everywhere.
+  const int window = options.insertion_rounds > 0 ? 6 : 45;
+  if (!options.well_centred || options.norm == Norm::none || state.penalty > 0)
     return false;
+  if (state.glides > with_descent)
+    return true;
+  if (state.since_restart <= window)
+    return false;
+  const std::vector<CvtIteration>& all = state.report.iterations;
   double before = std::numeric_limits<double>::infinity(), now = before;
-  for (std::ptrdiff_t k = 1; k <= state.iterations_of_level; ++k) {
+  for (std::ptrdiff_t k = 1; k <= state.since_restart; ++k) {
     const CvtIteration& iteration = *(all.end() - k);
     if (rule_of(iteration) != rule_of(all.back())) // another functional
       break;
@@ -138,7 +143,7 @@ bool may_glide(const State& state, const CvtOptions& options) {
 }
 
 ShapeLimits limits_of_glide(const State& state) {
-  constexpr int within = 2;
+  constexpr int within = 3;
   return state.glides < within ? early_glide_limits() : shape_limits;
 }
 
@@ -168,10 +173,15 @@ CvtOptions options_of_descent(const State& state, const Surface& surface,
   }
   if (options.insertion_rounds == 0 || options.norm == Norm::none)
     return here;
+  const Stage next = stage_after(state, options);
+  const bool last = next != Stage::insert && next != Stage::bisect,
+             fine_level = state.points.cols() >= many;
   if (is_resolved(state, surface, options.density))
     here.rule = rule_at_sites;
-  const Stage next = stage_after(state, options);
-  if (next != Stage::insert && next != Stage::bisect) {
+  if (here.method == Method::automatic && fine_level && (!last || options.well_centred))
+    here.method = Method::lbfgs; // descents are short, and a graph Laplacian takes as long as five
+                                 // evaluations to make
+  if (last) {
     here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
     return here;
   }
@@ -198,6 +208,7 @@ std::vector<CvtLevel> levels_of(const Surface& surface, std::int64_t first, int 
 void begin_descent(State& state) {
   state.memory = {};
   state.iterations_of_level = 0;
+  state.since_restart = 0;
   state.final_rule = false;
   state.stuck = false;
   state.report.converged = false;

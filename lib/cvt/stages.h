@@ -18,9 +18,10 @@
 /// The course of a run: descents, and what happens to the generators between two of them.
 ///
 ///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
-///             -> [ glide ]* -> [ polish -> [ raise ]* ]
+///             -> [ glide -> descent -> glide* ] -> [ polish -> [ raise ]* ]
 ///
-/// A glide is part of the descent before the polish, see glide.h.
+/// A glide is part of the descent before the polish, see glide.h; a polish begins in subdomains,
+/// see polish.h.
 namespace calotte::cvt_detail {
 
 /// \throws Error invalid_argument for a value out of range.
@@ -41,8 +42,9 @@ std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bise
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
-/// Whether 45 evaluations of a descent before a polish have not halved the norm: generators glide
-/// on along defects, where widths change too steeply or are noisy, and the grid hardly gets better.
+/// Whether the last six evaluations of a descent before a polish have not halved the norm, or the
+/// last 45 of a run without insertion: generators creep along defects, and glides take dislocations
+/// on faster. After the second glide, always: a descent follows the first only.
 bool creeps(const State& state, const CvtOptions& options);
 
 /// Whether ten evaluations of a polish have hardly improved the worst shape.
@@ -53,8 +55,8 @@ Stage stage_after(const State& state, const CvtOptions& options);
 /// Whether dislocations may be moved: at the end of the descent before a polish, up to four times.
 bool may_glide(const State& state, const CvtOptions& options);
 
-/// The limits of the next glide: twice a little within shape_limits, so that few shapes come near
-/// these, then shape_limits, so that few are left to the penalty.
+/// The limits of the next glide: three times a little within shape_limits, so that few shapes come
+/// near these, then shape_limits, so that few are left to the penalty.
 ShapeLimits limits_of_glide(const State& state);
 
 /// The options of the current descent.

@@ -40,6 +40,7 @@ struct State {
   double penalty = 0;          ///< of shapes, in the polish; 0 before
   double demanded_spacing = 1; ///< in the polish: at rho = 1
   int glides = 0;              ///< how often dislocations were moved
+  int since_restart = 0;       ///< evaluations of the descent since its points were changed
   int raised = 0;              ///< how often the penalty was raised
   bool descended = true;       ///< the descent before the polish converged
   Memory memory;

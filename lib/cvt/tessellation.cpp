@@ -91,23 +91,14 @@ template <Space S> void Tessellation<S>::set_division(Owners&& owners) {
     division_.work[k].report.sites = division_.patches[k].owned;
 }
 
-template <Space S>
-Division Tessellation<S>::focus(Array<std::int32_t>&& owner, std::int32_t regions) {
-  Division all = std::exchange(division_, {});
-  focused_ = true;
-  rebuilt_ = false;
-  set_division({std::move(owner), regions});
-  return all;
-}
-
-template <Space S> void Tessellation<S>::resume(Division&& all) {
-  division_ = std::move(all);
-  if (rebuilt_)
-    division_.patches = make_patches(mesh_.triangles, division_.ownership);
+template <Space S> void Tessellation<S>::change_mesh(const Points3& points, const Change& change) {
+  const std::optional<std::vector<std::int32_t>> changed = change(mesh_);
+  move(points);
+  Effort unused;
+  if (changed)
+    renew_patches(division_.patches, mesh_.triangles, division_.ownership, *changed);
   else
-    renew_patches(division_.patches, mesh_.triangles, division_.ownership, changed_);
-  focused_ = false;
-  changed_ = {};
+    rebuild(unused);
 }
 
 template <Space S> void Tessellation<S>::adopt(Owners&& owners) {
@@ -181,8 +172,6 @@ template <Space S> bool Tessellation<S>::repair_faults(const Faults& faults, Eff
   const std::optional<Repair> repaired = repair(mesh_, cells_.placed(), faults);
   if (repaired) {
     renew_patches(division_.patches, mesh_.triangles, division_.ownership, repaired->changed);
-    if (focused_)
-      changed_.insert(changed_.end(), repaired->changed.begin(), repaired->changed.end());
     effort.flips += repaired->flips;
   }
   effort.seconds_repair += lap(start);
@@ -196,7 +185,6 @@ template <Space S> void Tessellation<S>::rebuild(Effort& effort) {
   mesh_ = {};
   mesh_ = cells_.triangulate();
   division_.patches = make_patches(mesh_.triangles, division_.ownership);
-  rebuilt_ = true;
   effort.rebuilt = true;
   effort.seconds_repair += lap(start);
 }
@@ -259,22 +247,6 @@ template <Space S> void Tessellation<S>::make_delaunay(Effort& effort) {
       return;
     }
   }
-}
-
-template <Space S>
-std::vector<std::int32_t> Tessellation<S>::distorted(const DoubleVector& inverse_spacing,
-                                                     const ShapeLimits& limits) const {
-  const std::int64_t count = mesh_.triangles.cols();
-  std::vector<std::vector<std::int32_t>> parts(static_cast<std::size_t>(block_count(count)));
-  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
-      if (is_distorted(cells_, mesh_, inverse_spacing, limits, t))
-        parts[static_cast<std::size_t>(block)].push_back(t);
-  });
-  std::vector<std::int32_t> all;
-  for (const std::vector<std::int32_t>& part : parts)
-    all.insert(all.end(), part.begin(), part.end());
-  return all;
 }
 
 template <Space S> std::optional<Connectivity> Tessellation<S>::take_mesh(const Points3& points) {

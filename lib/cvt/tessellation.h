@@ -2,9 +2,9 @@
 #pragma once
 
 #include "cvt/cells.h"
+#include "cvt/placed_mesh.h"
 #include "cvt/repair.h"
 #include "cvt/room.h"
-#include "cvt/shape.h"
 #include "delaunay/regions.h"
 #include "delaunay/sites.h"
 #include "integrals/moments.h"
@@ -96,22 +96,21 @@ public:
   /// Makes the mesh Delaunay, by flips or a new triangulation.
   void make_delaunay(Effort& effort);
 
-  /// The triangles whose shape may be beyond the limits of a polish, each once.
-  std::vector<std::int32_t> distorted(const DoubleVector& inverse_spacing,
-                                      const ShapeLimits& limits) const;
+  /// The mesh with the places of its sites.
+  PlacedMesh<S> placed() const { return {cells_, mesh_, cells_.placed().points}; }
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
 
   const Cells<S>& cells() const { return cells_; }
   const Connectivity& mesh() const { return mesh_; }
-  const Division& division() const { return division_; }
 
-  /// Restricts the following calls to some sites: those that are owned. Their cells are whole.
-  /// Returns what resume() takes, to return to all sites.
-  /// \param owner of each place: a region from 0 to regions - 1, or negative for none.
-  Division focus(Array<std::int32_t>&& owner, std::int32_t regions);
-  void resume(Division&& all);
+  /// Changes triangles of the mesh, and leaves it Delaunay. Returns the numbers of those that are
+  /// then others, which may repeat; nothing if the mesh is unusable.
+  using Change = std::function<std::optional<std::vector<std::int32_t>>(Connectivity&)>;
+
+  /// Lets `change` move the points and change the mesh with them.
+  void change_mesh(const Points3& points, const Change& change);
 
   /// The regions, with their seconds since they were chosen.
   std::vector<CvtRegion> regions() const;
@@ -139,10 +138,7 @@ private:
   Partition partition_;
   Connectivity mesh_;
   Division division_;
-  bool focused_ = false;              ///< between focus() and resume()
-  std::vector<std::int32_t> changed_; ///< triangles that flips have changed since focus()
-  bool rebuilt_ = false;              ///< the mesh, since focus()
-  Array<Vec3> sample_;                ///< sampled points, as they were when the regions were chosen
+  Array<Vec3> sample_; ///< sampled points, as they were when the regions were chosen
   bool restless_ = true;
 };
 

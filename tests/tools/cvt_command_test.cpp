@@ -847,7 +847,7 @@ TEST_CASE("a lake with an island: the mesh, its report, its quality, its picture
   CHECK(has(coarse.err, "coarse.nc.vtp has the triangles"));
   CHECK(bench.run("check --plane coarse.nc.vtp").code == 0);
 
-  const Outcome stopped = bench.run(run + " --max-iterations 9 --checkpoint c --checkpoint-every 4 "
+  const Outcome stopped = bench.run(run + " --max-iterations 5 --checkpoint c --checkpoint-every 2 "
                                           "-o other.vtp");
   CHECK(stopped.code == 1); // not converged
   CHECK(bench.run("cvt --domain lake.txt --cells 301 --resume c -o other.vtp").code == 2);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/triangle.h"
+#include "cvt/cells.h"
+#include "cvt/room.h"
+#include "mesh/connectivity.h"
+
+#include <cstdint>
+#include <span>
+
+namespace calotte::cvt_detail {
+
+/// The triangles of a tessellation, or of a part of it, with the places of their sites.
+template <Space S> struct PlacedMesh {
+  const Cells<S>& cells;
+  const Connectivity& mesh;
+  std::span<const Vec3> places; ///< by site
+
+  const Vec3& place(std::int32_t site) const { return places[static_cast<std::size_t>(site)]; }
+  Vec3 offset(std::int32_t from, std::int32_t to) const {
+    return cells.offset(place(from), place(to));
+  }
+  std::int32_t site(std::int32_t t, int v) const { return mesh.triangles(v, t); }
+  /// The triangle across from a vertex; negative if there is none.
+  std::int32_t across(std::int32_t t, int v) const { return mesh.neighbours(v, t); }
+  bool has_centre(std::int32_t t) const {
+    return cells.has_centre(place(site(t, 0)), place(site(t, 1)), place(site(t, 2)));
+  }
+};
+
+} // namespace calotte::cvt_detail

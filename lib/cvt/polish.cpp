@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cvt/polish.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace calotte::cvt_detail {
+namespace {
+
+using Seeds = std::vector<std::array<std::int32_t, 2>>;
+
+/// The triangles with shapes beyond the limits, the worst ones first: an order that the
+/// triangulation alone determines.
+template <Space S>
+Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
+                   const LocalInput& input, const ShapePenalty& penalty) {
+  const DoubleVector inverse_spacing =
+      evaluate(input.density, points).cwiseSqrt().cwiseSqrt() / penalty.spacing;
+  const ShapeInput<S> shapes{tessellation.placed(), inverse_spacing, penalty.limits, input.fixed};
+  struct Shape {
+    double excess;
+    std::array<std::int32_t, 3> sites; ///< ascending
+    std::int32_t triangle;
+  };
+  std::vector<Shape> found;
+  for (const std::int32_t t : distorted(shapes))
+    if (const double excess = shape_excess(shapes, t); excess > polished_excess) {
+      std::array<std::int32_t, 3> sites;
+      for (int v = 0; v < 3; ++v)
+        sites[static_cast<std::size_t>(v)] = tessellation.mesh().triangles(v, t);
+      std::sort(sites.begin(), sites.end());
+      found.push_back({excess, sites, t});
+    }
+  std::sort(found.begin(), found.end(), [](const Shape& a, const Shape& b) {
+    return std::tie(b.excess, a.sites) < std::tie(a.excess, b.sites);
+  });
+  Seeds seeds;
+  for (const Shape& shape : found)
+    seeds.push_back({shape.triangle, shape.triangle});
+  return seeds;
+}
+
+/// Descends with the penalty, and raises it where it does not suffice.
+/// False if no mesh is left.
+template <Space S>
+bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penalty) {
+  constexpr int least = 20, most = 40, most_raised = 2; // the least spread what moves
+  constexpr double raise = 4;
+  for (int raised = 0; raised <= most_raised; ++raised, penalty.factor *= raise) {
+    const Evaluation last =
+        descend(part, part.points(), input, penalty, [&](const Evaluation& here, int evaluations) {
+          return (here.shapes.worst <= polished_excess && evaluations >= least) ||
+                 evaluations >= most;
+        });
+    if (!std::isfinite(last.iteration.energy))
+      return false;
+    if (last.shapes.worst <= polished_excess)
+      break;
+  }
+  return true;
+}
+
+} // namespace
+
+template <Space S>
+std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
+                    const ShapePenalty& penalty) {
+  constexpr int most_rounds = 4; // shapes near each other are polished one after another
+  std::int64_t count = 0;
+  const auto task = [&](std::size_t, Subdomain<S>& part) {
+    return polish_part(part, input, penalty);
+  };
+  tessellation.change_mesh(
+      points, [&](Connectivity& mesh) -> std::optional<std::vector<std::int32_t>> {
+        std::vector<std::int32_t> changed;
+        for (int round = 0; round < most_rounds; ++round) {
+          const auto chosen =
+              choose_surroundings(mesh, worst_shapes(tessellation, points, input, penalty)).chosen;
+          if (chosen.empty())
+            break;
+          count += std::ssize(chosen);
+          if (!work_in<S>(chosen, task, input, tessellation, mesh, points, changed))
+            return std::nullopt;
+        }
+        return changed;
+      });
+  return count;
+}
+
+template std::int64_t polish(Tessellation<Sphere>&, Points3&, const LocalInput&,
+                             const ShapePenalty&);
+template std::int64_t polish(Tessellation<Plane>&, Points3&, const LocalInput&,
+                             const ShapePenalty&);
+
+} // namespace calotte::cvt_detail

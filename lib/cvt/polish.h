@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cvt/room.h"
+#include "cvt/shape.h"
+#include "cvt/subdomain.h"
+#include "cvt/tessellation.h"
+
+#include <calotte/types.h>
+
+#include <cstdint>
+
+namespace calotte::cvt_detail {
+
+/// Polishes shapes beyond the limits where they are: lowers the energy plus the penalty in
+/// subdomains around them, with up to 16 times the penalty's factor where less does not suffice. A
+/// few shapes that are near each other or whose surroundings do not allow it may be left.
+///
+/// The result has the same bits for any number of threads and regions.
+///
+/// \param points the generators, which move.
+/// \param penalty with the limits.
+/// \return number of subdomains; 0 if no shape is beyond the limits.
+template <Space S>
+std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalInput& input,
+                    const ShapePenalty& penalty);
+
+} // namespace calotte::cvt_detail

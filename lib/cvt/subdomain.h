@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/memory.h"
+#include "cvt/cells.h"
+#include "cvt/functional.h"
+#include "cvt/placed_mesh.h"
+#include "cvt/repair.h"
+#include "cvt/room.h"
+#include "cvt/shape.h"
+#include "cvt/tessellation.h"
+#include "density/density_evaluator.h"
+#include "integrals/integrand.h"
+#include "integrals/moments.h"
+#include "integrals/patches.h"
+#include "mesh/connectivity.h"
+
+#include <calotte/cvt.h>
+#include <calotte/types.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+/// Work where it is needed: parts of a tessellation that descend by themselves, each in one task.
+namespace calotte::cvt_detail {
+
+/// What the subdomains of a run have in common.
+struct LocalInput {
+  const Density& density;
+  const Integrand& integrand;
+  const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays, or empty
+};
+
+/// Some triangles of a mesh by themselves, as a functional of the generators between them. Those on
+/// their edge and the fixed ones stay. Subdomains without a common triangle do not depend on each
+/// other.
+///
+/// Sites and triangles have local numbers, which follow from the sites of the triangles alone: the
+/// result has the same bits whatever the numbers of the triangles in the mesh.
+template <Space S> class Subdomain final : public Functional {
+public:
+  /// \param cells at the points. \param mesh Delaunay. \param triangles each once.
+  Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
+            std::vector<std::int32_t> triangles, const LocalInput& input);
+
+  PlacedMesh<S> placed() const { return {cells_, mesh_, {x_.begin(), sites_.size()}}; }
+  std::int32_t movable() const { return patch_.owned; } ///< sites that move: the first ones
+  /// In the mesh: those that move, ascending, then the others.
+  std::span<const std::int32_t> sites() const { return sites_; }
+  const Points3& points() const { return points_; } ///< of the generators that move
+  std::int64_t triangles() const { return mesh_.triangles.cols(); }
+
+  void penalise(const ShapePenalty& penalty) { penalty_ = penalty; }
+
+  /// Writes the generators and the triangles back. Edges of the subdomain may not be Delaunay.
+  /// \param changed triangles that have other vertices or neighbours are added.
+  /// \param rim triangles at the edge and beyond, whose edges may not be, are added.
+  void write(Connectivity& mesh, Points3& points, std::vector<std::int32_t>& changed,
+             std::vector<std::int32_t>& rim) const;
+
+  // ---- The functional. Of an evaluation, `linf` is in widths of the cells. Where flips do not
+  // make the mesh Delaunay, the energy is infinite, and the mesh stays as it was.
+
+  void evaluate(const Points3& points, bool final_rule, bool with_gradient,
+                Evaluation& out) override;
+  void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
+  void retract(const Points3& x, double step, const Points3& d, Points3& to) const override {
+    cells_.retract(x, step, d, to);
+  }
+  void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override {
+    cells_.make_tangential(vectors, x, part);
+  }
+  /// Not used by the method of a local descent.
+  Laplacian laplacian(const Points3&) override { return {}; }
+
+private:
+  /// An edge of the subdomain: where it was, and its ends counter-clockwise.
+  struct Rim {
+    std::int32_t triangle;
+    int across;
+    std::int32_t from, to;
+  };
+
+  void take_triangles(const Connectivity& mesh);
+  void number_sites(const LocalInput& input);
+  void set_patch();
+  bool integrate();
+  void add_penalty(Evaluation& out);
+  std::int32_t beyond(const std::vector<std::int32_t>& outside, std::int32_t from,
+                      std::int32_t to) const;
+
+  const Cells<S>& cells_;
+  const Integrand& integrand_;
+  DensityEvaluator density_;
+  std::vector<std::int32_t> triangles_, sites_; ///< numbers in the mesh
+  Connectivity mesh_;
+  std::vector<Rim> rim_; ///< by `from`, then `to`
+  Points3 points_;
+  Array<Vec3> x_; ///< places of all sites
+  Patch patch_;   ///< its triangles are those with a site that moves
+  Array<CellMoments> moments_;
+  std::vector<std::int32_t> suspects_;
+  std::vector<std::uint8_t> stays_; ///< by site
+  std::int64_t generators_ = 0;     ///< sites that are generators: the first ones
+  ShapePenalty penalty_;
+  bool flipped_ = false;
+};
+
+/// Descends in a subdomain from a start, by L-BFGS, until `ended` is true, for the last accepted
+/// evaluation and the number of all, or no step lowers the value. \returns the last evaluation;
+/// with an infinite energy if the mesh was not Delaunay at the start.
+template <Space S>
+Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& input,
+                   const ShapePenalty& penalty,
+                   const std::function<bool(const Evaluation&, int)>& ended);
+
+/// A pair of triangles, which may be one, with those within some steps across edges.
+struct Surroundings {
+  std::size_t seed;
+  std::vector<std::int32_t> triangles; ///< the nearer ones first
+};
+
+struct ChosenSurroundings {
+  std::vector<Surroundings> chosen; ///< without a common triangle
+  std::vector<std::size_t> left;    ///< seeds that are neither chosen nor in what is chosen
+};
+
+/// Chooses seeds, the first ones in their order, whose surroundings have no common triangle.
+ChosenSurroundings choose_surroundings(const Connectivity& mesh,
+                                       std::span<const std::array<std::int32_t, 2>> seeds);
+
+/// What is done in a subdomain; false if it is to be left out, as without a mesh.
+template <Space S> using LocalTask = std::function<bool(std::size_t place, Subdomain<S>& part)>;
+
+/// Runs a task in the subdomain of each of some surroundings, without a common triangle, and writes
+/// them back.
+/// \param mesh of the tessellation, which stays Delaunay.
+/// \param task called with the place of the surroundings in the list.
+/// \param changed triangles that are then others are added.
+/// \returns false if flips do not make the mesh Delaunay; it is then unusable.
+template <Space S>
+bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& task,
+             const LocalInput& input, Tessellation<S>& tessellation, Connectivity& mesh,
+             Points3& points, std::vector<std::int32_t>& changed);
+
+} // namespace calotte::cvt_detail
