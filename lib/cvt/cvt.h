@@ -32,7 +32,7 @@ struct CvtOptions {
   /// bisect()) and converges again.
   int bisections = 0;
   /// Rounds of insertion and contraction on the last level, see split_and_collapse(), and up to
-  /// 14 on coarser levels; each is followed by a descent. A round after a descent of more than 15
+  /// 14 on coarser levels; each is followed by a descent. A round after a descent of more than 25
   /// evaluations counts for two. With rounds, all descents but the last end at an l2_scaled norm of
   /// 1e-3 or the tolerance, whichever is larger, or after 75 evaluations. >= 0; default 0.
   int insertion_rounds = 0;

@@ -3,9 +3,10 @@
 
 #include <calotte/cvt.h>
 
-#include "base/lists.h"
+#include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "base/triangle.h"
 #include "density/surface_density.h"
 #include "domain/outline.h"
 #include "domain/surface.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -48,23 +50,16 @@ DoubleVector fineness(const Density& density, const Points3& points) {
   return evaluate(density, points).cwiseSqrt().cwiseSqrt();
 }
 
-/// The neighbours of each site.
-using Neighbours = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
-
-Neighbours neighbours_of(std::int64_t sites, const std::vector<Edge>& edges) {
-  return base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
-    for (const Edge& edge : edges) {
-      put(edge.a, edge.b);
-      put(edge.b, edge.a);
-    }
-  });
-}
-
 /// Edges that are far from each other: no end of one is an end of another or next to it.
 class Choice {
 public:
-  Choice(std::int64_t sites, const std::vector<Edge>& edges)
-      : neighbours_(neighbours_of(sites, edges)), blocked_(static_cast<std::size_t>(sites), 0) {}
+  explicit Choice(const Mesh& mesh)
+      : mesh_(mesh), triangle_(static_cast<std::size_t>(mesh.points.cols()), -1),
+        blocked_(triangle_.size(), 0) {
+    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
+      for (int v = 0; v < 3; ++v)
+        triangle_[static_cast<std::size_t>(mesh.triangles(v, t))] = static_cast<std::int32_t>(t);
+  }
 
   /// Up to `count` of the edges that are allowed, the first ones in an order. Reorders the edges.
   template <class Before, class Allowed>
@@ -93,13 +88,29 @@ private:
     if (a != 0 || b != 0)
       return false;
     for (const std::int32_t end : {edge.a, edge.b})
-      for (const std::int32_t site : neighbours_[end])
-        blocked_[static_cast<std::size_t>(site)] = 1;
+      block_around(end);
     a = b = 1;
     return true;
   }
 
-  Neighbours neighbours_;
+  /// Blocks a site's neighbours: on both ways around it, of which one ends at a hull.
+  void block_around(std::int32_t site) {
+    const std::int32_t first = triangle_[static_cast<std::size_t>(site)];
+    for (const bool counter_clockwise : {true, false})
+      for (std::int32_t t = first; t >= 0;) {
+        int v = 0;
+        while (mesh_.triangles(v, t) != site)
+          ++v;
+        for (const int other : {next_vertex(v), previous_vertex(v)})
+          blocked_[static_cast<std::size_t>(mesh_.triangles(other, t))] = 1;
+        t = mesh_.neighbours(counter_clockwise ? next_vertex(v) : previous_vertex(v), t);
+        if (t == first)
+          return;
+      }
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::int32_t> triangle_; ///< one at each site
   std::vector<std::uint8_t> blocked_;
 };
 
@@ -144,15 +155,16 @@ std::vector<Edge> edges_of(const Mesh& mesh, const Points3& points, const Densit
   constexpr double preference = 2;
   const DoubleVector fine = fineness(density, points);
   const std::vector<std::int8_t> odd = oddities(mesh);
-  std::vector<Edge> edges;
-  edges.reserve(static_cast<std::size_t>(mesh_detail::count_edges(mesh).all));
-  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
+  const mesh_detail::EdgeCount count = mesh_detail::count_edges(mesh);
+  std::vector<Edge> edges(static_cast<std::size_t>(count.all));
+  mesh_detail::for_each_edge(mesh, count, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
     const int sum = odd[static_cast<std::size_t>(a)] + odd[static_cast<std::size_t>(b)];
     const double length = norm(space.offset(column(points, a), column(points, b))),
                  factor = sum > 0   ? preference
                           : sum < 0 ? 1 / preference
                                     : 1;
-    edges.push_back({factor * length * (fine[a] + fine[b]), std::min(a, b), std::max(a, b)});
+    edges[static_cast<std::size_t>(e)] = {factor * length * (fine[a] + fine[b]), std::min(a, b),
+                                          std::max(a, b)};
   });
   return edges;
 }
@@ -195,9 +207,10 @@ Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& den
            !lies_along<S>(*outline, column(points, edge.a), column(points, edge.b));
   };
   const auto may_collapse = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
-  Choice choice(points.cols(), edges); // whose neighbours are those of all edges
-  std::erase_if(
-      edges, [&](const Edge& edge) { return side_of<S>(outline, middle(edge)) != Side::inside; });
+  Choice choice(mesh);
+  if (outline != nullptr)
+    std::erase_if(
+        edges, [&](const Edge& edge) { return side_of<S>(outline, middle(edge)) != Side::inside; });
   const std::vector<Edge> split = choice.choose(edges, numbers.splits, is_longer, may_split),
                           contracted =
                               choice.choose(edges, numbers.collapses, is_shorter, may_collapse);
@@ -223,11 +236,14 @@ namespace cvt_detail {
 double dislocations(const Mesh& mesh, const Density& density) {
   constexpr double per_edge = std::numbers::sqrt3 / 2 * (std::numbers::pi / 2) / 3;
   const DoubleVector fine = fineness(density, points_of_run(mesh));
-  double sum = 0;
-  mesh_detail::for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
-    if (const double larger = std::max(fine[a], fine[b]); larger > 0)
-      sum += std::abs(fine[a] - fine[b]) / larger;
-  });
+  const double sum = sums_over_blocks(
+      mesh.triangles.cols(), 1, [&](base_detail::Part part, std::span<double> total) {
+        mesh_detail::for_each_edge_of(
+            mesh, part.begin, part.end, [&](std::int32_t a, std::int32_t b) {
+              if (const double larger = std::max(fine[a], fine[b]); larger > 0)
+                total[0] += std::abs(fine[a] - fine[b]) / larger;
+            });
+      })[0];
   return per_edge * sum;
 }
 

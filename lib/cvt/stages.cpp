@@ -23,10 +23,10 @@ double spacing_of(const CvtIteration& iteration) {
   return hexagon_width(std::sqrt(iteration.energy * n / hexagon_energy) / n);
 }
 
-/// A round after a descent of more than 15 evaluations counts for two: where widths are steep, a
+/// A round after a descent of more than 25 evaluations counts for two: where widths are steep, a
 /// round takes long and gains less.
 int count_of_round(const State& state) {
-  constexpr int steep = 15;
+  constexpr int steep = 25;
   return state.iterations_of_level > steep ? 2 : 1;
 }
 

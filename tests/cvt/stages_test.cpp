@@ -270,7 +270,7 @@ TEST_CASE("stages: bad options are errors") {
   CHECK(message_of(options).find("give at least 12") != std::string::npos);
 }
 
-TEST_CASE("stages: a round after a descent of more than 15 evaluations counts for two") {
+TEST_CASE("stages: a round after a descent of more than 25 evaluations counts for two") {
   const auto rounds_of = [](const Density& density) {
     CvtOptions options = graded(3000, 0, density);
     options.insertion_rounds = 6;
@@ -278,7 +278,7 @@ TEST_CASE("stages: a round after a descent of more than 15 evaluations counts fo
     int left = 6, evaluations = 0, count = 0;
     spherical_cvt(start_of(3000, density), options, [&](const CvtProgress& now) {
       if (now.rounds_left != left) {
-        CHECK(now.rounds_left == std::max(left - (evaluations > 15 ? 2 : 1), 0));
+        CHECK(now.rounds_left == std::max(left - (evaluations > 25 ? 2 : 1), 0));
         left = now.rounds_left;
         ++count;
       }
