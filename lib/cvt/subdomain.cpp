@@ -368,7 +368,7 @@ bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& tas
     const auto place = static_cast<std::size_t>(k);
     std::optional<Subdomain<S>>& part = parts[place];
     part.emplace(tessellation.cells(), mesh, points, surroundings[place].triangles, input);
-    if (!task(place, *part))
+    if (part->movable() == 0 || !task(place, *part))
       part.reset();
   });
   std::vector<std::int32_t> rim;
