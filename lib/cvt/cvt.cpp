@@ -220,13 +220,9 @@ void require_room(const Surface& surface, const State& state, const CvtOptions& 
 /// The start of the descent of a stage.
 Level begin(const Surface& surface, Stage stage, State& state, const CvtOptions& options,
             Ending&& ending) {
-  if (stage == Stage::polish) {
-    begin_polish(state);
+  if (stage == Stage::polish || stage == Stage::raise) { // of the same points
+    stage == Stage::polish ? begin_polish(state) : begin_raised(state);
     return {std::nullopt, std::move(ending.mesh)};
-  }
-  if (stage == Stage::raise) {
-    begin_raised(state);
-    return {};
   }
   state.memory = {};
   const Mesh mesh = mesh_of_run(state, surface, std::move(ending.mesh));

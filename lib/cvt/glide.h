@@ -23,6 +23,7 @@ namespace calotte::cvt_detail {
 /// The result has the same bits for any number of threads and regions.
 ///
 /// \param points the generators, which move.
+/// \param input whose integrand gives the cells' moments.
 /// \param limits whose least_edge and least_cotangent tell what is short and nearly right.
 /// \return number of steps that were tried; 0 if no edge is on the brink.
 template <Space S>

@@ -153,9 +153,10 @@ template <Space S>
 std::vector<Edge> edges_of(const Mesh& mesh, const Points3& points, const Density& density,
                            const S& space) {
   constexpr double preference = 2;
+  const mesh_detail::EdgeCount count =
+      mesh_detail::count_edges(mesh); // refuses a mesh without neighbours
   const DoubleVector fine = fineness(density, points);
   const std::vector<std::int8_t> odd = oddities(mesh);
-  const mesh_detail::EdgeCount count = mesh_detail::count_edges(mesh);
   std::vector<Edge> edges(static_cast<std::size_t>(count.all));
   mesh_detail::for_each_edge(mesh, count, [&](std::int64_t e, std::int32_t a, std::int32_t b) {
     const int sum = odd[static_cast<std::size_t>(a)] + odd[static_cast<std::size_t>(b)];

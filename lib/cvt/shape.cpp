@@ -5,6 +5,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/cells.h"
+#include "integrals/patches.h"
 
 #include <algorithm>
 #include <array>
@@ -164,13 +165,6 @@ private:
   const std::vector<std::uint8_t>& fixed_;
 };
 
-/// The vertices of a triangle from the lowest on: a key that no other triangle has.
-std::pair<std::int32_t, std::int32_t> key_of(const Connectivity& mesh, std::int32_t t) {
-  int v = 0;
-  mesh.triangles.col(t).minCoeff(&v);
-  return {mesh.triangles(v, t), mesh.triangles(next_vertex(v), t)};
-}
-
 /// Whether a triangle may be beyond a limit.
 template <Space S> bool is_distorted(const ShapeInput<S>& input, std::int32_t triangle) {
   const PlacedMesh<S>& mesh = input.mesh;
@@ -216,9 +210,7 @@ template <Space S>
 ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t> triangles,
                            double factor, Points3& gradient) {
   constexpr std::int64_t chunk = 512;
-  std::sort(triangles.begin(), triangles.end(), [&](std::int32_t t, std::int32_t u) {
-    return key_of(input.mesh.mesh, t) < key_of(input.mesh.mesh, u);
-  });
+  sort_by_sites(triangles, input.mesh.mesh.triangles);
   const std::int64_t count = std::ssize(triangles);
   std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
   const Penalty<S> penalty(input);

@@ -50,7 +50,8 @@ EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density&
 constexpr std::int64_t many = 2000; // generators
 
 /// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
-/// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees.
+/// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees. Where the
+/// density is 0, cells are of any width.
 bool is_resolved(const State& state, const Surface& surface, const Density& density) {
   constexpr Eigen::Index most_samples = 4096;
   constexpr double widest = 0.25;
@@ -63,7 +64,7 @@ bool is_resolved(const State& state, const Surface& surface, const Density& dens
     samples.col(k) = state.points.col(k * stride);
   const DoubleVector area = evaluate(density, samples).cwiseSqrt().cwiseInverse();
   const double mean = area.mean() * static_cast<double>(n) / surface.area();
-  return area.maxCoeff() <= widest * widest * mean; // false if a density is 0
+  return std::isfinite(mean) && area.maxCoeff() <= widest * widest * mean;
 }
 
 } // namespace

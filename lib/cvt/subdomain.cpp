@@ -21,25 +21,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The vertices of a triangle from the lowest on.
-std::array<std::int32_t, 3> from_lowest(const Triangles& triangles, std::int32_t t) {
-  const std::int32_t a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
-  if (a < b && a < c)
-    return {a, b, c};
-  return b < c ? std::array{b, c, a} : std::array{c, a, b};
-}
-
-/// Sorts triangles by their vertices, whatever their numbers are.
-void sort_by_vertices(std::vector<std::int32_t>& list, const Triangles& triangles) {
-  std::vector<std::pair<std::array<std::int32_t, 3>, std::int32_t>> keyed;
-  keyed.reserve(list.size());
-  for (const std::int32_t t : list)
-    keyed.emplace_back(from_lowest(triangles, t), t);
-  std::sort(keyed.begin(), keyed.end());
-  std::transform(keyed.begin(), keyed.end(), list.begin(),
-                 [](const auto& entry) { return entry.second; });
-}
-
 /// The triangles within some steps across edges from a pair, the nearer ones first.
 std::vector<std::int32_t> triangles_around(const Connectivity& mesh,
                                            const std::array<std::int32_t, 2>& pair, int steps) {
@@ -69,7 +50,7 @@ Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const P
                         std::vector<std::int32_t> triangles, const LocalInput& input)
     : cells_(cells), integrand_(input.integrand), density_(input.density),
       triangles_(std::move(triangles)) {
-  sort_by_vertices(triangles_, mesh.triangles);
+  sort_by_sites(triangles_, mesh.triangles);
   take_triangles(mesh);
   number_sites(input);
   points_.resize(3, movable());
@@ -157,10 +138,10 @@ template <Space S> void Subdomain<S>::set_patch() {
   for (std::int32_t t = 0; t < mesh_.triangles.cols(); ++t)
     if (mesh_.triangles.col(t).minCoeff() < patch_.owned)
       patch_.triangles.push_back(t);
-  sort_by_vertices(patch_.triangles, mesh_.triangles);
+  sort_by_sites(patch_.triangles, mesh_.triangles);
   patch_.corners.clear();
   for (const std::int32_t t : patch_.triangles)
-    patch_.corners.push_back(from_lowest(mesh_.triangles, t));
+    patch_.corners.push_back(sites_from_lowest(mesh_.triangles, t));
 }
 
 /// Integrates over the cells, with flips where the mesh is not Delaunay; false if they do not

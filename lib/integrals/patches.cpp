@@ -11,21 +11,13 @@ namespace {
 
 using Triple = std::array<std::int32_t, 3>;
 
-/// From the lowest vertex on: the moments have the same bits only if they start at the same corner.
-Triple sites_of(const Triangles& triangles, std::int32_t t) {
-  const std::int32_t a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
-  if (a < b && a < c)
-    return {a, b, c};
-  return b < c ? Triple{b, c, a} : Triple{c, a, b};
-}
-
 /// Orders triangles by their keys.
 struct ByKey {
   const Triangles& triangles;
 
   /// Lowest site and the one that follows it: no two triangles of a mesh share them.
   std::uint64_t key_of(std::int32_t t) const {
-    const Triple sites = sites_of(triangles, t);
+    const Triple sites = sites_from_lowest(triangles, t);
     return std::uint64_t{static_cast<std::uint32_t>(sites[0])} << 32 |
            static_cast<std::uint32_t>(sites[1]);
   }
@@ -59,7 +51,7 @@ std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& tria
       const std::int64_t begin = triangles.cols() * part / parts,
                          end = triangles.cols() * (part + 1) / parts;
       for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
-        for_each_owner(sites_of(triangles, t), ownership.owner, [&](std::int32_t k) {
+        for_each_owner(sites_from_lowest(triangles, t), ownership.owner, [&](std::int32_t k) {
           body(t, static_cast<std::size_t>(k), here[static_cast<std::size_t>(k)]++);
         });
     });
@@ -79,19 +71,13 @@ std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& tria
   return out;
 }
 
-/// Sorts the triangles of a region.
-void sort_triangles(std::vector<std::int32_t>& list, const Triangles& triangles) {
-  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // true for the library's meshes
-    std::sort(list.begin(), list.end(), ByKey{triangles});
-}
-
 /// Numbers the sites of a patch's triangles: halo and corners.
 void number_sites(Patch& patch, const Triangles& triangles, const Ownership& ownership) {
   const std::vector<std::int32_t>& own = ownership.owned[static_cast<std::size_t>(patch.region)];
   const auto is_own = [&](std::int32_t site) { return ownership.owner[site] == patch.region; };
   std::vector<std::int32_t> halo;
   for (const std::int32_t t : patch.triangles)
-    for (const std::int32_t site : sites_of(triangles, t))
+    for (const std::int32_t site : sites_from_lowest(triangles, t))
       if (!is_own(site))
         halo.push_back(site);
   std::sort(halo.begin(), halo.end());
@@ -109,7 +95,7 @@ void number_sites(Patch& patch, const Triangles& triangles, const Ownership& own
   };
   patch.corners.resize(patch.triangles.size());
   for (std::size_t i = 0; i < patch.corners.size(); ++i) {
-    const Triple sites = sites_of(triangles, patch.triangles[i]);
+    const Triple sites = sites_from_lowest(triangles, patch.triangles[i]);
     patch.corners[i] = {local(sites[0]), local(sites[1]), local(sites[2])};
   }
 }
@@ -129,6 +115,18 @@ void renew(Patch& patch, const Triangles& triangles, const Ownership& ownership,
 }
 
 } // namespace
+
+Triple sites_from_lowest(const Triangles& triangles, std::int32_t t) {
+  const std::int32_t a = triangles(0, t), b = triangles(1, t), c = triangles(2, t);
+  if (a < b && a < c)
+    return {a, b, c};
+  return b < c ? Triple{b, c, a} : Triple{c, a, b};
+}
+
+void sort_by_sites(std::vector<std::int32_t>& list, const Triangles& triangles) {
+  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // true for the library's meshes
+    std::sort(list.begin(), list.end(), ByKey{triangles});
+}
 
 Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions) {
   Ownership result{std::move(owner), {}, {}};
@@ -156,7 +154,7 @@ std::vector<Patch> make_patches(const Triangles& triangles, const Ownership& own
     Patch& patch = patches[static_cast<std::size_t>(k)];
     patch.region = static_cast<std::int32_t>(k);
     patch.triangles = std::move(lists[static_cast<std::size_t>(k)]);
-    sort_triangles(patch.triangles, triangles);
+    sort_by_sites(patch.triangles, triangles);
     number_sites(patch, triangles, ownership);
   });
   return patches;
@@ -168,7 +166,7 @@ void renew_patches(std::vector<Patch>& patches, const Triangles& triangles,
   std::vector<std::vector<std::int32_t>> own(patches.size());
   for (const std::int32_t t : changed) {
     has_changed[static_cast<std::size_t>(t)] = 1;
-    for_each_owner(sites_of(triangles, t), ownership.owner,
+    for_each_owner(sites_from_lowest(triangles, t), ownership.owner,
                    [&](std::int32_t k) { own[static_cast<std::size_t>(k)].push_back(t); });
   }
   // A flip leaves all four of its sites in the two triangles: a patch that lost a triangle still

@@ -37,6 +37,14 @@ struct Patch {
   std::vector<std::array<std::int32_t, 3>> corners;
 };
 
+/// The sites of a triangle from the lowest on: the moments have the same bits only if they start at
+/// the same corner.
+std::array<std::int32_t, 3> sites_from_lowest(const Triangles& triangles, std::int32_t t);
+
+/// Sorts triangles as a patch has them.
+/// \param list their numbers, each once.
+void sort_by_sites(std::vector<std::int32_t>& list, const Triangles& triangles);
+
 /// True if some of a patch's own sites follow each other in the mesh, as most do that are numbered
 /// along a curve.
 /// \param first, count of their local numbers.

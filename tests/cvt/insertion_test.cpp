@@ -215,4 +215,7 @@ TEST_CASE("insertion: bad numbers and densities are errors") {
   CHECK(message_of(mesh, Density{}, 0, -7).find("-7") != std::string::npos);
   CHECK(message_of(mesh, Density{}, std::int64_t{1} << 30, 0).find("at most") != std::string::npos);
   CHECK(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1).find("beta") != std::string::npos);
+  Mesh alone = mesh;
+  alone.neighbours.resize(3, 0);
+  CHECK(message_of(alone, Density{}, 1, 1).find("neighbours") != std::string::npos);
 }

@@ -174,6 +174,19 @@ TEST_CASE("stages: a density of 0 on a part of the sphere leaves its edges witho
   CHECK(check(grid.mesh).failure == "");
 }
 
+TEST_CASE("stages: a density is evaluated at the sites only where cells are small everywhere") {
+  const auto at_sites = [](const Points3& start, const Density& density) {
+    CvtOptions options = graded(2600, 0, density);
+    options.max_iterations = 4;
+    const Cvt grid = spherical_cvt(start, options);
+    return grid.report.iterations.front().linear_density;
+  };
+  CHECK(at_sites(start_of(2500, x8()), x8()));
+  const Density steep = tanh_bump({1, 0, 0}, 0.3, 0.1, 1e-6); // some cells 20 degrees wide
+  CHECK(!at_sites(start_of(2500, steep), steep));
+  CHECK(!at_sites(fibonacci_sphere(2500), rising(0.999))); // 0 at a pole
+}
+
 TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
   const Points3 start = start_of(160, x8());
   const auto with = [&](std::size_t threads, int regions) {

@@ -95,8 +95,9 @@ void add_start(CLI::App& command, CvtRequest& request) {
 void add_method(CLI::App& command, CvtRequest& request) {
   command
       .add_option("--method", request.method,
-                  "Method that minimises the energy: auto (lbfgs far from the minimum, "
-                  "lbfgs-laplacian near it), lloyd (moves each generator to its centroid), "
+                  "Method that minimises the energy: auto (lbfgs far from the minimum and on the "
+                  "levels of --start multilevel, lbfgs-laplacian near it), lloyd (moves each "
+                  "generator to its centroid), "
                   "lbfgs (quasi-Newton) or lbfgs-laplacian (L-BFGS "
                   "preconditioned with the graph Laplacian of the mesh)")
       ->check(CLI::IsMember(words_of(method_words())))
