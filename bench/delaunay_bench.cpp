@@ -3,6 +3,7 @@
 // on the same sites, so that a ratio of two rows of a round saw the same machine. The next round
 // starts with the next row. Every result is checked; a wrong one ends in a message and exit code 1.
 
+#include "built_peers.h"
 #include "clouds.h"
 #include "fresh.h"
 #include "peers.h"
@@ -30,6 +31,7 @@ struct Options : RoundOptions {
   std::vector<int> sweep;
   std::int64_t stripack_limit = 200000, qhull_limit = 200000;
   bool warm = false, fresh = false;
+  BuiltPeers built;
 };
 
 /// The sites of one set, computed at first use, and the triangulation of the first run.
@@ -90,6 +92,11 @@ std::vector<Row> make_rows(const Options& options) {
       rows.push_back({"Qhull", run_qhull, true, options.qhull_limit});
     }
   }
+  if (const std::string& program = options.built.geogram; !program.empty())
+    for (const int threads : {1, options.threads})
+      rows.push_back({threads == 1 ? "geogram 1 thread" : "geogram",
+                      [=](const Points3& points) { return run_geogram(program, points, threads); },
+                      true});
   for (const int threads : options.sweep)
     rows.push_back(library_row(threads_row(threads), threads));
   return rows;
@@ -188,6 +195,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--fresh", options.fresh,
                "each run in a new process, whose memory no run has touched: what a command takes")
       ->excludes("--warm");
+  add_geogram_option(app, options.built);
 }
 
 std::map<std::string, std::string> peers() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Times the planar calotte::delaunay and CGAL's own triangulation of the plane in one process, in
-// rounds as delaunay_bench does. The triangles of both are compared in every round.
+// rounds as delaunay_bench does, and PBBS and geogram of the user's own build beside them. The
+// triangles of all are compared in every round.
 
+#include "built_peers.h"
 #include "delaunay/delaunay.h"
 #include "peers.h"
 #include "program.h"
@@ -16,10 +18,12 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -94,46 +98,80 @@ Outcome run_cgal_plane(const Points2& points) {
 struct Options : RoundOptions {
   std::vector<std::string> sets = {"uniform", "clusters", "line"};
   std::int64_t size = 1000000;
+  BuiltPeers built;
 };
 
-/// The places of a set, computed at first use, and the digest of the first run.
+/// The places of a set, computed at first use, and the outcome of the first run, the library's.
 struct Workload {
   Points2 points;
-  std::optional<std::uint64_t> digest;
+  std::optional<Outcome> reference;
 };
 
-template <class Run>
-RoundRow row_of(const std::string& name, const std::string& set, std::int64_t n,
-                const std::shared_ptr<Workload>& work, const Run& run) {
-  return {name, [=](benchmark::State& state) {
+using Run = std::function<Outcome(const Points2&)>;
+
+struct Row {
+  std::string name;
+  Run run;
+  bool lacks_hull = false; ///< it leaves out triangles near the hull, at most a hundredth
+};
+
+std::vector<Row> make_rows(const Options& options) {
+  const auto library = [](int threads) -> Run {
+    return [threads](const Points2& points) { return run_library(points, threads); };
+  };
+  std::vector<Row> rows = {{"calotte", library(options.threads)},
+                           {threads_row(1), library(1)},
+                           {"CGAL", run_cgal_plane}};
+  if (const std::string& program = options.built.pbbs; !program.empty())
+    for (const int threads : {1, options.threads})
+      rows.push_back({threads == 1 ? "PBBS 1 thread" : "PBBS",
+                      [=](const Points2& points) { return run_pbbs(program, points, threads); },
+                      true});
+  if (const std::string& program = options.built.geogram; !program.empty())
+    rows.push_back(
+        {"geogram", [=](const Points2& points) { return run_geogram(program, points); }});
+  return rows;
+}
+
+/// One line that describes how an outcome differs from the first run's; empty if it does not.
+std::string fault(const Outcome& outcome, const Row& row, const Outcome& reference) {
+  if (!outcome.failure.empty())
+    return outcome.failure;
+  const bool same = row.lacks_hull ? 100 * outcome.triangles > 99 * reference.triangles &&
+                                         outcome.triangles <= reference.triangles
+                                   : outcome.digest == reference.digest;
+  return same ? "" : "another set of triangles than the first run gave";
+}
+
+RoundRow row_of(const Row& row, const std::string& set, std::int64_t n,
+                const std::shared_ptr<Workload>& work) {
+  return {row.name, [=](benchmark::State& state) {
             if (work->points.cols() == 0)
               work->points = plane_cloud(set, n);
             for (auto _ : state) {
-              const Outcome outcome = run(work->points);
+              const Outcome outcome = row.run(work->points);
               state.SetIterationTime(outcome.seconds);
               state.counters["cpu"] = outcome.cpu_seconds;
-              if (work->digest.value_or(outcome.digest) != outcome.digest)
-                state.SkipWithError("another set of triangles than the first run gave");
-              work->digest = outcome.digest;
+              if (!work->reference)
+                work->reference = outcome;
+              if (const std::string what = fault(outcome, row, *work->reference); !what.empty())
+                state.SkipWithError(what.c_str());
             }
           }};
 }
 
 void register_all(const Options& options) {
   const std::int64_t n = options.size;
+  const std::vector<Row> rows = make_rows(options);
   std::vector<std::shared_ptr<Workload>> works(options.sets.size());
   for (auto& work : works)
     work = std::make_shared<Workload>();
   for (int round = 0; round < options.rounds; ++round)
     for (std::size_t s = 0; s < works.size(); ++s) {
-      const std::string& set = options.sets[s];
-      const auto library = [](int threads) {
-        return [threads](const Points2& points) { return run_library(points, threads); };
-      };
-      register_round(set, n, round,
-                     {row_of("calotte", set, n, works[s], library(options.threads)),
-                      row_of(threads_row(1), set, n, works[s], library(1)),
-                      row_of("CGAL", set, n, works[s], run_cgal_plane)});
+      std::vector<RoundRow> rounds;
+      for (const Row& row : rows)
+        rounds.push_back(row_of(row, options.sets[s], n, works[s]));
+      register_round(options.sets[s], n, round, rounds);
     }
 }
 
@@ -144,6 +182,8 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(3, 300000000))
       ->capture_default_str();
   add_round_options(app, options);
+  add_pbbs_option(app, options.built);
+  add_geogram_option(app, options.built);
 }
 
 } // namespace

@@ -80,7 +80,7 @@ def bounds(name, ours, theirs, ratio):
     def fit(end):
         return ours["dc_over_h"][end] / theirs["dc_over_h"][end]
 
-    result = [Bound("JIGSAW / Calotte", ratio, least=5 if name == "coast" else 20 / 3),
+    result = [Bound("JIGSAW / Calotte", ratio, least=12.5 if name == "coast" else 20),
               Bound("obtuse", ours["obtuse"], most=0),
               Bound("dv/dc min", ours["dv_over_dc"]["min"], least=0.18),
               Bound("tangential l2", over("tangential", "l2"), most=0.5),

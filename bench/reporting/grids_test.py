@@ -27,7 +27,7 @@ def better():
     return info
 
 
-def missed(name, change, ratio=10.0):
+def missed(name, change, ratio=30.0):
     """Titles of the thresholds that better() misses after a change."""
     info = better()
     change(info)
@@ -78,16 +78,16 @@ class Thresholds(unittest.TestCase):
         self.assertEqual(titles, changes.keys() | {"JIGSAW / Calotte"})
 
     def test_coasts_may_take_longer(self):
-        self.assertEqual(missed("x4", lambda info: None, ratio=5.5), ["JIGSAW / Calotte"])
-        self.assertEqual(missed("coast", lambda info: None, ratio=5.5), [])
-        self.assertEqual(missed("coast", lambda info: None, ratio=4.5), ["JIGSAW / Calotte"])
+        self.assertEqual(missed("x4", lambda info: None, ratio=15.0), ["JIGSAW / Calotte"])
+        self.assertEqual(missed("coast", lambda info: None, ratio=15.0), [])
+        self.assertEqual(missed("coast", lambda info: None, ratio=11.0), ["JIGSAW / Calotte"])
 
     def test_what_is_missed_is_bold(self):
         bad = better()
         bad["obtuse"] = 2
-        text = grids.comparison([("x4", better(), THEIRS, (1, 10), 10.0), ("x8", bad, THEIRS, (1, 10), 10.0)])
+        text = grids.comparison([("x4", better(), THEIRS, (1, 30), 30.0), ("x8", bad, THEIRS, (1, 30), 30.0)])
         self.assertEqual(["**" in row for row in text.splitlines()[2:]], [False, True])
-        self.assertIn("| x8 | 10 237 | 1 | 10 | 10.00 | **2** | 0.25 |", text)
+        self.assertIn("| x8 | 10 237 | 1 | 30 | 30.00 | **2** | 0.25 |", text)
 
 
 class Tables(unittest.TestCase):
@@ -97,7 +97,7 @@ class Tables(unittest.TestCase):
 
         for text in (
             grids.shapes_head() + "\n" + grids.shapes_row("x4", "JIGSAW", 2.0, None, THEIRS, ""),
-            grids.comparison([("x4", better(), THEIRS, (1.0, 10.0), 10.0)]),
+            grids.comparison([("x4", better(), THEIRS, (1.0, 30.0), 30.0)]),
         ):
             self.assertEqual(len(columns(text)), 1, text)
 
