@@ -5,6 +5,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/check.h>
 #include <calotte/check_file.h>
+#include <calotte/conservative.h>
 #include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
@@ -26,6 +27,7 @@
 #include <calotte/operators.h>
 #include <calotte/options.h>
 #include <calotte/planar_raster.h>
+#include <calotte/polygons.h>
 #include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>

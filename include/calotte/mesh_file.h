@@ -3,6 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
+#include <calotte/polygons.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/types.h>
@@ -18,20 +19,6 @@
 /// Mesh files as they are: a mesh or its cells, the fields on it, and what reading changed.
 CALOTTE_API_BEGIN
 namespace calotte {
-
-/// n polygons on the sphere, such as the cells of a grid that need not be Voronoi cells. Their
-/// sides are arcs of great circles. Or n polygons in a plane, with z = 0. In a direction in which
-/// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
-struct Polygons {
-  Points3 corners;       ///< 3 x m unit columns; in a plane in any unit of length
-  IdLists ids;           ///< 0-based corners of each polygon, counter-clockwise seen from outside
-  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  bool on_sphere = true; ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it
-
-  /// Their number.
-  std::int64_t size() const { return ids.size(); }
-};
 
 /// Areas of polygons on the unit sphere, steradians; in a plane in the square of its unit.
 /// \pre counter-clockwise; on the sphere each smaller than a hemisphere.

@@ -8,6 +8,7 @@
 #include "mesh/faces.h"
 #include "mesh/seen_mesh.h"
 #include "voronoi/room.h"
+#include "voronoi/weight_rows.h"
 
 #include <calotte/locate.h>
 
@@ -24,12 +25,6 @@ namespace voronoi_detail {
 namespace {
 
 using base_detail::require;
-
-struct Weight {
-  std::int32_t site;
-  double value;
-};
-using Row = std::vector<Weight>;
 
 // ---- Natural neighbours
 
@@ -146,40 +141,17 @@ Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Lo
   const Mesh& mesh = seen.mesh();
   const std::int64_t count = at.triangle.size();
   const NaturalNeighbours<S> natural(seen);
-  std::vector<std::vector<Row>> blocks(static_cast<std::size_t>(block_count(count)));
-  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::vector<Row>& rows = blocks[static_cast<std::size_t>(block)];
-    rows.resize(static_cast<std::size_t>(end - begin));
-    for (std::int64_t i = begin; i != end; ++i) {
-      Row& row = rows[static_cast<std::size_t>(i - begin)];
-      if (at.triangle[i] < 0)
-        continue;
-      if (kind == Interpolation::linear || on_boundary(mesh.neighbours, at, i))
-        set_linear(mesh.triangles, at, i, row);
-      else
-        natural.set(seen.position(point(positions, i)), at.triangle[i], row);
-      std::sort(row.begin(), row.end(),
-                [](const Weight& a, const Weight& b) { return a.site < b.site; });
-    }
+  return matrix_of(count, mesh.points.cols(), [&](std::int64_t i, Row& row) {
+    if (kind == Interpolation::nearest)
+      row.push_back({at.nearest[i], 1});
+    else if (at.triangle[i] < 0)
+      return;
+    else if (kind == Interpolation::linear || on_boundary(mesh.neighbours, at, i))
+      set_linear(mesh.triangles, at, i, row);
+    else
+      natural.set(seen.position(point(positions, i)), at.triangle[i], row);
+    sort_by_column(row);
   });
-  Weights out(count, mesh.points.cols());
-  std::int64_t entries = 0;
-  for (const std::vector<Row>& rows : blocks)
-    for (const Row& row : rows)
-      entries += std::ssize(row);
-  require(entries <= std::numeric_limits<int>::max(),
-          std::to_string(entries) + " weights are too many; give fewer positions at a time");
-  out.reserve(entries);
-  std::int64_t i = 0;
-  for (const std::vector<Row>& rows : blocks)
-    for (const Row& row : rows) {
-      out.startVec(i);
-      for (const Weight& weight : row)
-        out.insertBack(i, weight.site) = weight.value;
-      ++i;
-    }
-  out.finalize();
-  return out;
 }
 
 } // namespace
@@ -187,6 +159,8 @@ Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Lo
 
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Interpolation kind) {
   using namespace voronoi_detail;
+  require(kind != Interpolation::conservative,
+          "conservative weights are those of cells, not of positions; use conservative_weights()");
   const Locations at = locate(mesh, positions);
   return in_space_of(mesh.surface, [&](const Space auto& space) {
     return weights_of(SeenMesh(mesh, space), positions, at, kind);

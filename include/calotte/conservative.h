@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/error.h>
+#include <calotte/export.h>
+#include <calotte/interpolate.h>
+#include <calotte/polygons.h>
+#include <calotte/types.h>
+
+#include <cstdint>
+
+/// Conservative weights between cells of meshes and boxes of rasters.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// The boxes of a raster of longitudes and latitudes: nx x ny, between meridians and parallels,
+/// which are small circles. Box i of row j has the number j nx + i. A box at a pole is a sector of
+/// its cap.
+struct LonLatBoxes {
+  DoubleVector longitudes; ///< nx degrees, of the nodes, one in each box; ascending
+  DoubleVector latitudes;  ///< ny degrees, of the nodes; ascending or descending, -90 to 90
+  DoubleVector meridians;  ///< nx + 1 degrees, ascending, the last at most the first + 360
+  DoubleVector parallels;  ///< ny + 1 degrees, in the direction of the latitudes, -90 to 90
+
+  std::int64_t size() const { return longitudes.size() * latitudes.size(); } ///< number of boxes
+};
+
+/// Equal boxes over the whole sphere, from longitude 0 and latitude -90 on.
+/// \param columns, rows 3 and 1 to 2^20.
+/// \throws Error invalid_argument for a number out of range.
+LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows);
+
+/// Boxes around nodes: their sides are half way between these. The first and the last box end half
+/// a step beyond their node, with these exceptions. Longitudes whose gap round the sphere is at
+/// most 1.5 times their widest step meet in its middle; the first and the last box end at their
+/// nodes if these are 360 degrees apart, as in a raster that repeats its first meridian. Latitudes
+/// within a step of a pole reach it.
+/// \param longitudes, latitudes at least 3 and 2 degrees, ascending; latitudes may descend.
+/// \throws Error invalid_argument, naming the first value that is out of order or out of range; for
+///         a step of 180 degrees or more.
+LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& latitudes);
+
+/// Throws unless the boxes satisfy the conditions above, each narrower than 180 degrees.
+/// \throws Error invalid_argument, naming the value.
+void require_boxes(const LonLatBoxes& boxes);
+
+/// Areas in steradians: the width in radians times the difference of the sines of the latitudes.
+DoubleVector areas(const LonLatBoxes& boxes);
+
+/// 3 x n unit columns, the nodes.
+Points3 nodes(const LonLatBoxes& boxes);
+
+/// What cells of a target share with those of a source.
+struct ConservativeWeights {
+  /// First-order conservative: a row for each cell of the target, with the areas that it shares
+  /// with cells of the source, divided by their sum. A row outside of the source has none.
+  Weights weights;
+  DoubleVector source_area;     ///< of the cells: steradians, in a plane the square of its unit
+  DoubleVector target_area;     ///< the same of the target
+  DoubleVector source_fraction; ///< of each cell's area, what the target covers; 1 up to rounding
+  DoubleVector target_fraction; ///< of each cell's area, what the source covers
+};
+
+/// The areas that cells share, from their exact intersections: those of polygons of great-circle
+/// arcs, and of such polygons with boxes, whose parallels stay small circles. The integral of a
+/// field over what source and target share, the sum of value times area times fraction, is kept
+/// within 1e-12 of the sum of its magnitudes. Cells of the source must not overlap.
+///
+/// Polygons may be concave. Shared areas smaller than rounding, about 1e-15 times the width of the
+/// smaller cell, are none. In a plane both are polygons, of the same period. The result has the
+/// same bits for any number of threads.
+/// \throws Error invalid_argument: as require_boxes(); for ids out of range, naming the polygon;
+///         for polygons on different surfaces.
+ConservativeWeights conservative_weights(const Polygons& source, const Polygons& target);
+ConservativeWeights conservative_weights(const Polygons& source,
+                                         const LonLatBoxes& target); ///< the same
+ConservativeWeights conservative_weights(const LonLatBoxes& source,
+                                         const Polygons& target); ///< the same
+/// The same; exact, as products of lengths along longitude and sine of latitude.
+ConservativeWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target);
+
+/// Weights of a raster's nodes at positions on the sphere: `nearest`, the box that holds the
+/// position; or `linear`, bilinear in longitude and latitude between nodes, round the sphere where
+/// the boxes close it. Between the last latitude and a pole that its boxes reach it is linear in
+/// latitude; the value at the pole is the mean of the row. In the outer half of boxes at another
+/// edge of the raster it is constant across that edge. A row outside of the boxes has none.
+/// \param positions 3 x n directions.
+/// \throws Error invalid_argument: as require_boxes(); for another kind; as locate() for positions.
+Weights interpolation_weights(const LonLatBoxes& source, const PointsRef& positions,
+                              Interpolation kind);
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "voronoi/box_overlaps.h"
+
+#include "base/spherical_angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace calotte::voronoi_detail {
+namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+/// Of an arc of a great circle: how it turns around the axis, and the area between it and a
+/// parallel.
+struct Turn {
+  double angle; ///< radians eastwards
+  double area;  ///< above the parallel
+};
+
+/// 2 (atan(h t) - t atan(h)) for |h| < 0.05, where e = 1 - t^2: its series in h.
+double excess_of_small(double h, double t, double e) {
+  const double h2 = h * h, t2 = t * t;
+  const double t4 = t2 * t2, t6 = t4 * t2, t8 = t4 * t4;
+  const double series =
+      1.0 / 3 -
+      h2 * ((1 + t2) / 5 - h2 * ((1 + t2 + t4) / 7 - h2 * ((1 + t2 + t4 + t6) / 9 -
+                                                           h2 * ((1 + t2 + t4 + t6 + t8) / 11))));
+  return 2 * t * e * h * h2 * series;
+}
+
+double twice_arc_tangent_of_small(double h) {
+  const double h2 = h * h;
+  return 2 * h * (1 - h2 * (1.0 / 3 - h2 * (1.0 / 5 - h2 * (1.0 / 7 - h2 * (1.0 / 9 - h2 / 11)))));
+}
+
+/// The area between the arc and the equator is S with tan(S/2) = t tan(D/2), D the difference of
+/// longitudes, t = (z1 + z2) / (1 + r1 r2 + z1 z2) (Karney, J. Geodesy 87, 2013, Sect. 4, on the
+/// sphere). From it the area D z of the strip below the parallel of height z is taken such that
+/// small areas keep their digits: t - z and 1 - |t| are sums of small terms.
+Turn turn_of(const MapPoint& from, const MapPoint& to, const Height& parallel) {
+  const double sine = from.east_x * to.east_y - from.east_y * to.east_x,
+               cosine = 1 + from.east_x * to.east_x + from.east_y * to.east_y;
+  if (sine == 0)
+    return {0, 0};
+  const double z1 = from.height.sine, z2 = to.height.sine, radii = from.radius * to.radius,
+               whole = 1 + radii + z1 * z2, t = (z1 + z2) / whole;
+  const double up = rise(from.height, to.height), out = to.radius - from.radius;
+  const double above = 0.5 * (rise(parallel, from.height) + rise(parallel, to.height)) +
+                       0.25 * t * (up * up + out * out);
+  const bool polar = std::abs(t) > 0.5 && z1 * z2 > 0;
+  const double gap = polar ? (from.height.gap * to.height.gap + radii) / whole : 1 - std::abs(t);
+  const double size = std::abs(t), h = sine / cosine;
+  constexpr double small = 0.03; // h^12 is below rounding
+  if (std::abs(h) < small) {
+    const double angle = twice_arc_tangent_of_small(h);
+    return {angle, angle * above + excess_of_small(h, t, gap * (1 + size))};
+  }
+  const double angle = 2 * longitude_of(cosine, sine);
+  const double less = polar ? gap * angle - 2 * longitude_of(cosine * cosine + sine * sine * size,
+                                                             sine * cosine * gap)
+                            : 2 * longitude_of(cosine, sine * size) - size * angle;
+  return {angle, angle * above + std::copysign(1, t) * less};
+}
+
+/// Where the arc meets the meridian to its east or west.
+MapPoint at_meridian(const MapPoint& from, const MapPoint& to, const Vec3& meridian) {
+  const auto side = [&](const MapPoint& p) {
+    return p.radius * (meridian.x * p.east_y - meridian.y * p.east_x);
+  };
+  const double a = std::abs(side(from)), b = std::abs(side(to));
+  const Vec3 p = from.position(), q = to.position();
+  const Vec3 met = a + b > 0 ? (b / (a + b)) * p + (a / (a + b)) * q : p;
+  const double length = norm(met);
+  const double radius = std::sqrt(met.x * met.x + met.y * met.y) / length, z = met.z / length;
+  return {meridian.x, meridian.y, radius, {z, radius * radius / (1 + std::abs(z))}};
+}
+
+/// Where the great circle through an arc crosses a parallel upwards, or downwards: p cos x + w sin
+/// x with the tangent w at p has the height z cos x + w_z sin x, and the slope w_z cos x - z sin x,
+/// whose square is that of the parallel's radius less that of the height of the circle's normal.
+/// \param direction 1 upwards, -1 downwards.
+MapPoint at_parallel(const MapPoint& from, const MapPoint& to, const Height& parallel,
+                     double radius, double direction) {
+  const Vec3 p = from.position(), q = to.position(), way = q - p;
+  const double bend = 0.5 * dot(way, way);
+  const Vec3 tangent{way.x + bend * p.x, way.y + bend * p.y,
+                     rise(from.height, to.height) + bend * p.z};
+  const Vec3 w = (1 / norm(tangent)) * tangent;
+  const double normal = p.x * w.y - p.y * w.x,
+               slope = direction * std::sqrt(std::max((radius - normal) * (radius + normal), 0.0)),
+               size = p.z * p.z + w.z * w.z, cosine = (p.z * parallel.sine + w.z * slope) / size,
+               sine = (w.z * parallel.sine - p.z * slope) / size;
+  const double x = cosine * p.x + sine * w.x, y = cosine * p.y + sine * w.y,
+               length = std::sqrt(x * x + y * y);
+  if (!(length > 0)) // also where the arc has no length
+    return {from.east_x, from.east_y, radius, parallel};
+  return {x / length, y / length, radius, parallel};
+}
+
+/// An arc through a pole takes half a turn to one of both sides: the polygons beside it, along
+/// which it runs in opposite directions, take it to the same one.
+constexpr double half_turn = std::numbers::pi * (1 - 0x1p-50);
+bool is_first(const MapPoint& a, const MapPoint& b) {
+  return std::pair(a.east_x, a.east_y) < std::pair(b.east_x, b.east_y);
+}
+
+} // namespace
+
+// ---- The boundary
+
+void BoxOverlaps::add_pole(const MapPoint& pole, const MapPoint& before, const MapPoint& after) {
+  const double north = pole.height.sine;
+  double turn = turn_between(before, after) * degrees_per_radian;
+  if (north * turn > 0) // counter-clockwise, round the outside of the polygon
+    turn -= north * 360;
+  const double longitude = path_.back().longitude;
+  path_.push_back({{before.east_x, before.east_y, 0, pole.height}, longitude});
+  path_.push_back({{after.east_x, after.east_y, 0, pole.height}, longitude + turn});
+}
+
+void BoxOverlaps::set_path(std::span<const Vec3> corners) {
+  path_.clear();
+  const std::size_t n = corners.size();
+  std::size_t first = 0;
+  while (first < n && map_point_of(corners[first]).at_pole())
+    ++first;
+  if (first == n)
+    return;
+  const MapPoint start = map_point_of(corners[first]);
+  path_.push_back({start, longitude_of(start.east_x, start.east_y) * degrees_per_radian});
+  MapPoint before = start, pole{};
+  bool through_pole = false;
+  for (std::size_t k = 1; k <= n; ++k) {
+    const MapPoint next = k == n ? start : map_point_of(corners[(first + k) % n]);
+    if (next.at_pole()) {
+      through_pole = true;
+      pole = next;
+      continue;
+    }
+    if (through_pole) {
+      add_pole(pole, before, next);
+      path_.push_back({next, path_.back().longitude});
+    } else {
+      double turn = turn_between(before, next);
+      if (std::abs(turn) > half_turn)
+        turn = std::copysign(turn, is_first(before, next) ? 1 : -1);
+      path_.push_back({next, path_.back().longitude + turn * degrees_per_radian});
+    }
+    through_pole = false;
+    before = next;
+  }
+}
+
+/// Around the north pole the boundary goes there, round it, and back along the same meridian.
+void BoxOverlaps::close_path() {
+  const double around = path_.back().longitude - path_.front().longitude;
+  holds_south_pole_ = around < -180;
+  if (around <= 180)
+    return;
+  const PathPoint end = path_.back();
+  const MapPoint pole{end.point.east_x, end.point.east_y, 0, {1, 0}};
+  path_.push_back({pole, end.longitude});
+  path_.push_back({pole, path_.front().longitude});
+}
+
+// ---- Its pieces
+
+void BoxOverlaps::add_piece(const MapPoint& from, const MapPoint& to) {
+  const Turn turn = turn_of(from, to, tiling_.height(row_));
+  if (turn.angle != 0)
+    pieces_.push_back({column_, row_, turn.angle, turn.area});
+}
+
+/// \param start, end of an arc along which the height grows or falls.
+/// \param from, to points of it in one column. Others follow from the ends of the arc, so that
+///        rounding does not add up.
+void BoxOverlaps::trace_in_column(const PathPoint& start, const PathPoint& end, MapPoint from,
+                                  const MapPoint& to) {
+  const auto pass = [&](std::int64_t parallel, double direction) {
+    const MapPoint met = at_parallel(start.point, end.point, tiling_.height(parallel),
+                                     tiling_.radius(parallel), direction);
+    add_piece(from, met);
+    from = met;
+  };
+  while (row_ + 1 < tiling_.rows() && rise(tiling_.height(row_ + 1), to.height) > 0) {
+    pass(row_ + 1, 1);
+    ++row_;
+  }
+  while (row_ > 0 && rise(tiling_.height(row_), to.height) < 0) {
+    pass(row_, -1);
+    --row_;
+  }
+  add_piece(from, to);
+}
+
+void BoxOverlaps::trace_monotone(const PathPoint& start, const PathPoint& end) {
+  MapPoint from = start.point;
+  const auto pass = [&](std::int64_t meridian) {
+    const MapPoint met = at_meridian(start.point, end.point, tiling_.direction_of(meridian));
+    trace_in_column(start, end, from, met);
+    from = met;
+  };
+  while (tiling_.west_of(column_ + 1) < end.longitude) {
+    pass(column_ + 1);
+    ++column_;
+  }
+  while (tiling_.west_of(column_) > end.longitude) {
+    pass(column_);
+    --column_;
+  }
+  trace_in_column(start, end, from, end.point);
+}
+
+/// Round the north pole. Round the south pole there is nothing below.
+void BoxOverlaps::trace_pole(const PathPoint& from, const PathPoint& to) {
+  double longitude = from.longitude;
+  const double high = rise(tiling_.height(row_), from.point.height);
+  const auto pass = [&](double next) {
+    const double turn = (next - longitude) / degrees_per_radian;
+    pieces_.push_back({column_, row_, turn, turn * high});
+    longitude = next;
+  };
+  while (tiling_.west_of(column_ + 1) < to.longitude) {
+    pass(tiling_.west_of(column_ + 1));
+    ++column_;
+  }
+  while (tiling_.west_of(column_) > to.longitude) {
+    pass(tiling_.west_of(column_));
+    --column_;
+  }
+  pass(to.longitude);
+}
+
+/// Cuts the arc where its height is greatest or least.
+void BoxOverlaps::trace(const PathPoint& from, const PathPoint& to) {
+  if (from.point.at_pole() && to.point.at_pole())
+    return trace_pole(from, to);
+  const Vec3 p = from.point.position(), q = to.point.position(), way = q - p;
+  const double up = rise(from.point.height, to.point.height), bend = 0.5 * dot(way, way),
+               start = up + bend * p.z, end = up - bend * q.z; // slopes
+  const bool meridian = from.point.at_pole() || to.point.at_pole();
+  if (meridian || !(start * end < 0))
+    return trace_monotone(from, to);
+  const Vec3 n = cross(p, way);
+  const double side = std::copysign(1, start);
+  const Vec3 top{-side * n.x * n.z, -side * n.y * n.z, side * (n.x * n.x + n.y * n.y)};
+  const double length = norm(top);
+  if (!(length > 0))
+    return trace_monotone(from, to);
+  const MapPoint point = map_point_of((1 / length) * top);
+  const double longitude = from.longitude + turn_between(from.point, point) * degrees_per_radian;
+  const double west = std::min(from.longitude, to.longitude),
+               east = std::max(from.longitude, to.longitude);
+  if (point.at_pole() || longitude < west || longitude > east)
+    return trace_monotone(from, to);
+  trace_monotone(from, {point, longitude});
+  trace_monotone({point, longitude}, to);
+}
+
+// ---- Areas
+
+void BoxOverlaps::put(double area, double whole, std::int32_t box, double box_area,
+                      Row& out) const {
+  constexpr double rounding = 0x1p-50;
+  if (box >= 0 && area > rounding * std::sqrt(std::min(whole, box_area)))
+    out.push_back({box, area});
+}
+
+double BoxOverlaps::set_areas(Row& out) {
+  const auto [west, east] =
+      std::minmax_element(pieces_.begin(), pieces_.end(),
+                          [](const Piece& a, const Piece& b) { return a.column < b.column; });
+  const auto [south, north] = std::minmax_element(
+      pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.row < b.row; });
+  const std::int64_t first = west->column, all = tiling_.columns(),
+                     columns = std::min(east->column - first + 1, all),
+                     base = holds_south_pole_ ? 0 : south->row, rows = north->row - base + 1;
+  areas_.assign(static_cast<std::size_t>(columns * rows), 0);
+  turns_.assign(static_cast<std::size_t>(columns * rows), 0);
+  for (const Piece& piece : pieces_) {
+    const auto k = static_cast<std::size_t>((piece.column - first) % all * rows + piece.row - base);
+    areas_[k] -= piece.area;
+    turns_[k] += piece.turn;
+  }
+  double whole = 0;
+  for (std::int64_t i = 0; i < columns; ++i) {
+    double turn = 0; // of what is above
+    for (std::int64_t j = rows - 1; j >= 0; --j) {
+      const auto k = static_cast<std::size_t>(i * rows + j);
+      areas_[k] -= turn * rise(tiling_.height(base + j), tiling_.height(base + j + 1));
+      turn += turns_[k];
+      whole += areas_[k];
+    }
+  }
+  for (std::int64_t i = 0; i < columns; ++i) {
+    const double wide =
+        (tiling_.west_of(first + i + 1) - tiling_.west_of(first + i)) / degrees_per_radian;
+    for (std::int64_t j = 0; j < rows; ++j)
+      put(areas_[static_cast<std::size_t>(i * rows + j)], whole,
+          tiling_.box(tiling_.wrapped(first + i), base + j),
+          wide * rise(tiling_.height(base + j), tiling_.height(base + j + 1)), out);
+  }
+  sort_by_column(out);
+  return whole;
+}
+
+double BoxOverlaps::set(std::span<const Vec3> corners, Row& out) {
+  out.clear();
+  pieces_.clear();
+  set_path(corners);
+  if (path_.empty())
+    return 0;
+  close_path();
+  column_ = tiling_.column_at(path_.front().longitude);
+  row_ = tiling_.row_at(path_.front().point.height);
+  for (std::size_t k = 0; k + 1 < path_.size(); ++k)
+    trace(path_[k], path_[k + 1]);
+  return pieces_.empty() ? 0 : set_areas(out);
+}
+
+} // namespace calotte::voronoi_detail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "voronoi/box_tiling.h"
+#include "voronoi/room.h"
+#include "voronoi/weight_rows.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace calotte::voronoi_detail {
+
+/// The areas that polygons share with the boxes of a tiling. The boundary of a polygon is cut at
+/// meridians and parallels; each piece adds the area between it and the parallel below to its box,
+/// and that of whole boxes below it to these, with the sign of its direction: Green's theorem. So
+/// the areas of a polygon's parts sum to its own, and those of polygons that tile the sphere to the
+/// boxes', whatever their shapes.
+class BoxOverlaps {
+public:
+  explicit BoxOverlaps(const BoxTiling& tiling) : tiling_(tiling) {}
+
+  /// Sets the shared areas, sorted by the number of the box, without those below rounding.
+  /// \param corners unit vectors, counter-clockwise.
+  /// \returns the area of the polygon.
+  double set(std::span<const Vec3> corners, Row& out);
+
+private:
+  /// A point of a boundary, and its longitude in degrees, which grows without end eastwards.
+  struct PathPoint {
+    MapPoint point;
+    double longitude;
+  };
+  /// A piece of a boundary in one box.
+  struct Piece {
+    std::int64_t column, row;
+    double turn; ///< radians eastwards
+    double area; ///< above the parallel below; of the sign of the turn
+  };
+
+  void set_path(std::span<const Vec3> corners);
+  void add_pole(const MapPoint& pole, const MapPoint& before, const MapPoint& after);
+  void close_path();
+  void trace(const PathPoint& from, const PathPoint& to);
+  void trace_monotone(const PathPoint& start, const PathPoint& end);
+  void trace_pole(const PathPoint& from, const PathPoint& to);
+  void trace_in_column(const PathPoint& start, const PathPoint& end, MapPoint from,
+                       const MapPoint& to);
+  void add_piece(const MapPoint& from, const MapPoint& to);
+  double set_areas(Row& out);
+  void put(double area, double whole, std::int32_t box, double box_area, Row& out) const;
+
+  const BoxTiling& tiling_;
+  std::vector<PathPoint> path_;
+  std::vector<Piece> pieces_;
+  std::vector<double> areas_, turns_; ///< by box of a window
+  std::int64_t column_ = 0, row_ = 0; ///< of the last point
+  bool holds_south_pole_ = false;
+};
+
+} // namespace calotte::voronoi_detail
