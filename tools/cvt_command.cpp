@@ -383,8 +383,8 @@ void run(CvtRequest request) {
 
 void add_cvt(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "cvt", "Computes a centroidal Voronoi tessellation of the sphere or of a planar domain for a "
-             "density. The mesh has the same bits for any number of threads and regions. A resumed "
+      "cvt", "Computes a centroidal Voronoi tessellation of the sphere or of a planar domain. The "
+             "mesh has the same bits for any number of threads and regions. A resumed "
              "run gives the same bits as an uninterrupted one.");
   const std::shared_ptr<CvtRequest> request = add_cvt_options(*command);
   set_help(*command, {.common = {"START", "--cells", "--density", "--cell-width", "--tolerance",

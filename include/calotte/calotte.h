@@ -13,6 +13,7 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
+#include <calotte/field_grid.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
 #include <calotte/interpolate.h>

@@ -4,6 +4,7 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/interpolate.h>
+#include <calotte/mesh_field.h>
 #include <calotte/polygons.h>
 #include <calotte/types.h>
 
@@ -50,16 +51,29 @@ DoubleVector areas(const LonLatBoxes& boxes);
 /// 3 x n unit columns, the nodes.
 Points3 nodes(const LonLatBoxes& boxes);
 
-/// What cells of a target share with those of a source.
-struct ConservativeWeights {
-  /// First-order conservative: a row for each cell of the target, with the areas that it shares
-  /// with cells of the source, divided by their sum. A row outside of the source has none.
+/// Weights from the cells of a source to those of a target, and what a file of weights says beside
+/// them.
+struct GridWeights {
+  /// A row for each cell of the target. Conservative: the areas that it shares with cells of the
+  /// source, divided by their sum. A row outside of the source has none.
   Weights weights;
   DoubleVector source_area;     ///< of the cells: steradians, in a plane the square of its unit
   DoubleVector target_area;     ///< the same of the target
   DoubleVector source_fraction; ///< of each cell's area, what the target covers; 1 up to rounding
   DoubleVector target_fraction; ///< of each cell's area, what the source covers
 };
+
+/// A field at the cells of the target. Values that are NaN do not count: the sum of the others is
+/// divided by the part of the row's weights that they have. The result is NaN where there is none
+/// of them, or where they cover less than a fraction of the cell.
+///
+/// A field of integers holds categories: each cell has the one of the greatest weight, of equal
+/// ones the lowest.
+/// \param min_cover the fraction of a cell's area, 0 to 1: that of the weights that count times
+///        target_fraction.
+/// \throws Error invalid_argument: for a field that has no value for each cell of the source, or is
+///         not at cells; for a fraction out of range.
+MeshField interpolate(const GridWeights& weights, const MeshField& field, double min_cover = 0);
 
 /// The areas that cells share, from their exact intersections: those of polygons of great-circle
 /// arcs, and of such polygons with boxes, whose parallels stay small circles. The integral of a
@@ -71,13 +85,19 @@ struct ConservativeWeights {
 /// same bits for any number of threads.
 /// \throws Error invalid_argument: as require_boxes(); for ids out of range, naming the polygon;
 ///         for polygons on different surfaces.
-ConservativeWeights conservative_weights(const Polygons& source, const Polygons& target);
-ConservativeWeights conservative_weights(const Polygons& source,
-                                         const LonLatBoxes& target); ///< the same
-ConservativeWeights conservative_weights(const LonLatBoxes& source,
-                                         const Polygons& target); ///< the same
+GridWeights conservative_weights(const Polygons& source, const Polygons& target);
+GridWeights conservative_weights(const Polygons& source,
+                                 const LonLatBoxes& target); ///< the same
+GridWeights conservative_weights(const LonLatBoxes& source,
+                                 const Polygons& target); ///< the same
 /// The same; exact, as products of lengths along longitude and sine of latitude.
-ConservativeWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target);
+GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target);
+
+/// The polygon that holds each position, the lowest of several; -1 where there is none. Sides
+/// belong to both polygons beside them, up to rounding. \param positions directions, or points of
+/// the plane; as locate() takes them. \throws Error as locate() for positions; as
+/// conservative_weights() for polygons.
+Ids cells_at(const Polygons& polygons, const PointsRef& positions);
 
 /// Weights of a raster's nodes at positions on the sphere: `nearest`, the box that holds the
 /// position; or `linear`, bilinear in longitude and latitude between nodes, round the sphere where

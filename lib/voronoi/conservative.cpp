@@ -33,6 +33,20 @@ void require_polygons(const Polygons& polygons) {
                     i);
 }
 
+/// \throws Error not_finite, zero_vector; invalid_argument for another number of rows.
+base_detail::Points3Ref checked_directions(const PointsRef& positions) {
+  const base_detail::Points3Ref directions = base_detail::directions_of(positions);
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    if (!directions.col(i).allFinite())
+      throw Error(ErrorCode::not_finite,
+                  "position " + std::to_string(i) + " is not finite; correct it", i);
+    if (directions.col(i).isZero(0))
+      throw Error(ErrorCode::zero_vector,
+                  "position " + std::to_string(i) + " is 0, which is no direction; correct it", i);
+  }
+  return directions;
+}
+
 template <Space S> DoubleVector areas_in(const S& space, const Polygons& polygons) {
   DoubleVector areas(polygons.size());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -90,14 +104,13 @@ DoubleVector quotients(const DoubleVector& a, const DoubleVector& b) {
 }
 
 /// \param shared areas, a row for each cell of the target.
-ConservativeWeights weights_of_areas(Weights shared, DoubleVector source_area,
-                                     DoubleVector target_area) {
+GridWeights weights_of_areas(Weights shared, DoubleVector source_area, DoubleVector target_area) {
   const DoubleVector sums = row_sums(shared);
-  ConservativeWeights out{.weights = {},
-                          .source_area = std::move(source_area),
-                          .target_area = std::move(target_area),
-                          .source_fraction = {},
-                          .target_fraction = {}};
+  GridWeights out{.weights = {},
+                  .source_area = std::move(source_area),
+                  .target_area = std::move(target_area),
+                  .source_fraction = {},
+                  .target_fraction = {}};
   out.source_fraction = quotients(column_sums(shared), out.source_area);
   out.target_fraction = quotients(sums, out.target_area);
   for_each_block(shared.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -134,7 +147,7 @@ std::pair<Weights, DoubleVector> shared_with_boxes(const Polygons& polygons,
 }
 
 template <Space S>
-ConservativeWeights weights_in(const S& space, const Polygons& source, const Polygons& target) {
+GridWeights weights_in(const S& space, const Polygons& source, const Polygons& target) {
   const PolygonOverlaps<S> overlaps(space, source);
   Weights shared = matrix_of(
       target.size(), source.size(), [&] { return PolygonRow<S>(overlaps); },
@@ -299,7 +312,7 @@ private:
 } // namespace
 } // namespace voronoi_detail
 
-ConservativeWeights conservative_weights(const Polygons& source, const Polygons& target) {
+GridWeights conservative_weights(const Polygons& source, const Polygons& target) {
   using namespace voronoi_detail;
   base_detail::require(source.on_sphere == target.on_sphere && source.period == target.period,
                        "the cells are on different surfaces, or in planes of different periods; "
@@ -310,19 +323,19 @@ ConservativeWeights conservative_weights(const Polygons& source, const Polygons&
                           : weights_in(exact_detail::Plane(source.period), source, target);
 }
 
-ConservativeWeights conservative_weights(const Polygons& source, const LonLatBoxes& target) {
+GridWeights conservative_weights(const Polygons& source, const LonLatBoxes& target) {
   using namespace voronoi_detail;
   auto [shared, polygon_areas] = shared_with_boxes(source, target);
   return weights_of_areas(transposed(shared), std::move(polygon_areas), areas(target));
 }
 
-ConservativeWeights conservative_weights(const LonLatBoxes& source, const Polygons& target) {
+GridWeights conservative_weights(const LonLatBoxes& source, const Polygons& target) {
   using namespace voronoi_detail;
   auto [shared, polygon_areas] = shared_with_boxes(target, source);
   return weights_of_areas(std::move(shared), areas(source), std::move(polygon_areas));
 }
 
-ConservativeWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target) {
+GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target) {
   using namespace voronoi_detail;
   require_boxes(source);
   require_boxes(target);
@@ -340,21 +353,41 @@ ConservativeWeights conservative_weights(const LonLatBoxes& source, const LonLat
   return weights_of_areas(std::move(shared), areas(source), areas(target));
 }
 
+Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
+  using namespace voronoi_detail;
+  require_polygons(polygons);
+  Ids found(positions.cols());
+  const auto locate_in = [&](const auto& space, const auto& position_of) {
+    const PolygonOverlaps overlaps(space, polygons);
+    for_each_block(found.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      PolygonRow worker(overlaps);
+      for (std::int64_t i = begin; i < end; ++i)
+        found[i] = worker.holder_of(position_of(i));
+    });
+  };
+  if (polygons.on_sphere) {
+    const base_detail::Points3Ref directions = checked_directions(positions);
+    locate_in(exact_detail::Sphere(), [&](std::int64_t i) {
+      return exact_detail::unit_of_any_norm(column(directions, i));
+    });
+  } else {
+    const base_detail::Points2Ref places = base_detail::plane_points_of(positions);
+    const exact_detail::Plane plane(polygons.period);
+    exact_detail::require_positions(plane, places, "position");
+    locate_in(plane, [&](std::int64_t i) {
+      return plane.wrapped(Vec3{places(0, i), places(1, i), 0});
+    });
+  }
+  return found;
+}
+
 Weights interpolation_weights(const LonLatBoxes& source, const PointsRef& positions,
                               Interpolation kind) {
   using namespace voronoi_detail;
   base_detail::require(kind == Interpolation::nearest || kind == Interpolation::linear,
                        "a raster has weights at positions of the kinds nearest and linear only; "
                        "give one of these");
-  const base_detail::Points3Ref directions = base_detail::directions_of(positions);
-  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-    if (!directions.col(i).allFinite())
-      throw Error(ErrorCode::not_finite,
-                  "position " + std::to_string(i) + " is not finite; correct it", i);
-    if (directions.col(i).isZero(0))
-      throw Error(ErrorCode::zero_vector,
-                  "position " + std::to_string(i) + " is 0, which is no direction; correct it", i);
-  }
+  const base_detail::Points3Ref directions = checked_directions(positions);
   const BoxInterpolation boxes(source);
   return matrix_of(positions.cols(), source.size(), [&](std::int64_t i, Row& row) {
     const Vec3 unit = exact_detail::unit_of_any_norm(column(directions, i));

@@ -87,6 +87,15 @@ void set_parts(const S& space, const std::vector<Vec3>& corners, std::vector<Sig
   }
 }
 
+/// A side as short as rounding, between corners of cocircular sites, points anywhere. Without it a
+/// convex polygon is larger by less than the square of its length.
+template <Space S> bool has_direction(const Vec3& from, const Vec3& to) {
+  constexpr double rounding = 1e-13;
+  const Vec3 way = to - from;
+  const double size = S::on_sphere ? 1 : std::max(std::abs(from.x), std::abs(from.y));
+  return dot(way, way) > rounding * rounding * size * size;
+}
+
 /// The area that convex polygons share.
 template <Space S> class Clipper {
 public:
@@ -96,22 +105,13 @@ public:
     now_ = a;
     for (std::size_t k = 0; k < b.size() && !now_.empty(); ++k) {
       const Vec3 &from = b[k], &to = b[(k + 1) % b.size()];
-      if (has_direction(from, to))
+      if (has_direction<S>(from, to))
         cut(from, to);
     }
     return std::max(area_of(space_, now_), 0.0);
   }
 
 private:
-  /// A side as short as rounding, between corners of cocircular sites, points anywhere. Without it
-  /// the polygon is larger by less than the square of its length.
-  static bool has_direction(const Vec3& from, const Vec3& to) {
-    constexpr double rounding = 1e-13;
-    const Vec3 way = to - from;
-    const double size = S::on_sphere ? 1 : std::max(std::abs(from.x), std::abs(from.y));
-    return dot(way, way) > rounding * rounding * size * size;
-  }
-
   /// Keeps what is to the left of a side.
   void cut(const Vec3& from, const Vec3& to) {
     next_.clear();
@@ -135,7 +135,7 @@ private:
 
 /// Bounds of a polygon on the sphere or in the plane: its arcs bulge beyond its corners by less
 /// than half of the square of its diameter.
-template <Space S> Box3 bounds_of(std::span<const Vec3> corners) {
+template <Space S> Box3 bounds_of(const std::vector<Vec3>& corners) {
   Box3 box;
   double reach = 0;
   for (const Vec3& corner : corners) {
@@ -196,20 +196,60 @@ public:
     set_corners(overlaps_.space(), target, i, corners_);
     if (corners_.size() < 3)
       return;
+    for_each_shift([&](const Vec3& shift) { add_copies(shift, out); });
+    sort_by_column(out);
+    merge_columns(out);
+  }
+
+  /// The lowest polygon of the source that holds a point; -1 if there is none.
+  std::int32_t holder_of(const Vec3& point) {
+    std::int32_t lowest = -1;
+    for_each_shift([&](const Vec3& shift) {
+      const Vec3 moved = S::on_sphere ? point : point + shift;
+      overlaps_.tree().visit(
+          [&](const Box3& box) {
+            return overlap(box, {moved, moved});
+          },
+          [&](std::int32_t other) {
+            if ((lowest < 0 || other < lowest) && holds(other, moved))
+              lowest = other;
+          });
+    });
+    return lowest;
+  }
+
+private:
+  /// body(shift) for the copies around a period.
+  template <class Body> void for_each_shift(const Body& body) const {
     if constexpr (S::on_sphere) {
-      add_copies({0, 0, 0}, out);
+      body(Vec3{0, 0, 0});
     } else {
       const Vec2 period = overlaps_.space().period();
       const int x = period.x > 0 ? 1 : 0, y = period.y > 0 ? 1 : 0;
       for (int k = -x; k <= x; ++k)
         for (int l = -y; l <= y; ++l)
-          add_copies({k * period.x, l * period.y, 0}, out);
+          body(Vec3{k * period.x, l * period.y, 0});
     }
-    sort_by_column(out);
-    merge_columns(out);
   }
 
-private:
+  /// By the signs of the convex parts that hold the point.
+  bool holds(std::int32_t polygon, const Vec3& point) {
+    constexpr double rounding = 1e-14;
+    set_corners(overlaps_.space(), overlaps_.source(), polygon, others_);
+    set_parts(overlaps_.space(), others_, other_parts_);
+    double sum = 0;
+    for (const SignedPart& part : other_parts_) {
+      bool inside = true;
+      for (std::size_t k = 0; k < part.corners.size() && inside; ++k) {
+        const Vec3 &from = part.corners[k], &to = part.corners[(k + 1) % part.corners.size()];
+        inside = !has_direction<S>(from, to) ||
+                 S::area_term(from, to, point) >= -rounding * norm(to - from);
+      }
+      sum += inside ? part.sign : 0;
+    }
+    return sum > 0;
+  }
+
   /// What the polygon shares when it is moved.
   void add_copies(const Vec3& shift, Row& out) {
     moved_.clear();

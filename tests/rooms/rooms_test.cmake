@@ -7,7 +7,7 @@ cmake_minimum_required(VERSION 3.25)
 # The rooms, and those that each may use besides itself: an acyclic graph, since all stand before it.
 # Those of io are folders of it.
 set(rooms base exact curve mesh domain density generators integrals delaunay voronoi quality cvt grids
-          io io/bytes io/netcdf io/shapes io/cells io/mpas io/formats io/check c)
+          io io/bytes io/netcdf io/shapes io/cells io/mpas io/formats io/fields io/check c)
 set(uses_base "")
 set(uses_exact base)
 set(uses_curve base exact)
@@ -23,7 +23,7 @@ set(uses_grids base exact curve mesh domain density generators delaunay voronoi 
 set(uses_quality base exact mesh domain density integrals delaunay voronoi)
 set(uses_io base exact mesh domain density generators delaunay voronoi cvt grids quality)
 set(before ${uses_io} io)
-foreach(part bytes netcdf shapes cells mpas formats check)
+foreach(part bytes netcdf shapes cells mpas formats fields check)
   set(uses_io/${part} ${before})
   list(APPEND before io/${part})
 endforeach()

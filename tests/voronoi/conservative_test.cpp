@@ -13,6 +13,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -79,7 +81,7 @@ DoubleVector values_of(std::int64_t n) {
 }
 
 /// The laws of any overlap, and for grids that cover the same whole area.
-void check_laws(const ConservativeWeights& found, double whole) {
+void check_laws(const GridWeights& found, double whole) {
   const Weights& weights = found.weights;
   REQUIRE(weights.rows() == found.target_area.size());
   REQUIRE(weights.cols() == found.source_area.size());
@@ -206,8 +208,8 @@ TEST_CASE("cells that hold many boxes, and boxes that hold many cells") {
 TEST_CASE("a part of the sphere: what is shared, and rows outside that are empty") {
   const Polygons cells = cells_of(fibonacci_sphere(300));
   const LonLatBoxes part = lon_lat_boxes(steps(170, 2, 21), steps(-10, 2, 41));
-  const ConservativeWeights to = conservative_weights(part, cells),
-                            from = conservative_weights(cells, part);
+  const GridWeights to = conservative_weights(part, cells),
+                    from = conservative_weights(cells, part);
   CHECK((from.target_fraction.array() - 1).abs().maxCoeff() < 1e-12);
   const double area = from.target_area.sum(), width = 42 * pi / 180;
   CHECK(std::abs(area - width * (std::sin(71 * pi / 180) + std::sin(11 * pi / 180))) < 1e-13);
@@ -243,7 +245,7 @@ TEST_CASE("concave cells count what they hold") {
   whole.ids.begin << 0, 4;
   whole.ids.items.resize(4);
   whole.ids.items << 0, 1, 6, 5;
-  for (const ConservativeWeights& found :
+  for (const GridWeights& found :
        {conservative_weights(shape, whole), conservative_weights(whole, shape)}) {
     CHECK((found.source_fraction.array() - 1).abs().maxCoeff() < 1e-12);
     CHECK((found.target_fraction.array() - 1).abs().maxCoeff() < 1e-12);
@@ -252,7 +254,7 @@ TEST_CASE("concave cells count what they hold") {
       (dense(conservative_weights(shape, shape).weights) - Eigen::MatrixXd::Identity(2, 2)).norm() <
       1e-12);
   const LonLatBoxes boxes = lon_lat_boxes(360, 180);
-  const ConservativeWeights found = conservative_weights(shape, boxes);
+  const GridWeights found = conservative_weights(shape, boxes);
   CHECK((found.source_fraction.array() - 1).abs().maxCoeff() < 1e-12);
 }
 
@@ -377,4 +379,99 @@ TEST_CASE("what is wrong with boxes is said") {
   CHECK_THROWS_AS(interpolation_weights(spherical_delaunay(cubed_sphere(2)), cells.centres,
                                         Interpolation::conservative),
                   Error);
+}
+
+// ---- Fields
+
+namespace {
+
+/// A source of four cells, of which the third target cell has none.
+GridWeights small_weights() {
+  GridWeights out{.weights = Weights(3, 4),
+                  .source_area = DoubleVector::Ones(4),
+                  .target_area = DoubleVector::Ones(3),
+                  .source_fraction = DoubleVector::Ones(4),
+                  .target_fraction = DoubleVector::Ones(3)};
+  out.weights.insert(0, 0) = 0.5;
+  out.weights.insert(0, 1) = 0.25;
+  out.weights.insert(0, 2) = 0.25;
+  out.weights.insert(1, 3) = 1;
+  out.weights.makeCompressed();
+  out.target_fraction[0] = 0.8;
+  out.target_fraction[2] = 0;
+  return out;
+}
+
+MeshField field_of(std::initializer_list<double> values, bool integer = false) {
+  MeshField field{.name = "f", .integer = integer};
+  field.values =
+      Eigen::Map<const DoubleVector>(values.begin(), static_cast<Eigen::Index>(values.size()));
+  return field;
+}
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+TEST_CASE("missing values do not count, and cells need the least cover") {
+  const GridWeights weights = small_weights();
+  const DoubleVector all = interpolate(weights, field_of({1, 2, 4, 8})).values;
+  CHECK(all[0] == 2);
+  CHECK(all[1] == 8);
+  CHECK(std::isnan(all[2]));
+  const MeshField gap = field_of({1, none, 4, none});
+  const DoubleVector rest = interpolate(weights, gap).values; // 0.6 of the first cell
+  CHECK(std::abs(rest[0] - 1.5 / 0.75) < 1e-15);
+  CHECK(std::isnan(rest[1]));
+  CHECK(std::isnan(interpolate(weights, gap, 0.61).values[0]));
+  CHECK(!std::isnan(interpolate(weights, gap, 0.6).values[0]));
+  CHECK_THROWS_AS(interpolate(weights, gap, 1.5), Error);
+  CHECK_THROWS_WITH_AS(interpolate(weights, field_of({1, 2, 3})),
+                       "the field f has 3 values for 4 cells of the source; give 1 for each",
+                       Error);
+}
+
+TEST_CASE("categories are those of the greatest weight, of equal ones the lowest") {
+  const GridWeights weights = small_weights();
+  CHECK(interpolate(weights, field_of({7, 5, 5, 3}, true)).values[0] == 5);
+  CHECK(interpolate(weights, field_of({3, 5, 5, 3}, true)).values[0] == 3);
+  CHECK(interpolate(weights, field_of({9, 4, 6, 3}, true)).values[0] == 9);
+  CHECK(interpolate(weights, field_of({none, 4, 6, 3}, true)).values[0] == 4);
+  CHECK(interpolate(weights, field_of({9, 4, 6, 3}, true)).integer);
+}
+
+TEST_CASE("fields of several numbers for each cell") {
+  const GridWeights weights = small_weights();
+  MeshField field = field_of({1, 10, 2, 20, 4, none, 8, 80});
+  field.dimensions = {{"level", 2}};
+  const MeshField found = interpolate(weights, field);
+  REQUIRE(found.values.size() == 6);
+  CHECK(found.values[0] == 2);
+  CHECK(std::abs(found.values[1] - 10 / 0.75) < 1e-14);
+  CHECK(found.values[3] == 80);
+}
+
+TEST_CASE("the cell that holds a position") {
+  for (const Polygons& cells : {cells_of(random_sphere(400)), cells_of(cubed_sphere(3))}) {
+    const Points3 at = random_sphere(500, 8);
+    const Ids found = cells_at(cells, at);
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      Eigen::Index nearest = 0;
+      (cells.centres.transpose() * at.col(i)).maxCoeff(&nearest);
+      CHECK(found[i] == nearest);
+    }
+  }
+  const Polygons box =
+      cells_of(delaunay(random_places(80, periodic_box({3, 2})), Surface::periodic({3, 2})));
+  const Points2 inside = random_places(200, periodic_box({3, 2}), 4);
+  const Ids here = cells_at(box, inside),
+            there = cells_at(box, Points2(inside.colwise() + Eigen::Vector2d(6, -4)));
+  CHECK(here.minCoeff() >= 0);
+  CHECK(here == there);
+  Polygons part = cells_of(random_sphere(400));
+  part.ids.begin.conservativeResize(201);
+  const Ids found = cells_at(part, random_sphere(500, 8));
+  CHECK(found.minCoeff() == -1);
+  CHECK(found.maxCoeff() < 200);
+  CHECK((found.array() < 0).count() > 150);
 }

@@ -145,7 +145,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t indent = 14;
+  static constexpr std::size_t indent = 15; ///< of the texts behind the longest name, interpolate
 };
 
 } // namespace

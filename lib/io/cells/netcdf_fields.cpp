@@ -91,6 +91,8 @@ bool is_directed(const NetcdfReader& file, const std::string& name) {
   return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
 }
 
+} // namespace
+
 void read_values(const NetcdfReader& file, MeshField& field) {
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
@@ -100,8 +102,6 @@ void read_values(const NetcdfReader& file, MeshField& field) {
   field.integer = file.is_integer(field.name) && !packed && fit_int(field.values);
   field.directed = field.location == Location::edges && is_directed(file, field.name);
 }
-
-} // namespace
 
 DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -28,6 +28,10 @@ struct NetcdfMeshNames {
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
                  RawMesh& raw);
 
+/// Reads a field's values and attributes. \pre its name, location, dimensions and `leading` are
+/// set. \throws Error parse, file.
+void read_values(const NetcdfReader& file, MeshField& field);
+
 /// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
 /// add_offset. \throws Error parse, file.
 DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name);

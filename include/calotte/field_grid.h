@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/conservative.h>
+#include <calotte/export.h>
+#include <calotte/mesh_field.h>
+#include <calotte/mesh_file.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Fields from one grid to another, in files: meshes and rasters of longitude and latitude.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// A grid that carries fields: a mesh, or a raster.
+struct FieldGrid {
+  std::string name;                      ///< of the file, for messages
+  std::optional<LonLatBoxes> boxes = {}; ///< of a raster
+  MeshFile mesh = {};                    ///< where there are no boxes; without its fields
+  std::vector<MeshField> fields = {};    ///< at cells
+  std::vector<std::string> ignored = {}; ///< variables that are no such field
+
+  /// The number of cells.
+  std::int64_t size() const;
+};
+
+/// Reads a mesh file of any format, see read_mesh_file(), or a raster: a NetCDF file with the
+/// coordinate variables lat(lat) and lon(lon), latitude and longitude, or others whose
+/// standard_name or units say so. Where these have bounds, the boxes are those; else see
+/// lon_lat_boxes(). Fields of a raster have both dimensions one after the other, latitude first,
+/// and any others before and after them. Values are NaN where they are _FillValue or
+/// missing_value.
+/// \param choice of the fields.
+/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
+FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
+
+/// The raster that "720x360" stands for, see lon_lat_boxes(); none for other texts.
+/// \throws Error invalid_argument for numbers out of range.
+std::optional<FieldGrid> raster_of(const std::string& columns_x_rows);
+
+/// The cells of a grid that is no raster: those of its file, or the Voronoi cells of its mesh.
+/// \throws Error as voronoi().
+Polygons cells_of(const FieldGrid& grid);
+
+/// The weights from one grid to another.
+///
+/// - conservative: see conservative_weights().
+/// - nearest: the cell, or box, that holds the centre of the target's cell.
+/// - linear: on the triangles between the source's centres, or bilinear between a raster's nodes,
+///   at the centre of the target's cell. Cells outside of the source have no weights.
+/// - natural_neighbours: from meshes.
+///
+/// Areas are not set but for conservative weights.
+/// \throws Error invalid_argument for grids on different surfaces; as conservative_weights(),
+///         interpolation_weights(), cells_of().
+GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& target,
+                                  Interpolation kind);
+
+/// A format of files of weights, NetCDF.
+enum class WeightsFormat {
+  esmf, ///< as ESMF_RegridWeightGen writes it: n_a, n_b, n_s, row, col, S
+  scrip ///< as SCRIP and CDO write it: src_address, dst_address, remap_matrix
+};
+
+/// Writes weights, with centres, corners, areas and fractions of both grids. The rows sum to 1: the
+/// normalisation is "fracarea" in the words of SCRIP and ESMF.
+/// \param history attribute; empty for none.
+/// \throws Error invalid_argument for grids of a plane; file.
+void write_weights(const std::string& path, const GridWeights& weights, const FieldGrid& source,
+                   const FieldGrid& target, Interpolation kind,
+                   WeightsFormat format = WeightsFormat::esmf, const std::string& history = {});
+
+/// Reads weights of either format, also of other programs: they are applied as they are. Of several
+/// weights of a link (second order) the first is taken if the others are 0.
+/// \throws Error parse: an address out of range, naming the link; other variables; file.
+GridWeights read_weights(const std::string& path);
+
+/// Writes fields of a grid to a NetCDF file: of a raster with its coordinates and bounds; of a mesh
+/// with the longitudes and latitudes, or x and y, of its cells, in the order of its file. The
+/// dimension of the cells has the name that the mesh's format gives it, such as nCells. Another
+/// suffix writes the mesh with its fields, see write().
+/// \param history attribute; empty for none.
+/// \throws Error invalid_argument for a field without a value for each cell, or a suffix that does
+///         not hold the grid; file.
+void write_fields(const std::string& path, const FieldGrid& grid,
+                  const std::vector<MeshField>& fields, const std::string& history = {});
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/field_grid.h>
+
+#include "base/require.h"
+#include "io/cells/centroids.h"
+#include "io/cells/polygons.h"
+#include "io/command.h"
+#include "io/fields/raster_grid.h"
+#include "io/netcdf/netcdf_reader.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/locate.h>
+#include <calotte/voronoi.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+namespace calotte {
+namespace io_detail {
+namespace {
+
+using base_detail::require;
+
+bool on_sphere(const FieldGrid& grid) {
+  return grid.boxes ||
+         (grid.mesh.polygons ? grid.mesh.polygons->on_sphere : grid.mesh.mesh->surface.is_sphere());
+}
+
+Eigen::Vector2d period_of(const FieldGrid& grid) {
+  if (grid.boxes)
+    return {0, 0};
+  return grid.mesh.polygons ? grid.mesh.polygons->period : grid.mesh.mesh->surface.period();
+}
+
+void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
+  const auto words = [](const FieldGrid& grid) {
+    return std::string(on_sphere(grid)             ? " is on the sphere"
+                       : period_of(grid).isZero(0) ? " is in a plane"
+                                                   : " is in a periodic plane");
+  };
+  require(on_sphere(source) == on_sphere(target) && period_of(source) == period_of(target),
+          source.name + words(source) + ", and " + target.name + words(target) +
+              (words(source) == words(target) ? " of another period" : "") +
+              "; give grids of one surface");
+}
+
+/// The centres of cells.
+Points3 centres_of(const FieldGrid& grid) {
+  if (grid.boxes)
+    return nodes(*grid.boxes);
+  if (!grid.mesh.polygons)
+    return grid.mesh.mesh->points;
+  const Polygons& cells = *grid.mesh.polygons;
+  return cells.centres.cols() > 0 ? cells.centres : centroids_of(cells);
+}
+
+/// The cell that holds each position; -1 where there is none. Sites without cells, at the corners
+/// of triangles, count for the triangles.
+Ids cells_holding(const FieldGrid& source, const Points3& positions) {
+  if (source.mesh.polygons)
+    return cells_at(*source.mesh.polygons, positions);
+  const Locations at = locate(*source.mesh.mesh, positions);
+  return (at.triangle.array() >= 0).select(at.nearest, -1);
+}
+
+Weights nearest(const FieldGrid& source, const Points3& positions) {
+  const Ids cells = cells_holding(source, positions);
+  Weights weights(positions.cols(), source.size());
+  weights.reserve(cells.size());
+  for (Eigen::Index i = 0; i < cells.size(); ++i) {
+    weights.startVec(i);
+    if (cells[i] >= 0)
+      weights.insertBack(i, cells[i]) = 1;
+  }
+  weights.finalize();
+  return weights;
+}
+
+/// Weights of the triangles between centres. Of cells without triangles of their own those that are
+/// outside of all cells have none.
+Weights on_triangles(const FieldGrid& source, const Points3& positions, Interpolation kind) {
+  if (source.mesh.mesh)
+    return interpolation_weights(*source.mesh.mesh, positions, kind);
+  const Points3 centres = centres_of(source);
+  const Mesh mesh = delaunay(centres, on_sphere(source) ? Surface::sphere() : Surface::plane());
+  require(mesh.points.cols() == centres.cols(),
+          source.name + " has cells with the same centre; give --method conservative or nearest");
+  Weights weights = interpolation_weights(mesh, positions, kind);
+  const Ids cells = cells_at(*source.mesh.polygons, positions);
+  weights.prune([&](Eigen::Index row, Eigen::Index, double) { return cells[row] >= 0; });
+  weights.makeCompressed();
+  return weights;
+}
+
+Weights at_positions(const FieldGrid& source, const Points3& positions, Interpolation kind) {
+  if (source.boxes)
+    return interpolation_weights(*source.boxes, positions, kind);
+  return kind == Interpolation::nearest ? nearest(source, positions)
+                                        : on_triangles(source, positions, kind);
+}
+
+GridWeights conservative(const FieldGrid& source, const FieldGrid& target) {
+  if (source.boxes && target.boxes)
+    return conservative_weights(*source.boxes, *target.boxes);
+  if (source.boxes)
+    return conservative_weights(*source.boxes, cells_of(target));
+  if (target.boxes)
+    return conservative_weights(cells_of(source), *target.boxes);
+  return conservative_weights(cells_of(source), cells_of(target));
+}
+
+} // namespace
+} // namespace io_detail
+
+std::int64_t FieldGrid::size() const {
+  if (boxes)
+    return boxes->size();
+  return mesh.polygons ? mesh.polygons->size() : mesh.mesh ? mesh.mesh->points.cols() : 0;
+}
+
+FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
+  using namespace io_detail;
+  if (is_netcdf_file(path)) {
+    const NetcdfReader file(path);
+    if (const std::optional<RasterAxes> axes = raster_axes(file))
+      return read_raster_grid(file, *axes, choice);
+  }
+  FieldGrid grid{.name = path};
+  grid.mesh = read_mesh_file(path, nullptr, choice);
+  grid.fields = std::move(grid.mesh.fields);
+  grid.ignored = std::move(grid.mesh.ignored);
+  std::erase_if(grid.fields, [&](const MeshField& field) {
+    if (field.location == Location::cells)
+      return false;
+    grid.ignored.push_back(field.name);
+    return true;
+  });
+  grid.mesh.fields.clear();
+  return grid;
+}
+
+std::optional<FieldGrid> raster_of(const std::string& columns_x_rows) {
+  std::int64_t columns = 0, rows = 0;
+  const char *const begin = columns_x_rows.data(), *const end = begin + columns_x_rows.size();
+  const auto first = std::from_chars(begin, end, columns);
+  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != 'x')
+    return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, rows);
+  if (second.ec != std::errc{} || second.ptr != end)
+    return std::nullopt;
+  FieldGrid grid{.name = columns_x_rows};
+  grid.boxes = lon_lat_boxes(columns, rows);
+  return grid;
+}
+
+Polygons cells_of(const FieldGrid& grid) {
+  if (grid.mesh.polygons)
+    return *grid.mesh.polygons;
+  const Mesh& mesh = *grid.mesh.mesh;
+  base_detail::require(mesh.closed() || (!mesh.surface.is_sphere() && mesh.surface.is_bounded()),
+                       grid.name + " has triangles of a part of the surface, without cells; give "
+                                   "linear or nearest as the method");
+  return io_detail::polygons_of(voronoi(mesh));
+}
+
+GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& target,
+                                  Interpolation kind) {
+  using namespace io_detail;
+  require_one_surface(source, target);
+  if (kind == Interpolation::conservative)
+    return conservative(source, target);
+  GridWeights out{.weights = at_positions(source, centres_of(target), kind),
+                  .source_area = {},
+                  .target_area = {},
+                  .source_fraction = DoubleVector::Ones(source.size()),
+                  .target_fraction = DoubleVector(target.size())};
+  for (Eigen::Index i = 0; i < target.size(); ++i) {
+    const int* const begin = out.weights.outerIndexPtr();
+    out.target_fraction[i] = begin[i + 1] > begin[i] ? 1 : 0;
+  }
+  return out;
+}
+
+} // namespace calotte

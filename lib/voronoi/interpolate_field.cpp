@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <calotte/conservative.h>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "voronoi/room.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+
+namespace calotte {
+namespace voronoi_detail {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// The part of the row's values that are no NaN.
+struct Valid {
+  double sum;           ///< of weight times value
+  double weight, whole; ///< of the weights of these values, and of all
+};
+
+/// \param values of the first cell of the source; those of the next are `stride` further.
+Valid valid_of(const Weights& weights, std::int64_t row, const double* values,
+               std::int64_t stride) {
+  Valid valid{0, 0, 0};
+  for (Weights::InnerIterator entry(weights, row); entry; ++entry) {
+    const double value = values[entry.col() * stride];
+    valid.whole += entry.value();
+    if (std::isnan(value))
+      continue;
+    valid.weight += entry.value();
+    valid.sum += entry.value() * value;
+  }
+  return valid;
+}
+
+double category_of(const Weights& weights, std::int64_t row, const double* values,
+                   std::int64_t stride) {
+  std::map<double, double> shares;
+  for (Weights::InnerIterator entry(weights, row); entry; ++entry)
+    if (const double value = values[entry.col() * stride]; !std::isnan(value))
+      shares[value] += entry.value();
+  double best = none, most = 0;
+  for (const auto& [value, share] : shares)
+    if (share > most) {
+      best = value;
+      most = share;
+    }
+  return best;
+}
+
+} // namespace
+} // namespace voronoi_detail
+
+MeshField interpolate(const GridWeights& weights, const MeshField& field, double min_cover) {
+  using namespace voronoi_detail;
+  const Weights& matrix = weights.weights;
+  const std::int64_t count = field.count();
+  base_detail::require(field.location == Location::cells,
+                       "the field " + field.name +
+                           " is not at cells; give one at cells or of a raster");
+  base_detail::require(field.values.size() == matrix.cols() * count,
+                       "the field " + field.name + " has " + std::to_string(field.values.size()) +
+                           " values for " + std::to_string(matrix.cols()) +
+                           " cells of the source; give " + std::to_string(count) + " for each");
+  base_detail::require(min_cover >= 0 && min_cover <= 1, "the least cover is " +
+                                                             std::to_string(min_cover) +
+                                                             "; give a fraction from 0 to 1");
+  MeshField out = field;
+  out.values.resize(matrix.rows() * count);
+  for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      for (std::int64_t k = 0; k < count; ++k) {
+        const double* const values = field.values.data() + k;
+        const Valid valid = valid_of(matrix, i, values, count);
+        const double cover = weights.target_fraction[i] * valid.weight / valid.whole;
+        double& value = out.values[i * count + k];
+        if (!(valid.weight > 0) || cover < min_cover * (1 - 1e-9))
+          value = none;
+        else if (field.integer)
+          value = category_of(matrix, i, values, count);
+        else // divided where some do not count, so that other weights act as they are
+          value =
+              valid.weight == valid.whole ? valid.sum : valid.sum * (valid.whole / valid.weight);
+      }
+  });
+  return out;
+}
+
+} // namespace calotte

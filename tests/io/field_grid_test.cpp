@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+#include "support/planes.h"
+
+#include "io/netcdf/netcdf_writer.h"
+
+#include <calotte/cut.h>
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/field_grid.h>
+#include <calotte/generators.h>
+#include <calotte/io.h>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace calotte;
+using calotte::io_detail::NetcdfType;
+using calotte::io_detail::NetcdfWriter;
+using calotte::test::error_of;
+using calotte::test::Scratch;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, none = std::numeric_limits<double>::quiet_NaN();
+
+std::string in_folder(const Scratch& scratch, const std::string& name) {
+  return scratch.folder / name;
+}
+
+FieldGrid mesh_of(const std::string& path, const Mesh& mesh, const WriteOptions& options = {}) {
+  write(path, mesh, options);
+  return read_field_grid(path);
+}
+
+/// A raster file with a field f = 100 j + i.
+struct RasterFile {
+  std::vector<double> latitudes{-60, -20, 20, 60}, longitudes{0, 60, 120, 180, 240, 300};
+  std::vector<double> latitude_bounds = {};
+  std::string latitude = "lat", longitude = "lon";
+  bool longitude_first = false;
+
+  void write(const std::string& path) const {
+    NetcdfWriter file(path);
+    const int lat = file.dimension(latitude, std::ssize(latitudes)),
+              lon = file.dimension(longitude, std::ssize(longitudes)),
+              pair = file.dimension("two", 2);
+    calotte::io_detail::NetcdfAttributes of_lat{{"units", std::string("degrees_north")}},
+        of_lon{{"units", std::string("degrees_east")}};
+    if (!latitude_bounds.empty()) {
+      of_lat.push_back({"bounds", latitude + "_b"});
+      of_lon.push_back({"bounds", longitude + "_b"});
+    }
+    const auto copy = [](const std::vector<double>& values, std::int64_t row) {
+      return NetcdfWriter::Fill<double>(
+          [values, row](std::int64_t begin, std::int64_t end, double* out) {
+            std::copy(values.begin() + begin * row, values.begin() + end * row, out);
+          });
+    };
+    const int x = file.variable(longitude, NetcdfType::float64, {lon}, of_lon),
+              y = file.variable(latitude, NetcdfType::float64, {lat}, of_lat);
+    int xb = -1, yb = -1;
+    std::vector<double> meridians;
+    for (const double value : longitudes)
+      meridians.insert(meridians.end(), {value - 30, value + 30});
+    if (!latitude_bounds.empty()) {
+      yb = file.variable(latitude + "_b", NetcdfType::float64, {lat, pair});
+      xb = file.variable(longitude + "_b", NetcdfType::float64, {lon, pair});
+    }
+    std::vector<int> dimensions{lat, lon};
+    if (longitude_first)
+      std::swap(dimensions[0], dimensions[1]);
+    const int f = file.variable("f", NetcdfType::float64, dimensions,
+                                {{"units", std::string("m")}, {"missing_value", 203.0}});
+    file.begin();
+    file.put(x, copy(longitudes, 1));
+    file.put(y, copy(latitudes, 1));
+    if (yb >= 0) {
+      file.put(yb, copy(latitude_bounds, 2));
+      file.put(xb, copy(meridians, 2));
+    }
+    std::vector<double> values;
+    for (std::size_t j = 0; j < latitudes.size(); ++j)
+      for (std::size_t i = 0; i < longitudes.size(); ++i)
+        values.push_back(100.0 * static_cast<double>(j) + static_cast<double>(i));
+    file.put(f, copy(values, static_cast<std::int64_t>(longitude_first ? latitudes.size()
+                                                                       : longitudes.size())));
+    file.finish();
+    file.commit();
+  }
+};
+
+std::string problem_of(const std::string& path) {
+  return error_of([&] { read_field_grid(path); }).what();
+}
+
+bool same(const Weights& a, const Weights& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && Eigen::MatrixXd(a) == Eigen::MatrixXd(b);
+}
+
+} // namespace
+
+TEST_CASE("a raster is read with its boxes and fields") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "raster.nc");
+  RasterFile file;
+  file.write(path);
+  FieldGrid grid = read_field_grid(path);
+  REQUIRE(grid.boxes);
+  CHECK(grid.size() == 24);
+  CHECK(grid.boxes->parallels == DoubleVector(Eigen::VectorXd{{-90, -40, 0, 40, 90}}));
+  CHECK(grid.boxes->meridians[0] == -30);
+  REQUIRE(grid.fields.size() == 1);
+  CHECK(grid.fields[0].units == "m");
+  CHECK(grid.fields[0].values[8] == 102);
+  CHECK(std::isnan(grid.fields[0].values[15])); // missing_value
+
+  file.latitudes = {60, 20, -20, -60};
+  file.latitude_bounds = {50, 80, 50, 0, 0, -50, -50, -80};
+  file.latitude = "latitude";
+  file.longitude = "x"; // by its units
+  file.write(path);
+  grid = read_field_grid(path);
+  CHECK(grid.boxes->parallels == DoubleVector(Eigen::VectorXd{{80, 50, 0, -50, -80}}));
+
+  const double width = 2 * pi;
+  CHECK(std::abs(areas(*grid.boxes).sum() - width * 2 * std::sin(80 * pi / 180)) < 1e-14);
+}
+
+TEST_CASE("what is wrong with a raster is said") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "raster.nc");
+  RasterFile file;
+  file.longitude_first = true;
+  file.write(path);
+  CHECK(read_field_grid(path).fields.empty());
+  CHECK(read_field_grid(path).ignored == std::vector<std::string>{"f"});
+  file = {};
+  file.latitudes[2] = -30;
+  file.write(path);
+  CHECK(problem_of(path) == path +
+                                ": latitude[2] = -30.000000 does not follow -20.000000; sort the "
+                                "raster along it");
+  file = {};
+  file.latitudes[3] = 95;
+  file.write(path);
+  CHECK(problem_of(path).find("latitude[3] = 95.000000 is outside -90 to 90") != std::string::npos);
+  file = {};
+  file.latitude_bounds = {-90, -40, -40, 0, 10, 40, 40, 90};
+  file.write(path);
+  CHECK(problem_of(path).find("lat_b[2] does not begin where the one before ends") !=
+        std::string::npos);
+  file = {};
+  file.longitudes = {0, 100, 200, 300, 400, 500};
+  file.write(path);
+  CHECK(problem_of(path).find("span") != std::string::npos);
+  CHECK(!raster_of("720"));
+  CHECK(!raster_of("720x"));
+  CHECK(!raster_of("720x360.nc"));
+  CHECK(raster_of("720x360")->size() == 720 * 360);
+  CHECK_THROWS_AS(raster_of("2x1"), Error);
+  CHECK_THROWS_AS(raster_of("99999999x1"), Error);
+}
+
+TEST_CASE("fields come back from files of rasters, and keep their dimensions") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "fields.nc");
+  const FieldGrid raster = *raster_of("6x4");
+  MeshField field{.name = "t", .long_name = "temperature", .units = "K"};
+  field.dimensions = {{"month", 2}, {"level", 3}};
+  field.leading = 1;
+  field.values = DoubleVector::LinSpaced(24 * 6, 0, 24 * 6 - 1);
+  field.values[17] = none;
+  MeshField use{.name = "use", .integer = true};
+  use.values = DoubleVector::LinSpaced(24, 0, 23);
+  use.values[4] = none;
+  write_fields(path, raster, {field, use}, "made for a test");
+  const FieldGrid found = read_field_grid(path);
+  CHECK((found.boxes->meridians - raster.boxes->meridians).isZero(0));
+  CHECK((found.boxes->parallels - raster.boxes->parallels).isZero(0));
+  REQUIRE(found.fields.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const MeshField& expected = k == 0 ? field : use;
+    CHECK(found.fields[k].name == expected.name);
+    CHECK(found.fields[k].long_name == expected.long_name);
+    CHECK(found.fields[k].leading == expected.leading);
+    CHECK(found.fields[k].integer == expected.integer);
+    CHECK(found.fields[k].dimensions.size() == expected.dimensions.size());
+    for (Eigen::Index i = 0; i < expected.values.size(); ++i)
+      CHECK((found.fields[k].values[i] == expected.values[i] ||
+             (std::isnan(expected.values[i]) && std::isnan(found.fields[k].values[i]))));
+  }
+  use.name = "lat";
+  CHECK_THROWS_AS(write_fields(path, raster, {use}), Error);
+  use.name = "use";
+  use.values.conservativeResize(23);
+  CHECK_THROWS_AS(write_fields(path, raster, {use}), Error);
+  CHECK_THROWS_AS(write_fields(in_folder(scratch, "raster.vtp"), raster, {field}), Error);
+}
+
+TEST_CASE("methods between meshes and rasters of the sphere") {
+  const Scratch scratch;
+  const FieldGrid mesh = mesh_of(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(1000))),
+                  raster = *raster_of("36x18");
+  const auto smooth = [](const Points3& at) {
+    return DoubleVector((at.row(0).array() * at.row(1).array() + at.row(2).array()).transpose());
+  };
+  const Points3 centres = mesh.mesh.mesh->points, of_boxes = nodes(*raster.boxes);
+  const auto error = [](const GridWeights& weights, const DoubleVector& from,
+                        const DoubleVector& to) {
+    return (interpolate(weights.weights, from) - to).cwiseAbs().maxCoeff();
+  };
+  for (const Interpolation kind :
+       {Interpolation::linear, Interpolation::nearest, Interpolation::conservative}) {
+    const double bound = kind == Interpolation::linear ? 0.02 : 0.2;
+    CHECK(error(interpolation_weights(mesh, raster, kind), smooth(centres), smooth(of_boxes)) <
+          bound);
+    CHECK(error(interpolation_weights(raster, mesh, kind), smooth(of_boxes), smooth(centres)) <
+          bound);
+    const GridWeights same_grid = interpolation_weights(mesh, mesh, kind);
+    CHECK((Eigen::MatrixXd(same_grid.weights) - Eigen::MatrixXd::Identity(1000, 1000))
+              .cwiseAbs()
+              .maxCoeff() < 1e-11);
+  }
+}
+
+TEST_CASE("a part of the sphere: cells outside have no weights") {
+  const Scratch scratch;
+  write(in_folder(scratch, "globe.nc"), delaunay(fibonacci_sphere(2000)));
+  cut(in_folder(scratch, "globe.nc"), in_folder(scratch, "part.nc"), circle({1, 0, 0}, 0.5),
+      {.rings = 0});
+  const FieldGrid part = read_field_grid(in_folder(scratch, "part.nc")),
+                  raster = *raster_of("72x36");
+  const DoubleVector ones = DoubleVector::Ones(part.size());
+  const Points3 at = nodes(*raster.boxes);
+  for (const Interpolation kind :
+       {Interpolation::linear, Interpolation::nearest, Interpolation::conservative}) {
+    const GridWeights weights = interpolation_weights(part, raster, kind);
+    const DoubleVector found = interpolate(weights.weights, ones);
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      const double angle = std::acos(at(0, i));
+      CHECK(std::isnan(found[i]) == (weights.target_fraction[i] == 0));
+      if (angle < 0.35) // within the centres of its last cells
+        CHECK(std::abs(found[i] - 1) < 1e-12);
+      if (angle > 0.65)
+        CHECK(std::isnan(found[i]));
+    }
+  }
+  const GridWeights back = interpolation_weights(raster, part, Interpolation::conservative);
+  CHECK((back.target_fraction.array() - 1).abs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
+  const Scratch scratch;
+  const auto box = [&](const std::string& name, std::uint64_t seed) {
+    return mesh_of(
+        in_folder(scratch, name),
+        delaunay(random_places(200, periodic_box({3, 2}), seed), Surface::periodic({3, 2})));
+  };
+  const FieldGrid a = box("a.nc", 1), b = box("b.nc", 2);
+  for (const Interpolation kind :
+       {Interpolation::linear, Interpolation::nearest, Interpolation::conservative}) {
+    const GridWeights weights = interpolation_weights(a, b, kind);
+    CHECK((interpolate(weights.weights, DoubleVector::Ones(200)).array() - 1).abs().maxCoeff() <
+          1e-12);
+  }
+  const auto open = [&](const std::string& name, std::int64_t n, std::uint64_t seed) {
+    return mesh_of(in_folder(scratch, name),
+                   delaunay(random_places(n, PlanarDomain(rectangle({0, 0}, {1, 1})), seed),
+                            Surface::plane()));
+  };
+  const FieldGrid from = open("from.vtp", 400, 3), to = open("to.vtp", 200, 4);
+  const auto linear = [](const FieldGrid& grid) {
+    const Points3& at = grid.mesh.mesh->points;
+    return DoubleVector((3 * at.row(0) - at.row(1)).transpose());
+  };
+  const DoubleVector found =
+                         interpolate(interpolation_weights(from, to, Interpolation::linear).weights,
+                                     linear(from)),
+                     exact = linear(to);
+  for (Eigen::Index i = 0; i < found.size(); ++i)
+    CHECK((std::isnan(found[i]) || std::abs(found[i] - exact[i]) < 1e-12));
+  CHECK((found.array() == found.array()).count() > 150);
+  CHECK_THROWS_WITH_AS(interpolation_weights(from, to, Interpolation::conservative),
+                       doctest::Contains("without cells; give linear or nearest"), Error);
+  CHECK_THROWS_WITH_AS(interpolation_weights(a, *raster_of("8x4"), Interpolation::linear),
+                       doctest::Contains("a.nc is in a periodic plane, and 8x4 is on the sphere"),
+                       Error);
+  CHECK_THROWS_AS(interpolation_weights(a, from, Interpolation::nearest), Error);
+  CHECK_THROWS_WITH_AS(write_weights(in_folder(scratch, "w.nc"),
+                                     interpolation_weights(a, b, Interpolation::nearest), a, b,
+                                     Interpolation::nearest),
+                       doctest::Contains("is in a plane"), Error);
+}
+
+TEST_CASE("weights come back from files of both formats") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "weights.nc");
+  const FieldGrid mesh = mesh_of(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(300))),
+                  raster = *raster_of("12x6");
+  for (const WeightsFormat format : {WeightsFormat::esmf, WeightsFormat::scrip})
+    for (const Interpolation kind :
+         {Interpolation::linear, Interpolation::nearest, Interpolation::conservative})
+      for (const auto& [source, target] : {std::pair(mesh, raster), std::pair(raster, mesh)}) {
+        const GridWeights weights = interpolation_weights(source, target, kind);
+        write_weights(path, weights, source, target, kind, format);
+        const GridWeights found = read_weights(path);
+        CHECK(same(found.weights, weights.weights));
+        CHECK(found.target_fraction == weights.target_fraction);
+        CHECK(std::abs(found.source_area.sum() - 4 * pi) < 1e-12);
+        CHECK(std::abs(found.target_area.sum() - 4 * pi) < 1e-12);
+      }
+}
+
+TEST_CASE("files that hold no weights, or wrong ones, are refused") {
+  const Scratch scratch;
+  const std::string path = in_folder(scratch, "weights.nc");
+  const auto with_column = [&](std::int32_t column) {
+    NetcdfWriter file(path);
+    file.dimension("n_a", 5);
+    file.dimension("n_b", 4);
+    const int links = file.dimension("n_s", 2);
+    const int row = file.variable("row", NetcdfType::int32, {links}),
+              col = file.variable("col", NetcdfType::int32, {links}),
+              weight = file.variable("S", NetcdfType::float64, {links});
+    file.begin();
+    const auto all = [](auto value) {
+      return [value](std::int64_t begin, std::int64_t end, auto* out) {
+        std::fill(out, out + (end - begin), value);
+      };
+    };
+    file.put(row, NetcdfWriter::Fill<std::int32_t>(all(std::int32_t{2})));
+    file.put(col, NetcdfWriter::Fill<std::int32_t>(all(column)));
+    file.put(weight, NetcdfWriter::Fill<double>(all(0.5)));
+    file.finish();
+    file.commit();
+  };
+  with_column(5);
+  CHECK(read_weights(path).weights.coeff(1, 4) == 1); // the links of a pair sum
+  with_column(6);
+  CHECK_THROWS_WITH_AS(read_weights(path),
+                       doctest::Contains("link 0 (0-based) joins col 6 and row 2 of 5 and 4 cells"),
+                       Error);
+  with_column(0);
+  CHECK_THROWS_AS(read_weights(path), Error);
+  RasterFile().write(path);
+  CHECK_THROWS_WITH_AS(read_weights(path), doctest::Contains("give a file of weights"), Error);
+}

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "help/nearest_name.h"
+#include "options/choice.h"
+#include "options/files.h"
+#include "options/numbers.h"
+#include "options/partition_options.h"
+#include "run/progress.h"
+#include "text/text.h"
+
+#include <calotte/field_grid.h>
+#include <calotte/version.h>
+
+#include <CLI/App.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+struct Request {
+  std::string source, target, output, weights, apply;
+  std::vector<std::string> fields, categories, numbers;
+  Interpolation method = Interpolation::conservative;
+  std::string method_word = "conservative";
+  WeightsFormat format = WeightsFormat::esmf;
+  double min_cover = 0;
+  std::optional<int> threads;
+};
+
+/// Checks all options that can fail, before any input is read.
+void require_request(const Request& request) {
+  if (request.output.empty() && request.weights.empty())
+    refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
+  if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
+    refuse(request.output + ": a raster is written to NetCDF; give a name that ends in .nc");
+  if (!request.weights.empty() && !request.weights.ends_with(".nc"))
+    refuse(request.weights + ": weights are written to NetCDF; give a name that ends in .nc");
+  require_outputs({{"fields", request.output}, {"weights", request.weights}},
+                  {request.source, request.target, request.apply});
+}
+
+FieldGrid grid_of(const std::string& word, FieldChoice choice) {
+  if (std::optional<FieldGrid> raster = raster_of(word))
+    return *std::move(raster);
+  return read_field_grid(word, choice);
+}
+
+// ---- Fields
+
+std::vector<std::string> names_of(const std::vector<MeshField>& fields) {
+  std::vector<std::string> names;
+  for (const MeshField& field : fields)
+    names.push_back(field.name);
+  return names;
+}
+
+MeshField& field_named(const std::string& name, FieldGrid& source) {
+  const auto found = std::find_if(source.fields.begin(), source.fields.end(),
+                                  [&](const MeshField& field) { return field.name == name; });
+  if (found != source.fields.end())
+    return *found;
+  const std::vector<std::string> names = names_of(source.fields);
+  const std::string nearest = nearest_name(name, names);
+  refuse(source.name + " has no field " + name + " at cells" +
+         (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
+         (names.empty() ? "; give a file that has"
+                        : (nearest.empty() ? "; it has " : " It has ") + joined(names)));
+}
+
+/// The fields that are asked for; all without names.
+std::vector<MeshField> chosen_fields(const Request& request, FieldGrid& source) {
+  if (request.fields.empty() && source.fields.empty())
+    refuse(source.name + " has no fields at cells; give a file that has, or --weights without -o");
+  if (request.fields.empty())
+    return std::move(source.fields);
+  std::vector<MeshField> chosen;
+  for (const std::string& name : request.fields)
+    chosen.push_back(field_named(name, source));
+  return chosen;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether integers are categories: what the options say, or those without a unit.
+/// \returns the remark on a decision that no option made.
+std::string decide_categories(const Request& request, MeshField& field) {
+  if (contains(request.categories, field.name)) {
+    if (!field.integer)
+      refuse("--categories " + field.name + ": the field does not hold integers; leave it out");
+    return "";
+  }
+  if (!field.integer)
+    return "";
+  if (contains(request.numbers, field.name)) {
+    field.integer = false;
+    return "";
+  }
+  const bool numbers = !field.units.empty() && field.units != "1";
+  field.integer = !numbers;
+  return numbers ? field.name + " holds integers in " + field.units +
+                       ", taken as numbers; see --categories\n"
+                 : field.name + " holds integers without a unit, taken as categories: each cell "
+                                "has the one of the greatest weight; see --numbers\n";
+}
+
+// ---- Weights
+
+void require_fit(const Request& request, const GridWeights& weights, const FieldGrid& source,
+                 const FieldGrid& target) {
+  const auto require = [&](std::int64_t known, const FieldGrid& grid, const std::string& role) {
+    if (known != grid.size())
+      refuse(request.apply + ": the weights are for a " + role + " of " + std::to_string(known) +
+             " cells, and " + grid.name + " has " + std::to_string(grid.size()) +
+             "; give the grids for which they were made");
+  };
+  require(weights.weights.cols(), source, "source");
+  require(weights.weights.rows(), target, "target");
+}
+
+GridWeights weights_of(const Request& request, const FieldGrid& source, const FieldGrid& target) {
+  if (request.apply.empty())
+    return interpolation_weights(source, target, request.method);
+  GridWeights weights = read_weights(request.apply);
+  require_fit(request, weights, source, target);
+  return weights;
+}
+
+// ---- Messages
+
+std::int64_t missing(const MeshField& field) {
+  return std::count_if(field.values.begin(), field.values.end(),
+                       [](double value) { return !(value == value); });
+}
+
+std::int64_t rows_without_weights(const Weights& weights) {
+  std::int64_t count = 0;
+  for (Eigen::Index i = 0; i < weights.rows(); ++i)
+    count += weights.outerIndexPtr()[i + 1] == weights.outerIndexPtr()[i] ? 1 : 0;
+  return count;
+}
+
+std::string plural(std::int64_t count, const std::string& one, const std::string& more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+
+std::string describe(const Request& request, const FieldGrid& source, const GridWeights& weights,
+                     const std::vector<MeshField>& fields) {
+  std::string lines;
+  const std::string& name = request.output.empty() ? request.weights : request.output;
+  const std::int64_t outside = rows_without_weights(weights.weights);
+  if (outside > 0)
+    lines += name + ": " + plural(outside, "cell is", "cells are") + " outside of " + source.name +
+             ", and missing\n";
+  for (const MeshField& field : fields)
+    if (const std::int64_t more = missing(field) - outside * field.count(); more > 0)
+      lines += name + ": " + field.name + ": " + plural(more, "more value is", "more values are") +
+               " missing, where " + source.name + " has none\n";
+  if (!request.weights.empty())
+    lines += request.weights + ": " + std::to_string(weights.weights.nonZeros()) +
+             " weights from " + std::to_string(weights.weights.cols()) + " to " +
+             std::to_string(weights.weights.rows()) + " cells\n";
+  if (!request.output.empty())
+    lines += request.output + ": " + joined(names_of(fields)) + " at " +
+             plural(weights.weights.rows(), "cell, ", "cells, ") +
+             (request.apply.empty() ? request.method_word : "by " + request.apply) + "\n";
+  return lines;
+}
+
+std::string history_of(const Request& request) {
+  return "calotte " CALOTTE_VERSION " interpolate: " + request.source + " " + request.target +
+         (request.apply.empty() ? " --method " + request.method_word : " --apply " + request.apply);
+}
+
+void run(const Request& request) {
+  require_request(request);
+  std::string lines;
+  {
+    Progress progress;
+    progress.stage("reading " + request.source);
+    FieldGrid source =
+        grid_of(request.source, request.output.empty() ? FieldChoice::none : FieldChoice::all);
+    std::vector<MeshField> fields;
+    if (!request.output.empty())
+      fields = chosen_fields(request, source);
+    for (MeshField& field : fields)
+      lines += decide_categories(request, field);
+    progress.stage("reading " + request.target);
+    const FieldGrid target = grid_of(request.target, FieldChoice::none);
+    progress.stage("weights");
+    const GridWeights weights = weights_of(request, source, target);
+    for (MeshField& field : fields)
+      field = interpolate(weights, field, request.min_cover);
+    progress.stage("writing");
+    if (!request.weights.empty())
+      write_weights(request.weights, weights, source, target, request.method, request.format,
+                    history_of(request));
+    if (!request.output.empty())
+      write_fields(request.output, target, fields, history_of(request));
+    lines += describe(request, source, weights, fields);
+  }
+  std::cout << lines;
+}
+
+void add_field_options(CLI::App& command, Request& request) {
+  const auto add = [&](const std::string& name, std::vector<std::string>& names,
+                       const std::string& help) {
+    command.add_option(name, names, help)->type_name("NAMES")->delimiter(',');
+  };
+  add("--fields", request.fields,
+      "Names of the fields, with commas between them. Default: all at cells.");
+  command
+      .add_option("--min-cover", request.min_cover,
+                  "Least part of a cell, 0 to 1, that valid values must cover; the cell is missing "
+                  "below it. Missing values do not count: the others are divided by their part of "
+                  "the weights. Default: 0, any part is enough.")
+      ->type_name("PART")
+      ->check(CLI::Range(0.0, 1.0));
+  add("--categories", request.categories,
+      "Fields of integers that are categories, such as land use: a cell gets the one of the "
+      "greatest weight. Default: those without a unit.");
+  add("--numbers", request.numbers,
+      "Fields of integers that are numbers, such as heights in metres. Default: those with a "
+      "unit.");
+}
+
+void add_weights_options(CLI::App& command, Request& request) {
+  command
+      .add_option("--weights", request.weights,
+                  "Also write the weights to this NetCDF file, for ncremap, CDO and --apply.")
+      ->type_name("FILE");
+  add_choice<WeightsFormat>(
+      command, "--weights-format", request.format,
+      {{"esmf", WeightsFormat::esmf}, {"scrip", WeightsFormat::scrip}},
+      "Format of the weights: esmf, as ESMF_RegridWeightGen writes them, or scrip, as CDO does. "
+      "Default: esmf.")
+      ->needs("--weights");
+  command
+      .add_option("--apply", request.apply,
+                  "Apply the weights in this file of either format, also those of other "
+                  "programs.")
+      ->type_name("FILE")
+      ->excludes("--weights");
+}
+
+} // namespace
+
+void add_interpolate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "interpolate", "Takes fields from one grid to another: meshes and rasters of longitude and "
+                     "latitude.");
+  auto request = std::make_shared<Request>();
+  command
+      ->add_option("SOURCE,--source", request->source,
+                   "Mesh with fields at its cells, or raster: NetCDF with lat(lat) and lon(lon).")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("TARGET,--target", request->target,
+                   "Mesh or raster whose cells get the fields, or the size of a global raster, "
+                   "such as 720x360.")
+      ->type_name("FILE|SIZE")
+      ->required();
+  command
+      ->add_option("-o,--output", request->output,
+                   "File of the fields. NetCDF (.nc) holds them with the places of the cells, in "
+                   "the order of TARGET; a name of another mesh format holds the mesh, too.")
+      ->type_name("FILE");
+  add_choice<Interpolation>(
+      *command, "--method", request->method,
+      {{"conservative", Interpolation::conservative},
+       {"linear", Interpolation::linear},
+       {"nearest", Interpolation::nearest},
+       {"natural", Interpolation::natural_neighbours}},
+      "conservative: the mean over the cell, by shared areas, which keeps the integral. linear: on "
+      "triangles between centres, bilinear in a raster. nearest: the value of the cell that holds "
+      "the centre. natural: natural neighbours, of meshes. Default: conservative.");
+  add_field_options(*command, *request);
+  add_weights_options(*command, *request);
+  command->get_option("--apply")->excludes("--method");
+  command
+      ->add_option("--threads", request->threads,
+                   "Number of threads, 1 to 4096; no effect on the result. Default: all.")
+      ->transform(whole_number(1, 4096))
+      ->type_name("N");
+  set_help(*command,
+           {.common = {},
+            .examples = {"calotte interpolate topography.nc grid.nc -o heights.nc --fields z",
+                         "calotte interpolate history.nc 720x360 -o map.nc --fields t2m,ssh",
+                         "calotte interpolate grid.nc 720x360 --weights map.nc"}});
+  command->callback([command, request] {
+    if (const CLI::Option* const method = command->get_option("--method"); method->count() > 0)
+      request->method_word = method->as<std::string>();
+    with_threads(request->threads, [&] { run(*request); });
+  });
+}
+
+} // namespace calotte::tools
