@@ -26,7 +26,7 @@ namespace calotte::tools {
 namespace {
 
 struct Request {
-  std::string source, target, output, weights, apply;
+  std::string source, mesh, target, output, weights, apply;
   std::vector<std::string> fields, categories, numbers;
   Interpolation method = Interpolation::conservative;
   std::string method_word = "conservative";
@@ -44,13 +44,19 @@ void require_request(const Request& request) {
   if (!request.weights.empty() && !request.weights.ends_with(".nc"))
     refuse(request.weights + ": weights are written to NetCDF; give a name that ends in .nc");
   require_outputs({{"fields", request.output}, {"weights", request.weights}},
-                  {request.source, request.target, request.apply});
+                  {request.source, request.mesh, request.target, request.apply});
 }
 
 FieldGrid grid_of(const std::string& word, FieldChoice choice) {
   if (std::optional<FieldGrid> raster = raster_of(word))
     return *std::move(raster);
   return read_field_grid(word, choice);
+}
+
+FieldGrid source_of(const Request& request) {
+  const FieldChoice choice = request.output.empty() ? FieldChoice::none : FieldChoice::all;
+  return request.mesh.empty() ? grid_of(request.source, choice)
+                              : read_field_grid(request.source, request.mesh, choice);
 }
 
 // ---- Fields
@@ -187,8 +193,7 @@ void run(const Request& request) {
   {
     Progress progress;
     progress.stage("reading " + request.source);
-    FieldGrid source =
-        grid_of(request.source, request.output.empty() ? FieldChoice::none : FieldChoice::all);
+    FieldGrid source = source_of(request);
     std::vector<MeshField> fields;
     if (!request.output.empty())
       fields = chosen_fields(request, source);
@@ -216,6 +221,10 @@ void add_field_options(CLI::App& command, Request& request) {
                        const std::string& help) {
     command.add_option(name, names, help)->type_name("NAMES")->delimiter(',');
   };
+  command
+      .add_option("--mesh", request.mesh,
+                  "Mesh of the fields in SOURCE, where that holds none, such as a model's history.")
+      ->type_name("FILE");
   add("--fields", request.fields,
       "Names of the fields, with commas between them. Default: all at cells.");
   command
@@ -281,9 +290,10 @@ void add_interpolate(CLI::App& app) {
        {"linear", Interpolation::linear},
        {"nearest", Interpolation::nearest},
        {"natural", Interpolation::natural_neighbours}},
-      "conservative: the mean over the cell, by shared areas, which keeps the integral. linear: on "
+      "How: conservative, linear, nearest or natural. conservative: the mean over the cell, by "
+      "shared areas, which keeps the integral. linear: on "
       "triangles between centres, bilinear in a raster. nearest: the value of the cell that holds "
-      "the centre. natural: natural neighbours, of meshes. Default: conservative.");
+      "the centre. natural: natural neighbours, of meshes.");
   add_field_options(*command, *request);
   add_weights_options(*command, *request);
   command->get_option("--apply")->excludes("--method");
@@ -294,9 +304,10 @@ void add_interpolate(CLI::App& app) {
       ->type_name("N");
   set_help(*command,
            {.common = {},
-            .examples = {"calotte interpolate topography.nc grid.nc -o heights.nc --fields z",
-                         "calotte interpolate history.nc 720x360 -o map.nc --fields t2m,ssh",
-                         "calotte interpolate grid.nc 720x360 --weights map.nc"}});
+            .examples = {
+                "calotte interpolate topography.nc grid.nc -o heights.nc --fields z",
+                "calotte interpolate history.nc 720x360 --mesh grid.nc -o map.nc --fields t2m,ssh",
+                "calotte interpolate grid.nc 720x360 --weights map.nc"}});
   command->callback([command, request] {
     if (const CLI::Option* const method = command->get_option("--method"); method->count() > 0)
       request->method_word = method->as<std::string>();

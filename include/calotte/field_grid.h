@@ -37,6 +37,13 @@ struct FieldGrid {
 /// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
 
+/// The same of a file of fields without their mesh, such as a model's history, and of the file of
+/// the mesh, whose cells its dimension nCells, or the only one of their number, stands for.
+/// \throws Error as above; parse for a file without such a dimension; invalid_argument for a mesh
+///         file that is a raster.
+FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
+                          FieldChoice choice = FieldChoice::all);
+
 /// The raster that "720x360" stands for, see lon_lat_boxes(); none for other texts.
 /// \throws Error invalid_argument for numbers out of range.
 std::optional<FieldGrid> raster_of(const std::string& columns_x_rows);

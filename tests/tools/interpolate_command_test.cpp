@@ -62,6 +62,9 @@ TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
   const FieldGrid raster = read_field_grid(in_folder(bench, "back.nc"));
   const DoubleVector exact = 1000 * nodes(*raster.boxes).row(2).transpose();
   CHECK((raster.fields.at(0).values - exact).cwiseAbs().maxCoeff() < 150);
+  const Outcome apart =
+      bench.run("interpolate cells.nc 12x6 --mesh mesh.nc -o apart.nc --fields height,use");
+  CHECK(apart.out.find("apart.nc: height, use at 72 cells, conservative\n") != std::string::npos);
   const Outcome weights = bench.run(
       "interpolate mesh.nc 12x6 --weights scrip.nc --weights-format scrip --method linear");
   CHECK(weights.code == 0);
@@ -88,6 +91,9 @@ TEST_CASE("interpolate: bad input is one line, and leaves no file") {
   check(bench, "raster.nc mesh.nc -o out.nc --min-cover 2", 2, "--min-cover");
   check(bench, "raster.nc mesh.nc -o out.nc --method cubic", 2, "--method");
   check(bench, "raster.nc mesh.nc -o out.nc --method natural", 2, "nearest and linear only");
+  check(bench, "raster.nc 8x4 --mesh mesh.nc -o out.nc", 2,
+        "raster.nc: no dimension of 500, the number of cells of mesh.nc");
+  check(bench, "raster.nc 8x4 --mesh raster.nc -o out.nc", 2, "raster.nc is a raster");
   check(bench, "raster.nc 2x2 -o out.nc", 2, "2 x 2");
   check(bench, "raster.nc 8x4 -o out.vtp", 2, "give a name that ends in .nc");
   check(bench, "raster.nc mesh.nc -o raster.nc", 2, "raster.nc");

@@ -3,8 +3,10 @@
 
 #include "base/require.h"
 #include "io/cells/centroids.h"
+#include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
 #include "io/command.h"
+#include "io/fields/cell_dimension.h"
 #include "io/fields/raster_grid.h"
 #include "io/netcdf/netcdf_reader.h"
 
@@ -14,8 +16,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <string_view>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace io_detail {
@@ -111,6 +114,29 @@ GridWeights conservative(const FieldGrid& source, const FieldGrid& target) {
   return conservative_weights(cells_of(source), cells_of(target));
 }
 
+/// The dimension that stands for so many cells.
+/// \throws Error parse.
+std::string dimension_of_cells(const NetcdfReader& file, const FieldGrid& mesh) {
+  const std::string usual = cell_dimension(mesh.mesh.format);
+  if (file.dimension(usual) == mesh.size())
+    return usual;
+  std::vector<std::string> found;
+  for (const NetcdfDimension& dimension : file.dimensions())
+    if (dimension.size == mesh.size())
+      found.push_back(dimension.name);
+  if (found.size() != 1)
+    file.fail((found.empty() ? "no dimension" : "several dimensions") + std::string(" of ") +
+              std::to_string(mesh.size()) + ", the number of cells of " + mesh.name +
+              "; give the fields of that mesh");
+  return found.front();
+}
+
+/// Whether a variable at the cells says where they are.
+bool is_coordinate(const NetcdfReader& file, const std::string& name) {
+  const std::string standard = file.text(name, "standard_name");
+  return standard == "latitude" || standard == "longitude" || name == "x" || name == "y";
+}
+
 } // namespace
 } // namespace io_detail
 
@@ -138,6 +164,27 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
     return true;
   });
   grid.mesh.fields.clear();
+  return grid;
+}
+
+FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
+                          FieldChoice choice) {
+  using namespace io_detail;
+  FieldGrid grid = read_field_grid(mesh_path, FieldChoice::none);
+  require(!grid.boxes, mesh_path + " is a raster, whose fields are in its own file; give that "
+                                   "alone");
+  const NetcdfReader file(path);
+  const NetcdfMeshNames names{
+      .cells = dimension_of_cells(file, grid), .vertices = "", .variables = {}};
+  RawMesh raw;
+  read_fields(file, names, choice, raw);
+  for (MeshField& field : raw.fields)
+    if (is_coordinate(file, field.name))
+      raw.ignored.push_back(field.name);
+    else
+      grid.fields.push_back(std::move(field));
+  grid.ignored = std::move(raw.ignored);
+  grid.name = path;
   return grid;
 }
 

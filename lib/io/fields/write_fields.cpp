@@ -4,7 +4,7 @@
 #include "io/cells/centroids.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/written_fields.h"
-#include "io/fields/room.h"
+#include "io/fields/cell_dimension.h"
 
 #include <calotte/field_grid.h>
 
@@ -95,16 +95,6 @@ void write_raster(const std::string& path, const LonLatBoxes& boxes,
 }
 
 // ---- Meshes
-
-/// What a format calls its cells.
-std::string cell_dimension(const std::string& format) {
-  static const std::vector<std::pair<std::string, std::string>> names{
-      {"MPAS", "nCells"}, {"SCRIP", "grid_size"}, {"ESMF", "elementCount"}};
-  for (const auto& [prefix, dimension] : names)
-    if (format.find(prefix) != std::string::npos)
-      return dimension;
-  return "cell";
-}
 
 void write_cells(const std::string& path, const FieldGrid& grid,
                  const std::vector<MeshField>& fields, const WriteOptions& options) {

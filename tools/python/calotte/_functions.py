@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
 from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
-                       Quality, Surface, Voronoi)
+                       Quality, Raster, Surface, Voronoi)
 
 Array = NDArray[np.float64]
 Path = str | os.PathLike[str]
@@ -222,14 +222,149 @@ def locate(mesh: Mesh, positions: ArrayLike) -> Locations:
     return _calotte.locate(mesh, _positions(mesh, positions))
 
 
-def interpolate(mesh: Mesh, values: ArrayLike, positions: ArrayLike, *,
-                method: str = "linear") -> Array:
-    """Values at positions, of values at the sites of a mesh.
+# ---- From one grid to another
 
-    values: n numbers, one for each site; or n x fields.
-    positions: as for locate().
+def raster(longitudes: ArrayLike, latitudes: ArrayLike) -> Raster:
+    """The boxes of a raster of longitudes and latitudes.
+
+    longitudes, latitudes: of the nodes, degrees; latitudes may descend. The sides of the boxes are
+        half way between nodes. Or the numbers of columns and rows of equal boxes over the sphere.
+    Returns a Raster. Raises Error, with the index of a value out of order.
+
+    >>> boxes = raster(720, 360)
+    >>> len(boxes), bool(abs(boxes.areas.sum() - 4 * math.pi) < 1e-11)
+    (259200, True)
+    """
+    if np.ndim(longitudes) == 0 and np.ndim(latitudes) == 0:
+        return _calotte.global_raster(_count(longitudes, "the number of columns"),
+                                      _count(latitudes, "the number of rows"))
+    return _calotte.raster_of_nodes(_arguments.numbers(longitudes, "longitudes"),
+                                    _arguments.numbers(latitudes, "latitudes"))
+
+
+_METHODS = ("conservative", "linear", "nearest", "natural")
+
+
+def _field_grid(grid):
+    """The grid as interpolation takes it."""
+    if isinstance(grid, Raster):
+        return _calotte.grid_of_boxes(grid)
+    if isinstance(grid, Polygons):
+        return _calotte.grid_of_mesh(None, grid)
+    if not isinstance(grid, Mesh):
+        raise Error(f"a grid is {type(grid).__name__}; give a Mesh, Polygons or a Raster")
+    content = content_of(grid)
+    return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
+
+
+def _require_method(method, methods=_METHODS):
+    if method not in methods:
+        raise Error(f"no method {method}; give one of: {', '.join(methods)}")
+
+
+@dataclass(frozen=True, repr=False)
+class Weights:
+    """Weights from the cells of a source to those of a target, of interpolation_weights().
+
+    matrix: scipy.sparse.csr_matrix, a row for each cell of the target. Rows sum to 1; those outside
+        of the source have no entries.
+    source_area: of the cells; steradians, in a plane the square of its unit.
+    target_area: the same of the target.
+    source_fraction: of each cell's area, what the target covers.
+    target_fraction: of each cell's area, what the source covers.
+    """
+
+    _weights: Any
+    _grids: Any = None
+    _method: str = "conservative"
+
+    @property
+    def matrix(self) -> Any:
+        from scipy.sparse import csr_matrix  # optional
+        values, columns, begin, shape = self._weights.rows()
+        return csr_matrix((values, columns, begin), shape=shape)
+
+    @property
+    def source_area(self) -> Array:
+        return self._weights.source_area
+
+    @property
+    def target_area(self) -> Array:
+        return self._weights.target_area
+
+    @property
+    def source_fraction(self) -> Array:
+        return self._weights.source_fraction
+
+    @property
+    def target_fraction(self) -> Array:
+        return self._weights.target_fraction
+
+    def __repr__(self) -> str:
+        rows, columns = self._weights.rows()[3]
+        return f"<calotte.Weights: {columns} to {_display.counted(rows, 'cell')}, {self._method}>"
+
+    def apply(self, values: ArrayLike, *, min_cover: float = 0.0) -> Array:
+        """The values at the target.
+
+        values: a number for each cell of the source, or cells x fields. NaN does not count: the others
+            are divided by their part of the weights.
+        min_cover: the part of a cell, 0 to 1, that values must cover; below it the cell is NaN.
+        """
+        fields = _arguments.numbers(values, "values")
+        columns = self._weights.rows()[3][1]
+        if fields.ndim not in (1, 2) or len(fields) != columns:
+            raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
+                        f"each of the {_display.counted(columns, 'cell')}")
+        by_cell = fields[:, np.newaxis] if fields.ndim == 1 else fields
+        found = self._weights.apply(by_cell, min_cover)
+        return found[:, 0] if fields.ndim == 1 else found
+
+    def write(self, path: Path, *, format: str = "esmf") -> None:
+        """Writes the weights as NetCDF: "esmf", for ncremap, or "scrip", for CDO."""
+        if format not in ("esmf", "scrip"):
+            raise Error(f"no format {format} of weights; give esmf or scrip")
+        if self._grids is None:
+            raise Error("weights of a file have no grids; use the file")
+        _calotte.write_grid_weights(str(path), self._weights, *self._grids, self._method,
+                                    format == "scrip")
+
+
+def interpolation_weights(source: Grid | Raster, target: Grid | Raster, *,
+                          method: str = "conservative") -> Weights:
+    """The weights from the cells of one grid to those of another, on one surface.
+
+    source, target: a Mesh, Polygons or a Raster.
+    method: "conservative", by shared areas, whose integrals are kept; "linear" on triangles, or
+        bilinear in a raster; "nearest", the cell that holds the centre; "natural", of a mesh.
+    Returns Weights. Raises Error.
+
+    >>> mesh = delaunay(fibonacci_sphere(500))
+    >>> weights = interpolation_weights(raster(36, 18), mesh)
+    >>> ones = weights.apply(np.ones(36 * 18))
+    >>> bool(np.abs(ones - 1).max() < 1e-12)
+    True
+    """
+    _require_method(method)
+    grids = _field_grid(source), _field_grid(target)
+    return Weights(_calotte.grid_weights(*grids, method), grids, method)
+
+
+def read_weights(path: Path) -> Weights:
+    """Reads weights of ESMF or SCRIP, also of other programs. Raises Error."""
+    return Weights(_calotte.read_grid_weights(str(path)), None, "of a file")
+
+
+def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | Grid | Raster, *,
+                method: str = "linear") -> Array:
+    """Values at positions, or at the cells of another grid.
+
+    mesh: what the values are of; polygons and a raster only to another grid.
+    values: n numbers, one for each site or cell; or n x fields.
+    positions: as for locate(); or a Mesh, Polygons or a Raster, as for interpolation_weights().
     method: "linear" on each triangle; or "natural", by the areas that a cell of the position would
-        take from the cells around it (Sibson, 1980), which is smooth except at the sites.
+        take from the cells around it (Sibson, 1980), which is smooth except at the sites; to another
+        grid also "conservative" and "nearest".
     Returns k numbers, or k x fields; NaN outside of an open mesh. Raises Error, with the index of the
     position.
 
@@ -239,8 +374,11 @@ def interpolate(mesh: Mesh, values: ArrayLike, positions: ArrayLike, *,
     >>> round(float(inside), 12), float(outside)
     (1.0, nan)
     """
-    if method not in ("linear", "natural"):
-        raise Error(f"no method {method}; give one of: linear, natural")
+    if isinstance(positions, (Mesh, Polygons, Raster)):
+        return interpolation_weights(mesh, positions, method=method).apply(values)
+    if isinstance(mesh, Raster):
+        raise Error("a raster has values at cells of a grid; give a Mesh, Polygons or a Raster")
+    _require_method(method, ("linear", "natural"))
     positions = _positions(mesh, positions)
     fields = _arguments.numbers(values, "values")
     if fields.ndim not in (1, 2) or len(fields) != len(mesh):

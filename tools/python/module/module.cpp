@@ -31,4 +31,5 @@ PYBIND11_MODULE(_calotte, module) {
   add_positions(module);
   add_tessellations(module);
   add_files(module);
+  add_field_grids(module);
 }

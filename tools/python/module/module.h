@@ -19,5 +19,6 @@ void add_tessellations(pybind11::module_& module);
 void add_points(pybind11::module_& module);
 void add_positions(pybind11::module_& module);
 void add_files(pybind11::module_& module);
+void add_field_grids(pybind11::module_& module);
 
 } // namespace calotte::python

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/fields/room.h"
+
+#include <string>
+#include <utility>
+
+namespace calotte::io_detail {
+
+/// What a format of meshes calls the dimension of its cells.
+/// \param format as MeshFile has it.
+inline std::string cell_dimension(const std::string& format) {
+  using Name = std::pair<const char*, const char*>;
+  for (const auto& [part, dimension] :
+       {Name("MPAS", "nCells"), Name("SCRIP", "grid_size"), Name("ESMF", "elementCount")})
+    if (format.find(part) != std::string::npos)
+      return dimension;
+  return "cell";
+}
+
+} // namespace calotte::io_detail

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "calls.h"
+#include "members.h"
+#include "module.h"
+
+#include <calotte/field_grid.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte::python {
+namespace {
+
+using Grid = std::shared_ptr<FieldGrid>;
+
+Grid grid_of_boxes(const std::shared_ptr<LonLatBoxes>& boxes) {
+  auto grid = std::make_shared<FieldGrid>();
+  grid->name = "the raster";
+  grid->boxes = *boxes;
+  return grid;
+}
+
+/// \param cells of the mesh where they are not its Voronoi cells; a mesh may be none.
+Grid grid_of_mesh(const std::shared_ptr<Mesh>& mesh, const std::shared_ptr<Polygons>& cells) {
+  auto grid = std::make_shared<FieldGrid>();
+  grid->name = "the mesh";
+  if (mesh)
+    grid->mesh.mesh = *mesh;
+  if (cells)
+    grid->mesh.polygons = *cells;
+  return grid;
+}
+
+Interpolation kind_of(const std::string& method) {
+  return method == "conservative" ? Interpolation::conservative
+         : method == "nearest"    ? Interpolation::nearest
+         : method == "natural"    ? Interpolation::natural_neighbours
+                                  : Interpolation::linear;
+}
+
+std::shared_ptr<GridWeights> weights_between(const FieldGrid& source, const FieldGrid& target,
+                                             const std::string& method) {
+  return call([&] {
+    return std::make_shared<GridWeights>(interpolation_weights(source, target, kind_of(method)));
+  });
+}
+
+/// \param values n x fields. \returns k x fields.
+py::array apply(const GridWeights& weights, const Doubles& values, double min_cover) {
+  const auto by_field = columns(values);
+  return handed_over(call([&] {
+    MeshField field{.name = "values"};
+    field.dimensions = {{"fields", by_field.rows()}};
+    field.values = Eigen::Map<const Eigen::VectorXd>(by_field.data(), by_field.size());
+    const MeshField found = interpolate(weights, field, min_cover);
+    return Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXd>(found.values.data(), by_field.rows(),
+                                                             weights.weights.rows()));
+  }));
+}
+
+/// Values, columns and where the rows begin, over the memory of the weights.
+py::tuple rows_of(const py::object& self) {
+  const Weights& weights = self.cast<const GridWeights&>().weights;
+  return py::make_tuple(py::array_t<double>({weights.nonZeros()}, weights.valuePtr(), self),
+                        py::array_t<int>({weights.nonZeros()}, weights.innerIndexPtr(), self),
+                        py::array_t<int>({weights.rows() + 1}, weights.outerIndexPtr(), self),
+                        py::make_tuple(weights.rows(), weights.cols()));
+}
+
+void write(const std::string& path, const GridWeights& weights, const FieldGrid& source,
+           const FieldGrid& target, const std::string& method, bool scrip) {
+  call([&] {
+    write_weights(path, weights, source, target, kind_of(method),
+                  scrip ? WeightsFormat::scrip : WeightsFormat::esmf);
+    return 0;
+  });
+}
+
+std::shared_ptr<LonLatBoxes> boxes_of_nodes(const Eigen::VectorXd& longitudes,
+                                            const Eigen::VectorXd& latitudes) {
+  return std::make_shared<LonLatBoxes>(lon_lat_boxes(longitudes, latitudes));
+}
+
+} // namespace
+
+void add_field_grids(py::module_& module) {
+  py::class_<LonLatBoxes, std::shared_ptr<LonLatBoxes>> boxes(
+      module, "Raster",
+      "The boxes of a raster of longitudes and latitudes, of raster(): ny rows of nx boxes.");
+  add_members(boxes, Member{"longitudes", &LonLatBoxes::longitudes, "(nx,) degrees, of the nodes."},
+              Member{"latitudes", &LonLatBoxes::latitudes, "(ny,) degrees, of the nodes."},
+              Member{"meridians", &LonLatBoxes::meridians,
+                     "(nx + 1,) degrees, between which the boxes are."},
+              Member{"parallels", &LonLatBoxes::parallels,
+                     "(ny + 1,) degrees, between which the boxes are."});
+  boxes.def_property_readonly(
+      "areas", [](const LonLatBoxes& of) { return handed_over(areas(of)); },
+      "(ny * nx,) areas in steradians, row after row.");
+  boxes.def("__len__", &LonLatBoxes::size);
+  py::class_<GridWeights, std::shared_ptr<GridWeights>> weights(module, "_GridWeights");
+  add_member(weights, Member{"source_area", &GridWeights::source_area, ""});
+  add_member(weights, Member{"target_area", &GridWeights::target_area, ""});
+  add_member(weights, Member{"source_fraction", &GridWeights::source_fraction, ""});
+  add_member(weights, Member{"target_fraction", &GridWeights::target_fraction, ""});
+  weights.def("rows", &rows_of);
+  weights.def("apply", &apply);
+  py::class_<FieldGrid, Grid>(module, "_FieldGrid").def("__len__", &FieldGrid::size);
+  module.def("global_raster", [](std::int64_t columns, std::int64_t rows) {
+    return std::make_shared<LonLatBoxes>(lon_lat_boxes(columns, rows));
+  });
+  module.def("raster_of_nodes", &boxes_of_nodes);
+  module.def("grid_of_boxes", &grid_of_boxes);
+  module.def("grid_of_mesh", &grid_of_mesh);
+  module.def("grid_weights", &weights_between);
+  module.def("write_grid_weights", &write);
+  module.def("read_grid_weights", [](const std::string& path) {
+    return call([&] { return std::make_shared<GridWeights>(read_weights(path)); });
+  });
+}
+
+} // namespace calotte::python
