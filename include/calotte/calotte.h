@@ -27,6 +27,7 @@
 #include <calotte/ocean.h>
 #include <calotte/operators.h>
 #include <calotte/options.h>
+#include <calotte/partition.h>
 #include <calotte/planar_raster.h>
 #include <calotte/polygons.h>
 #include <calotte/progress.h>

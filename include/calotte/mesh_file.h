@@ -68,6 +68,9 @@ struct MeshFile {
   std::optional<Polygons> polygons;
   /// Why `polygons` do not follow from `mesh`, as a clause; empty without polygons.
   std::string not_voronoi;
+  /// Whether the file holds cells, in its own order: `polygons`, or the Voronoi cells of `mesh`. In
+  /// other files `mesh` is what they hold, triangles or points.
+  bool has_cells = false;
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
@@ -151,6 +154,11 @@ std::optional<Surface> filled_surface(const MeshFile& file);
 /// \throws Error as voronoi(); invalid_argument for polygons that are no Voronoi cells, with the
 ///         reason, and for a plane whose surface is not bounded, without polygons.
 Voronoi voronoi(const MeshFile& file);
+
+/// The neighbours of each cell of a file, in the file's order of cells: those that it shares an
+/// edge with, ascending. The file's polygons are the cells where there are any, else the Voronoi
+/// cells of its mesh. \throws Error invalid_argument for a file with neither.
+IdLists cell_neighbours(const MeshFile& file);
 
 /// The density that follows from the cells of a file, see spacing_density(voronoi): those of its
 /// mesh, or of its polygons where these are part of a Voronoi tessellation.

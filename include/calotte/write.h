@@ -30,6 +30,10 @@ void write_points(const std::string& path, const PointsRef& points);
 /// The same to a stream, which it flushes.
 void write_points(std::ostream& out, const PointsRef& points);
 
+/// Writes the part of each cell, see CellParts::part, on a line: a file graph.info.part.N as
+/// gpmetis writes it and MPAS reads it. \throws Error file.
+void write_parts(const std::string& path, const Ids& part);
+
 /// Writes cell widths as read_cell_width() reads them, to the bit: NetCDF (.nc), or JIGSAW's
 /// ELLIPSOID-GRID (.msh), whose angles in radians round.
 /// \throws Error invalid_argument as density_of(), or for another suffix; file.

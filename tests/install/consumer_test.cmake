@@ -59,14 +59,14 @@ function(build_with_pkg_config)
   run(${CXX} -std=c++20 ${warnings} ${sources} ${flags} ${rpath} -o ${SCRATCH}/build/consumer)
 endfunction()
 
-# As on a machine without NetCDF, Expat, zlib and nlohmann-json.
+# As on a machine without NetCDF, Expat, zlib, METIS and nlohmann-json.
 function(hide_libraries_of_files)
   file(MAKE_DIRECTORY ${SCRATCH}/pkgconfig)
   run(pkg-config --variable=pcfiledir gmp)
   string(STRIP "${output}" folder)
   file(COPY ${folder}/gmp.pc DESTINATION ${SCRATCH}/pkgconfig)
   set(ENV{PKG_CONFIG_LIBDIR} ${SCRATCH}/pkgconfig)
-  set(hidden -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON PARENT_SCOPE)
+  set(hidden -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON -DCMAKE_DISABLE_FIND_PACKAGE_METIS=ON PARENT_SCOPE)
 endfunction()
 
 set(hidden "")

@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # The rooms, and those that each may use besides itself: an acyclic graph, since all stand before it.
 # Those of io are folders of it.
-set(rooms base exact curve mesh domain density generators integrals delaunay voronoi quality cvt grids
+set(rooms base exact curve mesh domain density generators integrals delaunay voronoi quality cvt grids partition
           io io/bytes io/netcdf io/shapes io/cells io/mpas io/formats io/fields io/check c)
 set(uses_base "")
 set(uses_exact base)
@@ -21,7 +21,8 @@ set(uses_voronoi base exact curve mesh domain density integrals delaunay)
 set(uses_cvt base exact curve mesh domain density generators integrals delaunay voronoi)
 set(uses_grids base exact curve mesh domain density generators delaunay voronoi cvt)
 set(uses_quality base exact mesh domain density integrals delaunay voronoi)
-set(uses_io base exact mesh domain density generators delaunay voronoi cvt grids quality)
+set(uses_partition base)
+set(uses_io base exact mesh domain density generators delaunay voronoi cvt grids quality partition)
 set(before ${uses_io} io)
 foreach(part bytes netcdf shapes cells mpas formats fields check)
   set(uses_io/${part} ${before})
@@ -48,6 +49,7 @@ set(headers_of_grids grid limited_area ocean)
 set(headers_of_quality operators)
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/io_headers.cmake)
 set(headers_of_io ${calotte_io_headers})
+list(REMOVE_ITEM headers_of_io partition) # a room of its own, which the core lacks, too
 
 foreach(room ${rooms})
   foreach(header ${room} ${headers_of_${room}})

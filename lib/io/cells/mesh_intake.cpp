@@ -256,6 +256,7 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
 MeshFile rest_of(const std::string& format, RawMesh& raw) {
   MeshFile file;
   file.format = format;
+  file.has_cells = raw.has_cells || raw.polygons.size() > 0;
   file.density = std::move(raw.density);
   file.fields = std::move(raw.fields);
   file.ignored = std::move(raw.ignored);

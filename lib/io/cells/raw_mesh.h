@@ -16,6 +16,7 @@ namespace calotte::io_detail {
 struct RawMesh {
   Points3 points = {};      ///< the sites; none where the file holds cells without centres
   Triangles triangles = {}; ///< of the sites; none where these are to be triangulated
+  bool has_cells = false;   ///< the file has cells of the sites, or else triangles of them
   Polygons polygons = {};   ///< the cells, of either orientation; a cell without corners is unknown
   /// The format leaves the orientation of each cell free, and clockwise ones are turned.
   bool turns_each = false;

@@ -95,6 +95,7 @@ public:
       throw Error(ErrorCode::parse, unread_);
     if (!rings_.empty())
       raw.polygons = polygons(has_sites ? directions_of(raw.points) : Points3());
+    raw.has_cells = voronoi_ == count_; // or polygons
     raw.turns_each = true;
     add_fields(has_sites, raw);
     raw.ignored.assign(ignored_.begin(), ignored_.end());

@@ -194,6 +194,7 @@ RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data) {
     raw.points = std::move(poly_data.points);
     raw.triangles = Eigen::Map<const Triangles>(poly_data.ids.items.data(), 3, poly_data.size());
   }
+  raw.has_cells = cells;
   add_fields(poly_data, cells, raw);
   return raw;
 }

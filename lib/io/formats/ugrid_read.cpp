@@ -245,6 +245,7 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const bool sites_are_faces =
       !sites.empty() && file.dimensions_of(sites[0]) != file.dimensions_of(topology.nodes[0]);
   const bool sites_are_nodes = !sites_are_faces && (!sites.empty() || all_triangles(faces));
+  raw.has_cells = !sites_are_nodes;
   if (sites_are_faces) {
     raw.points = read_places(file, sites, faces.cols());
     raw.triangles = dual(file, faces, nodes[0]);

@@ -196,7 +196,7 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!has_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  RawMesh raw{.points = places_of(file, mpas_cell), .planar = true};
+  RawMesh raw{.points = places_of(file, mpas_cell), .has_cells = true, .planar = true};
   Points3 vertices = finite_places_of(file, mpas_vertex);
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   raw.polygons = cells_of(file, raw.points, std::move(vertices));
@@ -206,7 +206,10 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
 
 RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
   const Eigen::Vector2d period = periods_of(file);
-  RawMesh raw{.points = finite_places_of(file, mpas_cell), .planar = true, .period = period};
+  RawMesh raw{.points = finite_places_of(file, mpas_cell),
+              .has_cells = true,
+              .planar = true,
+              .period = period};
   wrap(raw.points, period);
   CompleteVertices complete = complete_vertices(file, raw.points.cols());
   read_density_and_fields(file, raw.points.cols(), choice, raw);
@@ -240,7 +243,7 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
   if (is_planar_mpas(file))
     return file.text("", "is_periodic").starts_with("NO") ? read_bounded_plane(file, choice)
                                                           : read_periodic_plane(file, choice);
-  RawMesh raw{.points = read_mpas_sites(file)};
+  RawMesh raw{.points = read_mpas_sites(file), .has_cells = true};
   require_directions(file.path(), raw.points);
   const std::int64_t cells = raw.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
