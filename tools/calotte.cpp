@@ -71,13 +71,14 @@ void run(CLI::App& app, int argc, char** argv) {
   add_cut(app);
   add_cull(app);
   add_interpolate(app);
+  add_partition(app);
   add_jigsaw(app);
   add_marche(app);
   add_help(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
     throw CLI::RequiredError("delaunay, cvt, plan, points, check, info, draw, view, convert, cut, "
-                             "cull, interpolate, jigsaw, marche or help");
+                             "cull, interpolate, partition, jigsaw, marche or help");
 }
 
 /// A message of the library, with the option that is its remedy here.

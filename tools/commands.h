@@ -21,6 +21,7 @@ void add_convert(CLI::App& app);
 void add_cut(CLI::App& app);
 void add_cull(CLI::App& app);
 void add_interpolate(CLI::App& app);
+void add_partition(CLI::App& app);
 void add_jigsaw(CLI::App& app);
 void add_marche(CLI::App& app);
 void add_help(CLI::App& app); ///< last: it shows the help of the others

@@ -210,7 +210,7 @@ void add_delaunay(CLI::App& app) {
                      "mesh is .vtp, .vtu, .off, .ply, .msh, .txt or .tri")
           ->excludes(lonlat);
   add_periodic(*command, request->periodic)->needs(plane);
-  request->partition = add_partition(*command);
+  request->partition = add_partition_options(*command);
   request->format = add_format(*command);
   command->add_option("--report", request->report, "Write times and counts to this JSON file")
       ->type_name("FILE");

@@ -273,8 +273,8 @@ void run(const DrawArguments& arguments) {
 } // namespace
 
 void add_draw(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, the spacing "
-                                                 "law of a mesh, or the convergence of CVT runs.");
+  CLI::App* command = app.add_subcommand("draw", "Draws a mesh or a density on a map, its spacing "
+                                                 "law, or the convergence of CVT runs.");
   const std::shared_ptr<DrawArguments> arguments = add_draw_options(*command);
   set_help(*command, {.common = {"MESH", "--output", "--what", "--colour", "--projection", "--view",
                                  "--zoom", "--graticule", "--region", "--size", "--density",

@@ -38,8 +38,9 @@ struct CellParts {
 
 /// Partitions cells by METIS (Karypis and Kumar, SIAM J. Sci. Comput. 20, 1998), multilevel k-way
 /// for a small edge cut, as gpmetis does, such that each part is connected. METIS aims at an
-/// imbalance of at most 0.03; parts of a few cells, and cells of very different weights, exceed it.
-/// For parts that are not balanced, three further seeds are tried.
+/// imbalance of at most 0.03, and of less than 50 cells a part at up to one cell more. For parts
+/// that are not balanced, such as of cells of very different weights, METIS is asked up to
+/// three times more.
 ///
 /// Cells that are not all connected, such as those of an ocean with separate basins, are joined for
 /// METIS by one edge for each further component, to the cell of the next lower id. A part may then

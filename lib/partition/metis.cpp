@@ -36,18 +36,27 @@ std::vector<idx_t> whole_weights(const DoubleVector& weights) {
   return out;
 }
 
+/// The imbalance that METIS is asked for, in thousandths: 30 as it has by default; of less than 50
+/// cells a part up to one cell more. Where a bound admits no whole numbers of cells, METIS spoils
+/// the cut without reaching it: 5273 instead of 2977 edges for 192 parts of 4628 cells.
+idx_t imbalance_for(idx_t parts, idx_t cells) {
+  const double usual = 30, cell = 1000 * static_cast<double>(parts) / static_cast<double>(cells);
+  return static_cast<idx_t>(std::min(usual + cell, std::max(usual, 1.5 * cell)));
+}
+
 } // namespace
 
 struct Metis::Arrays {
   std::vector<idx_t> begin, neighbours, weights;
 
   /// METIS's code. \param out the part of each cell.
-  int partition(idx_t parts, int seed, idx_t* out) {
+  int partition(idx_t parts, int attempt, idx_t* out) {
+    idx_t cells = static_cast<idx_t>(begin.size()) - 1, constraints = 1, cut = 0;
     std::array<idx_t, METIS_NOPTIONS> options{};
     METIS_SetDefaultOptions(options.data());
-    options[METIS_OPTION_CONTIG] = 1;
-    options[METIS_OPTION_SEED] = seed;
-    idx_t cells = static_cast<idx_t>(begin.size()) - 1, constraints = 1, cut = 0;
+    // Another seed changes nothing for small graphs, which METIS does not make coarser.
+    options[METIS_OPTION_CONTIG] = attempt % 2 == 0;
+    options[METIS_OPTION_UFACTOR] = imbalance_for(parts, cells) * (4 - attempt / 2) / 4;
     return METIS_PartGraphKway(&cells, &constraints, begin.data(), neighbours.data(),
                                weights.empty() ? nullptr : weights.data(), nullptr, nullptr, &parts,
                                nullptr, nullptr, options.data(), &cut, out);
@@ -68,13 +77,13 @@ Metis::Metis(const Graph& graph, const DoubleVector& weights)
 
 Metis::~Metis() = default;
 
-std::vector<std::int32_t> Metis::partition(std::int64_t parts, int seed) const {
+std::vector<std::int32_t> Metis::partition(std::int64_t parts, int attempt) const {
   const std::size_t cells = arrays_->begin.size() - 1;
   const SharedIds shared(cells);
   // Its rand() would meet other threads' here, and its handlers of SIGABRT and SIGTERM would stay.
   const std::optional<int> code = result_of_child([&] {
     std::vector<idx_t> part(cells);
-    const int result = arrays_->partition(static_cast<idx_t>(parts), seed, part.data());
+    const int result = arrays_->partition(static_cast<idx_t>(parts), attempt, part.data());
     std::copy(part.begin(), part.end(), shared.ids().begin());
     return result;
   });

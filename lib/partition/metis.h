@@ -23,12 +23,12 @@ public:
   Metis& operator=(const Metis&) = delete;
   ~Metis();
 
-  /// The part of each cell, 0 to parts - 1. METIS is asked for connected parts; of very small parts
-  /// some may have several components, or no cells. Any thread may call it.
-  /// \param seed of its random numbers; -1 for its default, as gpmetis has it.
+  /// The part of each cell, 0 to parts - 1. Some may have several components, or no cells, above
+  /// all very small ones. Any thread may call it.
+  /// \param attempt 0 at first; each other number up to 3 gives other parts.
   /// \pre parts from 2 to the number of cells.
   /// \throws Error file, internal; std::bad_alloc.
-  std::vector<std::int32_t> partition(std::int64_t parts, int seed) const;
+  std::vector<std::int32_t> partition(std::int64_t parts, int attempt) const;
 
 private:
   struct Arrays;

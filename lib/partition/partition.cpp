@@ -54,21 +54,21 @@ public:
   CellParts partition(std::int64_t parts) const {
     if (parts == 1)
       return measured(std::vector<std::int32_t>(static_cast<std::size_t>(graph_.size())), 1);
-    CellParts best = seeded(parts, -1);
-    for (int seed = 0; seed < further_seeds && !best.balanced; ++seed)
-      if (CellParts other = seeded(parts, seed); other.imbalance < best.imbalance)
+    CellParts best = attempt(parts, 0);
+    for (int k = 1; k < attempts && !best.balanced; ++k)
+      if (CellParts other = attempt(parts, k); other.imbalance < best.imbalance)
         best = std::move(other);
     return best;
   }
 
 private:
-  static constexpr int further_seeds = 3; ///< for parts that are not balanced
+  static constexpr int attempts = 4; ///< for parts that are not balanced
 
   bool is_connected() const { return components_.first.size() == 1; }
   const Graph& connected() const { return is_connected() ? graph_ : joined_; }
 
-  CellParts seeded(std::int64_t parts, int seed) const {
-    return measured(connected_parts(connected(), weights_, parts, metis_.partition(parts, seed)),
+  CellParts attempt(std::int64_t parts, int k) const {
+    return measured(connected_parts(connected(), weights_, parts, metis_.partition(parts, k)),
                     parts);
   }
 

@@ -123,6 +123,18 @@ TEST_CASE("parts are connected, balanced, none is empty, and the measures are th
   CHECK(partition(graph, 2).edge_cut <= 22); // the shortest straight cut has 20
 }
 
+TEST_CASE("small parts of no whole number of cells have no longer boundaries than others") {
+  const std::vector<Pair> edges = lattice(60, 60);
+  const IdLists graph = lists_of(3600, edges);
+  const auto cut = [&](std::int64_t parts) {
+    const CellParts made = partition(graph, parts);
+    CHECK(made.balanced);
+    return static_cast<double>(made.edge_cut);
+  };
+  CHECK(cut(149) < 1.1 * cut(150)); // 1.03 times the mean is 24.9 cells, and 24 are too few
+  CHECK(cut(380) < 1.1 * cut(400)); // 9.5 cells
+}
+
 TEST_CASE("weights balance the parts, whatever their scale, and a cell of weight 0 has a part") {
   const std::vector<Pair> edges = lattice(40, 20);
   const IdLists graph = lists_of(800, edges);

@@ -223,7 +223,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   }
   const OptionGroup group(command, "Output");
   add_files(command, *request);
-  request->partition = add_partition(command);
+  request->partition = add_partition_options(command);
   add_saved(command, *request);
   return request;
 }

@@ -13,7 +13,7 @@
 #include <map>
 
 namespace calotte::tools {
-std::shared_ptr<PartitionWords> add_partition(CLI::App& command) {
+std::shared_ptr<PartitionWords> add_partition_options(CLI::App& command) {
   auto words = std::make_shared<PartitionWords>();
   const OptionGroup group(command, "Parallel");
   command.add_option("--threads", words->threads, "Number of threads, 1 to 4096; default: all")

@@ -20,7 +20,7 @@ struct PartitionWords {
 };
 
 /// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
-std::shared_ptr<PartitionWords> add_partition(CLI::App& command);
+std::shared_ptr<PartitionWords> add_partition_options(CLI::App& command);
 
 DelaunayOptions options_of(const PartitionWords& words);
 
