@@ -103,8 +103,8 @@ DoubleVector quotients(const DoubleVector& a, const DoubleVector& b) {
   return (b.array() > 0).select(a.array() / b.array(), 0.0);
 }
 
-/// \param shared areas, a row for each cell of the target.
-GridWeights weights_of_areas(Weights shared, DoubleVector source_area, DoubleVector target_area) {
+/// \param shared areas, a row for each cell of the target; used up.
+GridWeights weights_of_areas(Weights& shared, DoubleVector source_area, DoubleVector target_area) {
   const DoubleVector sums = row_sums(shared);
   GridWeights out{.weights = {},
                   .source_area = std::move(source_area),
@@ -118,13 +118,17 @@ GridWeights weights_of_areas(Weights shared, DoubleVector source_area, DoubleVec
       for (Weights::InnerIterator entry(shared, i); entry; ++entry)
         entry.valueRef() /= sums[i];
   });
-  out.weights = std::move(shared);
+  out.weights.swap(shared);
   return out;
 }
 
 /// The areas that polygons share with boxes, a row for each polygon, and those of the polygons.
-std::pair<Weights, DoubleVector> shared_with_boxes(const Polygons& polygons,
-                                                   const LonLatBoxes& boxes) {
+struct SharedWithBoxes {
+  Weights shared;
+  DoubleVector polygons;
+};
+
+SharedWithBoxes shared_with_boxes(const Polygons& polygons, const LonLatBoxes& boxes) {
   base_detail::require(polygons.on_sphere, "the cells are in a plane, and longitudes and latitudes "
                                            "on the sphere; give grids of one surface");
   require_polygons(polygons);
@@ -133,7 +137,7 @@ std::pair<Weights, DoubleVector> shared_with_boxes(const Polygons& polygons,
     BoxOverlaps overlaps;
     std::vector<Vec3> corners;
   };
-  DoubleVector areas(polygons.size());
+  SharedWithBoxes out{{}, DoubleVector(polygons.size())};
   Weights shared = matrix_of(
       polygons.size(), boxes.size(),
       [&] {
@@ -141,9 +145,10 @@ std::pair<Weights, DoubleVector> shared_with_boxes(const Polygons& polygons,
       },
       [&](Worker& worker, std::int64_t i, Row& row) {
         set_corners(exact_detail::Sphere(), polygons, i, worker.corners);
-        areas[i] = worker.overlaps.set(worker.corners, row);
+        out.polygons[i] = worker.overlaps.set(worker.corners, row);
       });
-  return {std::move(shared), std::move(areas)};
+  out.shared.swap(shared);
+  return out;
 }
 
 template <Space S>
@@ -152,7 +157,7 @@ GridWeights weights_in(const S& space, const Polygons& source, const Polygons& t
   Weights shared = matrix_of(
       target.size(), source.size(), [&] { return PolygonRow<S>(overlaps); },
       [&](PolygonRow<S>& worker, std::int64_t i, Row& row) { worker.set(target, i, row); });
-  return weights_of_areas(std::move(shared), areas_in(space, source), areas_in(space, target));
+  return weights_of_areas(shared, areas_in(space, source), areas_in(space, target));
 }
 
 // ---- Boxes with boxes
@@ -325,14 +330,15 @@ GridWeights conservative_weights(const Polygons& source, const Polygons& target)
 
 GridWeights conservative_weights(const Polygons& source, const LonLatBoxes& target) {
   using namespace voronoi_detail;
-  auto [shared, polygon_areas] = shared_with_boxes(source, target);
-  return weights_of_areas(transposed(shared), std::move(polygon_areas), areas(target));
+  SharedWithBoxes found = shared_with_boxes(source, target);
+  Weights shared = transposed(found.shared);
+  return weights_of_areas(shared, std::move(found.polygons), areas(target));
 }
 
 GridWeights conservative_weights(const LonLatBoxes& source, const Polygons& target) {
   using namespace voronoi_detail;
-  auto [shared, polygon_areas] = shared_with_boxes(target, source);
-  return weights_of_areas(std::move(shared), areas(source), std::move(polygon_areas));
+  SharedWithBoxes found = shared_with_boxes(target, source);
+  return weights_of_areas(found.shared, areas(source), std::move(found.polygons));
 }
 
 GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target) {
@@ -350,7 +356,7 @@ GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& t
     sort_by_column(row);
     merge_columns(row);
   });
-  return weights_of_areas(std::move(shared), areas(source), areas(target));
+  return weights_of_areas(shared, areas(source), areas(target));
 }
 
 Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
