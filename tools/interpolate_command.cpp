@@ -169,8 +169,8 @@ std::string describe(const Request& request, const FieldGrid& source, const Grid
              ", and missing\n";
   for (const MeshField& field : fields)
     if (const std::int64_t more = missing(field) - outside * field.count(); more > 0)
-      lines += name + ": " + field.name + ": " + plural(more, "more value is", "more values are") +
-               " missing, where " + source.name + " has none\n";
+      lines += name + ": " + field.name + ": " + plural(more, "value is", "values are") +
+               " missing where " + source.name + " has none\n";
   if (!request.weights.empty())
     lines += request.weights + ": " + std::to_string(weights.weights.nonZeros()) +
              " weights from " + std::to_string(weights.weights.cols()) + " to " +

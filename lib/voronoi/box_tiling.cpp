@@ -24,6 +24,10 @@ constexpr double slack =
     1e-9; ///< degrees, of sides that rounding keeps from a pole or from closing
 constexpr double widest = 180; ///< degrees, of a box; excluded
 
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::invalid_argument, problem);
+}
+
 std::string at(const std::string& name, Eigen::Index i, double value) {
   return name + "[" + std::to_string(i) + "] = " + std::to_string(value);
 }
@@ -31,10 +35,11 @@ std::string at(const std::string& name, Eigen::Index i, double value) {
 /// \param sign 1 for values that ascend, -1 if they descend.
 void require_order(const DoubleVector& values, const std::string& name, double sign) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    require(std::isfinite(values[i]), at(name, i, values[i]) + " is not finite; correct it");
-    require(i == 0 || sign * values[i] > sign * values[i - 1],
-            at(name, i, values[i]) + " does not follow " + std::to_string(values[i - 1]) +
-                "; sort the raster along it");
+    if (!std::isfinite(values[i]))
+      refuse(at(name, i, values[i]) + " is not finite; correct it");
+    if (i > 0 && !(sign * values[i] > sign * values[i - 1]))
+      refuse(at(name, i, values[i]) + " does not follow " + std::to_string(values[i - 1]) +
+             "; sort the raster along it");
   }
 }
 
@@ -45,8 +50,8 @@ double sign_of(const DoubleVector& values) {
 void require_latitudes(const DoubleVector& values, const std::string& name) {
   require_order(values, name, sign_of(values));
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    require(std::abs(values[i]) <= 90,
-            at(name, i, values[i]) + " is outside -90 to 90; give degrees");
+    if (!(std::abs(values[i]) <= 90))
+      refuse(at(name, i, values[i]) + " is outside -90 to 90; give degrees");
 }
 
 /// Half way between nodes, and half a step beyond the first and the last.
@@ -220,10 +225,9 @@ void require_boxes(const LonLatBoxes& boxes) {
           "the meridians of a raster span " + std::to_string(meridians[columns] - meridians[0]) +
               " degrees; give at most 360");
   for (Eigen::Index i = 0; i < columns; ++i)
-    require(meridians[i + 1] - meridians[i] < widest,
-            "box " + std::to_string(i) + " of a raster is " +
-                std::to_string(meridians[i + 1] - meridians[i]) +
-                " degrees wide; give boxes below 180");
+    if (const double width = meridians[i + 1] - meridians[i]; !(width < widest))
+      refuse("box " + std::to_string(i) + " of a raster is " + std::to_string(width) +
+             " degrees wide; give boxes below 180");
   require_order(boxes.longitudes, "longitude", 1);
   require_latitudes(boxes.latitudes, "latitude");
 }

@@ -274,6 +274,8 @@ private:
         return {longitude < first ? 0 : end, -1, 0};
       return {end, 0, gap > 0 ? std::min(behind / gap, 1.0) : 0};
     }
+    if (columns_ == 1)
+      return {0, -1, 0};
     const auto after = std::upper_bound(all.begin() + 1, all.end() - 1, longitude);
     const auto k = static_cast<std::int32_t>(after - all.begin() - 1);
     return {k, k + 1, (longitude - all[k]) / (all[k + 1] - all[k])};

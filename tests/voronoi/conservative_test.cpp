@@ -344,6 +344,19 @@ TEST_CASE("positions in rasters") {
   }
 }
 
+TEST_CASE("a raster of one box") {
+  LonLatBoxes box;
+  box.longitudes = box.latitudes = DoubleVector::Constant(1, 10);
+  box.meridians = box.parallels = DoubleVector::LinSpaced(2, 0, 20);
+  const Points3 at = nodes(box);
+  for (const Interpolation kind : {Interpolation::linear, Interpolation::nearest}) {
+    CHECK(interpolation_weights(box, at, kind).coeff(0, 0) == 1);
+    CHECK(interpolation_weights(box, Points3(-at), kind).nonZeros() == 0);
+  }
+  const GridWeights weights = conservative_weights(box, cells_of(fibonacci_sphere(500)));
+  CHECK(std::abs(weights.source_fraction[0] - 1) < 1e-12);
+}
+
 TEST_CASE("near a pole linear weights go over to the mean of the last row") {
   const LonLatBoxes boxes = lon_lat_boxes(8, 4);
   const DoubleVector values = values_of(boxes.size());
