@@ -23,7 +23,7 @@ GROUPS = [
                 "bisect", "from_lonlat", "to_lonlat"]),
     ("Surfaces", ["circle", "ellipse", "channel", "polygon", "rectangle", "periodic_box",
                   "planar_polygon"]),
-    ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull"]),
+    ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "distance_to", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
 KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Level", "Plan", "Quality",

@@ -9,6 +9,7 @@
 #include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
+#include <calotte/partition.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
@@ -277,6 +278,18 @@ std::vector<std::string> write_content(const MeshFile& content, const py::object
   });
 }
 
+/// \param content of the file that the grid is of, or None. \param weights none for equal cells.
+py::array partition_cells(const py::object& content, const py::object& grid, std::int64_t parts,
+                          const Doubles& weights) {
+  MeshFile file =
+      content.is_none() ? whole({}, grid) : whole(content.cast<const MeshFile&>(), grid);
+  if (py::isinstance<Polygons>(grid))
+    file.polygons = grid.cast<const Polygons&>();
+  PartitionOptions options;
+  options.weights = Eigen::Map<const DoubleVector>(weights.data(), weights.size());
+  return handed_over(call([&] { return partition(cell_neighbours(file), parts, options).part; }));
+}
+
 py::dict cut_mesh(const std::string& source, const std::string& target, const Surface& region,
                   int rings, std::optional<double> radius) {
   CutOptions options;
@@ -433,6 +446,7 @@ void add_files(py::module_& module) {
     return handed_over(call([&] { return read_sites(path); }));
   });
   module.def("write", &write_mesh);
+  module.def("partition", &partition_cells);
   module.def("cut", &cut_mesh);
   module.def("write_limited_area", &write_limited);
   module.def("cull", &cull_mesh);
