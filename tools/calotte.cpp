@@ -70,6 +70,8 @@ void run(CLI::App& app, int argc, char** argv) {
   add_convert(app);
   add_cut(app);
   add_cull(app);
+  add_refine(app);
+  add_coarsen(app);
   add_interpolate(app);
   add_partition(app);
   add_jigsaw(app);
@@ -77,8 +79,9 @@ void run(CLI::App& app, int argc, char** argv) {
   add_help(app);
   app.parse(argc, argv);
   if (app.get_subcommands().empty())
-    throw CLI::RequiredError("delaunay, cvt, plan, points, check, info, draw, view, convert, cut, "
-                             "cull, interpolate, partition, jigsaw, marche or help");
+    throw CLI::RequiredError(
+        "delaunay, cvt, plan, points, check, info, draw, view, convert, cut, "
+        "cull, refine, coarsen, interpolate, partition, jigsaw, marche or help");
 }
 
 /// A message of the library, with the option that is its remedy here.
@@ -197,7 +200,7 @@ int main(int argc, char** argv) try {
   terminate_otherwise = std::set_terminate(calotte::tools::terminate);
   std::ios::sync_with_stdio(false);
   CLI::App app("Computes exact Delaunay triangulations and centroidal Voronoi tessellations (CVTs) "
-               "of the sphere and the plane, in parallel.",
+               "in parallel.",
                "calotte");
   const ExitCode code = guarded_run(app, argc, argv);
   if (code == done && !std::cout.flush()) {

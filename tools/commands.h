@@ -20,6 +20,8 @@ void add_view(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_cut(CLI::App& app);
 void add_cull(CLI::App& app);
+void add_refine(CLI::App& app);
+void add_coarsen(CLI::App& app);
 void add_interpolate(CLI::App& app);
 void add_partition(CLI::App& app);
 void add_jigsaw(CLI::App& app);

@@ -33,6 +33,7 @@
 #include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
+#include <calotte/refine.h>
 #include <calotte/renumber.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>

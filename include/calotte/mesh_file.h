@@ -6,6 +6,7 @@
 #include <calotte/polygons.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
+#include <calotte/refine.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 #include <calotte/write.h>
@@ -185,6 +186,28 @@ struct WithoutEars {
 /// \throws Error invalid_argument, for a file without a mesh of the sphere, and if no triangle is
 /// left.
 WithoutEars without_ears(MeshFile file);
+
+/// A file of which a part of the mesh changed.
+struct ChangedFile {
+  MeshFile file;
+  std::vector<std::string>
+      nearest; ///< fields whose new cells have the value of the nearest old one
+  std::vector<std::string> left_out; ///< fields at edges and at vertices, which do not follow
+};
+
+/// What a file holds after refine() or coarsen(). Cells whose corners did not change keep them, and
+/// their order: those of a boundary. New cells have the circumcentres of their triangles. Cells
+/// that stayed keep the values of all fields at cells, and of the density. At new ones fields are
+/// linear between the old cells; whole numbers, and the fields of a list, are those of the nearest
+/// old cell, as all are outside the triangles of an open mesh. The density at new cells is the old
+/// one there, made denser as the widths are finer. The field mapNewToBase is added: the number of
+/// each cell in the old file, from 1 on, and 0 for new cells. \param old the file, as
+/// read_mesh_file() returns it. \param changed of its mesh. \param nearest names of fields at
+/// cells. \throws Error invalid_argument for a file without a mesh, for polygons that are not those
+/// of its
+///         sites, and for a name that no field at cells has.
+ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
+                         const std::vector<std::string>& nearest = {});
 
 /// What became of a file's fields.
 struct WrittenFields {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -193,6 +194,24 @@ Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& spli
   return out;
 }
 
+/// True if the midpoint of an edge is within a fifth of its length of the boundary.
+template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b) {
+  constexpr double share = 0.2;
+  const double reach = share * norm(b - a);
+  bool near = false;
+  if constexpr (S::on_sphere) {
+    outline.for_each_edge_near(S::midpoint(a, b), reach,
+                               [&](const SphericalOutline::Edge&) { near = true; });
+  } else {
+    const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    const Box2 box{{middle.x - reach, middle.y - reach}, {middle.x + reach, middle.y + reach}};
+    outline.for_each_edge_near(box, [&](const Outline::Edge& edge) {
+      near = near || square_from(edge, middle) <= reach * reach;
+    });
+  }
+  return near;
+}
+
 /// The midpoints of split edges lie inside the boundary.
 template <Space S>
 Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& density,
@@ -203,9 +222,14 @@ Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& den
   const auto middle = [&](const Edge& edge) {
     return space.midpoint(column(points, edge.a), column(points, edge.b));
   };
+  std::optional<DemandedSpacing> spacing; // beside fixed points
+  if (numbers.fixed > 0)
+    spacing.emplace(mesh.surface, density,
+                    static_cast<double>(points.cols() + numbers.splits - numbers.collapses));
   const auto may_split = [&](const Edge& edge) {
-    return outline == nullptr || edge.b >= numbers.fixed ||
-           !lies_along<S>(*outline, column(points, edge.a), column(points, edge.b));
+    return edge.b >= numbers.fixed ||
+           !is_full_gap<S>(outline, *spacing, space, column(points, edge.a),
+                           column(points, edge.b));
   };
   const auto may_collapse = [&](const Edge& edge) { return edge.b >= numbers.fixed; };
   Choice choice(mesh);
@@ -254,25 +278,19 @@ Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const Edge
   });
 }
 
-template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b) {
-  constexpr double share = 0.2;
-  const double reach = share * norm(b - a);
-  bool near = false;
-  if constexpr (S::on_sphere) {
-    outline.for_each_edge_near(S::midpoint(a, b), reach,
-                               [&](const SphericalOutline::Edge&) { near = true; });
-  } else {
-    const Vec2 middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-    const Box2 box{{middle.x - reach, middle.y - reach}, {middle.x + reach, middle.y + reach}};
-    outline.for_each_edge_near(box, [&](const Outline::Edge& edge) {
-      near = near || square_from(edge, middle) <= reach * reach;
-    });
-  }
-  return near;
+template <Space S>
+bool is_full_gap(const OutlineOf<S>* outline, const DemandedSpacing& spacing, const S& space,
+                 const Vec3& a, const Vec3& b) {
+  constexpr double near = 1.6; // square roots of areas: 1.5 widths of hexagons
+  const Vec3 middle = space.midpoint(a, b);
+  return (outline != nullptr && lies_along<S>(*outline, a, b)) ||
+         norm(space.offset(a, b)) < near * spacing.at(middle);
 }
 
-template bool lies_along<Sphere>(const OutlineOf<Sphere>&, const Vec3&, const Vec3&);
-template bool lies_along<Plane>(const OutlineOf<Plane>&, const Vec3&, const Vec3&);
+template bool is_full_gap<Sphere>(const OutlineOf<Sphere>*, const DemandedSpacing&, const Sphere&,
+                                  const Vec3&, const Vec3&);
+template bool is_full_gap<Plane>(const OutlineOf<Plane>*, const DemandedSpacing&, const Plane&,
+                                 const Vec3&, const Vec3&);
 
 } // namespace cvt_detail
 

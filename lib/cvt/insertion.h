@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cvt/room.h"
+#include "density/demanded_spacing.h"
 #include "domain/surface.h"
 
 #include <calotte/density.h>
@@ -22,16 +23,23 @@ struct EdgeChanges {
   std::int64_t splits = 0, collapses = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
   /// contracted; one to another point is contracted to the fixed one. An edge between two of them
-  /// along a boundary, see lies_along(), is not split.
+  /// is not split if it is a full gap, see is_full_gap().
   std::int64_t fixed = 0;
 };
 
 /// As split_and_collapse().
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
 
-/// True if the midpoint of an edge is within a fifth of its length of the boundary.
-template <Space S> bool lies_along(const OutlineOf<S>& outline, const Vec3& a, const Vec3& b);
-extern template bool lies_along<Sphere>(const OutlineOf<Sphere>&, const Vec3&, const Vec3&);
-extern template bool lies_along<Plane>(const OutlineOf<Plane>&, const Vec3&, const Vec3&);
+/// Whether the gap between two fixed generators takes no generator: they lie along the boundary,
+/// the midpoint within a fifth of their distance, or are as near to each other as a density
+/// demands. A free one would stay there, in a cell far too small. \param outline null without a
+/// boundary.
+template <Space S>
+bool is_full_gap(const OutlineOf<S>* outline, const DemandedSpacing& spacing, const S& space,
+                 const Vec3& a, const Vec3& b);
+extern template bool is_full_gap<Sphere>(const OutlineOf<Sphere>*, const DemandedSpacing&,
+                                         const Sphere&, const Vec3&, const Vec3&);
+extern template bool is_full_gap<Plane>(const OutlineOf<Plane>*, const DemandedSpacing&,
+                                        const Plane&, const Vec3&, const Vec3&);
 
 } // namespace calotte::cvt_detail

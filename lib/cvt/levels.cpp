@@ -9,6 +9,7 @@
 #include "cvt/cells.h"
 #include "cvt/inner_mesh.h"
 #include "delaunay/sites.h"
+#include "density/demanded_spacing.h"
 #include "domain/arcs.h"
 #include "domain/surface.h"
 #include "exact/space.h"
@@ -177,16 +178,17 @@ Sites sites_of(const Points3& points, const Surface& surface) {
                              : make_planar_sites(points.topRows<2>(), Duplicates::refuse, 0);
 }
 
-/// The points of a mesh of a bounded surface and the midpoints that a bisection adds; none between
-/// two fixed points along the boundary.
+/// The points of a mesh of a bounded surface and the midpoints that a bisection adds.
 template <Space S>
-Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<S>& outline) {
+Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<S>& outline,
+                        const DemandedSpacing& spacing) {
   std::vector<Vec3> inside;
   mesh_detail::for_each_edge(coarse, [&](std::int32_t a, std::int32_t b) {
     const Vec3 &from = column(coarse.points, a), &to = column(coarse.points, b);
-    const bool fixed = std::max(a, b) < state.fixed && lies_along<S>(outline, from, to);
     const Vec3 middle = S{}.midpoint(from, to);
-    if (!fixed && side_of<S>(&outline, middle) == Side::inside)
+    if (std::max(a, b) < state.fixed && is_full_gap(&outline, spacing, S{}, from, to))
+      return;
+    if (side_of<S>(&outline, middle) == Side::inside)
       inside.push_back(middle);
   });
   Points3 points(3, coarse.points.cols() + std::ssize(inside));
@@ -196,12 +198,14 @@ Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<
   return points;
 }
 
-Points3 bisected_points(const State& state, const Mesh& coarse) {
+Points3 bisected_points(const State& state, const Mesh& coarse, const Density& density,
+                        std::int64_t cells) {
   if (!coarse.surface.is_bounded())
     return bisect(coarse);
+  const DemandedSpacing spacing(coarse.surface, density, static_cast<double>(cells));
   return in_space_of(coarse.surface, [&](const auto& space) {
     using S = std::decay_t<decltype(space)>;
-    return bisected_inside<S>(state, coarse, *outline_of<S>(coarse.surface));
+    return bisected_inside<S>(state, coarse, *outline_of<S>(coarse.surface), spacing);
   });
 }
 
@@ -316,8 +320,8 @@ Mesh mesh_of_run(const State& state, const Surface& surface,
           std::move(connectivity->neighbours), std::move(sites), surface};
 }
 
-Level set_bisected(State& state, const Mesh& coarse) {
-  Sites sites = sites_of(bisected_points(state, coarse), coarse.surface);
+Level set_bisected(State& state, const Mesh& coarse, const Density& density, std::int64_t cells) {
+  Sites sites = sites_of(bisected_points(state, coarse, density, cells), coarse.surface);
   set_points(state, sites);
   if (coarse.surface.is_bounded()) // a part of the midpoints
     return {};

@@ -54,9 +54,11 @@ Mesh mesh_of_run(const State& state, const Surface& surface,
 
 /// Sets the generators of a state to those of a bisected mesh, in curve order; returns the start of
 /// the next level.
-Level set_bisected(State& state, const Mesh& coarse);
+/// \param density here and below, as surface_density() gives it.
+/// \param cells of the next level. On a bounded surface full gaps between fixed generators get no
+///        midpoint, see insertion.h.
+Level set_bisected(State& state, const Mesh& coarse, const Density& density, std::int64_t cells);
 /// The same after insertion and contraction of edges.
-/// \param density as surface_density() gives it.
 Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
                               const EdgeChanges& changes);
 

@@ -47,6 +47,14 @@ EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density&
           state.fixed};
 }
 
+/// Whether the number of generators is far from that of the level's end, as at a start from points
+/// that were given: rounds change it first, after descents of a few evaluations.
+bool is_far(const State& state, const Surface& surface, const CvtOptions& options) {
+  constexpr int part = 20;
+  const std::int64_t cells = cells_of_level(surface, options.cells, state.bisections_left);
+  return std::abs(state.points.cols() - cells) > cells / part;
+}
+
 constexpr std::int64_t many = 2000; // generators
 
 /// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
@@ -186,8 +194,11 @@ CvtOptions options_of_descent(const State& state, const Surface& surface,
     here.final_rule = options.tolerance < fine ? options.final_rule : options.rule;
     return here;
   }
+  constexpr int few = 8;
   here = early(here);
   here.final_rule = here.rule;
+  if (next == Stage::insert && is_far(state, surface, options))
+    here.max_iterations = std::min(here.max_iterations, few);
   return here;
 }
 
@@ -216,8 +227,12 @@ void begin_descent(State& state) {
 }
 
 Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh) {
-  Level level = set_bisected(state, mesh);
   --state.bisections_left;
+  const std::int64_t cells =
+      options.insertion_rounds > 0
+          ? cells_of_level(mesh.surface, options.cells, state.bisections_left)
+          : bisected(mesh.surface, mesh.points.cols());
+  Level level = set_bisected(state, mesh, options.density, cells);
   state.rounds_left = rounds_of_level(state.bisections_left, options);
   state.site_of_input.clear();
   begin_descent(state);
@@ -225,11 +240,13 @@ Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh) {
 }
 
 Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh) {
+  const bool counts = !is_far(state, mesh.surface, options);
   Level level = set_split_and_collapsed(
       state, mesh, options.density,
       edge_changes_of(state, mesh, options.density,
                       cells_of_level(mesh.surface, options.cells, state.bisections_left)));
-  state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
+  if (counts)
+    state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.site_of_input.clear();
   begin_descent(state);
   return level;

@@ -28,7 +28,11 @@ public:
         neighbours_(mesh.neighbours), squares_(mesh.points) {
     for (Eigen::Index i = 0; i < vertices_.cols(); ++i)
       set_column(vertices_, i, space_.coordinates(space_.position(column(mesh.points, i))));
-    while (4 * cells_a_side_ * cells_a_side_ < triangles_.cols() / faces)
+    if (!mesh.closed())
+      fit_frames(mesh.points);
+    const auto covered = std::ranges::count_if(frames_, &Frame::covered);
+    while (4 * cells_a_side_ * cells_a_side_ <
+           triangles_.cols() / std::max<std::int64_t>(covered, 1))
       cells_a_side_ *= 2;
     start_.assign(static_cast<std::size_t>(faces * cells_a_side_ * cells_a_side_), -1);
     for (std::int32_t t = 0; t < triangles_.cols(); ++t)
@@ -50,6 +54,32 @@ public:
 
 private:
   static constexpr int faces = CurveSquares<S>::count;
+
+  /// The part of a face that the cells cover; a place beyond is in the nearest cell.
+  struct Frame {
+    double low_u = -1, low_v = -1, half_u = 1, half_v = 1;
+    bool covered = true; ///< holds vertices
+  };
+
+  /// Around the vertices of a mesh that covers a part of the faces.
+  void fit_frames(const Points3& points) {
+    constexpr double least = 1e-12; // half the width
+    std::array<CubePoint, faces> low, high;
+    low.fill({0, 1, 1});
+    high.fill({0, -1, -1});
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      const CubePoint place = squares_(space_.wrapped(column(points, i)));
+      const auto f = static_cast<std::size_t>(place.face);
+      low[f] = {0, std::min(low[f].u, place.u), std::min(low[f].v, place.v)};
+      high[f] = {0, std::max(high[f].u, place.u), std::max(high[f].v, place.v)};
+    }
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      frames_[f].covered = low[f].u <= high[f].u;
+      if (frames_[f].covered)
+        frames_[f] = {low[f].u, low[f].v, std::max((high[f].u - low[f].u) / 2, least),
+                      std::max((high[f].v - low[f].v) / 2, least)};
+    }
+  }
 
   Place place_from(std::int32_t t, const Vec3& x) const {
     for (std::int64_t step = 0; step < triangles_.cols(); ++step) {
@@ -85,8 +115,12 @@ private:
         for (std::int64_t k = 0; k < cells_a_side_; ++k) {
           const std::int64_t column = row % 2 == 0 ? k : cells_a_side_ - 1 - k; // to and fro
           std::int32_t& start = start_[bucket(face, row, column)];
+          const Frame& frame = frames_[static_cast<std::size_t>(face)];
           if (start < 0)
-            start = place_from(t, squares_.point({face, middle(row), middle(column)})).triangle;
+            start =
+                place_from(t, squares_.point({face, frame.low_u + (middle(row) + 1) * frame.half_u,
+                                              frame.low_v + (middle(column) + 1) * frame.half_v}))
+                    .triangle;
           t = start;
         }
   }
@@ -102,12 +136,14 @@ private:
 
   std::size_t bucket_of(const Vec3& x) const {
     const CubePoint place = squares_(space_.wrapped(x));
-    const auto cell = [&](double u) { // -1 to 1
-      const auto scaled =
-          static_cast<std::int64_t>((u + 1) / 2 * static_cast<double>(cells_a_side_));
-      return std::clamp<std::int64_t>(scaled, 0, cells_a_side_ - 1);
+    const Frame& frame = frames_[static_cast<std::size_t>(place.face)];
+    const auto cell = [&](double u) { // 0 to 1 within the frame
+      const auto last = static_cast<double>(cells_a_side_ - 1);
+      return static_cast<std::int64_t>(
+          std::clamp(u * static_cast<double>(cells_a_side_), 0.0, last));
     };
-    return bucket(place.face, cell(place.u), cell(place.v));
+    return bucket(place.face, cell((place.u - frame.low_u) / (2 * frame.half_u)),
+                  cell((place.v - frame.low_v) / (2 * frame.half_v)));
   }
 
   /// For each corner of a triangle the area of x and the edge across from it, up to a factor:
@@ -137,7 +173,8 @@ private:
   Points3 vertices_;
   Triangles triangles_, neighbours_;
   CurveSquares<S> squares_; ///< around the sites
-  std::int64_t cells_a_side_ = 1;
+  std::array<Frame, faces> frames_{};
+  std::int64_t cells_a_side_ = 1;   ///< of a frame
   std::vector<std::int32_t> start_; ///< a triangle near each cell
 };
 

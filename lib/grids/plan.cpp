@@ -337,7 +337,7 @@ CvtOptions options_of(const Recipe& recipe, int bisections) {
   options.tolerance = *recipe.stop.tolerance;
   options.max_iterations = recipe.stop.iterations.value_or(recipe.stop.max_iterations);
   options.bisections = bisections;
-  if (recipe.start.kind == Start::Kind::multilevel) {
+  if (recipe.start.insertion_rounds) {
     options.insertion_rounds = *recipe.start.insertion_rounds;
     options.cells = recipe.cells;
   }

@@ -117,6 +117,8 @@ template <Space S> Array<std::int32_t> order_along_curve(const Points3& points) 
 
 /// Along the curve in the bounding box of points of the plane.
 Array<std::int32_t> curve_order_in_plane(const Points3& points) {
+  if (points.cols() == 0)
+    return {};
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!is_finite(column(points, i)))
       refuse_infinite(i);
@@ -125,7 +127,9 @@ Array<std::int32_t> curve_order_in_plane(const Points3& points) {
 
 } // namespace
 
-Array<std::int32_t> curve_order(const Points3& points) {
+Array<std::int32_t> curve_order(const Points3& points, const Surface& surface) {
+  if (!surface.is_sphere())
+    return curve_order_in_plane(points);
   require_directions(points);
   return order_along_curve<Sphere>(points);
 }
@@ -191,8 +195,7 @@ Mesh renumbered(const Mesh& mesh, Numbering numbering) {
   require_ids(mesh);
   switch (numbering) {
   case Numbering::curve:
-    return in_order(mesh, mesh.surface.is_sphere() ? curve_order(mesh.points)
-                                                   : curve_order_in_plane(mesh.points));
+    return in_order(mesh, curve_order(mesh.points, mesh.surface));
   case Numbering::rcm:
     return in_order(mesh, reverse_cuthill_mckee_order(mesh));
   default:

@@ -12,9 +12,10 @@
 /// ids of the sites in their new order.
 namespace calotte::mesh_detail {
 
-/// Along the space-filling curve; sites of one finest cell keep their order. Linear time.
-/// \throws Error not_finite, zero_vector.
-Array<std::int32_t> curve_order(const Points3& points);
+/// Along the space-filling curve, in a plane that in the box around the points; sites of one finest
+/// cell keep their order. Linear time.
+/// \throws Error not_finite, and on the sphere zero_vector.
+Array<std::int32_t> curve_order(const Points3& points, const Surface& surface = {});
 
 /// True if in_order(mesh, curve_order(mesh.points)) would not change the mesh; false if a point has
 /// no direction.

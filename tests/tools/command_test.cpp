@@ -105,7 +105,7 @@ TEST_CASE("bad usage is refused before any work") {
   check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
               "mesh.vtp is both mesh and report; give the report another name");
   check_usage("", "delaunay, cvt, plan, points, check, info, draw, view, convert, cut, cull, "
-                  "interpolate, partition, jigsaw, "
+                  "refine, coarsen, interpolate, partition, jigsaw, "
                   "marche or help is required; see calotte --help");
   check_usage("triangulate", "unknown command triangulate; see calotte --help");
   check_usage("check mesh.tri",

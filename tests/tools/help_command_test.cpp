@@ -14,9 +14,10 @@ using namespace calotte::test;
 
 namespace {
 
-const std::vector<std::string> commands{
-    "delaunay", "cvt", "plan", "points",      "check",     "info",   "draw",  "view",
-    "convert",  "cut", "cull", "interpolate", "partition", "jigsaw", "marche"};
+const std::vector<std::string> commands{"delaunay", "cvt",    "plan",    "points",      "check",
+                                        "info",     "draw",   "view",    "convert",     "cut",
+                                        "cull",     "refine", "coarsen", "interpolate", "partition",
+                                        "jigsaw",   "marche"};
 
 /// The text of a help, checked to succeed.
 std::string shown(const Bench& bench, const std::string& arguments) {

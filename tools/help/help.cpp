@@ -139,8 +139,8 @@ public:
     for (const Topic& topic : topics())
       text += wrapped("  " + topic.name, indent, topic.summary);
     return text +
-           "\ncalotte COMMAND --help shows the common options of a command, --help-all all "
-           "of them.\ncalotte --version shows the version.\n\n" +
+           "\ncalotte COMMAND --help shows the common options of a command, --help-all all; "
+           "--version the version.\n\n" +
            exit_codes();
   }
 

@@ -160,18 +160,18 @@ CLI::Validator slope() {
 
 } // namespace
 
-void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
+CLI::Option* add_width_file(CLI::App& command, WidthWords& words, const std::string& purpose) {
   CLI::Option* const file =
       command
           .add_option_function<std::string>(
               "--cell-width", [&words](const std::string& text) { set_widths(words, text); },
-              "Cell widths in km, instead of a density: one width, such as 60km, or a file. Files: "
-              "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), polygons "
-              "(.geojson), or rules (.toml), see calotte help widths. In the plane a number in its "
-              "unit, NetCDF cellWidth(y, x), JIGSAW's spacings, or rules")
+              purpose +
+                  ": one width, such as 60km, or a file. Files: "
+                  "NetCDF cellWidth(lat, lon) (.nc), JIGSAW's spacings (.msh), polygons "
+                  "(.geojson), or rules (.toml), see calotte help widths. In the plane a number in "
+                  "its unit, NetCDF cellWidth(y, x), JIGSAW's spacings, or rules")
           ->check(width_or_file())
-          ->type_name("KM|FILE")
-          ->excludes(density);
+          ->type_name("KM|FILE");
   const auto add = [&](const std::string& name, std::optional<double>& value,
                        const std::string& help) {
     command.add_option(name, value, help)->transform(kilometres())->needs(file);
@@ -182,18 +182,28 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
   add("--transition", words.transition,
       "Distance from a polygon outwards over which the width changes, in km; > 0");
   command
-      .add_option("--gradient", words.gradient,
-                  "Largest change of the widths, in km per km, such as 0.03: the largest widths "
-                  "that are nowhere above the given ones and nowhere steeper; > 0. With --cells it "
-                  "holds before that number scales the widths")
-      ->check(slope())
-      ->needs(file);
-  command
       .add_option("--earth-radius", words.radius,
                   "Radius of the sphere to which the widths refer, in km; > 0")
       ->transform(kilometres())
       ->needs(file)
       ->capture_default_str();
+  return file;
+}
+
+CLI::Option* add_gradient(CLI::App& command, std::optional<double>& gradient,
+                          const std::string& help) {
+  return command.add_option("--gradient", gradient, help)->check(slope());
+}
+
+void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) {
+  CLI::Option* const file =
+      add_width_file(command, words, "Cell widths in km, instead of a density");
+  file->excludes(density);
+  add_gradient(command, words.gradient,
+               "Largest change of the widths, in km per km, such as 0.03: the largest widths "
+               "that are nowhere above the given ones and nowhere steeper; > 0. With --cells it "
+               "holds before that number scales the widths")
+      ->needs(file);
   command
       .add_option(
           "--density-raster", words.raster,
@@ -224,6 +234,15 @@ ReadWidths read_widths(const WidthWords& words, const Surface& region) {
   if (words.gradient && widths.rules)
     widths.rules->widths = widths.rules->widths.limit_gradient(*words.gradient);
   return widths;
+}
+
+Widths read_demand(const WidthWords& words, const Surface& surface) {
+  if (is_toml(words.file))
+    return read_width_rules(words.file, surface).widths;
+  if (surface.is_sphere())
+    return Widths(read_widths(words).raster);
+  return words.uniform && !words.with_unit ? Widths(*words.uniform)
+                                           : Widths(read_planar_widths(words, surface));
 }
 
 PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane) {

@@ -30,8 +30,15 @@ struct WidthWords {
   bool given() const { return in_km() || !raster.empty(); }
 };
 
-/// Adds --cell-width, --inside-width, --outside-width, --transition, --gradient, --earth-radius and
-/// --density-raster.
+/// Adds --cell-width, --inside-width, --outside-width, --transition and --earth-radius.
+/// \param purpose of the widths, for the help. \returns the option --cell-width.
+CLI::Option* add_width_file(CLI::App& command, WidthWords& words, const std::string& purpose);
+
+/// Adds --gradient, a number > 0 in km per km.
+CLI::Option* add_gradient(CLI::App& command, std::optional<double>& gradient,
+                          const std::string& help);
+
+/// Adds the options of add_width_file(), --gradient and --density-raster.
 /// \param density the option that they replace.
 void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 
@@ -57,7 +64,12 @@ struct ReadWidths {
 /// \param region which a raster must cover.
 ReadWidths read_widths(const WidthWords& words, const Surface& region = {});
 
-/// The same in the plane. \pre words.in_km().
+/// The widths as an expression; of rules, with no demand where they say nothing.
+/// \pre words.in_km().
+/// \throws Error as read_widths(), and as read_width_rules().
+Widths read_demand(const WidthWords& words, const Surface& surface);
+
+/// The same in the plane as a raster. \pre words.in_km().
 /// \throws Error as read_planar_cell_width; invalid_argument for a width with a unit, and for
 /// polygons.
 PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane);

@@ -22,9 +22,9 @@ from ._functions import (Cvt, Level, Plan, Weights, bisect, bisected_icosahedron
                          circle, cubed_sphere, cull, cut, cvt, delaunay, density, ellipse,
                          fibonacci_sphere, from_lonlat, geodesic_sphere, hexagonal_lattice,
                          interpolate, interpolation_weights, lat_lon_sphere, limited_area, locate,
-                         operator_errors, partition, periodic_box, plan, planar_polygon, polygon, quality,
-                         random_points, raster, read, read_fields, read_points, read_weights,
-                         rectangle, spiral_sphere, threads, to_lonlat, voronoi, write)
+                         operator_errors, partition, periodic_box, plan, planar_polygon, polygon,
+                         quality, random_points, raster, read, read_fields, read_points,
+                         read_weights, rectangle, spiral_sphere, threads, to_lonlat, voronoi, write)
 
 __all__ = [
     "CellWidth", "Check", "Cvt", "Density", "Error", "Level", "Locations", "Mesh", "OperatorErrors",
@@ -32,9 +32,9 @@ __all__ = [
     "__version__", "bisect", "bisected_icosahedron", "channel", "check", "circle", "cubed_sphere",
     "cull", "cut", "cvt", "delaunay", "density", "ellipse", "fibonacci_sphere", "from_lonlat",
     "geodesic_sphere", "hexagonal_lattice", "interpolate", "interpolation_weights",
-    "lat_lon_sphere", "limited_area", "locate", "operator_errors", "partition", "periodic_box", "plan",
-    "planar_polygon", "polygon", "quality", "random_points", "raster", "read", "read_fields",
-    "read_points", "read_weights", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
+    "lat_lon_sphere", "limited_area", "locate", "operator_errors", "partition", "periodic_box",
+    "plan", "planar_polygon", "polygon", "quality", "random_points", "raster", "read",
+    "read_fields", "read_points", "read_weights", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
     "widths", "write",
 ]
 

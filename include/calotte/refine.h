@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <calotte/cell_width.h>
+#include <calotte/cvt.h>
+#include <calotte/export.h>
+#include <calotte/options.h>
+#include <calotte/progress.h>
+#include <calotte/surface.h>
+#include <calotte/types.h>
+#include <calotte/widths.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+/// Finer or coarser cells in a part of a mesh, beside which it stays as it is.
+CALOTTE_API_BEGIN
+namespace calotte {
+
+/// The widths that cells are to have. Elsewhere they keep their own.
+struct WidthDemand {
+  /// Widths in km, in a plane in its unit: refine() makes wider cells finer, and coarsen() makes
+  /// narrower ones coarser. Where rules say nothing, cells stay.
+  std::optional<Widths> widths = {};
+  /// In place of widths: the part of the surface where cells become `factor` times as narrow or as
+  /// wide as they are.
+  std::optional<Surface> region = {};
+  double factor = 1;                  ///< of a region; > 1, at most 100
+  double radius_km = earth_radius_km; ///< of the sphere that widths refer to; > 0 and finite
+};
+
+/// Options of refine() and coarsen().
+struct RefineOptions {
+  /// Share of a cell's width within which the demand is met: such cells stay where they are, if
+  /// they are beyond the transition. 0.01 to 0.5.
+  double tolerance = 0.1;
+  /// Greatest change of the width by distance in the transition around finer cells, and around
+  /// those that stay beside coarser ones; 0.001 to 1.
+  double gradient = 0.1;
+  Partition partition = {};       ///< affects time and memory, not the result
+  ProgressCallback progress = {}; ///< stage: descend
+};
+
+/// A part of a mesh that changed.
+struct ChangedPatch {
+  std::int64_t removed = 0; ///< sites of the old mesh
+  std::int64_t added = 0;   ///< sites of the new mesh in their place
+  CvtReport report;         ///< how their run went, with those around them that stayed
+};
+
+/// A mesh of which a part changed.
+struct ChangedMesh {
+  /// The sites that stayed, in their order and with their bits, then the new ones along the
+  /// space-filling curve.
+  Mesh mesh = {};
+  Ids new_of_old = {}; ///< by site of the old mesh; -1 for none
+  Ids old_of_new = {}; ///< by site of the new mesh; -1 for none
+  /// By site of the new mesh: the width that its cell is to have over that of the old mesh there; 1
+  /// for those that stayed.
+  DoubleVector width_ratio = {};
+  std::vector<ChangedPatch> patches = {}; ///< which do not touch; none if the demand is met
+  /// Sites of the old mesh where the demand is not met because sites at the mesh's boundary, and
+  /// those next to them, stay: these, and finer ones beside them, whose widths change at the
+  /// gradient.
+  std::int64_t held = 0;
+};
+
+/// Makes cells finer where they are wider than demanded. The cells around grow from there at the
+/// gradient up to their own widths; with three rows of cells more, up to seven where shapes need
+/// them, these form the patches that change. Each patch is a centroidal Voronoi tessellation of its
+/// own, by the rules of make_grid() for fixed generators, in which two rows of sites around it
+/// stay. All other sites keep their bits. The time beyond a few passes over the mesh is that of the
+/// patches.
+///
+/// The result is the Delaunay triangulation of its sites, and has the same bits for any number of
+/// threads. Patches do not depend on each other: two demands whose patches do not touch, one after
+/// the other, give the same sites in either order.
+/// \param mesh a Delaunay triangulation; sites of an open mesh at its boundary, and next to one
+///        there, stay.
+/// \throws Error invalid_argument for a demand with widths and region or neither, a value out of
+///         range, a surface of another kind, and a mesh that is not Delaunay beside a patch; as
+///         make_grid().
+ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
+
+/// The same for cells that are narrower than demanded, which become wider. They begin at those that
+/// stay around them, and grow from there at the gradient.
+ChangedMesh coarsen(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
+
+} // namespace calotte
+CALOTTE_API_END

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grids/patch.h"
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "density/hexagons.h"
+#include "exact/space.h"
+#include "mesh/faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+
+namespace calotte::grids_detail {
+namespace {
+
+using mesh_detail::Corner;
+using mesh_detail::Faces;
+using mesh_detail::RingStarts;
+
+using Marks = std::vector<std::uint8_t>;
+
+/// Calls body(corner) for the triangles around a site; true if they close.
+template <class Body>
+bool walk_star(const Faces& faces, const RingStarts& rings, std::int32_t site, const Body& body) {
+  const std::int32_t start = rings.first[static_cast<std::size_t>(site)];
+  if (start < 0)
+    return false;
+  const auto next = [&](Corner corner) { return next_around(faces, corner); };
+  return !exists(walk_around(Corner{start, slot_of(faces, start, site)}, next, body));
+}
+
+/// Calls body(other) for the neighbours of a site; true if its star closes.
+template <class Body>
+bool for_each_neighbour(const Faces& faces, const RingStarts& rings, std::int32_t site,
+                        const Body& body) {
+  Corner last = mesh_detail::no_corner;
+  const bool closed = walk_star(faces, rings, site, [&](Corner corner) {
+    body(following_site(faces, corner));
+    last = corner;
+  });
+  if (!closed && exists(last))
+    body(preceding_site(faces, last));
+  return closed;
+}
+
+template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64_t t) {
+  const Vec3& a = column(mesh.points, mesh.triangles(0, t));
+  return 0.5 * norm(cross(space.offset(a, column(mesh.points, mesh.triangles(1, t))),
+                          space.offset(a, column(mesh.points, mesh.triangles(2, t)))));
+}
+
+/// A third of the triangles around each site; 0 where its star is open.
+template <Space S>
+DoubleVector cell_areas(const Mesh& mesh, const S& space, const RingStarts& rings) {
+  const Faces faces = faces_of(mesh);
+  DoubleVector areas(mesh.points.cols());
+  for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      double sum = 0;
+      const bool closed = walk_star(faces, rings, static_cast<std::int32_t>(i), [&](Corner corner) {
+        sum += flat_area(space, mesh, corner.triangle);
+      });
+      areas[i] = closed ? sum / 3 : 0;
+    }
+  });
+  return areas;
+}
+
+Marks grown(const Mesh& mesh, const RingStarts& rings, const Marks& marks, int rows) {
+  const Faces faces = faces_of(mesh);
+  Marks all = marks;
+  std::vector<std::int32_t> rim;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] != 0)
+      rim.push_back(static_cast<std::int32_t>(i));
+  for (int row = 0; row < rows; ++row) {
+    std::vector<std::int32_t> next;
+    for (const std::int32_t site : rim)
+      for_each_neighbour(faces, rings, site, [&](std::int32_t other) {
+        if (std::exchange(all[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0)
+          next.push_back(other);
+      });
+    rim = std::move(next);
+  }
+  return all;
+}
+
+/// Sites at the mesh's boundary, and their neighbours.
+Marks sites_at_boundary(const Mesh& mesh, const RingStarts& rings) {
+  Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int k : {next_vertex(i), previous_vertex(i)})
+          marks[static_cast<std::size_t>(mesh.triangles(k, t))] = 1;
+  return grown(mesh, rings, marks, 1);
+}
+
+/// Values of sites from which a field spreads.
+using Sources = std::vector<std::pair<double, std::int32_t>>;
+
+/// Lowers a field at sites to what the values of sources allow, which grow by distance along the
+/// edges. (Dijkstra, Numer. Math. 1, 1959.)
+/// \param may(site) whether it may be lowered there.
+template <class May>
+void spread(const Mesh& mesh, const RingStarts& rings, const Sources& sources, double gradient,
+            DoubleVector& field, const May& may) {
+  const Faces faces = faces_of(mesh);
+  using Entry = Sources::value_type;
+  std::priority_queue<Entry, Sources, std::greater<>> queue(std::greater<>(), sources);
+  in_space_of(mesh.surface, [&](const Space auto& space) {
+    while (!queue.empty()) {
+      const Entry entry = queue.top();
+      queue.pop();
+      const std::int32_t i = entry.second;
+      if (entry.first > field[i])
+        continue;
+      for_each_neighbour(faces, rings, i, [&](std::int32_t other) {
+        const double most = entry.first + gradient * norm(space.offset(column(mesh.points, i),
+                                                                       column(mesh.points, other)));
+        if (most < field[other] && may(other)) {
+          field[other] = most;
+          queue.emplace(most, other);
+        }
+      });
+    }
+  });
+}
+
+// ---- Triangles of patches
+
+/// The triangles around some sites.
+Marks stars_of(const Mesh& mesh, const Marks& sites) {
+  Marks triangles(static_cast<std::size_t>(mesh.triangles.cols()), 0);
+  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      for (int i = 0; i < 3; ++i)
+        triangles[static_cast<std::size_t>(t)] |=
+            sites[static_cast<std::size_t>(mesh.triangles(i, t))];
+  });
+  return triangles;
+}
+
+/// Whether the edge across from a vertex of a triangle with a mark leads to one without, or none.
+bool is_rim(const Mesh& mesh, const Marks& triangles, std::int64_t t, int i) {
+  const std::int32_t beyond = mesh.neighbours(i, t);
+  return beyond < 0 || triangles[static_cast<std::size_t>(beyond)] == 0;
+}
+
+/// Adds the stars of sites where the triangles with a mark touch each other in a vertex only.
+void separate(const Mesh& mesh, const RingStarts& rings, Marks& triangles) {
+  const Faces faces = faces_of(mesh);
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::unordered_map<std::int32_t, int> fans; // by site: edges of the rim that begin there
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      if (triangles[static_cast<std::size_t>(t)] != 0)
+        for (int i = 0; i < 3; ++i)
+          if (is_rim(mesh, triangles, t, i))
+            ++fans[mesh.triangles(next_vertex(i), t)];
+    for (const auto& [site, count] : fans)
+      if (count > 1)
+        walk_star(faces, rings, site, [&](Corner corner) {
+          std::uint8_t& mark = triangles[static_cast<std::size_t>(corner.triangle)];
+          changed = changed || mark == 0;
+          mark = 1;
+        });
+  }
+}
+
+/// The triangles that hang together with one, which lose their marks.
+std::vector<std::int32_t> take_component(const Mesh& mesh, Marks& triangles, std::int32_t first) {
+  std::vector<std::int32_t> found{first};
+  triangles[static_cast<std::size_t>(first)] = 0;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    for (int i = 0; i < 3; ++i)
+      if (const std::int32_t beyond = mesh.neighbours(i, found[k]);
+          beyond >= 0 &&
+          std::exchange(triangles[static_cast<std::size_t>(beyond)], std::uint8_t{0}) != 0)
+        found.push_back(beyond);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::vector<std::int32_t>> rings_of(const Mesh& mesh, const Marks& triangles,
+                                                const std::vector<std::int32_t>& component) {
+  std::unordered_map<std::int32_t, std::int32_t> next;
+  std::vector<std::int32_t> starts;
+  for (const std::int32_t t : component)
+    for (int i = 0; i < 3; ++i)
+      if (is_rim(mesh, triangles, t, i)) {
+        starts.push_back(mesh.triangles(next_vertex(i), t));
+        next[starts.back()] = mesh.triangles(previous_vertex(i), t);
+      }
+  std::sort(starts.begin(), starts.end());
+  std::vector<std::vector<std::int32_t>> rings;
+  for (const std::int32_t start : starts) {
+    std::vector<std::int32_t> ring;
+    for (auto at = next.find(start); at != next.end(); at = next.find(ring.back())) {
+      ring.push_back(at->second);
+      next.erase(at);
+    }
+    if (!ring.empty())
+      rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+Patch patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
+               std::vector<std::int32_t>&& component) {
+  Patch patch;
+  patch.rings = rings_of(mesh, triangles, component);
+  std::vector<std::int32_t> sites;
+  for (const std::int32_t t : component)
+    for (int i = 0; i < 3; ++i)
+      sites.push_back(mesh.triangles(i, t));
+  std::sort(sites.begin(), sites.end());
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  for (const std::int32_t site : sites)
+    (is_free[static_cast<std::size_t>(site)] != 0 ? patch.free : patch.fixed).push_back(site);
+  patch.triangles = std::move(component);
+  return patch;
+}
+
+} // namespace
+
+DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings) {
+  const Faces faces = faces_of(mesh);
+  const DoubleVector areas = in_space_of(
+      mesh.surface, [&](const Space auto& space) { return cell_areas(mesh, space, rings); });
+  DoubleVector widths(areas.size());
+  for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      double sum = areas[i] > 0 ? std::log(areas[i]) : 0;
+      int count = areas[i] > 0;
+      for_each_neighbour(faces, rings, static_cast<std::int32_t>(i), [&](std::int32_t other) {
+        if (areas[other] > 0) {
+          sum += std::log(areas[other]);
+          ++count;
+        }
+      });
+      widths[i] = count > 0 ? density_detail::hexagon_width(std::exp(sum / count)) : 0;
+    }
+  });
+  return widths;
+}
+
+WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const DoubleVector& own,
+                           const DoubleVector& demanded, Way way, double tolerance,
+                           double gradient) {
+  const bool finer = way == Way::finer;
+  WantedWidths wanted{own, sites_at_boundary(mesh, rings), 0};
+  Marks changes(static_cast<std::size_t>(own.size()), 0);
+  const auto has = [](const Marks& marks, std::int32_t i) {
+    return marks[static_cast<std::size_t>(i)] != 0;
+  };
+  std::vector<std::int32_t> changed;
+  for (std::int32_t i = 0; i < own.size(); ++i) {
+    const bool unmet = own[i] > 0 && (finer ? demanded[i] < (1 - tolerance) * own[i]
+                                            : demanded[i] > (1 + tolerance) * own[i]);
+    if (!unmet)
+      continue;
+    wanted.held += has(wanted.stays, i) ? 1 : 0;
+    if (has(wanted.stays, i))
+      continue;
+    changes[static_cast<std::size_t>(i)] = 1;
+    wanted.width[i] = demanded[i];
+    changed.push_back(i);
+  }
+
+  // Finer cells spread from all that change, coarser ones from those that do not, beside them.
+  Sources narrow;
+  for (const std::int32_t i : changed) {
+    if (finer)
+      narrow.emplace_back(wanted.width[i], i);
+    else
+      for_each_neighbour(faces_of(mesh), rings, i, [&](std::int32_t other) {
+        if (!has(changes, other))
+          narrow.emplace_back(own[other], other);
+      });
+  }
+  spread(mesh, rings, narrow, gradient, wanted.width,
+         [&](std::int32_t i) { return finer ? !has(wanted.stays, i) : has(changes, i); });
+  if (!finer)
+    return wanted;
+
+  // Beside those that stay, cells are as wide as they are, less what the gradient allows.
+  Sources wide;
+  for (std::int32_t i = 0; i < own.size(); ++i)
+    if (has(wanted.stays, i) && own[i] > 0)
+      wide.emplace_back(-own[i], i);
+  DoubleVector least = -wanted.width;
+  spread(mesh, rings, wide, gradient, least,
+         [&](std::int32_t i) { return !has(wanted.stays, i) && wanted.width[i] < own[i]; });
+  wanted.width = (-least).cwiseMin(own);
+  for (const std::int32_t i : changed)
+    wanted.held += wanted.width[i] > (1 + tolerance) * demanded[i] ? 1 : 0;
+  return wanted;
+}
+
+std::vector<Patch> patches_of(const Mesh& mesh, const RingStarts& rings, const DoubleVector& own,
+                              const WantedWidths& wanted, int rows_that_adapt) {
+  constexpr double least_change = 0.01;
+  constexpr int rows_that_stay = 1; // and one more, the rim of their stars
+  const auto n = static_cast<std::size_t>(mesh.points.cols());
+  Marks is_free(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto site = static_cast<Eigen::Index>(i);
+    is_free[i] = own[site] > 0 && std::abs(wanted.width[site] / own[site] - 1) > least_change;
+  }
+  is_free = grown(mesh, rings, is_free, rows_that_adapt);
+  for (std::size_t i = 0; i < n; ++i)
+    if (wanted.stays[i] != 0)
+      is_free[i] = 0;
+  Marks triangles = stars_of(mesh, grown(mesh, rings, is_free, rows_that_stay));
+  separate(mesh, rings, triangles);
+  Marks left = triangles;
+  std::vector<Patch> patches;
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    if (left[static_cast<std::size_t>(t)] != 0)
+      patches.push_back(patch_of(mesh, triangles, is_free, take_component(mesh, left, t)));
+  return patches;
+}
+
+} // namespace calotte::grids_detail

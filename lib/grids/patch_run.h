@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "grids/patch.h"
+#include "grids/room.h"
+
+#include <calotte/grid.h>
+#include <calotte/refine.h>
+#include <calotte/types.h>
+
+/// The run that makes new sites for a patch.
+namespace calotte::grids_detail {
+
+/// What replaces a patch.
+struct Replacement {
+  /// The triangles within the rings, without neighbours; the fixed sites of the patch come first.
+  /// In a periodic plane unwrapped.
+  Mesh mesh;
+  DoubleVector width_ratio; ///< by site that is not fixed, as of ChangedMesh
+  ChangedPatch change;
+};
+
+/// Widths that are known beyond those at sites.
+struct FineWidths {
+  const Widths& widths;
+  double scale; ///< from their unit to that of the mesh
+};
+
+/// Runs a patch on the surface that its rings bound, where its fixed sites stay and the mesh ends
+/// at the rings.
+/// \param own, wanted as of wanted_widths(). \param fine limits widths between sites; null for
+/// none. \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic
+/// plane.
+Replacement replacement_of(const Mesh& mesh, const Patch& patch, const DoubleVector& own,
+                           const DoubleVector& wanted, const FineWidths* fine,
+                           const RefineOptions& options);
+
+} // namespace calotte::grids_detail

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/files.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/error.h>
+#include <calotte/generators.h>
+#include <calotte/grid.h>
+#include <calotte/quality.h>
+#include <calotte/refine.h>
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace calotte;
+
+namespace {
+
+const Mesh& uniform_sphere() {
+  static const Mesh mesh = make_grid({.cells = 10242}).mesh;
+  return mesh;
+}
+
+WidthDemand in_circle(const Eigen::Vector3d& centre, double radius, double factor) {
+  WidthDemand demand;
+  demand.region = circle(centre, radius);
+  demand.factor = factor;
+  return demand;
+}
+
+/// Sites that stay keep their bits and their order, before the new ones, and the mesh is the
+/// Delaunay triangulation of all.
+void expect_changed(const Mesh& old, const ChangedMesh& changed) {
+  const Eigen::Index n = old.points.cols(), m = changed.mesh.points.cols();
+  REQUIRE(changed.new_of_old.size() == n);
+  REQUIRE(changed.old_of_new.size() == m);
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (const std::int32_t id = changed.new_of_old[i]; id >= 0) {
+      REQUIRE(id == kept++);
+      REQUIRE(changed.old_of_new[id] == i);
+      REQUIRE(changed.mesh.points.col(id) == old.points.col(i));
+    }
+  CHECK((changed.old_of_new.head(kept).array() >= 0).all());
+  CHECK((changed.old_of_new.tail(m - kept).array() == -1).all());
+  std::int64_t removed = 0, added = 0;
+  for (const ChangedPatch& patch : changed.patches) {
+    removed += patch.removed;
+    added += patch.added;
+  }
+  CHECK(kept == n - removed);
+  CHECK(m - kept == added);
+  CHECK(changed.mesh.site_of_input.size() == static_cast<std::size_t>(m));
+}
+
+void expect_delaunay(const Mesh& mesh) {
+  const Mesh anew = delaunay(mesh.points, mesh.surface);
+  CHECK(anew.triangles == mesh.triangles);
+  CHECK(anew.neighbours == mesh.neighbours);
+}
+
+/// As a whole new grid must be.
+void expect_good_shapes(const ChangedMesh& changed) {
+  for (const ChangedPatch& patch : changed.patches) {
+    CHECK(patch.report.converged);
+    CHECK(patch.report.well_centred);
+  }
+  const Quality q = quality(changed.mesh);
+  CHECK(q.obtuse == 0);
+  CHECK(q.angles.min > 38);
+  CHECK(q.angles.max < 89);
+}
+
+/// The mean length of the edges within a circle.
+double mean_edge(const Mesh& mesh, const Eigen::Vector3d& centre, double radius) {
+  double sum = 0;
+  int count = 0;
+  for (const auto& triangle : mesh.triangles.colwise())
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d a = mesh.points.col(triangle(i)),
+                            b = mesh.points.col(triangle((i + 1) % 3));
+      if ((a - centre.normalized()).norm() < radius) {
+        sum += (a - b).norm();
+        ++count;
+      }
+    }
+  return sum / count;
+}
+
+std::vector<std::array<double, 3>> sorted_points(const Mesh& mesh) {
+  std::vector<std::array<double, 3>> points;
+  for (const auto& x : mesh.points.colwise())
+    points.push_back({x(0), x(1), x(2)});
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+/// A regular lattice of triangles in a rectangle; in a box, one that is periodic.
+Mesh lattice(bool periodic) {
+  constexpr int columns = 60, rows = 52;
+  const double height = std::sqrt(0.75);
+  Points2 points(2, columns * rows);
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c)
+      points.col(r * columns + c) << c + 0.25 + 0.5 * (r % 2), (r + 0.5) * height;
+  return delaunay(std::move(points),
+                  periodic ? Surface::periodic({columns, rows * height}) : Surface::plane());
+}
+
+Surface square(double x, double y, double side) {
+  return rectangle({x - side / 2, y - side / 2}, {x + side / 2, y + side / 2});
+}
+
+} // namespace
+
+TEST_CASE("cells in a circle become finer, and all others stay [slow]") {
+  const Mesh& base = uniform_sphere();
+  for (const Eigen::Vector3d& centre : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-1, 0, 0.1)}) {
+    const ChangedMesh finer = refine(base, in_circle(centre, 0.15, 2));
+    REQUIRE(finer.patches.size() == 1);
+    expect_changed(base, finer);
+    expect_delaunay(finer.mesh);
+    expect_good_shapes(finer);
+    CHECK(finer.held == 0);
+    const double ratio = mean_edge(base, centre, 0.1) / mean_edge(finer.mesh, centre, 0.1);
+    CHECK(std::abs(ratio - 2) < 0.06);
+    const double around = mean_edge(finer.mesh, -centre, 0.2) / mean_edge(base, -centre, 0.2);
+    CHECK(around == 1);
+  }
+}
+
+TEST_CASE("cells in a circle become coarser, and all others stay [slow]") {
+  const Mesh& base = uniform_sphere();
+  const Eigen::Vector3d centre(-1, -0.05, 0.4);
+  const ChangedMesh coarser = coarsen(base, in_circle(centre, 0.45, 1.6));
+  REQUIRE(coarser.patches.size() == 1);
+  expect_changed(base, coarser);
+  expect_delaunay(coarser.mesh);
+  expect_good_shapes(coarser);
+  CHECK(coarser.patches[0].added < coarser.patches[0].removed);
+  const double ratio = mean_edge(coarser.mesh, centre, 0.15) / mean_edge(base, centre, 0.15);
+  CHECK(std::abs(ratio - 1.6) < 0.1);
+}
+
+TEST_CASE("a patch that is refined and coarsened again leaves the rest untouched [slow]") {
+  const Mesh& base = uniform_sphere();
+  const Eigen::Vector3d centre(0.3, 0.2, 1);
+  const ChangedMesh finer = refine(base, in_circle(centre, 0.15, 1.8));
+  const ChangedMesh back = coarsen(finer.mesh, in_circle(centre, 0.25, 1.8));
+  expect_changed(finer.mesh, back);
+  expect_delaunay(back.mesh);
+  std::int64_t touched = 0;
+  for (Eigen::Index i = 0; i < base.points.cols(); ++i) {
+    const std::int32_t id = finer.new_of_old[i];
+    if (id >= 0 && back.new_of_old[id] >= 0)
+      CHECK_MESSAGE(back.mesh.points.col(back.new_of_old[id]) == base.points.col(i), i);
+    else
+      ++touched;
+  }
+  CHECK(touched < 700);
+}
+
+TEST_CASE("a patch inside another one [slow]") {
+  const Mesh& base = uniform_sphere();
+  const ChangedMesh once = refine(base, in_circle({0, 1, 0.2}, 0.3, 1.5));
+  const ChangedMesh twice = refine(once.mesh, in_circle({0, 1, 0.2}, 0.06, 2));
+  expect_changed(once.mesh, twice);
+  expect_delaunay(twice.mesh);
+  expect_good_shapes(twice);
+}
+
+TEST_CASE("patches that do not touch commute [slow]") {
+  const Mesh& base = uniform_sphere();
+  const WidthDemand one = in_circle({0, 0, 1}, 0.1, 1.7), other = in_circle({1, 0, 0}, 0.1, 2.5);
+  const Mesh a = refine(refine(base, one).mesh, other).mesh,
+             b = refine(refine(base, other).mesh, one).mesh;
+  CHECK(sorted_points(a) == sorted_points(b));
+  CHECK(renumbered(a, Numbering::curve).triangles == renumbered(b, Numbering::curve).triangles);
+}
+
+TEST_CASE("widths along a line, finer than the cells of the mesh [slow]") {
+  const Mesh& base = uniform_sphere(); // of 240 km
+  Points3 line(3, 2);
+  line << 1, 0.9, 0, 0.2, 0, 0.1;
+  WidthDemand demand;
+  demand.widths = Widths::by_distance({line}, {{{0, 60}, {50, 60}, {2050, 260}}});
+  const ChangedMesh finer = refine(base, demand);
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  expect_delaunay(finer.mesh);
+  expect_good_shapes(finer);
+  double shortest = 1;
+  for (const auto& triangle : finer.mesh.triangles.colwise())
+    shortest = std::min(
+        shortest, (finer.mesh.points.col(triangle(0)) - finer.mesh.points.col(triangle(1))).norm());
+  CHECK(shortest * earth_radius_km < 70);
+  CHECK(shortest * earth_radius_km > 45);
+}
+
+TEST_CASE("a demand that is met changes nothing") {
+  const Mesh& base = uniform_sphere();
+  WidthDemand demand;
+  demand.widths = Widths(250.0);
+  for (const ChangedMesh& same : {refine(base, demand), coarsen(base, {.widths = Widths(200.0)})}) {
+    CHECK(same.patches.empty());
+    CHECK(same.mesh.points == base.points);
+    CHECK(same.mesh.triangles == base.triangles);
+    CHECK(same.mesh.neighbours == base.neighbours);
+    expect_changed(base, same);
+  }
+}
+
+TEST_CASE("a patch over the seams of a periodic box") {
+  const Mesh base = lattice(true);
+  WidthDemand demand;
+  demand.region = square(60, 45, 12); // half of it beyond the period
+  demand.factor = 2;
+  const ChangedMesh finer = refine(base, demand);
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  expect_delaunay(finer.mesh);
+  expect_good_shapes(finer);
+  WidthDemand all;
+  all.region = rectangle({-1, 10}, {61, 20});
+  all.factor = 2;
+  CHECK(std::string(test::error_of([&] { refine(base, all); }).what()).find("leads around") !=
+        std::string::npos);
+}
+
+TEST_CASE("sites at a boundary stay, and are counted where they do not meet the demand [slow]") {
+  const Mesh base = lattice(false);
+  WidthDemand demand;
+  demand.region = square(30, 0, 14);
+  demand.factor = 2;
+  const ChangedMesh finer = refine(base, demand);
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  expect_delaunay(finer.mesh);
+  CHECK(finer.held > 20);
+  CHECK(finer.held < 100);
+  for (std::int32_t i = 0; i < 60; ++i) // the first row
+    CHECK(finer.new_of_old[i] >= 0);
+}
+
+TEST_CASE("the same bits on any number of threads and for any number of regions [slow]") {
+  const Mesh& base = uniform_sphere();
+  const WidthDemand demand = in_circle({0, 0, 1}, 0.12, 2);
+  const ChangedMesh expected = refine(base, demand);
+  for (const int threads : {1, 4}) {
+    tbb::task_arena arena(threads);
+    RefineOptions options;
+    options.partition.regions = 5 * threads;
+    const ChangedMesh other = arena.execute([&] { return refine(base, demand, options); });
+    CHECK(other.mesh.points == expected.mesh.points);
+    CHECK(other.mesh.triangles == expected.mesh.triangles);
+  }
+}
+
+TEST_CASE("demands that cannot be") {
+  const Mesh& base = uniform_sphere();
+  const auto refused = [&](const WidthDemand& demand, const std::string& what,
+                           const RefineOptions& options = {}) {
+    const std::string message = test::error_of([&] { refine(base, demand, options); }).what();
+    CHECK_MESSAGE(message.find(what) != std::string::npos, message);
+  };
+  refused({}, "neither widths nor a region");
+  WidthDemand both = in_circle({0, 0, 1}, 0.1, 2);
+  both.widths = Widths(100.0);
+  refused(both, "widths and a region");
+  refused(in_circle({0, 0, 1}, 0.1, 1), "factor is 1");
+  refused(in_circle({0, 0, 1}, 0.1, 1000), "factor is 1000");
+  WidthDemand planar;
+  planar.region = square(0, 0, 1);
+  planar.factor = 2;
+  refused(planar, "kind of surface");
+  RefineOptions options;
+  options.tolerance = 0;
+  refused(in_circle({0, 0, 1}, 0.1, 2), "tolerance is 0", options);
+  options = {};
+  options.gradient = 2;
+  refused(in_circle({0, 0, 1}, 0.1, 2), "gradient is 2", options);
+}

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "help/help.h"
+#include "io/command.h"
+#include "options/cell_width_option.h"
+#include "options/config_option.h"
+#include "options/files.h"
+#include "options/format_options.h"
+#include "options/mesh_source.h"
+#include "options/partition_options.h"
+#include "options/region_option.h"
+#include "run/exit_code.h"
+#include "run/progress.h"
+#include "text/text.h"
+
+#include <calotte/mesh_file.h>
+#include <calotte/refine.h>
+#include <calotte/version.h>
+
+#include <CLI/App.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace calotte::tools {
+namespace {
+
+/// refine or coarsen: what the command says, and the library's function.
+struct Verb {
+  const char* name;
+  const char* purpose;
+  const char* widths;
+  const char* factor;
+  const char* left; ///< of cells that do not meet the demand
+  ChangedMesh (*change)(const Mesh&, const WidthDemand&, const RefineOptions&);
+};
+
+constexpr Verb refining{"refine",
+                        "Makes cells of a part of a mesh finer, and keeps all others to the bit.",
+                        "Widths, in km, that cells become as narrow as where they are wider",
+                        "How many times as narrow cells of the region become, more than 1 to 100",
+                        "wider",
+                        refine};
+constexpr Verb coarsening{
+    "coarsen",
+    "Makes cells of a part of a mesh coarser, and keeps all others to the bit.",
+    "Widths, in km, that cells become as wide as where they are narrower",
+    "How many times as wide cells of the region become, more than 1 to 100",
+    "narrower",
+    coarsen};
+
+struct Request {
+  const Verb* verb = nullptr;
+  std::shared_ptr<MeshSource> source;
+  std::shared_ptr<FormatWords> format;
+  std::shared_ptr<PartitionWords> partition;
+  std::shared_ptr<std::string> config;
+  WidthWords widths;
+  std::string region, inside, output, report;
+  std::optional<double> factor, gradient;
+  double tolerance = RefineOptions{}.tolerance;
+  std::vector<std::string> nearest;
+};
+
+/// Checks all options that can fail, before any input is read.
+void require_request(const Request& request) {
+  options_of(*request.format, request.output);
+  if (!request.widths.in_km() && request.region.empty())
+    refuse("there are no widths; give --cell-width KM|FILE, or --region REGION with --factor F");
+  require_outputs({{"mesh", request.output}, {"report", request.report}},
+                  {request.source->path, request.source->points, request.widths.file,
+                   region_file(request.region), *request.config});
+}
+
+WidthDemand demand_of(const Request& request, const MeshFile& file) {
+  const Surface& surface = file.mesh->surface;
+  WidthDemand demand;
+  demand.radius_km = radius_km(file, request.widths).value_or(request.widths.radius);
+  if (request.region.empty()) {
+    demand.widths = read_demand(request.widths, surface);
+    return demand;
+  }
+  if (!surface.is_sphere())
+    refuse(request.source->path + " is a mesh of a plane; give --cell-width with rules (.toml), a "
+                                  "region is one of the sphere");
+  demand.region = region_of(request.region, request.inside, demand.radius_km);
+  demand.factor = *request.factor;
+  return demand;
+}
+
+RefineOptions options_of(const Request& request, Progress& progress) {
+  RefineOptions options;
+  options.tolerance = request.tolerance;
+  options.gradient = request.gradient.value_or(options.gradient);
+  options.partition = options_of(*request.partition).partition;
+  options.progress = [&progress](const calotte::Progress& now) {
+    if (now.run != nullptr)
+      progress.stage(std::to_string(now.run->report.iterations.back().cells) +
+                     " cells of a patch, evaluation " +
+                     std::to_string(now.run->report.iterations.size()));
+    return Next::proceed;
+  };
+  return options;
+}
+
+WriteOptions write_options(const Request& request, const MeshFile& file) {
+  WriteOptions options = options_of(*request.format, request.output);
+  if (!request.format->sphere_radius && !request.format->model)
+    options.sphere_radius = file.sphere_radius;
+  if (!request.format->order)
+    options.numbering = Numbering::input;
+  options.history = std::string("calotte " CALOTTE_VERSION " ") + request.verb->name + ": " +
+                    request.source->path;
+  return options;
+}
+
+/// The sums over all patches.
+struct Totals {
+  std::int64_t removed = 0, added = 0, beyond = 0;
+  bool converged = true, well_centred = true;
+
+  explicit Totals(const std::vector<ChangedPatch>& patches) {
+    for (const ChangedPatch& patch : patches) {
+      removed += patch.removed;
+      added += patch.added;
+      beyond += patch.report.cells_beyond_limits;
+      converged = converged && patch.report.converged;
+      well_centred = well_centred && patch.report.well_centred;
+    }
+  }
+};
+
+std::string to_json(const ChangedMesh& changed, double read, double change, double write) {
+  nlohmann::ordered_json json;
+  json["cells"] = changed.mesh.points.cols();
+  json["kept"] = (changed.new_of_old.array() >= 0).count();
+  json["held"] = changed.held;
+  json["patches"] = nlohmann::ordered_json::array();
+  for (const ChangedPatch& patch : changed.patches)
+    json["patches"].push_back({{"removed", patch.removed},
+                               {"added", patch.added},
+                               {"converged", patch.report.converged},
+                               {"well_centred", patch.report.well_centred},
+                               {"cells_beyond_limits", patch.report.cells_beyond_limits},
+                               {"evaluations", patch.report.iterations.size()},
+                               {"seconds", patch.report.seconds}});
+  json["seconds"] = {{"read", read}, {"change", change}, {"write", write}};
+  return json.dump(2) + "\n";
+}
+
+std::string describe(const Request& request, const ChangedMesh& changed, const ChangedFile& file,
+                     const WrittenFields& written) {
+  std::string lines;
+  const auto list = [&](const std::string& what, const std::vector<std::string>& names) {
+    if (!names.empty())
+      lines += request.output + ": " + what + ": " + joined(names) + "\n";
+  };
+  list("fields at new cells are those of the nearest old one", file.nearest);
+  list("fields that do not follow the cells", file.left_out);
+  list("the format does not hold", written.dropped);
+  const Totals totals(changed.patches);
+  const std::int64_t cells = changed.new_of_old.size();
+  return lines + request.output + ": " + std::to_string(changed.mesh.points.cols()) + " cells, " +
+         std::to_string(cells - totals.removed) + " of " + std::to_string(cells) + " kept (" +
+         formatted("%.2f", 100.0 * static_cast<double>(cells - totals.removed) /
+                               static_cast<double>(cells)) +
+         "%), " + std::to_string(totals.added) + " new in " +
+         std::to_string(changed.patches.size()) +
+         (changed.patches.size() == 1 ? " patch\n" : " patches\n");
+}
+
+/// A line about what falls short, with its exit code.
+void judge(const Request& request, const ChangedMesh& changed) {
+  const Totals totals(changed.patches);
+  if (changed.held > 0)
+    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.held) +
+                     " cells stay " + request.verb->left +
+                     " than demanded, because they are at the boundary or next to it\n";
+  if (!totals.converged)
+    std::cerr << "calotte: " + request.output + ": not converged\n";
+  if (!totals.well_centred)
+    std::cerr << "calotte: " + request.output +
+                     ": not well-centred: " + std::to_string(totals.beyond) +
+                     " cells are beyond the limits of shapes\n";
+  if (changed.held > 0 || !totals.converged)
+    finish(not_converged);
+  if (!totals.well_centred)
+    finish(not_well_centred);
+}
+
+void run(const Request& request) {
+  require_request(request);
+  std::string words;
+  ChangedMesh changed;
+  {
+    Progress progress;
+    progress.stage("reading " + request.source->path);
+    MeshFile base;
+    const double read =
+        seconds_of([&] { base = read_mesh_file(*request.source, FieldChoice::all); });
+    if (!base.mesh || (base.polygons && !base.not_voronoi.empty() && base.mesh->closed()))
+      refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi +
+             "; give the file of a Voronoi mesh");
+    const WidthDemand demand = demand_of(request, base);
+    progress.stage("finding the patches");
+    const double change = seconds_of([&] {
+      with_threads(request.partition->threads, [&] {
+        changed = request.verb->change(*base.mesh, demand, options_of(request, progress));
+      });
+    });
+    const ChangedFile file = changed_file(base, changed, request.nearest);
+    progress.stage("writing " + request.output);
+    WrittenFields written;
+    const double write = seconds_of(
+        [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
+    words = changes_of(*request.source, base) + describe(request, changed, file, written);
+    if (!request.report.empty())
+      write_file(request.report, to_json(changed, read, change, write));
+  }
+  std::cout << words << std::flush;
+  judge(request, changed);
+}
+
+void add(CLI::App& app, const Verb& verb) {
+  CLI::App* command = app.add_subcommand(verb.name, verb.purpose);
+  auto request = std::make_shared<Request>();
+  request->verb = &verb;
+  request->source = add_mesh_source(*command, "BASE");
+  CLI::Option* const file = add_width_file(*command, request->widths, verb.widths);
+  CLI::Option* const region =
+      command
+          ->add_option("--region", request->region,
+                       "Part of the sphere whose cells change, see calotte help region")
+          ->type_name("REGION")
+          ->excludes(file);
+  add_inside(*command, request->inside);
+  CLI::Option* const factor =
+      command->add_option("--factor", request->factor, verb.factor)->type_name("F")->needs(region);
+  region->needs(factor);
+  add_gradient(*command, request->gradient,
+               "Largest change of the widths in the transition beside the part, in km per km, "
+               "0.001 to 1; default: 0.1");
+  command
+      ->add_option("--tolerance", request->tolerance,
+                   "Share of its width within which a cell meets the demand, 0.01 to 0.5")
+      ->capture_default_str();
+  command
+      ->add_option("--nearest", request->nearest,
+                   "Fields at cells, separated by commas, whose values at new cells are those of "
+                   "the nearest old one, as those of whole numbers are. Default: linear between "
+                   "old cells")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command
+      ->add_option("-o,--output", request->output,
+                   "Output mesh, with the cells that stayed in their order, then the new ones. Its "
+                   "field mapNewToBase has the number of each cell in BASE, or 0")
+      ->type_name("FILE")
+      ->required();
+  request->format = add_format(*command, "that of BASE");
+  command->add_option("--report", request->report, "Write counts and times to this JSON file")
+      ->type_name("FILE");
+  request->partition = add_partition_options(*command);
+  request->config = add_config(*command);
+  const std::string name = verb.name;
+  set_help(*command,
+           {.common = {"BASE", "--cell-width", "--region", "--factor", "--gradient", "--nearest",
+                       "--output", "--for", "--order", "--report", "--config", "--threads"},
+            .examples = {"calotte " + name + " global.nc --region bay.geojson --factor 2 -o new.nc",
+                         "calotte " + name +
+                             " global.nc --cell-width bay.toml --gradient 0.05 -o new.nc"}});
+  command->callback([request] { run(*request); });
+}
+
+} // namespace
+
+void add_refine(CLI::App& app) { add(app, refining); }
+void add_coarsen(CLI::App& app) { add(app, coarsening); }
+
+} // namespace calotte::tools
