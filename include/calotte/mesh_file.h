@@ -189,9 +189,9 @@ WithoutEars without_ears(MeshFile file);
 
 /// A file of which a part of the mesh changed.
 struct ChangedFile {
-  MeshFile file;
-  std::vector<std::string>
-      nearest; ///< fields whose new cells have the value of the nearest old one
+  MeshFile file; ///< its mesh, polygons, density and fields
+  /// Fields whose new cells have the value of the nearest old one.
+  std::vector<std::string> nearest;
   std::vector<std::string> left_out; ///< fields at edges and at vertices, which do not follow
 };
 
