@@ -79,8 +79,9 @@ struct ChangedMesh {
 /// \param mesh a Delaunay triangulation; sites of an open mesh at its boundary, and next to one
 ///        there, stay.
 /// \throws Error invalid_argument for a demand with widths and region or neither, a value out of
-///         range, a surface of another kind, and a mesh that is not Delaunay beside a patch; as
-///         make_grid().
+///         range, a surface of another kind, and a mesh that is not Delaunay where it changes; with
+///         the index of a site, where the boundary of an open mesh meets itself and a patch would
+///         reach both sides; for a patch that leads around a periodic plane; as make_grid().
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
 /// The same for cells that are narrower than demanded, which become wider. They begin at those that

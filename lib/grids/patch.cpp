@@ -7,10 +7,13 @@
 #include "exact/space.h"
 #include "mesh/faces.h"
 
+#include <calotte/error.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <queue>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -70,34 +73,40 @@ DoubleVector cell_areas(const Mesh& mesh, const S& space, const RingStarts& ring
   return areas;
 }
 
-Marks grown(const Mesh& mesh, const RingStarts& rings, const Marks& marks, int rows) {
-  const Faces faces = faces_of(mesh);
-  Marks all = marks;
-  std::vector<std::int32_t> rim;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i] != 0)
-      rim.push_back(static_cast<std::int32_t>(i));
+/// The triangles around some sites; all of them where a boundary passes through a site more than
+/// once.
+Marks stars_of(const Mesh& mesh, const Marks& sites) {
+  Marks triangles(static_cast<std::size_t>(mesh.triangles.cols()), 0);
+  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t t = begin; t != end; ++t)
+      for (int i = 0; i < 3; ++i)
+        triangles[static_cast<std::size_t>(t)] |=
+            sites[static_cast<std::size_t>(mesh.triangles(i, t))];
+  });
+  return triangles;
+}
+
+/// Sites, and those within some rows of neighbours around them.
+Marks grown(const Mesh& mesh, Marks sites, int rows) {
   for (int row = 0; row < rows; ++row) {
-    std::vector<std::int32_t> next;
-    for (const std::int32_t site : rim)
-      for_each_neighbour(faces, rings, site, [&](std::int32_t other) {
-        if (std::exchange(all[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0)
-          next.push_back(other);
-      });
-    rim = std::move(next);
+    const Marks triangles = stars_of(mesh, sites);
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      if (triangles[static_cast<std::size_t>(t)] != 0)
+        for (int i = 0; i < 3; ++i)
+          sites[static_cast<std::size_t>(mesh.triangles(i, t))] = 1;
   }
-  return all;
+  return sites;
 }
 
 /// Sites at the mesh's boundary, and their neighbours.
-Marks sites_at_boundary(const Mesh& mesh, const RingStarts& rings) {
+Marks sites_at_boundary(const Mesh& mesh) {
   Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       if (mesh.neighbours(i, t) < 0)
         for (const int k : {next_vertex(i), previous_vertex(i)})
           marks[static_cast<std::size_t>(mesh.triangles(k, t))] = 1;
-  return grown(mesh, rings, marks, 1);
+  return grown(mesh, std::move(marks), 1);
 }
 
 /// Values of sites from which a field spreads.
@@ -133,18 +142,6 @@ void spread(const Mesh& mesh, const RingStarts& rings, const Sources& sources, d
 
 // ---- Triangles of patches
 
-/// The triangles around some sites.
-Marks stars_of(const Mesh& mesh, const Marks& sites) {
-  Marks triangles(static_cast<std::size_t>(mesh.triangles.cols()), 0);
-  for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t != end; ++t)
-      for (int i = 0; i < 3; ++i)
-        triangles[static_cast<std::size_t>(t)] |=
-            sites[static_cast<std::size_t>(mesh.triangles(i, t))];
-  });
-  return triangles;
-}
-
 /// Whether the edge across from a vertex of a triangle with a mark leads to one without, or none.
 bool is_rim(const Mesh& mesh, const Marks& triangles, std::int64_t t, int i) {
   const std::int32_t beyond = mesh.neighbours(i, t);
@@ -152,23 +149,21 @@ bool is_rim(const Mesh& mesh, const Marks& triangles, std::int64_t t, int i) {
 }
 
 /// Adds the stars of sites where the triangles with a mark touch each other in a vertex only.
-void separate(const Mesh& mesh, const RingStarts& rings, Marks& triangles) {
-  const Faces faces = faces_of(mesh);
-  for (bool changed = true; changed;) {
-    changed = false;
+void separate(const Mesh& mesh, Marks& triangles) {
+  for (std::int64_t before = -1, count = 0; count != before;) {
     std::unordered_map<std::int32_t, int> fans; // by site: edges of the rim that begin there
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
       if (triangles[static_cast<std::size_t>(t)] != 0)
         for (int i = 0; i < 3; ++i)
           if (is_rim(mesh, triangles, t, i))
             ++fans[mesh.triangles(next_vertex(i), t)];
-    for (const auto& [site, count] : fans)
-      if (count > 1)
-        walk_star(faces, rings, site, [&](Corner corner) {
-          std::uint8_t& mark = triangles[static_cast<std::size_t>(corner.triangle)];
-          changed = changed || mark == 0;
-          mark = 1;
-        });
+    Marks touched(static_cast<std::size_t>(mesh.points.cols()), 0);
+    for (const auto& [site, edges] : fans)
+      touched[static_cast<std::size_t>(site)] = edges > 1;
+    const Marks stars = stars_of(mesh, touched);
+    before = std::exchange(count, 0);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      count += triangles[t] |= stars[t];
   }
 }
 
@@ -193,8 +188,13 @@ std::vector<std::vector<std::int32_t>> rings_of(const Mesh& mesh, const Marks& t
   for (const std::int32_t t : component)
     for (int i = 0; i < 3; ++i)
       if (is_rim(mesh, triangles, t, i)) {
-        starts.push_back(mesh.triangles(next_vertex(i), t));
-        next[starts.back()] = mesh.triangles(previous_vertex(i), t);
+        const std::int32_t from = mesh.triangles(next_vertex(i), t);
+        starts.push_back(from);
+        if (!next.emplace(from, mesh.triangles(previous_vertex(i), t)).second)
+          throw Error(ErrorCode::invalid_argument,
+                      "a patch would reach both sides of site " + std::to_string(from) +
+                          ", where the mesh's boundary meets itself; give a part without it",
+                      from);
       }
   std::sort(starts.begin(), starts.end());
   std::vector<std::vector<std::int32_t>> rings;
@@ -253,7 +253,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Doub
                            const DoubleVector& demanded, Way way, double tolerance,
                            double gradient) {
   const bool finer = way == Way::finer;
-  WantedWidths wanted{own, sites_at_boundary(mesh, rings), 0};
+  WantedWidths wanted{own, sites_at_boundary(mesh), 0};
   Marks changes(static_cast<std::size_t>(own.size()), 0);
   const auto has = [](const Marks& marks, std::int32_t i) {
     return marks[static_cast<std::size_t>(i)] != 0;
@@ -302,8 +302,8 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Doub
   return wanted;
 }
 
-std::vector<Patch> patches_of(const Mesh& mesh, const RingStarts& rings, const DoubleVector& own,
-                              const WantedWidths& wanted, int rows_that_adapt) {
+std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const WantedWidths& wanted,
+                              int rows_that_adapt) {
   constexpr double least_change = 0.01;
   constexpr int rows_that_stay = 1; // and one more, the rim of their stars
   const auto n = static_cast<std::size_t>(mesh.points.cols());
@@ -312,12 +312,12 @@ std::vector<Patch> patches_of(const Mesh& mesh, const RingStarts& rings, const D
     const auto site = static_cast<Eigen::Index>(i);
     is_free[i] = own[site] > 0 && std::abs(wanted.width[site] / own[site] - 1) > least_change;
   }
-  is_free = grown(mesh, rings, is_free, rows_that_adapt);
+  is_free = grown(mesh, std::move(is_free), rows_that_adapt);
   for (std::size_t i = 0; i < n; ++i)
     if (wanted.stays[i] != 0)
       is_free[i] = 0;
-  Marks triangles = stars_of(mesh, grown(mesh, rings, is_free, rows_that_stay));
-  separate(mesh, rings, triangles);
+  Marks triangles = stars_of(mesh, grown(mesh, is_free, rows_that_stay));
+  separate(mesh, triangles);
   Marks left = triangles;
   std::vector<Patch> patches;
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)

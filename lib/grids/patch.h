@@ -52,8 +52,9 @@ struct Patch {
 /// The patches of a mesh whose widths change, by their lowest triangle.
 /// \param own, wanted as above.
 /// \param rows_that_adapt of cells around those whose widths change.
-std::vector<Patch> patches_of(const Mesh& mesh, const mesh_detail::RingStarts& rings,
-                              const DoubleVector& own, const WantedWidths& wanted,
+/// \throws Error invalid_argument, with the index of a site where the mesh's boundary meets itself,
+///         if a patch would hold triangles on both sides of it.
+std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const WantedWidths& wanted,
                               int rows_that_adapt);
 
 } // namespace calotte::grids_detail

@@ -208,6 +208,21 @@ bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_
   });
 }
 
+/// A patch of a Delaunay triangulation fits.
+template <Space S>
+[[noreturn]] void refuse_misfit(const Mesh& mesh, const S& space,
+                                const std::vector<Patch>& patches) {
+  std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (const Patch& patch : patches)
+    for (const auto* sites : {&patch.fixed, &patch.free})
+      for (const std::int32_t site : *sites)
+        of_patch[static_cast<std::size_t>(site)] = 1;
+  require(is_delaunay(mesh, space, of_patch),
+          "the mesh is no Delaunay triangulation where it is to change; triangulate its sites");
+  throw Error(ErrorCode::internal,
+              "a patch does not fit into the mesh; please report this input as a bug");
+}
+
 /// Puts the patches' replacements in their places.
 template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<Patch>& patches,
@@ -234,8 +249,7 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<Patch>
   };
   if (open_edges(out.mesh.neighbours) != open_edges(mesh.neighbours) ||
       !is_delaunay(out.mesh, space, of_patch))
-    throw Error(ErrorCode::internal,
-                "a patch does not fit into the mesh; please report this input as a bug");
+    refuse_misfit(mesh, space, patches);
   out.width_ratio = DoubleVector::Ones(out.mesh.points.cols());
   for (std::size_t p = 0; p < replacements.size(); ++p)
     for (std::size_t k = 0; k < sites.added[p].size(); ++k)
@@ -257,7 +271,7 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& demand, Way way,
   // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
-    const std::vector<Patch> patches = patches_of(mesh, rings, own, wanted, rows);
+    const std::vector<Patch> patches = patches_of(mesh, own, wanted, rows);
     std::vector<Replacement> replacements;
     for (const Patch& patch : patches)
       replacements.push_back(

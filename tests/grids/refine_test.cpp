@@ -262,6 +262,57 @@ TEST_CASE("the same bits on any number of threads and for any number of regions 
   }
 }
 
+TEST_CASE("a patch does not reach both sides of a site where the boundary meets itself") {
+  const Mesh good = make_grid({.cells = 642}).mesh;
+  const std::int32_t a = good.triangles(0, 600);
+  const Eigen::Vector3d centre = good.points.col(a);
+
+  // Two triangles at a site, across from each other, are left out.
+  Mesh open = good;
+  std::vector<Eigen::Index> kept, around;
+  for (Eigen::Index k = 0; k < good.triangles.cols(); ++k)
+    if ((good.triangles.col(k).array() == a).any())
+      around.push_back(k);
+  REQUIRE(around.size() == 6);
+  const Eigen::Index first = around[0];
+  const auto shares = [&](Eigen::Index k) {
+    int common = 0;
+    for (const std::int32_t site : good.triangles.col(k))
+      common += (good.triangles.col(first).array() == site).any() ? 1 : 0;
+    return common;
+  };
+  Eigen::Index opposite = -1;
+  for (const Eigen::Index k : around) {
+    bool apart = shares(k) == 1;
+    for (int i = 0; i < 3; ++i)
+      if (const std::int32_t n = good.neighbours(i, k); n >= 0)
+        apart = apart && n != first;
+    // Across: none of its neighbours at the site is a neighbour of the first.
+    int near = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        near += good.neighbours(i, k) == good.neighbours(j, first) ? 1 : 0;
+    if (apart && near == 0)
+      opposite = k;
+  }
+  REQUIRE(opposite >= 0);
+  for (Eigen::Index k = 0; k < good.triangles.cols(); ++k)
+    if (k != first && k != opposite)
+      kept.push_back(k);
+  std::vector<std::int32_t> number(static_cast<std::size_t>(good.triangles.cols()), -1);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    number[static_cast<std::size_t>(kept[k])] = static_cast<std::int32_t>(k);
+  open.triangles = good.triangles(Eigen::all, kept);
+  open.neighbours = good.neighbours(Eigen::all, kept).unaryExpr([&](std::int32_t n) {
+    return number[static_cast<std::size_t>(n)];
+  });
+  WidthDemand wide = in_circle(centre, 1.2, 1.5);
+  const Error error = test::error_of([&] { refine(open, wide); });
+  CHECK(error.code() == ErrorCode::invalid_argument);
+  CHECK(error.index() == a);
+  CHECK(std::string(error.what()).find("meets itself") != std::string::npos);
+}
+
 TEST_CASE("demands that cannot be") {
   const Mesh& base = uniform_sphere();
   const auto refused = [&](const WidthDemand& demand, const std::string& what,

@@ -119,4 +119,17 @@ inline void check_refusal_naming(const Bench& bench, const std::string& argument
   CHECK(bench.names() == names);
 }
 
+/// Runs a command that is refused with one line that contains a part; nothing is written.
+inline void check_command_refused(const Bench& bench, const std::string& arguments,
+                                  const std::string& part) {
+  CAPTURE(arguments);
+  const auto before = bench.names();
+  const Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find(part) != std::string::npos);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(bench.names() == before);
+}
+
 } // namespace calotte::test

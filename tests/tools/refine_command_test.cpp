@@ -54,14 +54,7 @@ TEST_CASE("bad demands end in one line and leave no file") {
   const Bench bench;
   REQUIRE(bench.run("cvt --cells 642 -o base.nc").code == 0);
   const auto refused = [&](const std::string& arguments, const std::string& part) {
-    CAPTURE(arguments);
-    const auto before = bench.names();
-    const Outcome outcome = bench.run(arguments);
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(has(outcome.err, part));
-    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-    CHECK(bench.names() == before);
+    check_command_refused(bench, arguments, part);
   };
   const std::string part = "refine base.nc --region circle=10,50,1200km ";
   refused("refine base.nc -o new.nc", "there are no widths; give --cell-width");

@@ -7,7 +7,7 @@
 #include "mesh/faces.h"
 #include "mesh/ring_law.h"
 
-#include <calotte/locate.h>
+#include <calotte/conservative.h>
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
@@ -28,76 +28,73 @@ using mesh_detail::RingStarts;
 
 /// Where values of new cells come from.
 struct Sources {
-  const MeshFile& old;
   const ChangedMesh& changed;
   std::vector<std::int32_t> added; ///< new cells
-  Locations at;                    ///< of these in the old mesh
+  GridWeights linear, nearest;     ///< from old cells to these; a row outside of an open mesh is
+                                   ///< empty in `linear`
+
+  bool is_outside(std::size_t k) const {
+    const int* const begin = linear.weights.outerIndexPtr() + k;
+    return begin[0] == begin[1];
+  }
 };
 
-Sources sources_of(const MeshFile& old, const ChangedMesh& changed) {
-  Sources out{old, changed, {}, {}};
+Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
+  Sources out{changed, {}, {}, {}};
   for (std::int32_t i = 0; i < changed.old_of_new.size(); ++i)
     if (changed.old_of_new[i] < 0)
       out.added.push_back(i);
-  if (!out.added.empty())
-    out.at = locate(*old.mesh, Points3(changed.mesh.points(Eigen::all, out.added)));
+  const Points3 places = changed.mesh.points(Eigen::all, out.added);
+  for (GridWeights* const weights : {&out.linear, &out.nearest}) {
+    weights->weights = interpolation_weights(
+        old, places, weights == &out.linear ? Interpolation::linear : Interpolation::nearest);
+    weights->target_fraction = DoubleVector::Ones(places.cols());
+  }
   return out;
 }
 
-/// Calls body(site, weight) for the old sites of the k-th new one.
-template <class Body>
-void for_each_source(const Sources& sources, std::size_t k, bool nearest, const Body& body) {
-  const auto index = static_cast<Eigen::Index>(k);
-  const std::int32_t t = sources.at.triangle[index];
-  if (nearest || t < 0) {
-    body(sources.at.nearest[index], 1.0);
-    return;
-  }
-  for (int i = 0; i < 3; ++i)
-    if (sources.at.weights(i, index) > 0)
-      body(sources.old.mesh->triangles(i, t), sources.at.weights(i, index));
-}
-
-/// Values by old cell as values by new cell. \param count numbers for each cell.
-DoubleVector carried(const Sources& sources, const DoubleVector& values, std::int64_t count,
-                     bool nearest) {
+/// A field at old cells as one at new cells.
+MeshField carried(const Sources& sources, const MeshField& field, bool nearest) {
   const Ids& old_of_new = sources.changed.old_of_new;
-  DoubleVector out = DoubleVector::Zero(old_of_new.size() * count);
+  const std::int64_t count = field.count();
+  const MeshField near = interpolate(sources.nearest, field),
+                  between = nearest ? near : interpolate(sources.linear, field);
+  MeshField out = field;
+  out.values.resize(old_of_new.size() * count);
   for (Eigen::Index i = 0; i < old_of_new.size(); ++i)
     if (old_of_new[i] >= 0)
-      out.segment(i * count, count) = values.segment(old_of_new[i] * count, count);
+      out.values.segment(i * count, count) = field.values.segment(old_of_new[i] * count, count);
   for (std::size_t k = 0; k < sources.added.size(); ++k)
-    for_each_source(sources, k, nearest, [&](std::int32_t site, double weight) {
-      out.segment(sources.added[k] * count, count) += weight * values.segment(site * count, count);
-    });
+    out.values.segment(sources.added[k] * count, count) =
+        (sources.is_outside(k) ? near : between)
+            .values.segment(static_cast<Eigen::Index>(k) * count, count);
   return out;
 }
 
 /// Denser where the cells are finer; between old cells its -1/4th power, which widths are
 /// proportional to, is linear.
-DoubleVector carried_density(const Sources& sources) {
+DoubleVector carried_density(const Sources& sources, const DoubleVector& density) {
   constexpr double least = 1e-150;
-  const Eigen::Index cells = sources.old.mesh->points.cols();
-  const DoubleVector old = sources.old.density.size() == cells
-                               ? sources.old.density
-                               : DoubleVector(DoubleVector::Ones(cells));
-  const DoubleVector widths = old.array().max(least).pow(-0.25);
-  DoubleVector out = carried(sources, old, 1, false);
-  for (std::size_t k = 0; k < sources.added.size(); ++k) {
-    double width = 0;
-    for_each_source(sources, k, false,
-                    [&](std::int32_t site, double weight) { width += weight * widths[site]; });
-    out[sources.added[k]] = std::pow(width * sources.changed.width_ratio[sources.added[k]], -4);
+  const Eigen::Index cells = sources.changed.new_of_old.size();
+  const DoubleVector old =
+      density.size() == cells ? density : DoubleVector(DoubleVector::Ones(cells));
+  const DoubleVector widths =
+      carried(sources, {.name = "width", .values = old.array().max(least).pow(-0.25)}, false)
+          .values;
+  DoubleVector out(widths.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const std::int32_t before = sources.changed.old_of_new[i];
+    out[i] = before >= 0 ? old[before] : std::pow(widths[i] * sources.changed.width_ratio[i], -4);
   }
   return out / std::max(out.maxCoeff(), least);
 }
 
 constexpr const char* map_name = "mapNewToBase";
 
-void carry_fields(const Sources& sources, const std::vector<std::string>& nearest,
-                  ChangedFile& out) {
-  const std::int64_t cells = sources.old.mesh->points.cols();
-  for (const MeshField& field : sources.old.fields) {
+void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
+                  const std::vector<std::string>& nearest, ChangedFile& out) {
+  const std::int64_t cells = sources.changed.new_of_old.size();
+  for (const MeshField& field : fields) {
     if (field.name == map_name)
       continue;
     if (field.location != Location::cells || !has_values_for(field, cells)) {
@@ -107,9 +104,7 @@ void carry_fields(const Sources& sources, const std::vector<std::string>& neares
     const bool as_nearest = field.integer || std::ranges::count(nearest, field.name) > 0;
     if (as_nearest)
       out.nearest.push_back(field.name);
-    MeshField carried_field = field;
-    carried_field.values = carried(sources, field.values, field.count(), as_nearest);
-    out.file.fields.push_back(std::move(carried_field));
+    out.file.fields.push_back(carried(sources, field, as_nearest));
   }
   out.file.fields.push_back({.name = map_name,
                              .long_name = "number of the cell in the file that this was made from",
@@ -255,9 +250,9 @@ ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
   out.file.format = old.format;
   out.file.not_voronoi = old.not_voronoi;
   out.file.sphere_radius = old.sphere_radius;
-  const Sources sources = sources_of(old, changed);
-  out.file.density = carried_density(sources);
-  carry_fields(sources, nearest, out);
+  const Sources sources = sources_of(*old.mesh, changed);
+  out.file.density = carried_density(sources, old.density);
+  carry_fields(sources, old.fields, nearest, out);
   if (old.polygons)
     out.file.polygons =
         exact_detail::in_space_of(old.mesh->surface, [&](const exact_detail::Space auto& space) {
