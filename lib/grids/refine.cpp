@@ -59,10 +59,9 @@ class Demand {
 public:
   Demand(const WidthDemand& demand, Way way, const Surface& surface)
       : demand_(demand), way_(way), unit_(surface.is_sphere() ? 1 / demand.radius_km : 1),
-        factor_(way == Way::finer ? 1 / demand.factor : demand.factor) {
-    if (demand.widths && way == Way::finer)
-      fine_.emplace(*demand.widths, unit_);
-  }
+        factor_(way == Way::finer ? 1 / demand.factor : demand.factor),
+        fine_(demand.widths && way == Way::finer ? std::optional(FineWidths{*demand.widths, unit_})
+                                                 : std::nullopt) {}
 
   /// At sites with their own widths.
   DoubleVector at_sites(const Points3& points, const DoubleVector& own) const {
