@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/hexagons.h"
+#include "domain/arcs.h"
 #include "exact/space.h"
 #include "mesh/faces.h"
 
@@ -50,10 +51,21 @@ bool for_each_neighbour(const Faces& faces, const RingStarts& rings, std::int32_
   return closed;
 }
 
+/// From one site to another, in the unit of widths: on the sphere between directions, whose norms
+/// files may give.
+template <Space S>
+Vec3 chord(const S& space, const Mesh& mesh, std::int32_t from, std::int32_t to) {
+  const Vec3 a = column(mesh.points, from), b = column(mesh.points, to);
+  if constexpr (S::on_sphere)
+    return domain_detail::as_unit(b) - domain_detail::as_unit(a);
+  else
+    return space.offset(a, b);
+}
+
 template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64_t t) {
-  const Vec3& a = column(mesh.points, mesh.triangles(0, t));
-  return 0.5 * norm(cross(space.offset(a, column(mesh.points, mesh.triangles(1, t))),
-                          space.offset(a, column(mesh.points, mesh.triangles(2, t)))));
+  const auto corners = mesh.triangles.col(t);
+  return 0.5 * norm(cross(chord(space, mesh, corners[0], corners[1]),
+                          chord(space, mesh, corners[0], corners[2])));
 }
 
 /// A third of the triangles around each site; 0 where its star is open.
@@ -129,8 +141,7 @@ void spread(const Mesh& mesh, const RingStarts& rings, const Sources& sources, d
       if (entry.first > field[i])
         continue;
       for_each_neighbour(faces, rings, i, [&](std::int32_t other) {
-        const double most = entry.first + gradient * norm(space.offset(column(mesh.points, i),
-                                                                       column(mesh.points, other)));
+        const double most = entry.first + gradient * norm(chord(space, mesh, i, other));
         if (most < field[other] && may(other)) {
           field[other] = most;
           queue.emplace(most, other);

@@ -248,6 +248,21 @@ TEST_CASE("sites at a boundary stay, and are counted where they do not meet the 
     CHECK(finer.new_of_old[i] >= 0);
 }
 
+TEST_CASE("widths do not depend on the norm of the sites [slow]") {
+  const Mesh& unit = uniform_sphere();
+  Mesh earth = unit;
+  earth.points *= 6371220; // as files of MPAS-Ocean have them
+  WidthDemand demand;
+  demand.widths = Widths::around({Points3(Eigen::Vector3d(0.6, 0, 0.8))}, 120, 700);
+  const ChangedMesh expected = refine(unit, demand), finer = refine(earth, demand);
+  expect_changed(earth, finer);
+  REQUIRE(finer.patches.size() == 1);
+  CHECK(finer.patches[0].removed == expected.patches[0].removed);
+  CHECK(std::abs(double(finer.patches[0].added) / double(expected.patches[0].added) - 1) < 0.02);
+  const auto norms = finer.mesh.points.colwise().norm().array();
+  CHECK((norms / 6371220 - 1).abs().maxCoeff() < 1e-12);
+}
+
 TEST_CASE("the same bits on any number of threads and for any number of regions [slow]") {
   const Mesh& base = uniform_sphere();
   const WidthDemand demand = in_circle({0, 0, 1}, 0.12, 2);
