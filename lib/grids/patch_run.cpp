@@ -173,9 +173,10 @@ std::int64_t count_of(const Patch& patch, const DoubleVector& own, const DoubleV
 
 /// Midpoints of the edges that are too long, again and again; none between fixed sites. They keep
 /// the directions of the rows of cells, so that few dislocations are needed beside the patch.
-/// \param local the patch. \param least width at which the density is 1.
-Points3 with_midpoints(const Mesh& local, std::int64_t fixed, const Density& density,
-                       double least) {
+/// \param local the patch. \param surface of the patch, whose rings may be concave: edges across
+/// them have none. \param least width at which the density is 1.
+Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t fixed,
+                       const Density& density, double least) {
   constexpr double longest = 1.5; // widths
   constexpr int most_passes = 8;
   Mesh mesh = local;
@@ -195,7 +196,8 @@ Points3 with_midpoints(const Mesh& local, std::int64_t fixed, const Density& den
     std::vector<Eigen::Index> chosen;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const auto index = static_cast<Eigen::Index>(k);
-      if (norm(edges[k][1] - edges[k][0]) > longest * least * std::pow(rho[index], -0.25))
+      if (norm(edges[k][1] - edges[k][0]) > longest * least * std::pow(rho[index], -0.25) &&
+          surface.contains(middles.col(index)))
         chosen.push_back(index);
     }
     if (chosen.empty())
@@ -278,9 +280,10 @@ Replacement replacement_of(const Mesh& mesh, const Patch& patch, const DoubleVec
   const DoubleVector width = at_sites(wanted, sites);
   const Density density = density_of(local, width, fine, options.tolerance);
   const std::int64_t fixed = std::ssize(patch.fixed);
+  const Surface surface = surface_of(mesh, patch, sites);
   const Schedule schedule =
-      schedule_of(surface_of(mesh, patch, sites), density, count_of(patch, own, wanted), fixed,
-                  with_midpoints(local, fixed, density, width.minCoeff()));
+      schedule_of(surface, density, count_of(patch, own, wanted), fixed,
+                  with_midpoints(local, surface, fixed, density, width.minCoeff()));
   RunOptions run;
   run.partition = options.partition;
   run.progress = options.progress;

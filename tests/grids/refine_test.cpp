@@ -263,6 +263,19 @@ TEST_CASE("widths do not depend on the norm of the sites [slow]") {
   CHECK((norms / 6371220 - 1).abs().maxCoeff() < 1e-12);
 }
 
+TEST_CASE("a patch whose rings are concave [slow]") {
+  const Surface lake = rectangle({0, 0}, {24, 16});
+  const Mesh base = make_grid({.cells = 440, .surface = lake}).mesh;
+  WidthDemand demand;
+  demand.region = square(11, 8, 5);
+  demand.factor = 2;
+  const ChangedMesh finer = refine(base, demand); // up to the sites that stay at the boundary
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  CHECK(lake.contains(finer.mesh.points.rowwise().minCoeff()));
+  CHECK(lake.contains(finer.mesh.points.rowwise().maxCoeff()));
+}
+
 TEST_CASE("the same bits on any number of threads and for any number of regions [slow]") {
   const Mesh& base = uniform_sphere();
   const WidthDemand demand = in_circle({0, 0, 1}, 0.12, 2);
