@@ -55,11 +55,12 @@ namespace {
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
-  bool good =
-      n >= 1 && state.id.size() == n && state.fixed >= 0 && state.fixed <= state.points.cols() &&
-      state.bisections_left >= 0 && state.rounds_left >= 0 && state.glides >= 0 &&
-      state.raised >= 0 && state.iterations_of_level >= 0 && std::isfinite(state.penalty) &&
-      state.penalty >= 0 && std::isfinite(state.demanded_spacing) && state.demanded_spacing > 0;
+  bool good = n >= 1 && state.id.size() == n && state.fixed >= 0 &&
+              state.fixed <= state.points.cols() && state.bisections_left >= 0 &&
+              state.rounds_left >= 0 && state.idle_rounds >= 0 && state.glides >= 0 &&
+              state.raised >= 0 && state.iterations_of_level >= 0 && std::isfinite(state.penalty) &&
+              state.penalty >= 0 && std::isfinite(state.demanded_spacing) &&
+              state.demanded_spacing > 0;
   for (std::size_t i = 0; good && i < n; ++i) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;

@@ -50,9 +50,16 @@ EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density&
 /// Whether the number of generators is far from that of the level's end, as at a start from points
 /// that were given: rounds change it first, after descents of a few evaluations.
 bool is_far(const State& state, const Surface& surface, const CvtOptions& options) {
-  constexpr int part = 20;
+  constexpr std::int64_t part = 20, few = 10;
   const std::int64_t cells = cells_of_level(surface, options.cells, state.bisections_left);
-  return std::abs(state.points.cols() - cells) > cells / part;
+  return std::abs(state.points.cols() - cells) > std::max(cells / part, few);
+}
+
+/// Whether further rounds may bring the number of generators to that of the level's end. Between
+/// generators that stay there may be no edge left to split or to collapse.
+bool may_come_nearer(const State& state) {
+  constexpr int most = 20;
+  return state.idle_rounds < most;
 }
 
 constexpr std::int64_t many = 2000; // generators
@@ -129,10 +136,10 @@ bool has_stalled(const State& state) {
 Stage stage_after(const State& state, const CvtOptions& options) {
   constexpr int most_raised = 2;
   const bool inserts = options.insertion_rounds > 0, in_polish = state.penalty > 0;
-  // A round may find too few edges for all generators that are missing.
+  // A round may find too few edges for all generators that are missing; then there is another.
   if (inserts && !in_polish &&
-      (state.rounds_left > 0 ||
-       (state.bisections_left == 0 && state.points.cols() != options.cells)))
+      (state.rounds_left > 0 || (state.bisections_left == 0 &&
+                                 state.points.cols() != options.cells && may_come_nearer(state))))
     return Stage::insert;
   if (state.bisections_left > 0)
     return Stage::bisect;
@@ -234,17 +241,20 @@ Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh) {
           : bisected(mesh.surface, mesh.points.cols());
   Level level = set_bisected(state, mesh, options.density, cells);
   state.rounds_left = rounds_of_level(state.bisections_left, options);
+  state.idle_rounds = 0;
   state.site_of_input.clear();
   begin_descent(state);
   return level;
 }
 
 Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh) {
-  const bool counts = !is_far(state, mesh.surface, options);
-  Level level = set_split_and_collapsed(
-      state, mesh, options.density,
-      edge_changes_of(state, mesh, options.density,
-                      cells_of_level(mesh.surface, options.cells, state.bisections_left)));
+  const std::int64_t cells = cells_of_level(mesh.surface, options.cells, state.bisections_left);
+  const auto apart = [&] { return std::abs(state.points.cols() - cells); };
+  const bool counts = !is_far(state, mesh.surface, options) || !may_come_nearer(state);
+  const std::int64_t before = apart();
+  Level level = set_split_and_collapsed(state, mesh, options.density,
+                                        edge_changes_of(state, mesh, options.density, cells));
+  state.idle_rounds += before > 0 && apart() >= before ? 1 : 0;
   if (counts)
     state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.site_of_input.clear();

@@ -34,6 +34,8 @@ struct State {
   std::int64_t fixed = 0;                  ///< generators with lower ids stay where they are
   int bisections_left = 0;
   int rounds_left = 0; ///< of insertion, on this level
+  int idle_rounds =
+      0; ///< of this level: they brought the number of generators no nearer to its end
   int iterations_of_level = 0;
   bool final_rule = false;     ///< it has taken over
   bool stuck = false;          ///< no step lowers the value, as far as the method can tell

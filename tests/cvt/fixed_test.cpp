@@ -13,6 +13,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -327,6 +328,38 @@ TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   // No cell is squeezed: of a start anywhere, thousands are.
   CHECK(grid.report.cells_beyond_limits <= 2);
   CHECK(grid.report.iterations.back().shape_excess < 0.1);
+}
+
+TEST_CASE("fixed generators: rounds end where a hole has room for fewer than it starts with") {
+  constexpr int side = 5; // a lattice without its middle, in whose place there are four
+  const double height = std::sqrt(0.75);
+  const Eigen::Vector2d middle(2.25, 2.5 * height);
+  Points3 start = Points3::Zero(3, side * side - 1 + 4);
+  Eigen::Index next = 0;
+  for (int r = 0; r < side; ++r)
+    for (int c = 0; c < side; ++c)
+      if (r != 2 || c != 2)
+        start.col(next++).head<2>() << c + 0.25 + 0.5 * (r % 2), (r + 0.5) * height;
+  CvtOptions options;
+  options.fixed = next;
+  options.cells = next + 1;
+  options.boundary = Boundary::generators;
+  options.well_centred = true;
+  options.tolerance = 1e-4;
+  options.density.kind = Density::Kind::callable;
+  options.density.callable = [](const Eigen::Ref<const Points3>& x,
+                                Eigen::Ref<Eigen::VectorXd> rho) {
+    rho = (-0.4 * x.row(0).transpose()).array().exp();
+  };
+  for (const auto& [x, y] : {std::array{-0.3, 0.0}, {0.3, 0.0}, {0.0, 0.3}, {0.0, -0.3}})
+    start.col(next++).head<2>() = middle + Eigen::Vector2d(x, y);
+  for (const int rounds : {1, 3}) {
+    options.insertion_rounds = rounds;
+    const Cvt grid = cvt(start, rectangle({0, 0}, {side + 0.5, side * height}), options,
+                         [](const CvtProgress& now) { return now.report.iterations.size() > 500; });
+    CHECK(grid.report.iterations.size() < 300);
+    CHECK(grid.mesh.points.cols() == options.cells);
+  }
 }
 
 TEST_CASE("fixed generators in the plane: free ones start where these leave room") {

@@ -27,7 +27,7 @@ constexpr std::string_view format = "calotte checkpoint ";
 
 std::string head() {
   std::string line(format);
-  line += "13, ";
+  line += "14, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -52,7 +52,8 @@ template <class Level, class Visit> void visit_level(Level& l, const Visit& visi
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
-  visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.iterations_of_level);
+  visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.idle_rounds),
+      visit(s.iterations_of_level);
   visit(s.final_rule), visit(s.stuck), visit(s.glides), visit(s.since_restart), visit(s.raised),
       visit(s.penalty), visit(s.demanded_spacing), visit(s.descended);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
