@@ -48,3 +48,35 @@ TEST_CASE("a variable of an open MPAS file that is spoilt alone is found") {
       Patch(path).put(variable);
     }
 }
+
+TEST_CASE("masks of a limited area follow at edges and vertices from those of cells") {
+  const Scratch scratch;
+  const std::string path = scratch / "open.nc";
+  Cut file = open_file(scratch, fibonacci_sphere(200), 0);
+  const auto add = [&](const std::string& kind, const std::string& dimension, auto&& value) {
+    const std::size_t count = file.count(dimension);
+    Variable mask{"bdyMask" + kind, {count}, {dimension}, true, std::vector<double>(count)};
+    for (std::size_t i = 0; i < count; ++i)
+      mask.values[i] = value(i);
+    file.variables[mask.name] = mask;
+    return mask;
+  };
+  const Variable of_cells =
+      add("Cell", "nCells", [](std::size_t i) { return static_cast<double>(i * i % 8); });
+  const auto least = [&](const std::string& list, std::size_t row, std::size_t width) {
+    double out = 8;
+    for (std::size_t k = 0; k < width; ++k)
+      if (const double id = file.at(list, row, k); id > 0)
+        out = std::min(out, of_cells.values[static_cast<std::size_t>(id) - 1]);
+    return out;
+  };
+  file.create(path, NC_DOUBLE, put_attributes);
+  CHECK(is_found(path)); // the others are missing
+  Variable edges = add("Edge", "nEdges", [&](std::size_t e) { return least("cellsOnEdge", e, 2); });
+  add("Vertex", "nVertices", [&](std::size_t v) { return least("cellsOnVertex", v, 3); });
+  file.create(path, NC_DOUBLE, put_attributes);
+  check_none(path);
+  edges.values[5] += 1;
+  Patch(path).put(edges);
+  CHECK(is_found(path));
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/field_order.h"
 
+#include "io/cells/limited_area_masks.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -41,11 +43,10 @@ std::string line_of(const EdgeOrder& order, const std::vector<MeshField>& fields
 }
 
 void ignore_edge_fields(std::vector<MeshField>& fields, std::vector<std::string>& ignored) {
-  std::erase_if(fields, [&](const MeshField& field) {
-    if (field.location == Location::edges)
+  for (const MeshField& field : fields)
+    if (field.location == Location::edges && !is_derived_mask(field.name, fields))
       ignored.push_back(field.name);
-    return field.location == Location::edges;
-  });
+  std::erase_if(fields, [](const MeshField& field) { return field.location == Location::edges; });
 }
 
 } // namespace

@@ -4,10 +4,13 @@
 #include "base/points.h"
 #include "domain/clipped_cell.h"
 #include "exact/space.h"
+#include "io/cells/limited_area_masks.h"
 #include "io/cells/open_cells.h"
 #include "io/mpas/mpas.h"
 #include "io/mpas/mpas_open.h"
 #include "voronoi/open.h"
+
+#include <calotte/limited_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +142,37 @@ Points3 cells_of(const MeshFile& file) {
   return cells;
 }
 
+// ---- Masks of a limited area
+
+/// Those of edges and vertices follow from that of the cells.
+void check_masks(const Voronoi& part, Deviations& deviations) {
+  const NetcdfReader& file = deviations.file();
+  const std::vector<std::int64_t> by_cell{part.cells.cols()};
+  if (!file.has_variable(cell_mask) || !file.is_numeric(cell_mask) ||
+      file.shape_of(cell_mask) != by_cell)
+    return;
+  const std::vector<std::int32_t> stored = file.ints(cell_mask, by_cell);
+  const Ids of_cells = Eigen::Map<const Ids>(stored.data(), std::ssize(stored));
+  const auto check = [&](const DerivedMask& mask, const IdLists& on_cell, std::int64_t count) {
+    if (!file.has_variable(mask.name))
+      return deviations.add(mask.name, std::string(mask.name) +
+                                           ": is missing, and MPAS reads it where there is " +
+                                           cell_mask);
+    if (!deviations.has(mask.name, {count}))
+      return;
+    const Ids least = least_mask(on_cell, of_cells, count);
+    deviations.add(mask.name,
+                   deviations.visit_rows<std::int32_t>(
+                       mask.name,
+                       [&](std::int64_t row, const std::int32_t* value, Differences& differences) {
+                         differences.compare(row, *value, least[row]);
+                       }),
+                   std::string("the ") + mask.meaning);
+  };
+  check(edge_mask, part.edges_on_cell, part.cells_on_edge.cols());
+  check(vertex_mask, part.vertices_on_cell, part.cells_on_vertex.cols());
+}
+
 } // namespace
 
 void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations) {
@@ -162,6 +196,7 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
     place_vertices(std::move(vertices), part);
     voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
     mark_incomplete_cells(radius, part);
+    check_masks(part, deviations);
   }
   const double width = whole ? part.dc.mean() : 1;
   const DoubleVector density =

@@ -3,6 +3,7 @@
 #include "io/cells/centroids.h"
 #include "io/cells/dual.h"
 #include "io/cells/field_order.h"
+#include "io/cells/limited_area_masks.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/open_cells.h"
 #include "io/cells/polygons.h"
@@ -144,9 +145,11 @@ std::vector<std::string> dropped_fields(const MeshFile& file, Format format, boo
   const bool clipped = !polygons && is_clipped(file) && info_of(format).cells;
   std::vector<std::string> dropped;
   for (const MeshField& field : file.fields)
-    if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
-        (polygons && !is_of(*file.polygons, field, format)) ||
-        (!polygons && is_at_corners(file, field)))
+    if (format == Format::mpas && is_derived_mask(field.name, file.fields))
+      continue; // it is made anew
+    else if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
+             (polygons && !is_of(*file.polygons, field, format)) ||
+             (!polygons && is_at_corners(file, field)))
       dropped.push_back(field.name);
   return dropped;
 }

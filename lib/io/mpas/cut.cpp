@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
+#include "io/cells/limited_area_masks.h"
 #include "io/mpas/mpas_cut.h"
 #include "io/mpas/mpas_subset.h"
 #include "io/mpas/mpas_variables.h"
@@ -46,18 +47,18 @@ Masks masks_of(const MpasPart& part, const Ids& of_all) {
 }
 
 void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
-  const auto add = [&](const MpasKind& kind, const Ids& mask, const std::string& meaning) {
-    const std::string name = "bdyMask" + kind.name;
+  const auto add = [&](const MpasKind& kind, const Ids& mask, const std::string& name,
+                       const std::string& meaning) {
     subset.left_out.push_back(name); // of an earlier cut
     subset.added.push_back(
         {name, kind.dimension(), meaning, [&mask](std::int64_t i) { return mask[i]; }});
   };
-  add(mpas_cell, masks.cells,
+  add(mpas_cell, masks.cells, cell_mask,
       rings == 0
           ? "0 in the region"
           : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
-  add(mpas_edge, masks.edges, "least bdyMaskCell of the cells on each edge");
-  add(mpas_vertex, masks.vertices, "least bdyMaskCell of the cells on each vertex");
+  add(mpas_edge, masks.edges, edge_mask.name, edge_mask.meaning);
+  add(mpas_vertex, masks.vertices, vertex_mask.name, vertex_mask.meaning);
 }
 
 // ---- Density

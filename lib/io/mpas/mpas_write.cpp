@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/cells/limited_area_masks.h"
 #include "io/cells/written_fields.h"
 #include "io/mpas/mpas.h"
 #include "io/mpas/mpas_places.h"
@@ -11,6 +12,8 @@
 #include "voronoi/tangential_weights.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -102,6 +105,31 @@ void put_nominal_spacing(MpasFile& file, const MpasMesh& mesh) {
            }));
 }
 
+// ---- Masks of a limited area
+
+/// Those of edges and vertices, if the cells have one. \param names receives theirs: fields of
+/// these names are not written.
+void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& options,
+                    NetcdfMeshNames& names) {
+  const std::optional<Ids> of_cells = cell_mask_among(options.fields);
+  if (!of_cells)
+    return;
+  const auto announce = [&](const DerivedMask& mask, D dimension, const IdLists& on_cell,
+                            std::int64_t count) {
+    names.variables.insert(mask.name);
+    const auto values = std::make_shared<Ids>();
+    file.then([=, &on_cell] { *values = least_mask(on_cell, *of_cells, count); });
+    file.ints(mask.name, {file.id_of(dimension)},
+              {{"units", std::string("1")}, {"long_name", std::string(mask.meaning)}},
+              [values](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+                std::copy(values->data() + begin, values->data() + end, out);
+              });
+  };
+  const Voronoi& voronoi = mesh.voronoi;
+  announce(edge_mask, D::edges, voronoi.edges_on_cell, mesh.edges());
+  announce(vertex_mask, D::vertices, voronoi.vertices_on_cell, voronoi.cells_on_vertex.cols());
+}
+
 // ---- Files
 
 void announce_lists(MpasFile& file, MpasMesh& mesh) {
@@ -143,11 +171,13 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
       mesh.surplus = begin_measures(mesh.voronoi);
   });
   announce_measures(file, mesh);
+  NetcdfMeshNames names = mpas_names();
+  announce_masks(file, mesh, options, names);
   add_fields(file, options,
              {.cells = {file.id_of(D::cells)},
               .edges = {file.id_of(D::edges)},
               .vertices = {file.id_of(D::vertices)}},
-             mpas_names());
+             names);
   file.commit();
   graph.commit();
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/cells/room.h"
+
+#include <calotte/mesh_field.h>
+#include <calotte/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The masks of a limited area in MPAS files. That of the cells is a field; those of edges and
+/// vertices follow from it, see least_mask().
+namespace calotte::io_detail {
+
+inline constexpr const char* cell_mask = "bdyMaskCell";
+
+/// A mask that follows.
+struct DerivedMask {
+  const char* name;
+  const char* meaning; ///< its long_name
+};
+inline constexpr DerivedMask edge_mask{"bdyMaskEdge",
+                                       "least bdyMaskCell of the cells on each edge"},
+    vertex_mask{"bdyMaskVertex", "least bdyMaskCell of the cells on each vertex"};
+
+/// The mask of the cells among fields; none if there is no such field of integers.
+std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields);
+
+/// Whether a field of that name follows from the mask of the cells among fields.
+bool is_derived_mask(const std::string& name, const std::vector<MeshField>& fields);
+
+} // namespace calotte::io_detail
