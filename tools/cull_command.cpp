@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 #include "help/help.h"
+#include "io/command.h"
 #include "options/choice.h"
 #include "options/files.h"
 #include "options/global_option.h"
@@ -14,7 +15,6 @@
 
 #include <CLI/App.hpp>
 
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -52,14 +52,11 @@ void require_request(const Request& request) {
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
       request.barriers.empty())
     refuse("there is no land; give --land FILE, --raster FILE, --field NAME or --barrier FILE");
-  const auto map = [&](const std::string& name) {
-    return request.cell_map.empty() ? ""
-                                    : (std::filesystem::path(request.cell_map) / name).string();
-  };
+  const CellMapPaths maps = cell_map_paths(request.cell_map);
   require_outputs({{"grid", request.output},
                    {"mask", request.mask},
-                   {"map of cells", map("cellMapForward.txt")},
-                   {"map of cells back", map("cellMapBackward.txt")}},
+                   {"map of cells", maps.forward},
+                   {"map of cells back", maps.backward}},
                   request.inputs());
 }
 

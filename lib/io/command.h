@@ -28,6 +28,16 @@ std::string read_file(const std::string& path);
 /// \throws Error file.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// The text files of MPAS-Tools' culler with option -c. Forward has a line for each cell of a
+/// source: the 0-based id in the new mesh, or -1. Backward has one for each cell of the new mesh.
+struct CellMapPaths {
+  std::string forward, backward; ///< empty for no folder
+};
+CellMapPaths cell_map_paths(const std::string& folder);
+
+/// Writes both. \throws Error file.
+void write_cell_maps(const std::string& folder, const Ids& new_of_old, const Ids& old_of_new);
+
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
 /// \throws Error file.
 bool is_netcdf_file(const std::string& path);

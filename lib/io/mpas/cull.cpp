@@ -3,7 +3,7 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "io/bytes/file.h"
+#include "io/cells/cell_maps.h"
 #include "io/mpas/mpas_cull.h"
 #include "io/mpas/mpas_variables.h"
 #include "voronoi/cell_walk.h"
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -177,20 +176,6 @@ void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file)
              }));
 }
 
-/// A line for each of so many ids.
-template <class Id> void put_lines(std::int64_t count, const Id& id, OutputFile& file) {
-  constexpr std::size_t enough = 1 << 20;
-  std::string text;
-  for (std::int64_t i = 0; i < count; ++i) {
-    text += std::to_string(id(i));
-    text += '\n';
-    if (text.size() > enough || i + 1 == count) {
-      file.append(text);
-      text.clear();
-    }
-  }
-}
-
 /// The files beside the grid: written and finished at once, named later.
 class Companions {
 public:
@@ -201,28 +186,22 @@ public:
       put_mask(sea, fractions, *mask_);
       mask_->finish();
     }
-    if (options.cell_map_folder.empty())
-      return;
-    const auto write = [&](const std::string& name, std::int64_t count, const auto& id) {
-      texts_.push_back(std::make_unique<OutputFile>(
-          (std::filesystem::path(options.cell_map_folder) / name).string()));
-      put_lines(count, id, *texts_.back());
-      texts_.back()->finish();
-    };
-    write("cellMapForward.txt", cells.number.size(),
-          [&](std::int64_t i) { return cells.number[i] - 1; });
-    write("cellMapBackward.txt", cells.count(), [&](std::int64_t i) { return cells.old[i]; });
+    if (!options.cell_map_folder.empty())
+      maps_.emplace(
+          options.cell_map_folder, cells.number.size(),
+          [&](std::int64_t i) { return cells.number[i] - 1; }, cells.count(),
+          [&](std::int64_t i) { return cells.old[i]; });
   }
   void commit() {
     if (mask_)
       mask_->commit();
-    for (const std::unique_ptr<OutputFile>& text : texts_)
-      text->commit();
+    if (maps_)
+      maps_->commit();
   }
 
 private:
   std::unique_ptr<NetcdfWriter> mask_;
-  std::vector<std::unique_ptr<OutputFile>> texts_;
+  std::optional<CellMaps> maps_;
 };
 
 void add_attributes(double radius, NetcdfSubset& subset) {
