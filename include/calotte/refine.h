@@ -76,12 +76,14 @@ struct ChangedMesh {
 /// The result is the Delaunay triangulation of its sites, and has the same bits for any number of
 /// threads. Patches do not depend on each other: two demands whose patches do not touch, one after
 /// the other, give the same sites in either order.
-/// \param mesh a Delaunay triangulation; sites of an open mesh at its boundary, and next to one
-///        there, stay.
+/// \param mesh a Delaunay triangulation; sites of an open mesh at its boundary, those whose cells
+/// the
+///        rings of a plane clip, and those next to either, stay.
 /// \throws Error invalid_argument for a demand with widths and region or neither, a value out of
 ///         range, a surface of another kind, and a mesh that is not Delaunay where it changes; with
 ///         the index of a site, where the boundary of an open mesh meets itself and a patch would
-///         reach both sides; for a patch that leads around a periodic plane; as make_grid().
+///         reach both sides; for a patch that leads around a periodic plane, or across a ring;
+///         as make_grid().
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
 /// The same for cells that are narrower than demanded, which become wider. They begin at those that

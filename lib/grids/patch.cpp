@@ -9,6 +9,7 @@
 #include "mesh/faces.h"
 
 #include <calotte/error.h>
+#include <calotte/voronoi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,6 @@ namespace {
 using mesh_detail::Corner;
 using mesh_detail::Faces;
 using mesh_detail::RingStarts;
-
-using Marks = std::vector<std::uint8_t>;
 
 /// Calls body(corner) for the triangles around a site; true if they close.
 template <class Body>
@@ -68,18 +67,18 @@ template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64
                           chord(space, mesh, corners[0], corners[2])));
 }
 
-/// A third of the triangles around each site; 0 where its star is open.
+/// A third of the triangles around each site; 0 at the boundary.
 template <Space S>
-DoubleVector cell_areas(const Mesh& mesh, const S& space, const RingStarts& rings) {
+DoubleVector cell_areas(const Mesh& mesh, const S& space, const RingStarts& rings,
+                        const Marks& at_boundary) {
   const Faces faces = faces_of(mesh);
   DoubleVector areas(mesh.points.cols());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       double sum = 0;
-      const bool closed = walk_star(faces, rings, static_cast<std::int32_t>(i), [&](Corner corner) {
-        sum += flat_area(space, mesh, corner.triangle);
-      });
-      areas[i] = closed ? sum / 3 : 0;
+      walk_star(faces, rings, static_cast<std::int32_t>(i),
+                [&](Corner corner) { sum += flat_area(space, mesh, corner.triangle); });
+      areas[i] = at_boundary[static_cast<std::size_t>(i)] != 0 ? 0 : sum / 3;
     }
   });
   return areas;
@@ -108,17 +107,6 @@ Marks grown(const Mesh& mesh, Marks sites, int rows) {
           sites[static_cast<std::size_t>(mesh.triangles(i, t))] = 1;
   }
   return sites;
-}
-
-/// Sites at the mesh's boundary, and their neighbours.
-Marks sites_at_boundary(const Mesh& mesh) {
-  Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (mesh.neighbours(i, t) < 0)
-        for (const int k : {next_vertex(i), previous_vertex(i)})
-          marks[static_cast<std::size_t>(mesh.triangles(k, t))] = 1;
-  return grown(mesh, std::move(marks), 1);
 }
 
 /// Values of sites from which a field spreads.
@@ -239,10 +227,27 @@ Patch patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
 
 } // namespace
 
-DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings) {
+Marks sites_at_boundary(const Mesh& mesh) {
+  Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        for (const int k : {next_vertex(i), previous_vertex(i)})
+          marks[static_cast<std::size_t>(mesh.triangles(k, t))] = 1;
+  if (!mesh.surface.is_sphere() && mesh.surface.is_bounded()) {
+    const Voronoi clipped = voronoi(mesh);
+    for (const auto& cells : clipped.cells_on_edge.colwise())
+      if (cells(1) < 0)
+        marks[static_cast<std::size_t>(cells(0))] = 1;
+  }
+  return marks;
+}
+
+DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings, const Marks& at_boundary) {
   const Faces faces = faces_of(mesh);
-  const DoubleVector areas = in_space_of(
-      mesh.surface, [&](const Space auto& space) { return cell_areas(mesh, space, rings); });
+  const DoubleVector areas = in_space_of(mesh.surface, [&](const Space auto& space) {
+    return cell_areas(mesh, space, rings, at_boundary);
+  });
   DoubleVector widths(areas.size());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
@@ -260,11 +265,11 @@ DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings) {
   return widths;
 }
 
-WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const DoubleVector& own,
-                           const DoubleVector& demanded, Way way, double tolerance,
-                           double gradient) {
+WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Marks& at_boundary,
+                           const DoubleVector& own, const DoubleVector& demanded, Way way,
+                           double tolerance, double gradient) {
   const bool finer = way == Way::finer;
-  WantedWidths wanted{own, sites_at_boundary(mesh), 0};
+  WantedWidths wanted{own, grown(mesh, at_boundary, 1), 0};
   Marks changes(static_cast<std::size_t>(own.size()), 0);
   const auto has = [](const Marks& marks, std::int32_t i) {
     return marks[static_cast<std::size_t>(i)] != 0;
@@ -323,10 +328,12 @@ std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const W
     const auto site = static_cast<Eigen::Index>(i);
     is_free[i] = own[site] > 0 && std::abs(wanted.width[site] / own[site] - 1) > least_change;
   }
-  is_free = grown(mesh, std::move(is_free), rows_that_adapt);
-  for (std::size_t i = 0; i < n; ++i)
-    if (wanted.stays[i] != 0)
-      is_free[i] = 0;
+  for (int row = 0; row < rows_that_adapt; ++row) { // not around or across a boundary
+    is_free = grown(mesh, std::move(is_free), 1);
+    for (std::size_t i = 0; i < n; ++i)
+      if (wanted.stays[i] != 0)
+        is_free[i] = 0;
+  }
   Marks triangles = stars_of(mesh, grown(mesh, is_free, rows_that_stay));
   separate(mesh, triangles);
   Marks left = triangles;

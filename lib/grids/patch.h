@@ -12,31 +12,39 @@
 /// Which part of a mesh changes when cells are to have other widths, and what of the mesh it needs.
 namespace calotte::grids_detail {
 
+/// By site: whether something holds.
+using Marks = std::vector<std::uint8_t>;
+
+/// Sites at the mesh's boundary, and those whose cells the rings of a plane clip.
+Marks sites_at_boundary(const Mesh& mesh);
+
 /// The width of each cell, that of a hexagon of its area, smoothed over its neighbours: radians, in
-/// a plane its unit. A site with an open star has the mean of its neighbours; 0 where there is
-/// none.
-DoubleVector own_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings);
+/// a plane its unit. Cells at the boundary do not count: they have the mean of their neighbours; 0
+/// where there is none.
+DoubleVector own_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings,
+                        const Marks& at_boundary);
 
 /// Whether cells become finer or coarser.
 enum class Way { finer, coarser };
 
 /// The widths that cells are to have.
 struct WantedWidths {
-  DoubleVector width;              ///< by site; that of the mesh where nothing changes
-  std::vector<std::uint8_t> stays; ///< by site: at the mesh's boundary, or next to a site there
+  DoubleVector width; ///< by site; that of the mesh where nothing changes
+  Marks stays;        ///< at the boundary, or next to a site there
   /// Sites where the demand is not met because of those that stay.
   std::int64_t held = 0;
 };
 
 /// Takes a demand over where it is not met, and limits how widths change beside it: finer cells
-/// spread outwards, and coarser ones begin at those that keep their widths. Sites at the mesh's
+/// spread outwards, and coarser ones begin at those that keep their widths. Sites at the
 /// boundary stay, and those next to them, so that no triangle at a boundary changes; widths change
 /// from there at the gradient, too. \param own as own_widths(). \param demanded by site, in the
 /// same unit. \param tolerance share of a width within which it meets the demand. \param gradient
 /// greatest change of the width by distance.
 WantedWidths wanted_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings,
-                           const DoubleVector& own, const DoubleVector& demanded, Way way,
-                           double tolerance, double gradient);
+                           const Marks& at_boundary, const DoubleVector& own,
+                           const DoubleVector& demanded, Way way, double tolerance,
+                           double gradient);
 
 /// A part of a mesh whose triangles hang together, bounded by simple rings of edges. Beside the
 /// boundary there are two rows of sites that stay, so that its triangles stay, too.

@@ -114,7 +114,8 @@ Density density_between(const Mesh& local, const DoubleVector& width) {
   return interpolated_density(local, (width / width.minCoeff()).array().pow(-4).matrix());
 }
 
-/// The density of widths at sites, and of finer ones between them.
+/// The density of widths at sites, and of finer ones between them. Where sites beside a boundary
+/// are to be wider than demanded, so are the places around them.
 Density density_of(const Mesh& local, const DoubleVector& width, const FineWidths* fine,
                    double tolerance) {
   const double least = width.minCoeff();
@@ -122,15 +123,20 @@ Density density_of(const Mesh& local, const DoubleVector& width, const FineWidth
   if (fine == nullptr)
     return between;
   // Widths may be finer between the sites than at them.
+  const DoubleVector demanded = fine->scale * evaluate(fine->widths, local.points);
+  const Density beyond =
+      interpolated_density(local, (width.array() / demanded.array()).max(1).matrix());
   Density result;
   result.kind = Density::Kind::callable;
   const double scale = fine->scale / ((1 - tolerance) * least);
-  result.callable = [between, widths = fine->widths, scale](const Eigen::Ref<const Points3>& x,
-                                                            Eigen::Ref<Eigen::VectorXd> rho) {
+  result.callable = [between, beyond, widths = fine->widths,
+                     scale](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     between.callable(x, rho);
     const DoubleVector narrow = evaluate(widths, x);
+    Eigen::VectorXd wider(x.cols());
+    beyond.callable(x, wider);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-      rho[i] = std::max(rho[i], std::pow(scale * narrow[i], -4));
+      rho[i] = std::max(rho[i], std::pow(scale * wider[i] * narrow[i], -4));
   };
   return result;
 }

@@ -147,6 +147,17 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<Patch>& p
   return out;
 }
 
+/// Where a patch touches itself across a narrow piece of land, it may reach over that.
+void require_inside(const Mesh& mesh, const NewSites& sites) {
+  if (!mesh.surface.is_bounded())
+    return;
+  for (const std::vector<std::int32_t>& added : sites.added)
+    for (const std::int32_t site : added)
+      require(mesh.surface.contains(sites.points.col(site)),
+              "a patch would reach across the boundary of the surface; give a part that is farther "
+              "from it");
+}
+
 /// The triangles beside the patches, and those of the replacements.
 Triangles new_triangles(const Mesh& mesh, const std::vector<Patch>& patches,
                         const std::vector<Replacement>& replacements, const NewSites& sites) {
@@ -227,6 +238,7 @@ template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<Patch>& patches,
                       std::vector<Replacement>&& replacements) {
   NewSites sites = new_sites(mesh, space, patches, replacements);
+  require_inside(mesh, sites);
   ChangedMesh out;
   out.mesh.surface = mesh.surface;
   out.mesh.triangles = new_triangles(mesh, patches, replacements, sites);
@@ -263,10 +275,12 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& demand, Way way,
                     const RefineOptions& options) {
   require_demand(mesh, demand, options);
   const RingStarts rings = mesh_detail::make_ring_starts(faces_of(mesh));
-  const DoubleVector own = own_widths(mesh, rings);
+  const Marks at_boundary = sites_at_boundary(mesh);
+  const DoubleVector own = own_widths(mesh, rings, at_boundary);
   const Demand widths(demand, way, mesh.surface);
-  const WantedWidths wanted = wanted_widths(mesh, rings, own, widths.at_sites(mesh.points, own),
-                                            way, options.tolerance, options.gradient);
+  const WantedWidths wanted =
+      wanted_widths(mesh, rings, at_boundary, own, widths.at_sites(mesh.points, own), way,
+                    options.tolerance, options.gradient);
   // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {

@@ -175,6 +175,46 @@ TEST_CASE("a patch inside another one [slow]") {
   expect_good_shapes(twice);
 }
 
+TEST_CASE("a part of a graded mesh, where its cells are fine, coarse and between [slow]") {
+  const Density density = tanh_bump({1, 0, 0}, 0.5, 0.3, 1.0 / 256); // widths 1 to 4
+  const Mesh base = make_grid({.cells = 6000, .density = density}).mesh;
+  const Quality whole = quality(base);
+  REQUIRE(whole.obtuse == 0);
+  for (const Eigen::Vector3d& centre :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0.8, 0.6, 0), Eigen::Vector3d(-1, 0.2, 0.1)}) {
+    const ChangedMesh finer = refine(base, in_circle(centre, 0.2, 1.7));
+    REQUIRE(finer.patches.size() == 1);
+    expect_changed(base, finer);
+    expect_delaunay(finer.mesh);
+    expect_good_shapes(finer);
+    const double ratio = mean_edge(base, centre, 0.12) / mean_edge(finer.mesh, centre, 0.12);
+    CHECK(std::abs(ratio - 1.7) < 0.1);
+  }
+}
+
+TEST_CASE("several patches in one call are those of a call each [slow]") {
+  const Mesh& base = uniform_sphere();
+  const Eigen::Vector3d one(0, 0, 1), other(1, 0, 0);
+  const auto bounds = [](const Eigen::Vector3d& centre) {
+    Points3 line(3, 2);
+    line << centre, (centre + Eigen::Vector3d(0, 0.05, 0)).normalized();
+    return Widths::by_distance({line}, {{{0, 120}, {300, 120}, {1700, 260}}});
+  };
+  const auto demand = [](const std::vector<Widths>& widths) {
+    WidthDemand out;
+    out.widths = Widths::minimum(widths);
+    return out;
+  };
+  const ChangedMesh both = refine(base, demand({bounds(one), bounds(other)}));
+  REQUIRE(both.patches.size() == 2);
+  expect_changed(base, both);
+  expect_delaunay(both.mesh);
+  expect_good_shapes(both);
+  const Mesh in_turn =
+      refine(refine(base, demand({bounds(one)})).mesh, demand({bounds(other)})).mesh;
+  CHECK(sorted_points(both.mesh) == sorted_points(in_turn));
+}
+
 TEST_CASE("patches that do not touch commute [slow]") {
   const Mesh& base = uniform_sphere();
   const WidthDemand one = in_circle({0, 0, 1}, 0.1, 1.7), other = in_circle({1, 0, 0}, 0.1, 2.5);
@@ -258,7 +298,10 @@ TEST_CASE("widths do not depend on the norm of the sites [slow]") {
   expect_changed(earth, finer);
   REQUIRE(finer.patches.size() == 1);
   CHECK(finer.patches[0].removed == expected.patches[0].removed);
-  CHECK(std::abs(double(finer.patches[0].added) / double(expected.patches[0].added) - 1) < 0.02);
+  const auto added = [](const ChangedMesh& mesh) {
+    return static_cast<double>(mesh.patches[0].added);
+  };
+  CHECK(std::abs(added(finer) / added(expected) - 1) < 0.02);
   const auto norms = finer.mesh.points.colwise().norm().array();
   CHECK((norms / 6371220 - 1).abs().maxCoeff() < 1e-12);
 }
@@ -274,6 +317,32 @@ TEST_CASE("a patch whose rings are concave [slow]") {
   expect_changed(base, finer);
   CHECK(lake.contains(finer.mesh.points.rowwise().minCoeff()));
   CHECK(lake.contains(finer.mesh.points.rowwise().maxCoeff()));
+}
+
+TEST_CASE("a patch between the rings of a plane that a lake leaves [slow]") {
+  Points2 outer(2, 4), island(2, 4);
+  outer << 0, 60, 60, 0, 0, 0, 45, 45;
+  island << 24, 36, 36, 24, 28, 28, 36, 36;
+  const Surface lake = Surface::plane().within({outer, island});
+  const Mesh base = make_grid({.cells = 3000, .surface = lake}).mesh;
+  WidthDemand demand;
+  demand.region = square(30, 14, 8);
+  demand.factor = 1.8;
+  const ChangedMesh finer = refine(base, demand);
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  expect_delaunay(finer.mesh);
+  for (const ChangedPatch& patch : finer.patches)
+    CHECK(patch.report.well_centred);
+  CHECK(finer.held == 0);
+  demand.region = square(30, 27, 8); // the island's shore
+  const ChangedMesh shore = refine(base, demand);
+  expect_changed(base, shore);
+  expect_delaunay(shore.mesh);
+  CHECK(shore.held > 0);
+  for (std::int32_t i = 0; i < shore.old_of_new.size(); ++i)
+    if (shore.old_of_new[i] < 0)
+      CHECK(lake.contains(shore.mesh.points.col(i)));
 }
 
 TEST_CASE("the same bits on any number of threads and for any number of regions [slow]") {
