@@ -154,16 +154,6 @@ void measure_plane(const Request& request, const MeshFile& file,
   measured.domain_area = covered->area();
 }
 
-/// Sets the part of the plane that clips the cells, or the box.
-/// \throws Error invalid_argument for a box where the file's plane has another period.
-void set_surface(const Surface& part, MeshFile& file) {
-  const Eigen::Vector2d& period = file.mesh->surface.period();
-  if (period != part.period())
-    refuse("the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
-           shortest(period.y()) + "; leave the domain out, or give that of the mesh");
-  file.mesh->surface = part;
-}
-
 /// Whether the file's cells are measured by their corners alone: those of the sphere that are no
 /// Voronoi cells, and those of a plane whose domain nothing tells.
 bool as_polygons(const Request& request, const MeshFile& file,
@@ -201,7 +191,7 @@ std::string read_and_measure(const Request& request) {
   MeshFile file =
       read_mesh_file(*request.source, request.cell ? FieldChoice::scalars : FieldChoice::none);
   if (const std::optional<Surface> part = surface_of(*request.domain))
-    set_surface(*part, file);
+    set_surface(*file.mesh, *part);
   progress.stage("measuring " + request.source->path);
   if (request.cell)
     return cell_table(request, file);

@@ -4,6 +4,7 @@
 #include "io/command.h"
 #include "options/cell_width_option.h"
 #include "options/config_option.h"
+#include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/mesh_source.h"
@@ -61,11 +62,12 @@ struct Request {
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<PartitionWords> partition;
   std::shared_ptr<std::string> config;
+  std::shared_ptr<DomainWords> domain;
   WidthWords widths;
-  std::string region, inside, output, report;
+  std::string region, inside, output, cell_map, report;
   std::optional<double> factor, gradient;
   double tolerance = RefineOptions{}.tolerance;
-  std::vector<std::string> nearest;
+  FieldMethods methods;
 };
 
 /// Checks all options that can fail, before any input is read.
@@ -73,9 +75,26 @@ void require_request(const Request& request) {
   options_of(*request.format, request.output);
   if (!request.widths.in_km() && request.region.empty())
     refuse("there are no widths; give --cell-width KM|FILE, or --region REGION with --factor F");
-  require_outputs({{"mesh", request.output}, {"report", request.report}},
+  const CellMapPaths maps = cell_map_paths(request.cell_map);
+  require_outputs({{"mesh", request.output},
+                   {"map of cells", maps.forward},
+                   {"map of cells back", maps.backward},
+                   {"report", request.report}},
                   {request.source->path, request.source->points, request.widths.file,
                    region_file(request.region), *request.config});
+}
+
+/// A plane is known by the rings that clip its cells, or by its period: given, or what the cells
+/// fill.
+void settle_surface(const Request& request, MeshFile& file) {
+  const std::optional<Surface> given = surface_of(*request.domain);
+  if (!file.plane() || (!given && file.mesh->surface.period().maxCoeff() > 0))
+    return;
+  const std::optional<Surface> domain = given ? given : filled_surface(file);
+  if (!domain)
+    refuse(request.source->path + ": a planar mesh needs its domain, which clips the cells; give "
+                                  "--domain or --rectangle");
+  set_surface(*file.mesh, *domain);
 }
 
 WidthDemand demand_of(const Request& request, const MeshFile& file) {
@@ -161,6 +180,7 @@ std::string describe(const Request& request, const ChangedMesh& changed, const C
     if (!names.empty())
       lines += request.output + ": " + what + ": " + joined(names) + "\n";
   };
+  list("fields at new cells are means over their areas", request.methods.conservative);
   list("fields at new cells are those of the nearest old one", file.nearest);
   list("fields that do not follow the cells", file.left_out);
   list("the format does not hold", written.dropped);
@@ -207,6 +227,7 @@ void run(const Request& request) {
     if (!base.mesh || (base.polygons && !base.not_voronoi.empty() && base.mesh->closed()))
       refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi +
              "; give the file of a Voronoi mesh");
+    settle_surface(request, base);
     const WidthDemand demand = demand_of(request, base);
     progress.stage("finding the patches");
     const double change = seconds_of([&] {
@@ -214,11 +235,13 @@ void run(const Request& request) {
         changed = request.verb->change(*base.mesh, demand, options_of(request, progress));
       });
     });
-    const ChangedFile file = changed_file(base, changed, request.nearest);
+    const ChangedFile file = changed_file(base, changed, request.methods);
     progress.stage("writing " + request.output);
     WrittenFields written;
     const double write = seconds_of(
         [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
+    if (!request.cell_map.empty())
+      write_cell_maps(request.cell_map, changed.new_of_old, changed.old_of_new);
     words = changes_of(*request.source, base) + describe(request, changed, file, written);
     if (!request.report.empty())
       write_file(request.report, to_json(changed, read, change, write));
@@ -232,6 +255,8 @@ void add(CLI::App& app, const Verb& verb) {
   auto request = std::make_shared<Request>();
   request->verb = &verb;
   request->source = add_mesh_source(*command, "BASE");
+  add_plane(*command, *request->source);
+  request->domain = add_domain(*command);
   CLI::Option* const file = add_width_file(*command, request->widths, verb.widths);
   CLI::Option* const region =
       command
@@ -251,10 +276,16 @@ void add(CLI::App& app, const Verb& verb) {
                    "Share of its width within which a cell meets the demand, 0.01 to 0.5")
       ->capture_default_str();
   command
-      ->add_option("--nearest", request->nearest,
+      ->add_option("--nearest", request->methods.nearest,
                    "Fields at cells, separated by commas, whose values at new cells are those of "
                    "the nearest old one, as those of whole numbers are. Default: linear between "
                    "old cells")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command
+      ->add_option("--conservative", request->methods.conservative,
+                   "The same for means over the new cells, by the areas that these share with old "
+                   "ones; of whole numbers that of the greatest area")
       ->delimiter(',')
       ->type_name("NAME,...");
   command
@@ -264,6 +295,13 @@ void add(CLI::App& app, const Verb& verb) {
       ->type_name("FILE")
       ->required();
   request->format = add_format(*command, "that of BASE");
+  CLI::Option* const map =
+      command
+          ->add_option("--cell-map", request->cell_map,
+                       "Folder for cellMapForward.txt and cellMapBackward.txt. By cell of BASE the "
+                       "0-based number of the new cell or -1, and by new cell that of BASE's")
+          ->type_name("FOLDER");
+  command->get_option("--order")->excludes(map); // the maps have the order that refine() gives
   command->add_option("--report", request->report, "Write counts and times to this JSON file")
       ->type_name("FILE");
   request->partition = add_partition_options(*command);
@@ -271,7 +309,8 @@ void add(CLI::App& app, const Verb& verb) {
   const std::string name = verb.name;
   set_help(*command,
            {.common = {"BASE", "--cell-width", "--region", "--factor", "--gradient", "--nearest",
-                       "--output", "--for", "--order", "--report", "--config", "--threads"},
+                       "--conservative", "--output", "--for", "--order", "--report", "--config",
+                       "--threads"},
             .examples = {"calotte " + name + " global.nc --region bay.geojson --factor 2 -o new.nc",
                          "calotte " + name +
                              " global.nc --cell-width bay.toml --gradient 0.05 -o new.nc"}});

@@ -195,19 +195,29 @@ struct ChangedFile {
   std::vector<std::string> left_out; ///< fields at edges and at vertices, which do not follow
 };
 
+/// Fields at cells, by name, whose values reach new cells in another way than by default: linear
+/// between the old cells, and for whole numbers that of the nearest old cell.
+struct FieldMethods {
+  std::vector<std::string> nearest = {}; ///< that of the nearest old cell
+  /// The mean over the new cell by the areas that it shares with old cells, see
+  /// conservative_weights(); of whole numbers that of the greatest area.
+  std::vector<std::string> conservative = {};
+};
+
 /// What a file holds after refine() or coarsen(). Cells whose corners did not change keep them, and
 /// their order: those of a boundary. New cells have the circumcentres of their triangles. Cells
-/// that stayed keep the values of all fields at cells, and of the density. At new ones fields are
-/// linear between the old cells; whole numbers, and the fields of a list, are those of the nearest
-/// old cell, as all are outside the triangles of an open mesh. The density at new cells is the old
-/// one there, made denser as the widths are finer. The field mapNewToBase is added: the number of
-/// each cell in the old file, from 1 on, and 0 for new cells. \param old the file, as
-/// read_mesh_file() returns it. \param changed of its mesh. \param nearest names of fields at
-/// cells. \throws Error invalid_argument for a file without a mesh, for polygons that are not those
-/// of its
-///         sites, and for a name that no field at cells has.
+/// that stayed keep the values of all fields at cells, and of the density. At new ones, methods say
+/// what the values are; outside the triangles of an open mesh those that would be linear are those
+/// of the nearest old cell. The density at new cells is the old one there, made denser as the
+/// widths are finer. Masks of a limited area at edges and vertices follow when the file is written.
+/// The field mapNewToBase is added: the number of each cell in the old file, from 1 on, and 0 for
+/// new cells. \param old the file, as read_mesh_file() returns it; that of a plane whose rings clip
+/// the cells with them, see filled_surface(). \param changed of its mesh.
+/// \throws Error invalid_argument for a file without a mesh, for polygons that are not those of its
+///         sites, for a name that no field at cells has or that has two methods; for conservative
+///         fields of an open mesh without cells.
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
-                         const std::vector<std::string>& nearest = {});
+                         const FieldMethods& methods = {});
 
 /// What became of a file's fields.
 struct WrittenFields {

@@ -2,6 +2,7 @@
 #include "support/files.h"
 
 #include <calotte/check_file.h>
+#include <calotte/conservative.h>
 #include <calotte/cut.h>
 #include <calotte/grid.h>
 #include <calotte/mesh_file.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 using namespace calotte;
@@ -65,7 +67,7 @@ TEST_CASE("fields and density follow the cells of a mesh that changed") {
   const MeshFile old = global_file();
   const ChangedMesh changed = finer(*old.mesh);
   REQUIRE(changed.patches.size() == 1);
-  const ChangedFile out = changed_file(old, changed, {"pair"});
+  const ChangedFile out = changed_file(old, changed, {.nearest = {"pair"}});
   CHECK(out.nearest == std::vector<std::string>{"kind", "pair"});
   CHECK(out.left_out == std::vector<std::string>{"corner"});
   CHECK(out.file.mesh->triangles == changed.mesh.triangles);
@@ -89,8 +91,47 @@ TEST_CASE("fields and density follow the cells of a mesh that changed") {
   }
   CHECK(density.maxCoeff() == 1);
   CHECK(std::abs(kept_density - std::pow(1.8, -4)) < 0.02);
-  CHECK(std::string(error_of([&] { changed_file(old, changed, {"depth"}); }).what())
+  CHECK(std::string(error_of([&] { changed_file(old, changed, {.nearest = {"depth"}}); }).what())
             .find("no field \"depth\" at cells") != std::string::npos);
+}
+
+TEST_CASE("conservative fields are means over new cells, also without values somewhere") {
+  MeshFile old = global_file();
+  const auto sites = old.mesh->points.cols();
+  DoubleVector gap = old.fields[0].values;
+  for (Eigen::Index i = 0; i < sites; ++i)
+    if (old.mesh->points(0, i) > centre.x())
+      gap[i] = std::numeric_limits<double>::quiet_NaN();
+  old.fields.push_back({.name = "gap", .values = gap});
+  const ChangedMesh changed = finer(*old.mesh);
+  const ChangedFile out = changed_file(old, changed, {.conservative = {"height", "kind"}});
+  CHECK(out.nearest.empty());
+  const Voronoi before = voronoi(*old.mesh), after = voronoi(changed.mesh);
+  const auto cells = [](const Voronoi& of) {
+    return Polygons{of.vertices, of.vertices_on_cell, of.cells};
+  };
+  const GridWeights all = conservative_weights(cells(before), cells(after));
+  const DoubleVector height = all.weights * field(old, "height").values,
+                     share = all.weights * field(old, "kind").values;
+  std::int64_t without = 0;
+  for (std::int32_t i = 0; i < changed.old_of_new.size(); ++i) {
+    if (changed.old_of_new[i] >= 0)
+      continue;
+    CHECK(std::abs(field(out.file, "height").values[i] - height[i]) < 1e-13);
+    if (std::abs(share[i] - 0.5) > 1e-9)
+      CHECK(field(out.file, "kind").values[i] == (share[i] > 0.5 ? 1 : 0));
+    const double x = changed.mesh.points(0, i), filled = field(out.file, "gap").values[i];
+    without += std::isnan(filled) ? 1 : 0;
+    if (x < centre.x() - 0.1 || x > centre.x() + 0.1)
+      CHECK(std::isnan(filled) == (x > centre.x()));
+  }
+  CHECK(without > 0);
+  const auto problem = [&](const FieldMethods& methods) {
+    return std::string(error_of([&] { changed_file(old, changed, methods); }).what());
+  };
+  CHECK(problem({.conservative = {"depth"}}).find("no field \"depth\"") != std::string::npos);
+  CHECK(problem({.nearest = {"height"}, .conservative = {"height"}})
+            .find("both nearest and conservative") != std::string::npos);
 }
 
 TEST_CASE("cells at the boundary of a limited area keep their corners [slow]") {
@@ -124,7 +165,8 @@ TEST_CASE("cells at the boundary of a limited area keep their corners [slow]") {
   WriteOptions options;
   options.numbering = Numbering::input;
   write(result, out.file, options);
-  CHECK(problems(result).empty());
+  CHECK(problems(result).empty()); // with the masks of edges and vertices
+  CHECK(out.left_out.empty());
   const MeshFile again = read_mesh_file(result);
   CHECK(again.polygons->size() == after.size());
   CHECK(field(again, "bdyMaskCell").values == field(out.file, "bdyMaskCell").values);

@@ -6,7 +6,11 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
 #include <string>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::test;
@@ -23,7 +27,8 @@ TEST_CASE("refine and coarsen keep the cells beside the part that they change") 
   const Bench bench;
   REQUIRE(bench.run("cvt --cells 2562 -o base.nc").code == 0);
   const Outcome finer = bench.run(
-      "refine base.nc --region circle=10,50,1200km --factor 2 -o finer.nc --report r.json");
+      "refine base.nc --region circle=10,50,1200km --factor 2 -o finer.nc --report r.json "
+      "--cell-map .");
   CAPTURE(finer.err);
   REQUIRE(finer.code == 0);
   CHECK(has(finer.out, " new in 1 patch\n"));
@@ -42,12 +47,52 @@ TEST_CASE("refine and coarsen keep the cells beside the part that they change") 
       ++found;
     }
   CHECK(found == kept);
+  std::istringstream forward(bench.file("cellMapForward.txt")),
+      backward(bench.file("cellMapBackward.txt"));
+  std::vector<std::int64_t> new_of_old, old_of_new;
+  for (std::int64_t id = 0; forward >> id;)
+    new_of_old.push_back(id);
+  for (std::int64_t id = 0; backward >> id;)
+    old_of_new.push_back(id);
+  REQUIRE(std::ssize(new_of_old) == base.cols());
+  REQUIRE(std::ssize(old_of_new) == after.cols());
+  for (std::size_t i = 0; i < new_of_old.size(); ++i)
+    if (new_of_old[i] >= 0)
+      CHECK(old_of_new[static_cast<std::size_t>(new_of_old[i])] == static_cast<std::int64_t>(i));
+  CHECK(std::ranges::count(old_of_new, -1) == after.cols() - kept);
   const Outcome coarser =
       bench.run("coarsen finer.nc --cell-width 400km --gradient 0.2 -o coarser.nc");
   CAPTURE(coarser.err);
   CHECK((coarser.code == 0 || coarser.code == 5)); // all of the sphere changes
   CHECK(bench.run("check coarser.nc").code == 0);
   CHECK(read_mesh(bench.folder() / "coarser.nc").points.cols() < 1.2 * 2562);
+}
+
+TEST_CASE("cells of a plane that its boundary clips stay, as the file or the option tells") {
+  const Bench bench;
+  REQUIRE(bench.run("cvt --rectangle 0,0,60,40 --cells 1500 -o plane.nc").code == 0);
+  bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[20, 20], [30, 2]]})");
+  bench.file("demand.toml", "[cell-width]\nlines = \"line.geojson\"\nwidth = 0.7\nover = 3\n");
+  const Outcome finer = bench.run("refine plane.nc --cell-width demand.toml -o finer.nc");
+  CAPTURE(finer.err);
+  CHECK(finer.code == 1); // by the boundary
+  CHECK(has(finer.err, "because they are at the boundary or next to it"));
+  CHECK(bench.run("check --plane finer.nc").code == 0);
+  const auto obtuse = [&](const std::string& name) {
+    REQUIRE(bench.run("info --plane " + name + " --rectangle 0,0,60,40 --report info.json").code ==
+            0);
+    return nlohmann::json::parse(bench.file("info.json"))["obtuse"].get<int>();
+  };
+  CHECK(obtuse("finer.nc") <= obtuse("plane.nc"));
+
+  REQUIRE(bench.run("convert --plane plane.nc plane.vtp").code == 0);
+  check_command_refused(bench, "refine --plane plane.vtp --cell-width demand.toml -o finer.vtp",
+                        "a planar mesh needs its domain");
+  CHECK(bench
+            .run("refine --plane plane.vtp --rectangle 0,0,60,40 --cell-width demand.toml "
+                 "-o finer.vtp")
+            .code == 1);
+  CHECK(read_mesh(bench.folder() / "finer.vtp", nullptr).points.cols() > 0);
 }
 
 TEST_CASE("bad demands end in one line and leave no file") {
@@ -63,6 +108,11 @@ TEST_CASE("bad demands end in one line and leave no file") {
   refused(part + "--factor 2 --cell-width 60 -o new.nc", "--cell-width");
   refused(part + "--factor 2 --tolerance 3 -o new.nc", "the tolerance is 3");
   refused(part + "--factor 2 --nearest depth -o new.nc", "no field \"depth\" at cells");
+  refused(part + "--factor 2 --conservative depth -o new.nc", "no field \"depth\" at cells");
+  refused(part + "--factor 2 --cell-map . --order curve -o new.nc", "--cell-map");
+  const Outcome nowhere = bench.run(part + "--factor 2 --cell-map no/folder -o new.nc");
+  CHECK(nowhere.code == 3);
+  CHECK(has(nowhere.err, "the folder no/folder does not exist"));
   refused(part + "--factor 2 -o base.nc", "base.nc");
   refused(part + "--factor 2 -o new.txt2", "new.txt2");
 }

@@ -110,6 +110,14 @@ std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word)
   return Eigen::Vector2d((*sides)[0], (*sides)[1]);
 }
 
+void set_surface(Mesh& mesh, const Surface& part) {
+  const Eigen::Vector2d& period = mesh.surface.period();
+  if (period != part.period())
+    refuse("the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
+           shortest(period.y()) + "; leave the domain out, or give that of the mesh");
+  mesh.surface = part;
+}
+
 std::string domain_configuration(const DomainWords& words) {
   if (words.file)
     return "domain of " + checksum_of(*words.file) + "\n";

@@ -42,6 +42,10 @@ std::shared_ptr<DomainWords> add_bounded_domain(CLI::App& command);
 /// if there is one. \throws Error invalid_argument naming the word and the remedy; as read_domain.
 std::optional<Surface> surface_of(const DomainWords& words);
 
+/// Sets the part of the plane that clips the cells of a mesh, or the box.
+/// \throws Error invalid_argument for a box where the mesh's plane has another period.
+void set_surface(Mesh& mesh, const Surface& part);
+
 /// The input that determines it, a line "name value" for a run's configuration; for a file, its
 /// contents.
 /// \pre words.given().

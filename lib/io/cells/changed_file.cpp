@@ -4,6 +4,8 @@
 #include "base/split_mix.h"
 #include "exact/space.h"
 #include "io/cells/field_order.h"
+#include "io/cells/limited_area_masks.h"
+#include "io/cells/polygons.h"
 #include "mesh/faces.h"
 #include "mesh/ring_law.h"
 
@@ -13,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -30,44 +34,96 @@ using mesh_detail::RingStarts;
 struct Sources {
   const ChangedMesh& changed;
   std::vector<std::int32_t> added; ///< new cells
-  GridWeights linear, nearest;     ///< from old cells to these; a row outside of an open mesh is
-                                   ///< empty in `linear`
+  GridWeights linear, nearest;     ///< from old cells to these
+  GridWeights conservative = {};   ///< the same, where fields ask for it
 
-  bool is_outside(std::size_t k) const {
-    const int* const begin = linear.weights.outerIndexPtr() + k;
-    return begin[0] == begin[1];
+  const GridWeights& of(Interpolation kind) const {
+    return kind == Interpolation::conservative ? conservative
+           : kind == Interpolation::nearest    ? nearest
+                                               : linear;
   }
 };
 
-Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
-  Sources out{changed, {}, {}, {}};
-  for (std::int32_t i = 0; i < changed.old_of_new.size(); ++i)
-    if (changed.old_of_new[i] < 0)
-      out.added.push_back(i);
-  const Points3 places = changed.mesh.points(Eigen::all, out.added);
-  for (GridWeights* const weights : {&out.linear, &out.nearest}) {
-    weights->weights = interpolation_weights(
-        old, places, weights == &out.linear ? Interpolation::linear : Interpolation::nearest);
-    weights->target_fraction = DoubleVector::Ones(places.cols());
-  }
+GridWeights weights_at(const Mesh& old, const Points3& places, Interpolation kind) {
+  GridWeights out;
+  out.weights = interpolation_weights(old, places, kind);
+  out.target_fraction = DoubleVector::Ones(places.cols());
   return out;
 }
 
-/// A field at old cells as one at new cells.
-MeshField carried(const Sources& sources, const MeshField& field, bool nearest) {
+Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
+  std::vector<std::int32_t> added;
+  for (std::int32_t i = 0; i < changed.old_of_new.size(); ++i)
+    if (changed.old_of_new[i] < 0)
+      added.push_back(i);
+  const Points3 places = changed.mesh.points(Eigen::all, added);
+  return {changed, std::move(added), weights_at(old, places, Interpolation::linear),
+          weights_at(old, places, Interpolation::nearest)};
+}
+
+/// The old cells that new ones may share area with: those that went and some rows around them,
+/// whose cells may have become smaller.
+std::vector<std::int32_t> cells_near(const Mesh& old, const ChangedMesh& changed) {
+  constexpr int rows = 4;
+  std::vector<std::uint8_t> near(static_cast<std::size_t>(old.points.cols()), 0);
+  for (Eigen::Index i = 0; i < changed.new_of_old.size(); ++i)
+    near[static_cast<std::size_t>(i)] = changed.new_of_old[i] < 0 ? 1 : 0;
+  for (int row = 0; row < rows; ++row) {
+    const std::vector<std::uint8_t> inner = near;
+    for (Eigen::Index t = 0; t < old.triangles.cols(); ++t) {
+      const auto sites = old.triangles.col(t);
+      if (std::ranges::any_of(sites, [&](std::int32_t i) { return inner[i] != 0; }))
+        for (const std::int32_t i : sites)
+          near[static_cast<std::size_t>(i)] = 1;
+    }
+  }
+  std::vector<std::int32_t> ids;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (near[i] != 0)
+      ids.push_back(static_cast<std::int32_t>(i));
+  return ids;
+}
+
+/// Only the cells around the patches take part, in time and in memory.
+GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_cells,
+                            const std::optional<Polygons>& new_cells, const Sources& sources) {
+  const std::vector<std::int32_t> near = cells_near(old, sources.changed);
+  const auto cells = [](const std::optional<Polygons>& polygons, const Mesh& mesh,
+                        const std::vector<std::int32_t>& ids) {
+    return selected(polygons ? *polygons : polygons_of(voronoi(mesh)), ids);
+  };
+  GridWeights out = conservative_weights(cells(old_cells, old, near),
+                                         cells(new_cells, sources.changed.mesh, sources.added));
+  Weights of_all(out.weights.rows(), old.points.cols());
+  of_all.reserve(out.weights.nonZeros());
+  for (Eigen::Index row = 0; row < out.weights.rows(); ++row) {
+    of_all.startVec(row);
+    for (Weights::InnerIterator at(out.weights, row); at; ++at)
+      of_all.insertBack(row, near[static_cast<std::size_t>(at.col())]) = at.value();
+  }
+  of_all.finalize();
+  out.weights = std::move(of_all);
+  return out;
+}
+
+/// A field at old cells as one at new cells. New ones outside of the triangles of an open mesh have
+/// the nearest value.
+MeshField carried(const Sources& sources, const MeshField& field, Interpolation kind) {
   const Ids& old_of_new = sources.changed.old_of_new;
   const std::int64_t count = field.count();
+  const Weights& weights = sources.of(kind).weights;
   const MeshField near = interpolate(sources.nearest, field),
-                  between = nearest ? near : interpolate(sources.linear, field);
+                  chosen = interpolate(sources.of(kind), field);
   MeshField out = field;
   out.values.resize(old_of_new.size() * count);
   for (Eigen::Index i = 0; i < old_of_new.size(); ++i)
     if (old_of_new[i] >= 0)
       out.values.segment(i * count, count) = field.values.segment(old_of_new[i] * count, count);
-  for (std::size_t k = 0; k < sources.added.size(); ++k)
+  for (std::size_t k = 0; k < sources.added.size(); ++k) {
+    const bool has_none = weights.outerIndexPtr()[k] == weights.outerIndexPtr()[k + 1];
     out.values.segment(sources.added[k] * count, count) =
-        (sources.is_outside(k) ? near : between)
-            .values.segment(static_cast<Eigen::Index>(k) * count, count);
+        (has_none ? near : chosen).values.segment(static_cast<Eigen::Index>(k) * count, count);
+  }
   return out;
 }
 
@@ -79,7 +135,8 @@ DoubleVector carried_density(const Sources& sources, const DoubleVector& density
   const DoubleVector old =
       density.size() == cells ? density : DoubleVector(DoubleVector::Ones(cells));
   const DoubleVector widths =
-      carried(sources, {.name = "width", .values = old.array().max(least).pow(-0.25)}, false)
+      carried(sources, {.name = "width", .values = old.array().max(least).pow(-0.25)},
+              Interpolation::linear)
           .values;
   DoubleVector out(widths.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) {
@@ -91,20 +148,30 @@ DoubleVector carried_density(const Sources& sources, const DoubleVector& density
 
 constexpr const char* map_name = "mapNewToBase";
 
+/// How a field's values reach new cells.
+Interpolation method_of(const MeshField& field, const FieldMethods& methods) {
+  const auto is_in = [&](const std::vector<std::string>& names) {
+    return std::ranges::count(names, field.name) > 0;
+  };
+  return is_in(methods.conservative)               ? Interpolation::conservative
+         : field.integer || is_in(methods.nearest) ? Interpolation::nearest
+                                                   : Interpolation::linear;
+}
+
 void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
-                  const std::vector<std::string>& nearest, ChangedFile& out) {
+                  const FieldMethods& methods, ChangedFile& out) {
   const std::int64_t cells = sources.changed.new_of_old.size();
   for (const MeshField& field : fields) {
-    if (field.name == map_name)
+    if (field.name == map_name || is_derived_mask(field.name, fields))
       continue;
     if (field.location != Location::cells || !has_values_for(field, cells)) {
       out.left_out.push_back(field.name);
       continue;
     }
-    const bool as_nearest = field.integer || std::ranges::count(nearest, field.name) > 0;
-    if (as_nearest)
+    const Interpolation kind = method_of(field, methods);
+    if (kind == Interpolation::nearest)
       out.nearest.push_back(field.name);
-    out.file.fields.push_back(carried(sources, field, as_nearest));
+    out.file.fields.push_back(carried(sources, field, kind));
   }
   out.file.fields.push_back({.name = map_name,
                              .long_name = "number of the cell in the file that this was made from",
@@ -112,13 +179,18 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
                              .integer = true});
 }
 
-void require_names(const MeshFile& old, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    require(std::ranges::any_of(old.fields,
-                                [&](const MeshField& field) {
-                                  return field.name == name && field.location == Location::cells;
-                                }),
-            "the file has no field \"" + name + "\" at cells; give the name of one");
+void require_names(const MeshFile& old, const FieldMethods& methods) {
+  for (const std::vector<std::string>* const names : {&methods.nearest, &methods.conservative})
+    for (const std::string& name : *names)
+      require(std::ranges::any_of(old.fields,
+                                  [&](const MeshField& field) {
+                                    return field.name == name && field.location == Location::cells;
+                                  }),
+              "the file has no field \"" + name + "\" at cells; give the name of one");
+  for (const std::string& name : methods.conservative)
+    require(std::ranges::count(methods.nearest, name) == 0,
+            "the field \"" + name +
+                "\" is to be both nearest and conservative; give it one of the two");
 }
 
 // ---- Polygons
@@ -164,100 +236,113 @@ template <Space S> Vec3 corner_of(const Mesh& mesh, const S& space, std::int64_t
                             column(mesh.points, mesh.triangles(2, t)));
 }
 
-/// Cells at a boundary keep their corners; the others have one for each of their triangles, that of
-/// the old triangle where it stayed.
+/// The neighbours of sites, in order around them.
+class Stars {
+public:
+  explicit Stars(const Mesh& mesh)
+      : faces_(faces_of(mesh)), rings_(mesh_detail::make_ring_starts(faces_)) {}
+
+  /// Calls body(corner) for the triangles around a site.
+  template <class Body> void walk(std::int32_t site, const Body& body) const {
+    if (const std::int32_t first = rings_.first[static_cast<std::size_t>(site)]; first >= 0)
+      mesh_detail::walk_around(
+          Corner{first, slot_of(faces_, first, site)},
+          [&](Corner at) { return next_around(faces_, at); }, body);
+  }
+
+  /// From the lowest on. \param name(site) what a neighbour is called.
+  template <class Name>
+  std::vector<std::int32_t> around(std::int32_t site, const Name& name) const {
+    std::vector<std::int32_t> ids;
+    walk(site, [&](Corner at) { ids.push_back(name(following_site(faces_, at))); });
+    if (!ids.empty())
+      std::rotate(ids.begin(), std::ranges::min_element(ids), ids.end());
+    return ids;
+  }
+
+private:
+  mesh_detail::Faces faces_;
+  RingStarts rings_;
+};
+
+/// Cells whose neighbours are those of before keep their corners, such as all at a boundary. The
+/// others have one for each of their triangles, that of the old triangle where it stayed.
 template <Space S>
-Polygons changed_polygons(const Polygons& old, const ChangedMesh& changed, const S& space) {
+Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const ChangedMesh& changed,
+                          const S& space) {
   const Mesh& mesh = changed.mesh;
+  const auto old_of = [&](std::int32_t site) { return changed.old_of_new[site]; };
   const OldCorners old_corners(old);
-  const mesh_detail::Faces faces = faces_of(mesh);
-  const RingStarts rings = mesh_detail::make_ring_starts(faces);
+  const Stars before(old_mesh), now(mesh);
   Polygons out;
   out.on_sphere = old.on_sphere;
   out.period = old.period;
   out.centres.resize(3, mesh.points.cols());
-  for (Eigen::Index i = 0; i < out.centres.cols(); ++i)
-    if (const std::int32_t before = changed.old_of_new[i]; before >= 0)
-      out.centres.col(i) = old.centres.col(before);
-    else
-      base_detail::set_column(out.centres, i,
-                              space.coordinates(space.position(column(mesh.points, i))));
-
-  std::vector<std::int32_t> corner(static_cast<std::size_t>(mesh.triangles.cols()));
+  constexpr std::int32_t unknown = -1;
+  std::vector<std::int32_t> corner(static_cast<std::size_t>(mesh.triangles.cols()), unknown);
   std::vector<Vec3> added;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const auto old_id = [&](int i) { return changed.old_of_new[mesh.triangles(i, t)]; };
-    const std::array<std::int32_t, 3> cells{old_id(0), old_id(1), old_id(2)};
+  const auto corner_at = [&](std::int32_t t) {
     std::int32_t& here = corner[static_cast<std::size_t>(t)];
-    here = std::min({cells[0], cells[1], cells[2]}) < 0 ? -1 : old_corners.of(cells);
-    if (here < 0) {
+    const auto old_id = [&](int i) { return old_of(mesh.triangles(i, t)); };
+    const std::array<std::int32_t, 3> cells{old_id(0), old_id(1), old_id(2)};
+    if (here == unknown && std::min({cells[0], cells[1], cells[2]}) >= 0)
+      here = old_corners.of(cells);
+    if (here == unknown) {
       here = static_cast<std::int32_t>(old.corners.cols() + std::ssize(added));
       added.push_back(corner_of(mesh, space, t));
     }
-  }
+    return here;
+  };
   std::vector<std::int32_t> items;
   out.ids.begin = Offsets::Zero(mesh.points.cols() + 1);
   for (std::int32_t i = 0; i < mesh.points.cols(); ++i) {
-    std::vector<std::int32_t> around;
-    bool closed = false;
-    if (const std::int32_t first = rings.first[static_cast<std::size_t>(i)]; first >= 0)
-      closed = !exists(mesh_detail::walk_around(
-          Corner{first, slot_of(faces, first, i)},
-          [&](Corner at) { return next_around(faces, at); },
-          [&](Corner at) { around.push_back(corner[static_cast<std::size_t>(at.triangle)]); }));
-    if (!closed) {
-      const auto kept = old.ids[changed.old_of_new[i]];
-      around.assign(kept.begin(), kept.end());
-    }
-    items.insert(items.end(), around.begin(), around.end());
+    const std::int32_t id = old_of(i);
+    if (id >= 0)
+      out.centres.col(i) = old.centres.col(id);
+    else
+      base_detail::set_column(out.centres, i,
+                              space.coordinates(space.position(column(mesh.points, i))));
+    if (id >= 0 && now.around(i, old_of) == before.around(id, std::identity()))
+      items.insert(items.end(), old.ids[id].begin(), old.ids[id].end());
+    else
+      now.walk(i, [&](Corner at) { items.push_back(corner_at(at.triangle)); });
     out.ids.begin[i + 1] = std::ssize(items);
   }
-
-  // Corners that no cell has any more go.
-  std::vector<std::int32_t> number(static_cast<std::size_t>(old.corners.cols()) + added.size(), -1);
-  for (const std::int32_t id : items)
-    number[static_cast<std::size_t>(id)] = 0;
-  std::int32_t count = 0;
-  for (std::int32_t& id : number)
-    id = id < 0 ? -1 : count++;
-  out.corners.resize(3, count);
-  for (std::size_t k = 0; k < number.size(); ++k)
-    if (number[k] >= 0) {
-      const auto index = static_cast<Eigen::Index>(k);
-      base_detail::set_column(out.corners, number[k],
-                              index < old.corners.cols()
-                                  ? column(old.corners, index)
-                                  : added[k - static_cast<std::size_t>(old.corners.cols())]);
-    }
-  out.ids.items.resize(std::ssize(items));
-  for (std::size_t k = 0; k < items.size(); ++k)
-    out.ids.items[static_cast<Eigen::Index>(k)] = number[static_cast<std::size_t>(items[k])];
-  return out;
+  out.ids.items = Eigen::Map<const Ids>(items.data(), std::ssize(items));
+  out.corners.resize(3, old.corners.cols() + std::ssize(added));
+  out.corners.leftCols(old.corners.cols()) = old.corners;
+  for (std::size_t k = 0; k < added.size(); ++k)
+    base_detail::set_column(out.corners, old.corners.cols() + static_cast<Eigen::Index>(k),
+                            added[k]);
+  return with_used_corners(std::move(out));
 }
 
 } // namespace
 } // namespace io_detail
 
-ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
-                         const std::vector<std::string>& nearest) {
+ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMethods& methods) {
   using namespace io_detail;
   require(old.mesh.has_value() && old.mesh->points.cols() == changed.new_of_old.size(),
           "the changed mesh is not that of the file; give what refine() made of it");
   require(!old.polygons || old.polygons->size() == changed.new_of_old.size(),
           "the cells of the file are not those of its mesh; give a file of Voronoi cells");
-  require_names(old, nearest);
+  require_names(old, methods);
   ChangedFile out;
   out.file.format = old.format;
   out.file.not_voronoi = old.not_voronoi;
   out.file.sphere_radius = old.sphere_radius;
-  const Sources sources = sources_of(*old.mesh, changed);
-  out.file.density = carried_density(sources, old.density);
-  carry_fields(sources, old.fields, nearest, out);
-  if (old.polygons)
+  const bool clipped = old.plane() && old.mesh->surface.is_bounded(); // the rings give the cells
+  if (old.polygons && !clipped)
     out.file.polygons =
         exact_detail::in_space_of(old.mesh->surface, [&](const exact_detail::Space auto& space) {
-          return changed_polygons(*old.polygons, changed, space);
+          return changed_polygons(*old.polygons, *old.mesh, changed, space);
         });
+  Sources sources = sources_of(*old.mesh, changed);
+  if (!methods.conservative.empty())
+    sources.conservative = conservative_of(*old.mesh, clipped ? std::nullopt : old.polygons,
+                                           out.file.polygons, sources);
+  out.file.density = carried_density(sources, old.density);
+  carry_fields(sources, old.fields, methods, out);
   out.file.mesh = std::move(changed.mesh);
   return out;
 }

@@ -2,7 +2,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "exact/space.h"
-#include "io/cells/room.h"
+#include "io/cells/polygons.h"
 
 #include <calotte/voronoi.h>
 
@@ -86,7 +86,7 @@ Vec3 within(const Eigen::Vector2d& place, const Eigen::Vector2d& period) {
 }
 
 Polygons polygons_of(const Lattice& lattice) {
-  const std::int64_t cells = lattice.columns * lattice.rows, all = lattice.wide * lattice.high;
+  const std::int64_t cells = lattice.columns * lattice.rows;
   Polygons out;
   out.on_sphere = false;
   out.period = lattice.period();
@@ -95,33 +95,21 @@ Polygons polygons_of(const Lattice& lattice) {
   out.ids.begin[0] = 0;
   std::vector<std::int32_t> ids;
   ids.reserve(static_cast<std::size_t>(6 * cells));
-  std::vector<bool> used(static_cast<std::size_t>(2 * all));
   std::int64_t next = 0;
   for_each_cell(lattice, [&](std::int64_t row, std::int64_t column) {
     set_column(out.centres, next, within(lattice.centre(row, column), out.period));
-    for (const std::int64_t corner : lattice.corners(row, column)) {
+    for (const std::int64_t corner : lattice.corners(row, column))
       ids.push_back(static_cast<std::int32_t>(corner));
-      used[static_cast<std::size_t>(corner)] = true;
-    }
     out.ids.begin[++next] = std::ssize(ids);
   });
-  std::vector<std::int32_t> number(used.size(), -1);
-  std::int32_t count = 0;
-  for (std::size_t corner = 0; corner < used.size(); ++corner)
-    if (used[corner])
-      number[corner] = count++;
-  out.corners.resize(3, count);
+  out.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  out.corners.resize(3, 2 * lattice.wide * lattice.high);
   for (std::int64_t row = 0; row < lattice.high; ++row)
     for (std::int64_t column = 0; column < lattice.wide; ++column)
       for (int which = 0; which < 2; ++which)
-        if (const std::int32_t to =
-                number[static_cast<std::size_t>(2 * lattice.id(row, column) + which)];
-            to >= 0)
-          set_column(out.corners, to, within(lattice.corner(row, column, which), out.period));
-  out.ids.items.resize(std::ssize(ids));
-  for (std::size_t k = 0; k < ids.size(); ++k)
-    out.ids.items[static_cast<Eigen::Index>(k)] = number[static_cast<std::size_t>(ids[k])];
-  return out;
+        set_column(out.corners, 2 * lattice.id(row, column) + which,
+                   within(lattice.corner(row, column, which), out.period));
+  return io_detail::with_used_corners(std::move(out));
 }
 
 } // namespace

@@ -146,6 +146,40 @@ Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most
   return polygons;
 }
 
+Polygons with_used_corners(Polygons polygons) {
+  std::vector<std::int32_t> number(static_cast<std::size_t>(polygons.corners.cols()), -1);
+  for (const std::int32_t corner : polygons.ids.items)
+    number[static_cast<std::size_t>(corner)] = 0;
+  std::int32_t count = 0;
+  for (std::size_t corner = 0; corner < number.size(); ++corner)
+    if (number[corner] == 0) {
+      polygons.corners.col(count) = polygons.corners.col(static_cast<Eigen::Index>(corner));
+      number[corner] = count++;
+    }
+  polygons.corners.conservativeResize(3, count);
+  for (std::int32_t& corner : polygons.ids.items)
+    corner = number[static_cast<std::size_t>(corner)];
+  return polygons;
+}
+
+Polygons selected(Polygons polygons, std::span<const std::int32_t> ids) {
+  IdLists lists{Offsets::Zero(std::ssize(ids) + 1), {}};
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    lists.begin[static_cast<Eigen::Index>(k) + 1] =
+        lists.begin[static_cast<Eigen::Index>(k)] + polygons.ids.count(ids[k]);
+  lists.items.resize(lists.begin[std::ssize(ids)]);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    std::ranges::copy(polygons.ids[ids[k]], lists[static_cast<std::int64_t>(k)].begin());
+  if (polygons.centres.cols() > 0) {
+    Points3 centres(3, std::ssize(ids));
+    for (std::size_t k = 0; k < ids.size(); ++k)
+      centres.col(static_cast<Eigen::Index>(k)) = polygons.centres.col(ids[k]);
+    polygons.centres = std::move(centres);
+  }
+  polygons.ids = std::move(lists);
+  return with_used_corners(std::move(polygons));
+}
+
 DoubleVector areas_of(const Polygons& polygons) {
   DoubleVector areas(polygons.size());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -10,6 +10,7 @@
 #include <calotte/voronoi.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,12 @@ Polygons polygons_of(Voronoi&& voronoi);
 /// \param places of the corners.
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
                      Points3 centres);
+
+/// The same polygons without the corners that none of them has.
+Polygons with_used_corners(Polygons polygons);
+
+/// Some of the polygons, in the order of their ids, with the corners that they have.
+Polygons selected(Polygons polygons, std::span<const std::int32_t> ids);
 
 /// The place of a corner; in a periodic plane of its copy nearest to another corner, the first.
 Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner);
