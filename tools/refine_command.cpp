@@ -173,7 +173,8 @@ std::string to_json(const ChangedMesh& changed, double read, double change, doub
   return json.dump(2) + "\n";
 }
 
-std::string describe(const Request& request, const ChangedMesh& changed, const ChangedFile& file,
+std::string describe(const Request& request, const std::vector<std::string>& ignored,
+                     const ChangedMesh& changed, const ChangedFile& file,
                      const WrittenFields& written) {
   std::string lines;
   const auto list = [&](const std::string& what, const std::vector<std::string>& names) {
@@ -183,6 +184,7 @@ std::string describe(const Request& request, const ChangedMesh& changed, const C
   list("fields at new cells are means over their areas", request.methods.conservative);
   list("fields at new cells are those of the nearest old one", file.nearest);
   list("fields that do not follow the cells", file.left_out);
+  list("variables that were not read", ignored);
   list("the format does not hold", written.dropped);
   const Totals totals(changed.patches);
   const std::int64_t cells = changed.new_of_old.size();
@@ -242,7 +244,8 @@ void run(const Request& request) {
         [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
     if (!request.cell_map.empty())
       write_cell_maps(request.cell_map, changed.new_of_old, changed.old_of_new);
-    words = changes_of(*request.source, base) + describe(request, changed, file, written);
+    words =
+        changes_of(*request.source, base) + describe(request, base.ignored, changed, file, written);
     if (!request.report.empty())
       write_file(request.report, to_json(changed, read, change, write));
   }
