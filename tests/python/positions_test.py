@@ -90,9 +90,9 @@ def test_errors():
     with pytest.raises(calotte.Error, match="n x 2 for a surface in the plane"):
         calotte.locate(plane, np.eye(3))
     with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for "
-                                            "each of the 50 sites"):
+                                            "each of the 50 cells"):
         calotte.interpolate(mesh, np.ones(3), np.eye(3))
     with pytest.raises(calotte.Error, match="must be numbers"):
         calotte.interpolate(mesh, ["a"] * 50, np.eye(3))
-    with pytest.raises(calotte.Error, match="no method cubic; give one of: linear, natural"):
+    with pytest.raises(calotte.Error, match="no method cubic; give one of: linear, natural, nearest"):
         calotte.interpolate(mesh, np.ones(50), np.eye(3), method="cubic")

@@ -75,6 +75,35 @@ def test_methods_and_files_of_meshes(mesh, tmp_path):
     assert 0 < np.isfinite(moved).sum() < len(boxes)
 
 
+def test_weights_at_positions(mesh):
+    pytest.importorskip("scipy.sparse")
+    boxes, stations = calotte.raster(24, 12), [(-105.0, 40.0), (0.0, 51.5), (10.0, -89.0)]
+    for source in (mesh, boxes):
+        values = np.cos(np.arange(len(source)))
+        for method in ("linear", "nearest"):
+            weights = calotte.interpolation_weights(source, stations, method=method)
+            assert weights.matrix.shape == (3, len(source))
+            found = calotte.interpolate(source, values, stations, method=method)
+            assert np.allclose(weights.matrix @ values, found) and (weights.apply(values) == found).all()
+            assert repr(weights) == f"<calotte.Weights: {len(source)} to 3 positions, {method}>"
+    nearest = calotte.interpolate(mesh, np.arange(800), stations, method="nearest")
+    assert (nearest == calotte.locate(mesh, stations).nearest).all()
+    assert (calotte.interpolation_weights(mesh, stations).matrix.getnnz(axis=1) <= 3).all()
+    sines = np.repeat(np.sin(np.radians(boxes.latitudes)), 24)
+    assert calotte.interpolate(boxes, sines, stations) == pytest.approx(np.sin(np.radians([40, 51.5, -89])), abs=0.03)
+    part = calotte.raster(np.arange(0.0, 50, 5), np.arange(20.0, 60, 5))
+    assert np.isnan(calotte.interpolate(part, np.ones(len(part)), stations)).tolist() == [True, False, True]
+
+
+def test_values_that_are_missing(mesh):
+    values = np.ones((800, 2))
+    values[:, 1] = np.nan
+    stations = calotte.random_points(50)
+    values[calotte.locate(mesh, stations).nearest, 0] = np.nan
+    found = calotte.interpolate(mesh, values, stations)
+    assert np.isnan(found[:, 1]).all() and np.nanmax(np.abs(found[:, 0] - 1)) < 1e-12
+
+
 def test_errors(mesh):
     boxes = calotte.raster(24, 12)
     with pytest.raises(calotte.Error, match="no method cubic"):
@@ -89,5 +118,12 @@ def test_errors(mesh):
         calotte.interpolation_weights(calotte.cvt(64, surface=calotte.periodic_box(1, 1)).mesh, boxes)
     with pytest.raises(calotte.Error, match=r"latitude\[2\]"):
         calotte.raster([0, 120, 240], [0, 10, 5])
-    with pytest.raises(calotte.Error, match="give a Mesh, Polygons or a Raster"):
-        calotte.interpolate(boxes, np.ones(288), [(0, 0)])
+    with pytest.raises(calotte.Error, match="no method conservative; give one of: linear, natural, nearest"):
+        calotte.interpolation_weights(mesh, [(0, 0)], method="conservative")
+    with pytest.raises(calotte.Error, match="latitude") as caught:
+        calotte.interpolate(boxes, np.ones(288), [(0, 0), (0, 91)])
+    assert caught.value.index == 1
+    with pytest.raises(calotte.Error, match="not between two grids"):
+        calotte.interpolation_weights(mesh, [(0, 0)]).write("never.nc")
+    with pytest.raises(calotte.Error, match=r"shape \(3,\); give a number, or a row of them, for each of the 800"):
+        calotte.interpolate(mesh, np.ones(3), boxes)

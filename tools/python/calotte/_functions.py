@@ -196,9 +196,15 @@ def operator_errors(mesh: Grid, *, surface: SurfaceLike | None = None,
     return _calotte.operator_errors(mesh, _density_for(mesh, density, cell_width))
 
 
-def _positions(mesh, positions):
+def _require_triangles(mesh):
     if isinstance(mesh, Polygons):
         raise Error("polygons have no triangles; give a mesh")
+    if not isinstance(mesh, Mesh):
+        raise Error(f"the mesh is {type(mesh).__name__}; give a Mesh")
+
+
+def _positions(mesh, positions):
+    _require_triangles(mesh)
     return _arguments.points_of(mesh.surface, positions, "positions")
 
 
@@ -243,6 +249,7 @@ def raster(longitudes: ArrayLike, latitudes: ArrayLike) -> Raster:
 
 
 _METHODS = ("conservative", "linear", "nearest", "natural")
+_METHODS_AT_POSITIONS = ("linear", "natural", "nearest")
 
 
 def _field_grid(grid):
@@ -257,7 +264,16 @@ def _field_grid(grid):
     return _calotte.grid_of_mesh(grid, None if content is None else content.polygons)
 
 
-def _require_method(method, methods=_METHODS):
+def _by_cell(values, cells):
+    """Numbers for each cell as cells x fields."""
+    fields = _arguments.numbers(values, "values")
+    if fields.ndim not in (1, 2) or len(fields) != cells:
+        raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
+                    f"each of the {_display.counted(cells, 'cell')}")
+    return fields[:, np.newaxis] if fields.ndim == 1 else fields
+
+
+def _require_method(method, methods):
     if method not in methods:
         raise Error(f"no method {method}; give one of: {', '.join(methods)}")
 
@@ -266,9 +282,10 @@ def _require_method(method, methods=_METHODS):
 class Weights:
     """Weights from the cells of a source to those of a target, of interpolation_weights().
 
-    matrix: scipy.sparse.csr_matrix, a row for each cell of the target. Rows sum to 1; those outside
-        of the source have no entries.
-    source_area: of the cells; steradians, in a plane the square of its unit.
+    matrix: scipy.sparse.csr_matrix, a row for each cell or position of the target. Rows sum to 1;
+        those outside of the source have no entries.
+    source_area: of the cells; steradians, in a plane the square of its unit. Empty unless
+        conservative.
     target_area: the same of the target.
     source_fraction: of each cell's area, what the target covers.
     target_fraction: of each cell's area, what the source covers.
@@ -277,6 +294,7 @@ class Weights:
     _weights: Any
     _grids: Any = None
     _method: str = "conservative"
+    _target: str = "cell"
 
     @property
     def matrix(self) -> Any:
@@ -302,7 +320,7 @@ class Weights:
 
     def __repr__(self) -> str:
         rows, columns = self._weights.rows()[3]
-        return f"<calotte.Weights: {columns} to {_display.counted(rows, 'cell')}, {self._method}>"
+        return f"<calotte.Weights: {columns} to {_display.counted(rows, self._target)}, {self._method}>"
 
     def apply(self, values: ArrayLike, *, min_cover: float = 0.0) -> Array:
         """The values at the target.
@@ -311,33 +329,31 @@ class Weights:
             are divided by their part of the weights.
         min_cover: the part of a cell, 0 to 1, that values must cover; below it the cell is NaN.
         """
-        fields = _arguments.numbers(values, "values")
-        columns = self._weights.rows()[3][1]
-        if fields.ndim not in (1, 2) or len(fields) != columns:
-            raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
-                        f"each of the {_display.counted(columns, 'cell')}")
-        by_cell = fields[:, np.newaxis] if fields.ndim == 1 else fields
-        found = self._weights.apply(by_cell, min_cover)
-        return found[:, 0] if fields.ndim == 1 else found
+        found = self._weights.apply(_by_cell(values, self._weights.rows()[3][1]), min_cover)
+        return found[:, 0] if np.ndim(values) == 1 else found
 
     def write(self, path: Path, *, format: str = "esmf") -> None:
         """Writes the weights as NetCDF: "esmf", for ncremap, or "scrip", for CDO."""
         if format not in ("esmf", "scrip"):
             raise Error(f"no format {format} of weights; give esmf or scrip")
         if self._grids is None:
-            raise Error("weights of a file have no grids; use the file")
+            raise Error("these weights are not between two grids; of a file, use the file")
         _calotte.write_grid_weights(str(path), self._weights, *self._grids, self._method,
                                     format == "scrip")
 
 
-def interpolation_weights(source: Grid | Raster, target: Grid | Raster, *,
-                          method: str = "conservative") -> Weights:
-    """The weights from the cells of one grid to those of another, on one surface.
+def interpolation_weights(source: Grid | Raster, target: ArrayLike | Grid | Raster, *,
+                          method: str | None = None) -> Weights:
+    """The weights from the cells of one grid to those of another, on one surface, or to positions.
 
-    source, target: a Mesh, Polygons or a Raster.
-    method: "conservative", by shared areas, whose integrals are kept; "linear" on triangles, or
-        bilinear in a raster; "nearest", the cell that holds the centre; "natural", of a mesh.
-    Returns Weights. Raises Error.
+    source: a Mesh, Polygons or a Raster; to positions a Mesh or a Raster.
+    target: a Mesh, Polygons or a Raster; or positions, as for locate().
+    method: "conservative", by shared areas, whose integrals are kept, between grids only; "linear"
+        on each triangle, or bilinear in a raster; "nearest", the cell that holds the position or the
+        centre; "natural", of a mesh, by the areas that a cell of the position would take from the
+        cells around it (Sibson, 1980), which is smooth except at the sites. Default: conservative,
+        at positions linear.
+    Returns Weights. Raises Error, with the index of the position.
 
     >>> mesh = delaunay(fibonacci_sphere(500))
     >>> weights = interpolation_weights(raster(36, 18), mesh)
@@ -345,9 +361,20 @@ def interpolation_weights(source: Grid | Raster, target: Grid | Raster, *,
     >>> bool(np.abs(ones - 1).max() < 1e-12)
     True
     """
-    _require_method(method)
+    if not isinstance(target, (Mesh, Polygons, Raster)):
+        return _weights_at(source, target, "linear" if method is None else method)
+    method = "conservative" if method is None else method
+    _require_method(method, _METHODS)
     grids = _field_grid(source), _field_grid(target)
     return Weights(_calotte.grid_weights(*grids, method), grids, method)
+
+
+def _weights_at(source, positions, method):
+    """Weights at positions."""
+    _require_method(method, _METHODS_AT_POSITIONS)
+    positions = (_arguments.sphere_points(positions, "positions") if isinstance(source, Raster) else
+                 _positions(source, positions))
+    return Weights(_calotte.weights_at(source, positions, method), None, method, "position")
 
 
 def read_weights(path: Path) -> Weights:
@@ -359,14 +386,14 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
                 method: str = "linear") -> Array:
     """Values at positions, or at the cells of another grid.
 
-    mesh: what the values are of; polygons and a raster only to another grid.
-    values: n numbers, one for each site or cell; or n x fields.
-    positions: as for locate(); or a Mesh, Polygons or a Raster, as for interpolation_weights().
-    method: "linear" on each triangle; or "natural", by the areas that a cell of the position would
-        take from the cells around it (Sibson, 1980), which is smooth except at the sites; to another
-        grid also "conservative" and "nearest".
-    Returns k numbers, or k x fields; NaN outside of an open mesh. Raises Error, with the index of the
-    position.
+    mesh: what the values are of: a Mesh, Polygons or a Raster; to positions a Mesh or a Raster.
+    values: n numbers, one for each site or cell; or n x fields. NaN does not count, as in
+        Weights.apply().
+    positions: as for locate(); or a Mesh, Polygons or a Raster.
+    method: "linear", "nearest" or "natural"; to another grid also "conservative". See
+        interpolation_weights(), whose result serves for many values.
+    Returns k numbers, or k x fields; NaN outside of an open mesh or a raster. Raises Error, with the
+    index of the position.
 
     >>> mesh = delaunay(random_points(200, rectangle((0, 0), (1, 1))))
     >>> values = mesh.points @ [1.0, 2.0]
@@ -374,19 +401,9 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
     >>> round(float(inside), 12), float(outside)
     (1.0, nan)
     """
-    if isinstance(positions, (Mesh, Polygons, Raster)):
-        return interpolation_weights(mesh, positions, method=method).apply(values)
-    if isinstance(mesh, Raster):
-        raise Error("a raster has values at cells of a grid; give a Mesh, Polygons or a Raster")
-    _require_method(method, ("linear", "natural"))
-    positions = _positions(mesh, positions)
-    fields = _arguments.numbers(values, "values")
-    if fields.ndim not in (1, 2) or len(fields) != len(mesh):
-        raise Error(f"values have the shape {fields.shape}; give a number, or a row of them, for "
-                    f"each of the {_display.counted(len(mesh), 'site')}")
-    by_site = fields[:, np.newaxis] if fields.ndim == 1 else fields
-    found = _calotte.interpolate(mesh, by_site, positions, method == "natural")
-    return found[:, 0] if fields.ndim == 1 else found
+    if isinstance(mesh, (Mesh, Polygons, Raster)):
+        _by_cell(values, len(mesh))  # before the weights are made
+    return interpolation_weights(mesh, positions, method=method).apply(values)
 
 
 # ---- Centroidal Voronoi tessellations

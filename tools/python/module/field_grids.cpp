@@ -47,6 +47,23 @@ std::shared_ptr<GridWeights> weights_between(const FieldGrid& source, const Fiel
   });
 }
 
+/// \param source a mesh or a raster. \param positions on its surface.
+template <class Source>
+std::shared_ptr<GridWeights> weights_at(const Source& source, const Doubles& positions,
+                                        const std::string& method) {
+  const auto places = columns(positions);
+  return call([&] {
+    auto out = std::make_shared<GridWeights>();
+    out->weights = interpolation_weights(source, places, kind_of(method));
+    out->source_fraction = DoubleVector::Ones(out->weights.cols());
+    out->target_fraction.resize(out->weights.rows());
+    const int* const begin = out->weights.outerIndexPtr();
+    for (Eigen::Index i = 0; i < out->weights.rows(); ++i)
+      out->target_fraction[i] = begin[i + 1] > begin[i] ? 1 : 0;
+    return out;
+  });
+}
+
 /// \param values n x fields. \returns k x fields.
 py::array apply(const GridWeights& weights, const Doubles& values, double min_cover) {
   const auto by_field = columns(values);
@@ -114,6 +131,8 @@ void add_field_grids(py::module_& module) {
   module.def("grid_of_boxes", &grid_of_boxes);
   module.def("grid_of_mesh", &grid_of_mesh);
   module.def("grid_weights", &weights_between);
+  module.def("weights_at", &weights_at<Mesh>);
+  module.def("weights_at", &weights_at<LonLatBoxes>);
   module.def("write_grid_weights", &write);
   module.def("read_grid_weights", [](const std::string& path) {
     return call([&] { return std::make_shared<GridWeights>(read_weights(path)); });

@@ -3,7 +3,6 @@
 #include "members.h"
 #include "module.h"
 
-#include <calotte/interpolate.h>
 #include <calotte/locate.h>
 
 #include <memory>
@@ -15,21 +14,6 @@ namespace {
 std::shared_ptr<Locations> locate_in(const Mesh& mesh, const Doubles& positions) {
   const auto places = columns(positions);
   return call([&] { return std::make_shared<Locations>(locate(mesh, places)); });
-}
-
-/// \param values n x fields, by site. \returns k x fields, by position.
-py::array interpolate_in(const Mesh& mesh, const Doubles& values, const Doubles& positions,
-                         bool natural) {
-  const auto places = columns(positions);
-  const auto by_field = columns(values);
-  return handed_over(call([&] {
-    const Weights weights = interpolation_weights(
-        mesh, places, natural ? Interpolation::natural_neighbours : Interpolation::linear);
-    Eigen::MatrixXd result(by_field.rows(), places.cols());
-    for (Eigen::Index k = 0; k < by_field.rows(); ++k)
-      result.row(k) = interpolate(weights, by_field.row(k).transpose());
-    return result;
-  }));
 }
 
 } // namespace
@@ -48,7 +32,6 @@ void add_positions(py::module_& module) {
              "(k,) the nearest site, the lowest of those that are equally near."});
   type.def("__len__", [](const Locations& locations) { return locations.triangle.size(); });
   module.def("locate", &locate_in);
-  module.def("interpolate", &interpolate_in);
 }
 
 } // namespace calotte::python
