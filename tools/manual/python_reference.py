@@ -17,7 +17,7 @@ GROUPS = [
     ("Triangulations and cells", ["delaunay", "voronoi", "check", "quality", "operator_errors",
                                   "locate", "interpolate", "threads"]),
     ("From one grid to another", ["raster", "interpolation_weights", "read_weights"]),
-    ("Grids", ["cvt", "plan", "limited_area", "density"]),
+    ("Grids", ["cvt", "plan", "refine", "coarsen", "limited_area", "density"]),
     ("Points", ["random_points", "fibonacci_sphere", "spiral_sphere", "geodesic_sphere",
                 "bisected_icosahedron", "lat_lon_sphere", "cubed_sphere", "hexagonal_lattice",
                 "bisect", "from_lonlat", "to_lonlat"]),
@@ -26,7 +26,7 @@ GROUPS = [
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "distance_to", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Level", "Plan", "Quality",
+KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Level", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
          "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 
 

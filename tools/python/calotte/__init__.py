@@ -18,24 +18,26 @@ import importlib
 from . import _display, _mesh, widths  # add the methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi, Widths, __version__)
-from ._functions import (Cvt, Level, Plan, Weights, bisect, bisected_icosahedron, channel, check,
-                         circle, cubed_sphere, cull, cut, cvt, delaunay, density, ellipse,
-                         fibonacci_sphere, from_lonlat, geodesic_sphere, hexagonal_lattice,
-                         interpolate, interpolation_weights, lat_lon_sphere, limited_area, locate,
+from ._functions import (ChangedMesh, ChangedPatch, Cvt, Level, Plan, Weights, bisect,
+                         bisected_icosahedron, channel, check, circle, coarsen, cubed_sphere,
+                         cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
+                         from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
+                         interpolation_weights, lat_lon_sphere, limited_area, locate,
                          operator_errors, partition, periodic_box, plan, planar_polygon, polygon,
                          quality, random_points, raster, read, read_fields, read_points,
-                         read_weights, rectangle, spiral_sphere, threads, to_lonlat, voronoi, write)
+                         read_weights, rectangle, refine, spiral_sphere, threads, to_lonlat,
+                         voronoi, write)
 
 __all__ = [
-    "CellWidth", "Check", "Cvt", "Density", "Error", "Level", "Locations", "Mesh", "OperatorErrors",
-    "Plan", "Polygons", "Quality", "Raster", "Surface", "Voronoi", "Weights", "Widths",
-    "__version__", "bisect", "bisected_icosahedron", "channel", "check", "circle", "cubed_sphere",
-    "cull", "cut", "cvt", "delaunay", "density", "ellipse", "fibonacci_sphere", "from_lonlat",
-    "geodesic_sphere", "hexagonal_lattice", "interpolate", "interpolation_weights",
-    "lat_lon_sphere", "limited_area", "locate", "operator_errors", "partition", "periodic_box",
-    "plan", "planar_polygon", "polygon", "quality", "random_points", "raster", "read",
-    "read_fields", "read_points", "read_weights", "rectangle", "spiral_sphere", "threads", "to_lonlat", "voronoi",
-    "widths", "write",
+    "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error", "Level",
+    "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
+    "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "channel",
+    "check", "circle", "coarsen", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "density",
+    "ellipse", "fibonacci_sphere", "from_lonlat", "geodesic_sphere", "hexagonal_lattice",
+    "interpolate", "interpolation_weights", "lat_lon_sphere", "limited_area", "locate",
+    "operator_errors", "partition", "periodic_box", "plan", "planar_polygon", "polygon", "quality",
+    "random_points", "raster", "read", "read_fields", "read_points", "read_weights", "rectangle",
+    "refine", "spiral_sphere", "threads", "to_lonlat", "voronoi", "widths", "write",
 ]
 
 _SUBMODULES = ("mpas_tools", "scipy", "stripy")

@@ -138,6 +138,22 @@ def widths(given, plane, earth_radius=EARTH_RADIUS_KM, surface=None):
     return planar_cell_width(given, surface) if plane else cell_width(given, earth_radius, surface)
 
 
+def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
+    """A rule of widths as it is; or one of a number, a raster, a file or a function.
+
+    surface: a plane, where a function is sampled; None for the sphere.
+    """
+    if isinstance(widths, _calotte.Widths):
+        return widths
+    if isinstance(widths, _calotte.PlanarCellWidth):
+        return _calotte.Widths(widths)
+    value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
+    if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
+        return _calotte.Widths(float(value))
+    return _calotte.Widths(cell_width(widths, earth_radius) if surface is None else
+                           planar_cell_width(widths, surface))
+
+
 def planar_cell_width(widths, surface=None):
     """Widths of a number, a raster, a file or a rule in the unit of the plane, as PlanarCellWidth."""
     if isinstance(widths, _calotte.PlanarCellWidth):

@@ -701,6 +701,218 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     return Cvt(mesh, **report, cells=cells)
 
 
+# ---- Meshes of which a part changes
+
+_KEPT = _calotte.RefineOptions()  #: the library's defaults
+
+
+@dataclass(frozen=True)
+class ChangedPatch:
+    """A part of a mesh that changed, of a ChangedMesh.
+
+    removed: number of sites of the old mesh.
+    added: number of sites of the new mesh in their place.
+    converged: whether the norm of its run fell below the tolerance.
+    well_centred: whether all its shapes are within the limits of models.
+    cells_beyond_limits: number of its cells beyond them.
+    residual: the norm at the end, relative to the spacing of the cells.
+    iterations: of its run.
+    seconds: of wall-clock time.
+    """
+
+    removed: int
+    added: int
+    converged: bool
+    well_centred: bool
+    cells_beyond_limits: int
+    residual: float
+    iterations: int
+    seconds: float
+
+
+@dataclass(frozen=True, repr=False)
+class ChangedMesh:
+    """A mesh of which a part changed, of refine() or coarsen().
+
+    mesh: the sites that stayed, in their order and with their bits, then the new ones; with what the
+        file held, if the old mesh was read from one.
+    new_of_old: (n,) by site of the old mesh its site in the new one; -1 for none.
+    old_of_new: (m,) by site of the new mesh its site in the old one; -1 for none.
+    width_ratio: (m,) by site of the new mesh the width that its cell is to have over that of the old
+        mesh there; 1 for those that stayed.
+    patches: the parts that changed, which do not touch; none if the demand is met. See ChangedPatch.
+    held: number of sites of the old mesh where the demand is not met because sites at the mesh's
+        boundary, and those next to them, stay.
+    nearest: names of the file's fields whose new cells have the value of the nearest old one.
+    left_out: names of the file's fields at edges and vertices, which do not follow.
+    converged: whether all patches are.
+    well_centred: whether all patches are.
+    """
+
+    mesh: Mesh
+    new_of_old: NDArray[np.int32]
+    old_of_new: NDArray[np.int32]
+    width_ratio: Array
+    patches: tuple[ChangedPatch, ...]
+    held: int
+    nearest: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        return all(patch.converged for patch in self.patches)
+
+    @property
+    def well_centred(self) -> bool:
+        return all(patch.well_centred for patch in self.patches)
+
+    def __repr__(self) -> str:
+        added = sum(patch.added for patch in self.patches)
+        parts = f"{len(self.patches)} patch{'' if len(self.patches) == 1 else 'es'}"
+        short = [f"{self.held} held"] if self.held else []
+        short += [] if self.converged else ["not converged"]
+        short += [] if self.well_centred else ["not well-centred"]
+        return (f"<calotte.ChangedMesh: {_display.counted(len(self.mesh), 'cell')}, "
+                f"{', '.join([f'{added} new in {parts}', *short])}>")
+
+
+def _earth_radius(mesh):
+    """km, of the sphere that a mesh is of: that of its file, if this is one in metres."""
+    content = content_of(mesh)
+    metres = 1.0 if content is None else content.sphere_radius
+    return metres / 1000 if metres > 1e5 else EARTH_RADIUS_KM
+
+
+def _demand(mesh, cell_width, region, factor, earth_radius):
+    """The widths that cells are to have."""
+    demand, plane = _calotte.WidthDemand(), not mesh.surface.is_sphere
+    demand.radius_km = _earth_radius(mesh) if earth_radius is None else earth_radius
+    if (region is None) != (factor is None):
+        raise Error("region and factor belong together; give both, or cell_width")
+    if region is not None:
+        demand.region = _arguments.surface(region, plane, demand.radius_km)
+        demand.factor = factor
+    if cell_width is not None:
+        part = _calotte.rectangle(mesh.points.min(axis=0), mesh.points.max(axis=0)) if plane else None
+        demand.widths = _arguments.rule(cell_width, part, demand.radius_km)
+    return demand
+
+
+def _require_cells(mesh, content):
+    """Other polygons do not change with the triangles."""
+    if content is not None and content.polygons is not None and content.not_voronoi and mesh.closed:
+        raise Error(f"the cells of the mesh's file are no Voronoi cells: {content.not_voronoi}; give "
+                    "a Voronoi mesh")
+
+
+def _names(given, content):
+    """Names of fields at the cells of a file."""
+    names = [given] if isinstance(given, str) else list(given)
+    known = {} if content is None else content.fields
+    for name in names:
+        if name not in known:
+            raise Error(f"the mesh has no field {name!r} at cells; give the name of one that read() "
+                        "took from its file, with fields=\"all\"")
+    return names
+
+
+def _methods(nearest, conservative, content):
+    """How values of fields reach new cells."""
+    methods = _calotte.FieldMethods()
+    methods.nearest, methods.conservative = _names(nearest, content), _names(conservative, content)
+    for name in set(methods.nearest) & set(methods.conservative):
+        raise Error(f"the field {name!r} is to be both nearest and conservative; give it one of the "
+                    "two")
+    return methods
+
+
+def _changed(change, mesh, demand, surface, nearest, conservative, progress, **fields):
+    content = content_of(mesh)
+    _require_cells(mesh, content)
+    mesh = within(mesh, surface)
+    options = _calotte.RefineOptions()
+    for name, value in fields.items():
+        setattr(options, name, value)
+    made, made_content, values = change(mesh, content, demand, options,
+                                        _methods(nearest, conservative, content),
+                                        _reporting(progress))
+    if made_content is not None:
+        made._content = made_content
+    made._order = "input"  # of written files: the cells that stayed come first
+    for name in ("nearest", "left_out"):
+        values[name] = tuple(values[name])
+    values["patches"] = tuple(ChangedPatch(**patch) for patch in values["patches"])
+    return ChangedMesh(made, **values)
+
+
+def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,
+           factor: float | None = None, gradient: float = _KEPT.gradient,
+           tolerance: float = _KEPT.tolerance, surface: SurfaceLike | None = None,
+           nearest: str | Sequence[str] = (), conservative: str | Sequence[str] = (),
+           regions: int | None = None, progress: Progress | bool | None = None,
+           earth_radius: float | None = None) -> ChangedMesh:
+    """Makes cells of a mesh finer where they are wider than demanded; all others keep their bits.
+
+    The cells around grow from there at the gradient; with three to seven rows of cells more they
+    form the patches that change. Each patch is a centroidal Voronoi tessellation, beside which two
+    rows of sites stay. Cells at a boundary, and those next to them, stay as well.
+
+    mesh: a Delaunay triangulation. What a file held besides it follows: fields at cells keep the
+        values of those that stayed, and are linear between old cells at new ones; whole numbers are
+        those of the nearest old cell. The field mapNewToBase is added: the number of each cell in
+        the old file, from 1 on, and 0 for new cells. Read it with fields="all" to keep all.
+    cell_width: widths in km that cells become as narrow as, in a plane in its unit, as for cvt();
+        where a rule of calotte.widths says nothing, cells stay. Or:
+    region, factor: the part, as surface of cvt(), whose cells become so many times as narrow as they
+        are, more than 1 to 100.
+    gradient: the greatest change of the width by distance in the transition, 0.001 to 1.
+    tolerance: share of a cell's width within which it meets the demand, 0.01 to 0.5.
+    surface: as for voronoi(). Default: the mesh's; of a file of a plane what its cells fill.
+    nearest: names of fields whose new cells have the value of the nearest old one.
+    conservative: names of fields whose new cells have the mean by the areas that they share with old
+        ones; of whole numbers that of the greatest area.
+    regions: parts that run in parallel; no effect on the result.
+    progress: a function that receives a dict after each iteration of a patch, whose True raises Error
+        of the code "cancelled"; or True for a bar of tqdm.
+    earth_radius: km, that the widths refer to. Default: that of the mesh's file in metres, or 6371.
+    Returns a ChangedMesh. A patch that does not converge is no error. Raises Error.
+
+    >>> base = cvt(2562).mesh
+    >>> finer = refine(base, region="circle=10,50,1500km", factor=1.5)
+    >>> kept = finer.new_of_old >= 0
+    >>> bool((finer.mesh.points[finer.new_of_old[kept]] == base.points[kept]).all())
+    True
+    """
+    _require_triangles(mesh)
+    demand = _demand(mesh, cell_width, region, factor, earth_radius)
+    return _changed(_calotte.refine, mesh, demand, surface, nearest, conservative, progress,
+                    gradient=gradient, tolerance=tolerance, regions=regions)
+
+
+def coarsen(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,
+            factor: float | None = None, gradient: float = _KEPT.gradient,
+            tolerance: float = _KEPT.tolerance, surface: SurfaceLike | None = None,
+            nearest: str | Sequence[str] = (), conservative: str | Sequence[str] = (),
+            regions: int | None = None, progress: Progress | bool | None = None,
+            earth_radius: float | None = None) -> ChangedMesh:
+    """Makes cells of a mesh coarser where they are narrower than demanded; all others keep their
+    bits. Coarser cells begin at those that stay around them, and grow from there at the gradient.
+
+    cell_width, region, factor: the widths that cells become as wide as, and how many times as wide as
+        they are. All arguments are as for refine().
+    Returns a ChangedMesh. Raises Error.
+
+    >>> base = cvt(2562).mesh
+    >>> coarser = coarsen(base, region=circle((10, 50), "3000km"), factor=1.5)
+    >>> len(coarser.mesh) < len(base), bool(check(coarser.mesh))
+    (True, True)
+    """
+    _require_triangles(mesh)
+    demand = _demand(mesh, cell_width, region, factor, earth_radius)
+    return _changed(_calotte.coarsen, mesh, demand, surface, nearest, conservative, progress,
+                    gradient=gradient, tolerance=tolerance, regions=regions)
+
+
 # ---- Points
 
 def random_points(n: int, surface: SurfaceLike | None = None, *,
@@ -903,7 +1115,8 @@ def read_points(path: Path) -> Array:
 def write(path: Path, mesh: Grid, *, format: str = "by-name",
           sphere_radius: float | None = None, density: DensityLike | None = None,
           cell_width: WidthLike = None, surface: SurfaceLike | None = None,
-          fields: Mapping[str, ArrayLike] | None = None, history: str = "") -> None:
+          fields: Mapping[str, ArrayLike] | None = None, history: str = "",
+          order: str | None = None) -> None:
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
     mesh: of read(), with its cells and fields, or of another function.
@@ -913,11 +1126,15 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     surface: as for voronoi().
     fields: a dict of n numbers at the cells, beside those that were read.
+    order: of the cells: "curve", along a space-filling curve; "rcm", reverse Cuthill-McKee; or
+        "input", that of the mesh. Default: curve in NetCDF files, input in others and for meshes of
+        refine() and coarsen().
     """
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
-                             density is not None or cell_width is not None, values, history)
+                             density is not None or cell_width is not None, values, history,
+                             vars(mesh).get("_order") if order is None else order)
     content = content_of(mesh)
     mesh = within(mesh, surface)
     if content is not None:
@@ -981,7 +1198,7 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
-                             True, {}, "")
+                             True, {}, "", None)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
 

@@ -23,14 +23,7 @@ __all__ = ["Widths", "around", "blend", "by_channel", "by_depth", "by_latitude",
 
 def rule(widths):
     """A number of km, a raster, a file or a function of longitude and latitude, as a rule."""
-    if isinstance(widths, Widths):
-        return widths
-    if isinstance(widths, _calotte.PlanarCellWidth):
-        return Widths(widths)
-    value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
-    if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
-        return Widths(float(value))
-    return Widths(_arguments.cell_width(widths))
+    return _arguments.rule(widths)
 
 
 def _nodes(pairs, what):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calls.h"
+#include "content.h"
 #include "members.h"
 #include "module.h"
 
@@ -26,26 +27,14 @@
 namespace calotte::python {
 namespace {
 
-/// What a file holds besides its mesh: polygons, fields, density and radius.
-using Content = std::shared_ptr<MeshFile>;
-
 FieldChoice choice_of(const std::string& fields) {
   return fields == "none"  ? FieldChoice::none
          : fields == "all" ? FieldChoice::all
                            : FieldChoice::scalars;
 }
 
-/// The mesh of a file, or without one its polygons; and the content.
 py::tuple read(const std::string& path, const std::string& fields) {
-  auto content = std::make_shared<MeshFile>(
-      call([&] { return read_mesh_file(path, nullptr, choice_of(fields)); }));
-  py::object grid;
-  if (content->mesh)
-    grid = py::cast(std::make_shared<Mesh>(std::move(*content->mesh)));
-  else
-    grid = py::cast(std::shared_ptr<Polygons>(content, &*content->polygons));
-  content->mesh.reset();
-  return py::make_tuple(grid, content);
+  return parts_of(call([&] { return read_mesh_file(path, nullptr, choice_of(fields)); }));
 }
 
 /// The polygons of a content, which keeps their memory; none where a mesh has the cells.
@@ -68,14 +57,6 @@ py::dict fields_of(py::object self) {
     fields[py::str(field.name)] = values;
   }
   return fields;
-}
-
-/// A content with the mesh that it came with.
-MeshFile whole(const MeshFile& content, const py::object& grid) {
-  MeshFile file = content;
-  if (py::isinstance<Mesh>(grid))
-    file.mesh = grid.cast<const Mesh&>();
-  return file;
 }
 
 std::shared_ptr<Voronoi> cells_of(const MeshFile& content, const py::object& grid) {
@@ -228,11 +209,13 @@ struct Output {
   Density density;
   bool known = true; ///< whether the mesh was made for that density
   py::dict fields;
+  Numbering numbering = Numbering::by_format;
 };
 
 WriteOptions options_of(const Output& output) {
   WriteOptions options;
   options.format = output.format;
+  options.numbering = output.numbering;
   options.sphere_radius = output.radius.value_or(1);
   options.density = output.density;
   options.history = output.history;
@@ -428,12 +411,33 @@ Format format_named(const std::string& name) {
 }
 
 Output output_of(std::string path, const std::string& format, std::optional<double> radius,
-                 Density density, bool known, py::dict fields, std::string history) {
-  return {std::move(path), std::move(history), format_named(format), radius, std::move(density),
-          known,           std::move(fields)};
+                 Density density, bool known, py::dict fields, std::string history,
+                 const std::optional<std::string>& order) {
+  return {std::move(path),      std::move(history),
+          format_named(format), radius,
+          std::move(density),   known,
+          std::move(fields),    order ? numbering_named(*order) : Numbering::by_format};
 }
 
 } // namespace
+
+py::tuple parts_of(MeshFile file) {
+  auto content = std::make_shared<MeshFile>(std::move(file));
+  py::object grid;
+  if (content->mesh)
+    grid = py::cast(std::make_shared<Mesh>(std::move(*content->mesh)));
+  else
+    grid = py::cast(std::shared_ptr<Polygons>(content, &*content->polygons));
+  content->mesh.reset();
+  return py::make_tuple(grid, content);
+}
+
+MeshFile whole(const MeshFile& content, const py::object& grid) {
+  MeshFile file = content;
+  if (py::isinstance<Mesh>(grid))
+    file.mesh = grid.cast<const Mesh&>();
+  return file;
+}
 
 void add_files(py::module_& module) {
   py::class_<Output>(module, "Output").def(py::init(&output_of));

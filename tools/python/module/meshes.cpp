@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "calls.h"
+#include "content.h"
 #include "members.h"
 #include "module.h"
 
@@ -63,11 +64,13 @@ std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& surface) {
   return bounded;
 }
 
-Numbering numbering_of(const std::string& name) {
-  return name == "curve" ? Numbering::curve : name == "rcm" ? Numbering::rcm : Numbering::input;
-}
-
 } // namespace
+
+Numbering numbering_named(const std::string& word) {
+  if (word != "curve" && word != "rcm" && word != "input")
+    throw Error(ErrorCode::invalid_argument, "no order " + word + "; give curve, rcm or input");
+  return word == "curve" ? Numbering::curve : word == "rcm" ? Numbering::rcm : Numbering::input;
+}
 
 void add_meshes(py::module_& module) {
   py::class_<Mesh, std::shared_ptr<Mesh>> type(
@@ -100,8 +103,9 @@ void add_meshes(py::module_& module) {
       .def(
           "renumbered",
           [](const Mesh& mesh, const std::string& numbering) {
-            return call(
-                [&] { return std::make_shared<Mesh>(renumbered(mesh, numbering_of(numbering))); });
+            return call([&] {
+              return std::make_shared<Mesh>(renumbered(mesh, numbering_named(numbering)));
+            });
           },
           "The same mesh with its sites along a curve (\"curve\"), or so that neighbours have "
           "near\n"

@@ -31,5 +31,6 @@ PYBIND11_MODULE(_calotte, module) {
   add_positions(module);
   add_tessellations(module);
   add_files(module);
+  add_changes(module);
   add_field_grids(module);
 }

@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "calls.h"
 #include "module.h"
+#include "runs.h"
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
@@ -180,16 +181,6 @@ py::dict progress_of(const CvtProgress& now) {
   return values;
 }
 
-/// Ends the run after ^C, or where the function returns True.
-ProgressCallback callback_of(py::object function) {
-  return [f = Callable(std::move(function))](const Progress& now) {
-    const py::gil_scoped_acquire locked;
-    check_interrupt();
-    const bool stops = !f.none() && f(progress_of(*now.run)).is(py::bool_(true));
-    return stops ? Next::stop : Next::proceed;
-  };
-}
-
 py::dict report_of(const CvtReport& report) {
   py::dict values;
   values["converged"] = report.converged;
@@ -222,7 +213,7 @@ MeshFile between_walls(const Recipe& asked, const Recipe& made, const Mesh& box)
 
 /// The mesh, the report, and the polygons between walls with their content, or None.
 py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object function) {
-  const ProgressCallback callback = callback_of(std::move(function));
+  const ProgressCallback callback = callback_of(std::move(function), Next::stop);
   auto cells = std::make_shared<MeshFile>();
   Cvt grid = call([&] {
     const Schedule schedule = plan(recipe);
@@ -239,6 +230,15 @@ py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object funct
 }
 
 } // namespace
+
+ProgressCallback callback_of(py::object function, Next end) {
+  return [f = Callable(std::move(function)), end](const Progress& now) {
+    const py::gil_scoped_acquire locked;
+    check_interrupt();
+    const bool stops = !f.none() && f(progress_of(*now.run)).is(py::bool_(true));
+    return stops ? end : Next::proceed;
+  };
+}
 
 void add_tessellations(py::module_& module) {
   add_recipe(module);
