@@ -225,15 +225,39 @@ Patch patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
   return patch;
 }
 
+/// The ends of open edges. Where the circumcentre of a triangle lies beyond one, as of the thin
+/// ones along a hull, cells reach out of the mesh: its other edges count as open.
+template <Space S> Marks sites_at_open_edges(const Mesh& mesh, const S& space) {
+  const Faces faces = faces_of(mesh);
+  Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0),
+      beyond(static_cast<std::size_t>(mesh.triangles.cols()), 0);
+  std::vector<Corner> open; // across from the edges
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < 0)
+        open.push_back({t, i});
+  while (!open.empty()) {
+    const auto [t, i] = open.back();
+    open.pop_back();
+    const std::int32_t at = mesh.triangles(i, t), a = mesh.triangles(next_vertex(i), t),
+                       b = mesh.triangles(previous_vertex(i), t);
+    marks[static_cast<std::size_t>(a)] = marks[static_cast<std::size_t>(b)] = 1;
+    if (!(dot(chord(space, mesh, at, a), chord(space, mesh, at, b)) < 0) ||
+        std::exchange(beyond[static_cast<std::size_t>(t)], std::uint8_t{1}) != 0)
+      continue;
+    for (const int k : {next_vertex(i), previous_vertex(i)})
+      if (const std::int32_t next = mesh.neighbours(k, t); next >= 0)
+        open.push_back(
+            {next, next_vertex(slot_of(faces, next, mesh.triangles(next_vertex(k), t)))});
+  }
+  return marks;
+}
+
 } // namespace
 
 Marks sites_at_boundary(const Mesh& mesh) {
-  Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (mesh.neighbours(i, t) < 0)
-        for (const int k : {next_vertex(i), previous_vertex(i)})
-          marks[static_cast<std::size_t>(mesh.triangles(k, t))] = 1;
+  Marks marks = in_space_of(
+      mesh.surface, [&](const Space auto& space) { return sites_at_open_edges(mesh, space); });
   if (!mesh.surface.is_sphere() && mesh.surface.is_bounded()) {
     const Voronoi clipped = voronoi(mesh);
     for (const auto& cells : clipped.cells_on_edge.colwise())

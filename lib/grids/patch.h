@@ -15,7 +15,8 @@ namespace calotte::grids_detail {
 /// By site: whether something holds.
 using Marks = std::vector<std::uint8_t>;
 
-/// Sites at the mesh's boundary, and those whose cells the rings of a plane clip.
+/// Sites at the mesh's boundary, of thin triangles beside it, and those whose cells the rings of a
+/// plane clip.
 Marks sites_at_boundary(const Mesh& mesh);
 
 /// The width of each cell, that of a hexagon of its area, smoothed over its neighbours: radians, in

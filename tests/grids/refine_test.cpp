@@ -434,3 +434,16 @@ TEST_CASE("demands that cannot be") {
   options.gradient = 2;
   refused(in_circle({0, 0, 1}, 0.1, 2), "gradient is 2", options);
 }
+
+TEST_CASE("a patch at a corner of a hull with thin triangles [slow]") {
+  const Mesh bounded = make_grid({.cells = 440, .surface = rectangle({0, 0}, {24, 16})}).mesh;
+  const Mesh base = delaunay(bounded.points, Surface::plane());
+  WidthDemand demand;
+  demand.region = rectangle({0, 0}, {6, 6});
+  demand.factor = 1.5;
+  const ChangedMesh finer = refine(base, demand, {.gradient = 0.3});
+  REQUIRE(finer.patches.size() == 1);
+  expect_changed(base, finer);
+  expect_delaunay(finer.mesh);
+  CHECK(finer.held > 10);
+}
