@@ -133,7 +133,7 @@ Density density_of(const Mesh& local, const DoubleVector& width, const FineWidth
                      scale](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     between.callable(x, rho);
     const DoubleVector narrow = evaluate(widths, x);
-    Eigen::VectorXd wider(x.cols());
+    DoubleVector wider(x.cols());
     beyond.callable(x, wider);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       rho[i] = std::max(rho[i], std::pow(scale * wider[i] * narrow[i], -4));
