@@ -229,6 +229,7 @@ void run(const Request& request) {
     if (!base.mesh || (base.polygons && !base.not_voronoi.empty() && base.mesh->closed()))
       refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi +
              "; give the file of a Voronoi mesh");
+    require_fields(base, request.methods);
     settle_surface(request, base);
     const WidthDemand demand = demand_of(request, base);
     progress.stage("finding the patches");

@@ -204,6 +204,10 @@ struct FieldMethods {
   std::vector<std::string> conservative = {};
 };
 
+/// Throws unless a file has all these fields at its cells, each with one method.
+/// \throws Error invalid_argument, naming the field.
+void require_fields(const MeshFile& file, const FieldMethods& methods);
+
 /// What a file holds after refine() or coarsen(). Cells whose corners did not change keep them, and
 /// their order: those of a boundary. New cells have the circumcentres of their triangles. Cells
 /// that stayed keep the values of all fields at cells, and of the density. At new ones, methods say
@@ -214,8 +218,7 @@ struct FieldMethods {
 /// new cells. \param old the file, as read_mesh_file() returns it; that of a plane whose rings clip
 /// the cells with them, see filled_surface(). \param changed of its mesh.
 /// \throws Error invalid_argument for a file without a mesh, for polygons that are not those of its
-///         sites, for a name that no field at cells has or that has two methods; for conservative
-///         fields of an open mesh without cells.
+///         sites; for conservative fields of an open mesh without cells; as require_fields().
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
                          const FieldMethods& methods = {});
 

@@ -179,20 +179,6 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
                              .integer = true});
 }
 
-void require_names(const MeshFile& old, const FieldMethods& methods) {
-  for (const std::vector<std::string>* const names : {&methods.nearest, &methods.conservative})
-    for (const std::string& name : *names)
-      require(std::ranges::any_of(old.fields,
-                                  [&](const MeshField& field) {
-                                    return field.name == name && field.location == Location::cells;
-                                  }),
-              "the file has no field \"" + name + "\" at cells; give the name of one");
-  for (const std::string& name : methods.conservative)
-    require(std::ranges::count(methods.nearest, name) == 0,
-            "the field \"" + name +
-                "\" is to be both nearest and conservative; give it one of the two");
-}
-
 // ---- Polygons
 
 /// Corners by the old cells, three of each, whose common corners they are.
@@ -320,13 +306,28 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
 } // namespace
 } // namespace io_detail
 
+void require_fields(const MeshFile& file, const FieldMethods& methods) {
+  using base_detail::require;
+  for (const std::vector<std::string>* const names : {&methods.nearest, &methods.conservative})
+    for (const std::string& name : *names)
+      require(std::ranges::any_of(file.fields,
+                                  [&](const MeshField& field) {
+                                    return field.name == name && field.location == Location::cells;
+                                  }),
+              "the file has no field \"" + name + "\" at cells; give the name of one");
+  for (const std::string& name : methods.conservative)
+    require(std::ranges::count(methods.nearest, name) == 0,
+            "the field \"" + name +
+                "\" is to be both nearest and conservative; give it one of the two");
+}
+
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMethods& methods) {
   using namespace io_detail;
   require(old.mesh.has_value() && old.mesh->points.cols() == changed.new_of_old.size(),
           "the changed mesh is not that of the file; give what refine() made of it");
   require(!old.polygons || old.polygons->size() == changed.new_of_old.size(),
           "the cells of the file are not those of its mesh; give a file of Voronoi cells");
-  require_names(old, methods);
+  require_fields(old, methods);
   ChangedFile out;
   out.file.format = old.format;
   out.file.not_voronoi = old.not_voronoi;
