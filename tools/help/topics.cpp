@@ -206,7 +206,7 @@ Of one cell also:
 constexpr const char* codes =
     R"(Results go to standard output, messages to standard error. Exit codes:
   0  success
-  1  the mesh failed its check, the run did not converge, or parts are unbalanced (all is written)
+  1  the mesh failed its check, the run did not converge, or widths or parts fall short (written)
   2  invalid options or input
   3  a file cannot be opened, read or written
   4  not enough memory or threads, or an internal error
