@@ -2,7 +2,7 @@
 #pragma once
 
 /// The version of these headers.
-#define CALOTTE_VERSION_MAJOR 0
-#define CALOTTE_VERSION_MINOR 9
+#define CALOTTE_VERSION_MAJOR 1
+#define CALOTTE_VERSION_MINOR 0
 #define CALOTTE_VERSION_PATCH 0
-#define CALOTTE_VERSION "0.9.0"
+#define CALOTTE_VERSION "1.0.0"

@@ -457,7 +457,7 @@ TEST_CASE("a mesh file contains its provenance, and equal runs give equal bytes"
   CHECK(bench.run(run + " -o first.nc").code == 0);
   CHECK(bench.run(run + " -o second.nc --threads 1 --regions 3").code == 0);
   CHECK((bench.file("first.nc") == bench.file("second.nc")));
-  CHECK(has(bench.file("first.nc"), "calotte 0.9."));
+  CHECK(has(bench.file("first.nc"), "calotte 1.0."));
   CHECK(history("first.nc") == "start continuation; cells 42; seed 3; density " + bump +
                                    "; method auto; duplicates merge; ");
   CHECK(has(bench.file("first.nc"), "merge-within 0; iterations 4"));
