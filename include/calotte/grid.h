@@ -96,6 +96,7 @@ struct Stop {
 struct Recipe {
   /// Number of cells of the grid, 12 to 2^30, 4 in a part of the sphere, 3 in the plane; fixed
   /// generators among them. 0, the default: as many as the widths imply, or of the start's points.
+  /// The number that rounds of insertion come nearest to, where fixed ones leave no edge to change.
   std::int64_t cells = 0;
   Density density = {}; ///< default uniform
   /// Cell widths of the sphere, km, which set the density in place of `density`. Default: none.

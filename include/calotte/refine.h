@@ -70,20 +70,19 @@ struct ChangedMesh {
 /// gradient up to their own widths; with three rows of cells more, up to seven where shapes need
 /// them, these form the patches that change. Each patch is a centroidal Voronoi tessellation of its
 /// own, by the rules of make_grid() for fixed generators, in which two rows of sites around it
-/// stay. All other sites keep their bits. The time beyond a few passes over the mesh is that of the
-/// patches.
+/// stay. All other sites keep their bits. The time beyond a few passes over the mesh, and voronoi()
+/// of a plane with rings, is that of the patches.
 ///
 /// The result is the Delaunay triangulation of its sites, and has the same bits for any number of
 /// threads. Patches do not depend on each other: two demands whose patches do not touch, one after
 /// the other, give the same sites in either order.
-/// \param mesh a Delaunay triangulation; sites of an open mesh at its boundary, those whose cells
-/// the
-///        rings of a plane clip, and those next to either, stay.
+/// \param mesh a Delaunay triangulation; sites at the boundary of an open mesh stay, those whose
+///        cells the rings of a plane clip, and those next to either.
 /// \throws Error invalid_argument for a demand with widths and region or neither, a value out of
 ///         range, a surface of another kind, and a mesh that is not Delaunay where it changes; with
 ///         the index of a site, where the boundary of an open mesh meets itself and a patch would
 ///         reach both sides; for a patch that leads around a periodic plane, or across a ring;
-///         as make_grid().
+///         as make_grid(), and in a plane with rings as voronoi().
 ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
 /// The same for cells that are narrower than demanded, which become wider. They begin at those that

@@ -254,7 +254,8 @@ Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh) {
   const std::int64_t before = apart();
   Level level = set_split_and_collapsed(state, mesh, options.density,
                                         edge_changes_of(state, mesh, options.density, cells));
-  state.idle_rounds += before > 0 && apart() >= before ? 1 : 0;
+  if (before > 0 && apart() >= before && may_come_nearer(state))
+    ++state.idle_rounds;
   if (counts)
     state.rounds_left = std::max(state.rounds_left - count_of_round(state), 0);
   state.site_of_input.clear();

@@ -123,20 +123,23 @@ Density density_of(const Mesh& local, const DoubleVector& width, const FineWidth
   if (fine == nullptr)
     return between;
   // Widths may be finer between the sites than at them.
-  const DoubleVector demanded = fine->scale * evaluate(fine->widths, local.points);
-  const Density beyond =
-      interpolated_density(local, (width.array() / demanded.array()).max(1).matrix());
+  const double met = fine->scale / (1 - tolerance);
+  const DoubleVector wider =
+      (width.array() / (met * evaluate(fine->widths, local.points)).array()).max(1);
+  const Density beside = interpolated_density(local, wider.array().pow(-4).matrix());
+  const bool is_held = wider.maxCoeff() > 1;
   Density result;
   result.kind = Density::Kind::callable;
-  const double scale = fine->scale / ((1 - tolerance) * least);
-  result.callable = [between, beyond, widths = fine->widths,
+  const double scale = met / least;
+  result.callable = [between, beside, is_held, widths = fine->widths,
                      scale](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     between.callable(x, rho);
     const DoubleVector narrow = evaluate(widths, x);
-    DoubleVector wider(x.cols());
-    beyond.callable(x, wider);
+    DoubleVector share = DoubleVector::Ones(x.cols());
+    if (is_held)
+      beside.callable(x, share);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
-      rho[i] = std::max(rho[i], std::pow(scale * wider[i] * narrow[i], -4));
+      rho[i] = std::max(rho[i], share[i] * std::pow(scale * narrow[i], -4));
   };
   return result;
 }

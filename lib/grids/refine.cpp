@@ -147,15 +147,18 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<Patch>& p
   return out;
 }
 
-/// Where a patch touches itself across a narrow piece of land, it may reach over that.
-void require_inside(const Mesh& mesh, const NewSites& sites) {
+/// Where a patch touches itself across a narrow gap in the surface, it may reach over that.
+void require_inside(const Mesh& mesh, const std::vector<Patch>& patches, const NewSites& sites) {
   if (!mesh.surface.is_bounded())
     return;
-  for (const std::vector<std::int32_t>& added : sites.added)
-    for (const std::int32_t site : added)
-      require(mesh.surface.contains(sites.points.col(site)),
-              "a patch would reach across the boundary of the surface; give a part that is farther "
-              "from it");
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (const std::int32_t site : sites.added[p])
+      if (!mesh.surface.contains(sites.points.col(site)))
+        throw Error(ErrorCode::invalid_argument,
+                    "the patch around site " + std::to_string(patches[p].free.front()) +
+                        " would reach across the boundary of the surface; give a part that is "
+                        "farther from it",
+                    patches[p].free.front());
 }
 
 /// The triangles beside the patches, and those of the replacements.
@@ -238,7 +241,7 @@ template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<Patch>& patches,
                       std::vector<Replacement>&& replacements) {
   NewSites sites = new_sites(mesh, space, patches, replacements);
-  require_inside(mesh, sites);
+  require_inside(mesh, patches, sites);
   ChangedMesh out;
   out.mesh.surface = mesh.surface;
   out.mesh.triangles = new_triangles(mesh, patches, replacements, sites);
