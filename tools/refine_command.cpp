@@ -75,18 +75,20 @@ void require_request(const Request& request) {
   options_of(*request.format, request.output);
   if (!request.widths.in_km() && request.region.empty())
     refuse("there are no widths; give --cell-width KM|FILE, or --region REGION with --factor F");
+  surface_of(*request.domain);
   const CellMapPaths maps = cell_map_paths(request.cell_map);
   require_outputs({{"mesh", request.output},
                    {"map of cells", maps.forward},
                    {"map of cells back", maps.backward},
                    {"report", request.report}},
                   {request.source->path, request.source->points, request.widths.file,
-                   region_file(request.region), *request.config});
+                   region_file(request.region), request.domain->file.value_or(""),
+                   *request.config});
 }
 
 /// A plane is known by the rings that clip its cells, or by its period: given, or what the cells
 /// fill.
-void settle_surface(const Request& request, MeshFile& file) {
+void set_known_surface(const Request& request, MeshFile& file) {
   const std::optional<Surface> given = surface_of(*request.domain);
   if (!file.plane() || (!given && file.mesh->surface.period().maxCoeff() > 0))
     return;
@@ -230,7 +232,7 @@ void run(const Request& request) {
       refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi +
              "; give the file of a Voronoi mesh");
     require_fields(base, request.methods);
-    settle_surface(request, base);
+    set_known_surface(request, base);
     const WidthDemand demand = demand_of(request, base);
     progress.stage("finding the patches");
     const double change = seconds_of([&] {
@@ -241,10 +243,13 @@ void run(const Request& request) {
     const ChangedFile file = changed_file(base, changed, request.methods);
     progress.stage("writing " + request.output);
     WrittenFields written;
+    std::optional<CellMapFiles> maps;
+    if (!request.cell_map.empty())
+      maps.emplace(cell_map_paths(request.cell_map), changed.new_of_old, changed.old_of_new);
     const double write = seconds_of(
         [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
-    if (!request.cell_map.empty())
-      write_cell_maps(request.cell_map, changed.new_of_old, changed.old_of_new);
+    if (maps)
+      maps->commit();
     words =
         changes_of(*request.source, base) + describe(request, base.ignored, changed, file, written);
     if (!request.report.empty())
@@ -287,9 +292,11 @@ void add(CLI::App& app, const Verb& verb) {
       ->delimiter(',')
       ->type_name("NAME,...");
   command
-      ->add_option("--conservative", request->methods.conservative,
-                   "The same for means over the new cells, by the areas that these share with old "
-                   "ones; of whole numbers that of the greatest area")
+      ->add_option(
+          "--conservative", request->methods.conservative,
+          "Fields at cells, separated by commas, whose values at new cells are means of the "
+          "old ones, weighted by the areas that cells share; of whole numbers the one of "
+          "the greatest area")
       ->delimiter(',')
       ->type_name("NAME,...");
   command

@@ -11,6 +11,7 @@
 #include <calotte/types.h>
 #include <calotte/write.h>
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,8 +36,21 @@ struct CellMapPaths {
 };
 CellMapPaths cell_map_paths(const std::string& folder);
 
-/// Writes both. \throws Error file.
-void write_cell_maps(const std::string& folder, const Ids& new_of_old, const Ids& old_of_new);
+/// Both, complete under temporary names until they are committed.
+class CellMapFiles {
+public:
+  /// \throws Error file.
+  CellMapFiles(const CellMapPaths& paths, const Ids& new_of_old, const Ids& old_of_new);
+  ~CellMapFiles(); ///< removes what was not committed
+  CellMapFiles(const CellMapFiles&) = delete;
+  CellMapFiles& operator=(const CellMapFiles&) = delete;
+  /// \throws Error file.
+  void commit();
+
+private:
+  struct Files;
+  std::unique_ptr<Files> files_;
+};
 
 /// Whether a regular file starts as NetCDF files do, classic or HDF5; false for any other path.
 /// \throws Error file.

@@ -114,5 +114,7 @@ TEST_CASE("bad demands end in one line and leave no file") {
   CHECK(nowhere.code == 3);
   CHECK(has(nowhere.err, "the folder no/folder does not exist"));
   refused(part + "--factor 2 -o base.nc", "base.nc");
+  bench.file("square.txt", "0 0\n1 0\n1 1\n0 1\n");
+  refused("refine --plane base.vtp --domain square.txt --cell-width 1 -o square.txt", "square.txt");
   refused(part + "--factor 2 -o new.txt2", "new.txt2");
 }

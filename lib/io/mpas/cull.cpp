@@ -3,7 +3,7 @@
 
 #include "base/points.h"
 #include "base/require.h"
-#include "io/cells/cell_maps.h"
+#include "io/command.h"
 #include "io/mpas/mpas_cull.h"
 #include "io/mpas/mpas_variables.h"
 #include "voronoi/cell_walk.h"
@@ -188,9 +188,9 @@ public:
     }
     if (!options.cell_map_folder.empty())
       maps_.emplace(
-          options.cell_map_folder, cells.number.size(),
-          [&](std::int64_t i) { return cells.number[i] - 1; }, cells.count(),
-          [&](std::int64_t i) { return cells.old[i]; });
+          cell_map_paths(options.cell_map_folder),
+          Ids(Eigen::Map<const Ids>(cells.number.begin(), cells.number.size()).array() - 1),
+          Ids(Eigen::Map<const Ids>(cells.old.begin(), cells.count())));
   }
   void commit() {
     if (mask_)
@@ -201,7 +201,7 @@ public:
 
 private:
   std::unique_ptr<NetcdfWriter> mask_;
-  std::optional<CellMaps> maps_;
+  std::optional<CellMapFiles> maps_;
 };
 
 void add_attributes(double radius, NetcdfSubset& subset) {
