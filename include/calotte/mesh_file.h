@@ -213,11 +213,11 @@ void require_fields(const MeshFile& file, const FieldMethods& methods);
 /// that stayed keep the values of all fields at cells, and of the density. At new ones, methods say
 /// what the values are; outside the triangles of an open mesh those that would be linear are those
 /// of the nearest old cell. The density at new cells is the old one there, made denser as the
-/// widths are finer. Masks of a limited area at edges and vertices follow when the file is written.
-/// The field mapNewToBase is added: the number of each cell in the old file, from 1 on, and 0 for
-/// new cells. \param old the file, as read_mesh_file() returns it; that of a plane whose rings clip
-/// the cells with them, see filled_surface(). \param changed of its mesh.
-/// \throws Error invalid_argument for a file without a mesh, for polygons that are not those of its
+/// widths are finer. Masks of a limited area at edges and vertices follow when an MPAS file is
+/// written. The field mapNewToBase is added: the number of each cell in the old file, from 1 on,
+/// and 0 for new cells. \param old the file, as read_mesh_file() returns it; that of a plane whose
+/// rings clip the cells with them, see filled_surface(). \param changed of its mesh. \throws Error
+/// invalid_argument for a file without a mesh, for polygons that are not those of its
 ///         sites; for conservative fields of an open mesh without cells; as require_fields().
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed,
                          const FieldMethods& methods = {});

@@ -134,17 +134,27 @@ TEST_CASE("conservative fields are means over new cells, also without values som
             .find("both nearest and conservative") != std::string::npos);
 }
 
+TEST_CASE("conservative fields where nothing changes") {
+  MeshFile old = global_file();
+  const ChangedMesh same = refine(*old.mesh, {.widths = Widths(1e4)});
+  REQUIRE(same.patches.empty());
+  const ChangedFile out = changed_file(old, same, {.conservative = {"height"}});
+  CHECK(field(out.file, "height").values == field(old, "height").values);
+}
+
 TEST_CASE("cells at the boundary of a limited area keep their corners [slow]") {
   const Scratch scratch;
   const std::string global = scratch / "global.nc", area = scratch / "area.nc",
                     result = scratch / "result.nc";
   write(global, *global_file().mesh);
   cut(global, area, circle(centre, 0.55));
-  const MeshFile old = read_mesh_file(area);
+  MeshFile old = read_mesh_file(area);
   REQUIRE(old.polygons);
+  old.fields.push_back({.name = "one", .values = DoubleVector::Ones(old.polygons->size())});
   const ChangedMesh changed = finer(*old.mesh);
   CHECK(changed.held == 0);
-  const ChangedFile out = changed_file(old, changed);
+  const ChangedFile out = changed_file(old, changed, {.conservative = {"one"}});
+  CHECK((field(out.file, "one").values.array() - 1).abs().maxCoeff() < 1e-12);
   REQUIRE(out.file.polygons);
   const Polygons &before = *old.polygons, &after = *out.file.polygons;
   std::int64_t whole = 0;
@@ -167,6 +177,8 @@ TEST_CASE("cells at the boundary of a limited area keep their corners [slow]") {
   write(result, out.file, options);
   CHECK(problems(result).empty()); // with the masks of edges and vertices
   CHECK(out.left_out.empty());
+  CHECK(write(scratch / "cells.ugrid.nc", out.file, {.format = Format::ugrid}).dropped ==
+        std::vector<std::string>{"bdyMaskEdge", "bdyMaskVertex"});
   const MeshFile again = read_mesh_file(result);
   CHECK(again.polygons->size() == after.size());
   CHECK(field(again, "bdyMaskCell").values == field(out.file, "bdyMaskCell").values);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lists.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "base/split_mix.h"
@@ -10,6 +11,7 @@
 #include "mesh/ring_law.h"
 
 #include <calotte/conservative.h>
+#include <calotte/error.h>
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
@@ -63,8 +65,7 @@ Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
 
 /// The old cells that new ones may share area with: those that went and some rows around them,
 /// whose cells may have become smaller.
-std::vector<std::int32_t> cells_near(const Mesh& old, const ChangedMesh& changed) {
-  constexpr int rows = 4;
+std::vector<std::int32_t> cells_near(const Mesh& old, const ChangedMesh& changed, int rows) {
   std::vector<std::uint8_t> near(static_cast<std::size_t>(old.points.cols()), 0);
   for (Eigen::Index i = 0; i < changed.new_of_old.size(); ++i)
     near[static_cast<std::size_t>(i)] = changed.new_of_old[i] < 0 ? 1 : 0;
@@ -84,25 +85,35 @@ std::vector<std::int32_t> cells_near(const Mesh& old, const ChangedMesh& changed
   return ids;
 }
 
-/// Only the cells around the patches take part, in time and in memory.
+/// Of the old cells, those around the patches take part, in as many rows as cover the new ones.
 GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_cells,
                             const std::optional<Polygons>& new_cells, const Sources& sources) {
-  const std::vector<std::int32_t> near = cells_near(old, sources.changed);
-  const auto cells = [](const std::optional<Polygons>& polygons, const Mesh& mesh,
-                        const std::vector<std::int32_t>& ids) {
-    return selected(polygons ? *polygons : polygons_of(voronoi(mesh)), ids);
+  constexpr double covered = 1 - 1e-9;
+  constexpr int first_rows = 4, most_rows = 32;
+  GridWeights out;
+  out.weights.resize(std::ssize(sources.added), old.points.cols());
+  if (sources.added.empty())
+    return out;
+  const auto cells_of = [](const std::optional<Polygons>& polygons, const Mesh& mesh) {
+    return polygons ? *polygons : polygons_of(voronoi(mesh));
   };
-  GridWeights out = conservative_weights(cells(old_cells, old, near),
-                                         cells(new_cells, sources.changed.mesh, sources.added));
-  Weights of_all(out.weights.rows(), old.points.cols());
-  of_all.reserve(out.weights.nonZeros());
-  for (Eigen::Index row = 0; row < out.weights.rows(); ++row) {
-    of_all.startVec(row);
-    for (Weights::InnerIterator at(out.weights, row); at; ++at)
-      of_all.insertBack(row, near[static_cast<std::size_t>(at.col())]) = at.value();
+  const Polygons before = cells_of(old_cells, old),
+                 after = selected(cells_of(new_cells, sources.changed.mesh), sources.added);
+  for (int rows = first_rows; rows <= most_rows; rows *= 2) {
+    const std::vector<std::int32_t> near = cells_near(old, sources.changed, rows);
+    out = conservative_weights(selected(before, near), after);
+    Weights of_all(out.weights.rows(), old.points.cols());
+    of_all.reserve(out.weights.nonZeros());
+    for (Eigen::Index row = 0; row < out.weights.rows(); ++row) {
+      of_all.startVec(row);
+      for (Weights::InnerIterator at(out.weights, row); at; ++at)
+        of_all.insertBack(row, near[static_cast<std::size_t>(at.col())]) = at.value();
+    }
+    of_all.finalize();
+    out.weights = std::move(of_all);
+    if (out.target_fraction.minCoeff() >= covered)
+      break;
   }
-  of_all.finalize();
-  out.weights = std::move(of_all);
   return out;
 }
 
@@ -111,19 +122,21 @@ GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_
 MeshField carried(const Sources& sources, const MeshField& field, Interpolation kind) {
   const Ids& old_of_new = sources.changed.old_of_new;
   const std::int64_t count = field.count();
-  const Weights& weights = sources.of(kind).weights;
-  const MeshField near = interpolate(sources.nearest, field),
-                  chosen = interpolate(sources.of(kind), field);
+  const int* const begin = sources.of(kind).weights.outerIndexPtr();
+  const auto has_none = [&](std::size_t k) { return begin[k] == begin[k + 1]; };
+  const MeshField chosen = interpolate(sources.of(kind), field);
+  std::optional<MeshField> near;
+  for (std::size_t k = 0; k < sources.added.size() && !near; ++k)
+    if (has_none(k))
+      near = interpolate(sources.nearest, field);
   MeshField out = field;
   out.values.resize(old_of_new.size() * count);
   for (Eigen::Index i = 0; i < old_of_new.size(); ++i)
     if (old_of_new[i] >= 0)
       out.values.segment(i * count, count) = field.values.segment(old_of_new[i] * count, count);
-  for (std::size_t k = 0; k < sources.added.size(); ++k) {
-    const bool has_none = weights.outerIndexPtr()[k] == weights.outerIndexPtr()[k + 1];
+  for (std::size_t k = 0; k < sources.added.size(); ++k)
     out.values.segment(sources.added[k] * count, count) =
-        (has_none ? near : chosen).values.segment(static_cast<Eigen::Index>(k) * count, count);
-  }
+        (has_none(k) ? *near : chosen).values.segment(static_cast<Eigen::Index>(k) * count, count);
   return out;
 }
 
@@ -181,19 +194,24 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
 
 // ---- Polygons
 
-/// Corners by the old cells, three of each, whose common corners they are.
+/// Corners by any three of the old cells whose common corners they are.
 class OldCorners {
 public:
   explicit OldCorners(const Polygons& polygons) {
-    std::vector<Cells> cells(static_cast<std::size_t>(polygons.corners.cols()), Cells{-1, -1, -1});
-    for (std::int32_t i = 0; i < polygons.size(); ++i)
-      for (const std::int32_t corner : polygons.ids[i])
-        if (Cells& here = cells[static_cast<std::size_t>(corner)]; here[2] < 0)
-          here[here[0] < 0 ? 0 : here[1] < 0 ? 1 : 2] = i;
-    corner_of_.reserve(cells.size());
-    for (std::size_t corner = 0; corner < cells.size(); ++corner)
-      if (cells[corner][2] >= 0)
-        corner_of_.emplace(cells[corner], static_cast<std::int32_t>(corner));
+    const auto cells = base_detail::lists_by_key<std::vector<std::int32_t>>(
+        polygons.corners.cols(), [&](const auto& put) {
+          for (std::int32_t i = 0; i < polygons.size(); ++i)
+            for (const std::int32_t corner : polygons.ids[i])
+              put(corner, i); // ascending
+        });
+    corner_of_.reserve(static_cast<std::size_t>(cells.size()));
+    for (std::int64_t corner = 0; corner < cells.size(); ++corner) {
+      const auto of = cells[corner];
+      for (std::size_t c = 2; c < of.size(); ++c)
+        for (std::size_t b = 1; b < c; ++b)
+          for (std::size_t a = 0; a < b; ++a)
+            corner_of_.emplace(Cells{of[a], of[b], of[c]}, static_cast<std::int32_t>(corner));
+    }
   }
 
   /// -1 if there is none.
@@ -228,12 +246,12 @@ public:
   explicit Stars(const Mesh& mesh)
       : faces_(faces_of(mesh)), rings_(mesh_detail::make_ring_starts(faces_)) {}
 
-  /// Calls body(corner) for the triangles around a site.
-  template <class Body> void walk(std::int32_t site, const Body& body) const {
-    if (const std::int32_t first = rings_.first[static_cast<std::size_t>(site)]; first >= 0)
-      mesh_detail::walk_around(
-          Corner{first, slot_of(faces_, first, site)},
-          [&](Corner at) { return next_around(faces_, at); }, body);
+  /// Calls body(corner) for the triangles around a site; true if they close.
+  template <class Body> bool walk(std::int32_t site, const Body& body) const {
+    const std::int32_t first = rings_.first[static_cast<std::size_t>(site)];
+    return first >= 0 && !exists(mesh_detail::walk_around(
+                             Corner{first, slot_of(faces_, first, site)},
+                             [&](Corner at) { return next_around(faces_, at); }, body));
   }
 
   /// From the lowest on. \param name(site) what a neighbour is called.
@@ -290,8 +308,9 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
                               space.coordinates(space.position(column(mesh.points, i))));
     if (id >= 0 && now.around(i, old_of) == before.around(id, std::identity()))
       items.insert(items.end(), old.ids[id].begin(), old.ids[id].end());
-    else
-      now.walk(i, [&](Corner at) { items.push_back(corner_at(at.triangle)); });
+    else if (!now.walk(i, [&](Corner at) { items.push_back(corner_at(at.triangle)); }))
+      throw Error(ErrorCode::internal, "a cell at the boundary of a mesh changed; please report "
+                                       "this input as a bug");
     out.ids.begin[i + 1] = std::ssize(items);
   }
   out.ids.items = Eigen::Map<const Ids>(items.data(), std::ssize(items));

@@ -6,6 +6,7 @@
 #include <calotte/mesh_field.h>
 #include <calotte/types.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +26,10 @@ inline constexpr DerivedMask edge_mask{"bdyMaskEdge",
                                        "least bdyMaskCell of the cells on each edge"},
     vertex_mask{"bdyMaskVertex", "least bdyMaskCell of the cells on each vertex"};
 
-/// The mask of the cells among fields; none if there is no such field of integers.
-std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields);
+/// The mask of so many cells among fields; none if there is no such field of 32-bit integers.
+std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields, std::int64_t cells);
 
-/// Whether a field of that name follows from the mask of the cells among fields.
+/// Whether a name is that of a mask at edges or vertices, and the cells have one among the fields.
 bool is_derived_mask(const std::string& name, const std::vector<MeshField>& fields);
 
 } // namespace calotte::io_detail

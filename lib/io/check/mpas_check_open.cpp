@@ -148,7 +148,7 @@ Points3 cells_of(const MeshFile& file) {
 void check_masks(const Voronoi& part, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   const std::vector<std::int64_t> by_cell{part.cells.cols()};
-  if (!file.has_variable(cell_mask) || !file.is_numeric(cell_mask) ||
+  if (!file.has_variable(cell_mask) || !file.is_integer(cell_mask) ||
       file.shape_of(cell_mask) != by_cell)
     return;
   const std::vector<std::int32_t> stored = file.ints(cell_mask, by_cell);

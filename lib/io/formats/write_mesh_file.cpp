@@ -140,17 +140,26 @@ bool is_at_corners(const MeshFile& file, const MeshField& field) {
          !has_values_for(field, file.mesh->triangles.cols());
 }
 
-/// Names of the fields that a format cannot hold.
+/// Names of the fields that a format cannot hold. Masks at edges and vertices follow in MPAS files
+/// alone.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
   const bool clipped = !polygons && is_clipped(file) && info_of(format).cells;
   std::vector<std::string> dropped;
-  for (const MeshField& field : file.fields)
+  const auto is_held = [&](const MeshField& field) {
     if (format == Format::mpas && is_derived_mask(field.name, file.fields))
-      continue; // it is made anew
-    else if (!holds_field(format, field) || (clipped && field.location != Location::cells) ||
-             (polygons && !is_of(*file.polygons, field, format)) ||
-             (!polygons && is_at_corners(file, field)))
+      return true;
+    return holds_field(format, field) && !(clipped && field.location != Location::cells) &&
+           !(polygons && !is_of(*file.polygons, field, format)) &&
+           !(!polygons && is_at_corners(file, field));
+  };
+  for (const MeshField& field : file.fields)
+    if (!is_held(field))
       dropped.push_back(field.name);
+  for (const std::string name : {edge_mask.name, vertex_mask.name})
+    if (polygons && format != Format::mpas && is_derived_mask(name, file.fields) &&
+        std::ranges::none_of(file.fields,
+                             [&](const MeshField& field) { return field.name == name; }))
+      dropped.push_back(name);
   return dropped;
 }
 

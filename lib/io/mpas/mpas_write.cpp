@@ -111,21 +111,24 @@ void put_nominal_spacing(MpasFile& file, const MpasMesh& mesh) {
 /// these names are not written.
 void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& options,
                     NetcdfMeshNames& names) {
-  const std::optional<Ids> of_cells = cell_mask_among(options.fields);
-  if (!of_cells)
+  const Voronoi& voronoi = mesh.voronoi;
+  std::optional<Ids> among = cell_mask_among(options.fields, voronoi.cells.cols());
+  if (!among)
     return;
+  const auto of_cells = std::make_shared<const Ids>(*std::move(among));
   const auto announce = [&](const DerivedMask& mask, D dimension, const IdLists& on_cell,
                             std::int64_t count) {
     names.variables.insert(mask.name);
     const auto values = std::make_shared<Ids>();
-    file.then([=, &on_cell] { *values = least_mask(on_cell, *of_cells, count); });
+    file.then([of_cells, values, count, &on_cell] { // of the mesh, which outlives the file
+      *values = least_mask(on_cell, *of_cells, count);
+    });
     file.ints(mask.name, {file.id_of(dimension)},
               {{"units", std::string("1")}, {"long_name", std::string(mask.meaning)}},
               [values](std::int64_t begin, std::int64_t end, std::int32_t* out) {
                 std::copy(values->data() + begin, values->data() + end, out);
               });
   };
-  const Voronoi& voronoi = mesh.voronoi;
   announce(edge_mask, D::edges, voronoi.edges_on_cell, mesh.edges());
   announce(vertex_mask, D::vertices, voronoi.vertices_on_cell, voronoi.cells_on_vertex.cols());
 }
