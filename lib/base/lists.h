@@ -12,6 +12,8 @@
 
 namespace calotte::base_detail {
 
+inline constexpr std::int32_t none = -1; ///< where a list or a table has no id
+
 /// The list that holds an item. \param item its index among all items.
 template <class Items, class Begin>
 std::int64_t list_of(const Lists<Items, Begin>& lists, std::int64_t item) {

@@ -11,10 +11,15 @@ namespace calotte::base_detail {
 /// A mesh of n sites has up to 2n - 4 triangles, and their ids are int32.
 constexpr std::int64_t most_points = std::int64_t{1} << 30;
 
+/// \throws Error invalid_argument with the message, and with the index that it names.
+[[noreturn]] inline void refuse(const std::string& message, std::int64_t index = -1) {
+  throw Error(ErrorCode::invalid_argument, message, index);
+}
+
 /// \throws Error invalid_argument with the message.
 inline void require(bool holds, const std::string& message) {
   if (!holds)
-    throw Error(ErrorCode::invalid_argument, message);
+    refuse(message);
 }
 
 /// \throws Error invalid_argument, when the count is below the least or above most_points.

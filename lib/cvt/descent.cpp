@@ -30,11 +30,11 @@ constexpr double near_enough =
     0.05; ///< rms distance from the centroids over h; below it the Laplacian is used
 
 /// Generators, from which on memory counts.
-constexpr std::int64_t many = 1'000'000;
+constexpr std::int64_t short_memory_from = 1'000'000;
 
 /// The number of L-BFGS pairs. Three cost a few hundredths more evaluations where edges flip and
 /// none where they do not; in a large run each pair takes 24 bytes a generator.
-std::size_t most_pairs(std::int64_t generators) { return generators < many ? 10 : 3; }
+std::size_t most_pairs(std::int64_t generators) { return generators < short_memory_from ? 10 : 3; }
 
 double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
 
@@ -140,7 +140,7 @@ void Descent::make_laplacian() {
   forget();
   laplacian_.reset(); // its memory serves the next
   laplacian_.emplace(functional_.laplacian(memory.laplacian_at));
-  if (state_.points.cols() >= many)
+  if (state_.points.cols() >= short_memory_from)
     base_detail::empty_pools(); // of the parts that the rows were made from
 }
 

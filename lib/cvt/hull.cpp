@@ -15,10 +15,10 @@ namespace calotte::cvt_detail {
 namespace {
 
 /// Points outside the boundary, at some spacings from it, and at half of that from each other.
-class Row {
+class RowOutside {
 public:
   /// \param spacings distance from the boundary.
-  Row(const SphericalOutline& outline, const DemandedSpacing& demand, double spacings)
+  RowOutside(const SphericalOutline& outline, const DemandedSpacing& demand, double spacings)
       : outline_(outline), demand_(demand), spacings_(spacings) {}
 
   std::vector<Vec3> all() {
@@ -89,10 +89,10 @@ Points3 hull_rows(const Surface& surface, const Density& density, std::int64_t g
   constexpr double nearest = 4; // spacings
   const DemandedSpacing demand(surface, density, static_cast<double>(generators));
   std::vector<Vec3> points;
-  std::vector<Vec3> row = Row(outline, demand, nearest).all();
+  std::vector<Vec3> row = RowOutside(outline, demand, nearest).all();
   for (double spacings = 2 * nearest; !row.empty(); spacings *= 2) {
     points.insert(points.end(), row.begin(), row.end());
-    row = Row(outline, demand, spacings).all();
+    row = RowOutside(outline, demand, spacings).all();
   }
   Points3 rows(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)

@@ -208,7 +208,7 @@ private:
 };
 
 /// The row of a site: its neighbours with their weights, ascending, and the diagonal.
-struct Row {
+struct MatrixRow {
   std::vector<Corner> ring;
   std::vector<std::pair<std::int32_t, double>> elements;
   double diagonal;
@@ -216,7 +216,7 @@ struct Row {
 
 template <Space S>
 void set_row(const Source& source, SharesTable<S>& shares, const Edges<S>& edges, std::int32_t i,
-             Row& row) {
+             MatrixRow& row) {
   gather_ring(source.mesh, source.starts[i], row.ring);
   row.elements.clear();
   double area = 0;
@@ -267,7 +267,7 @@ template <Space S> Laplacian make_matrix(const Source& source, const Edges<S>& e
   rows.items = Array<Element>(rows.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     SharesTable shares(source.mesh.triangle_ids, edges);
-    Row row;
+    MatrixRow row;
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       set_row(source, shares, edges, i, row);
       matrix.scale[i] = 1 / std::sqrt(row.diagonal);

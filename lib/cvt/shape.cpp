@@ -48,7 +48,7 @@ struct Share {
 };
 
 /// The penalty of some triangles.
-struct Part {
+struct PenaltyPart {
   ShapeTerms terms;
   std::vector<Share> shares;
   std::vector<std::int32_t> generators; ///< of shapes with more than the accepted excess
@@ -89,7 +89,7 @@ public:
       : mesh_(input.mesh), inverse_spacing_(input.inverse_spacing), limits_(input.limits),
         fixed_(input.fixed) {}
 
-  void add_triangle(std::int32_t t, Part& part) const {
+  void add_triangle(std::int32_t t, PenaltyPart& part) const {
     if (!is_inner(t))
       return;
     int v = 0;
@@ -122,7 +122,7 @@ private:
   }
 
   /// The length of the side across from a vertex: half of the penalty in each of its triangles.
-  void add_side(const Angle& angle, Part& part) const {
+  void add_side(const Angle& angle, PenaltyPart& part) const {
     const Vec3 side = mesh_.offset(angle.a, angle.b);
     const double length = norm(side),
                  demanded = (inverse_spacing_[angle.a] + inverse_spacing_[angle.b]) / 2;
@@ -142,7 +142,7 @@ private:
   /// The edge across from a vertex. If both cotangents are beyond the limits, the triangle with the
   /// lower vertex across adds it.
   void add_edge(std::int32_t t, int v, const Angle& angle, const Cotangent& cotangent,
-                Part& part) const {
+                PenaltyPart& part) const {
     const std::int32_t u = mesh_.across(t, v);
     if (u < 0 || !is_inner(u))
       return;
@@ -212,7 +212,7 @@ ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t>
   constexpr std::int64_t chunk = 512;
   sort_by_sites(triangles, input.mesh.mesh.triangles);
   const std::int64_t count = std::ssize(triangles);
-  std::vector<Part> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
+  std::vector<PenaltyPart> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
   const Penalty<S> penalty(input);
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
     for (std::int64_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i)
@@ -221,7 +221,7 @@ ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t>
   });
   ShapeTerms all;
   std::vector<std::int32_t> generators;
-  for (const Part& part : parts) {
+  for (const PenaltyPart& part : parts) {
     all.value += part.terms.value;
     if (part.terms.worst > all.worst) {
       all.worst = part.terms.worst;
@@ -237,7 +237,7 @@ ShapeTerms add_shape_terms(const ShapeInput<S>& input, std::vector<std::int32_t>
 }
 
 template <Space S> double shape_excess(const ShapeInput<S>& input, std::int32_t triangle) {
-  Part part;
+  PenaltyPart part;
   Penalty<S>(input).add_triangle(triangle, part);
   return part.terms.worst;
 }

@@ -62,7 +62,7 @@ bool may_come_nearer(const State& state) {
   return state.idle_rounds < most;
 }
 
-constexpr std::int64_t many = 2000; // generators
+constexpr std::int64_t flat_from = 2000; // generators
 
 /// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
 /// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees. Where the
@@ -71,7 +71,7 @@ bool is_resolved(const State& state, const Surface& surface, const Density& dens
   constexpr Eigen::Index most_samples = 4096;
   constexpr double widest = 0.25;
   const Eigen::Index n = state.points.cols();
-  if (!surface.is_sphere() || n < many)
+  if (!surface.is_sphere() || n < flat_from)
     return false;
   const Eigen::Index stride = (n + most_samples - 1) / most_samples;
   Points3 samples(3, (n + stride - 1) / stride);
@@ -191,7 +191,7 @@ CvtOptions options_of_descent(const State& state, const Surface& surface,
     return here;
   const Stage next = stage_after(state, options);
   const bool last = next != Stage::insert && next != Stage::bisect,
-             fine_level = state.points.cols() >= many;
+             fine_level = state.points.cols() >= flat_from;
   if (is_resolved(state, surface, options.density))
     here.rule = rule_at_sites;
   if (here.method == Method::automatic && fine_level && (!last || options.well_centred))

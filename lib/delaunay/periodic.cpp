@@ -74,22 +74,22 @@ Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& peri
   return {place + offset, offset.norm()};
 }
 
-enum class Found { all, need_more_margin, too_few };
+enum class MarginVerdict { all, need_more_margin, too_few };
 
 /// Tests whether the circles of the triangles at the sites of the box are narrower than half of the
 /// box and lie within the margin. It runs in doubles with a margin for rounding: a circle wrongly
 /// reported as too wide costs time, or rejects a set that is sparse to the last digits.
-Found judge(const Mesh& mesh, const Copies& copies, std::int64_t sites,
-            const Eigen::Vector2d& period, double margin) {
+MarginVerdict judge(const Mesh& mesh, const Copies& copies, std::int64_t sites,
+                    const Eigen::Vector2d& period, double margin) {
   constexpr double room = 1e-6;
   const double unit = period.maxCoeff(), rim = margin / unit;
   const Eigen::Vector2d box = period / unit;
-  Found found = Found::all;
+  MarginVerdict found = MarginVerdict::all;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     if (mesh.triangles.col(t).minCoeff() >= sites)
       continue;
     if (mesh.neighbours.col(t).minCoeff() < 0)
-      return margin < unit / 2 ? Found::need_more_margin : Found::too_few;
+      return margin < unit / 2 ? MarginVerdict::need_more_margin : MarginVerdict::too_few;
     const auto image = [&](int v) {
       return copies.images[static_cast<std::size_t>(mesh.triangles(v, t))];
     };
@@ -98,9 +98,9 @@ Found judge(const Mesh& mesh, const Copies& copies, std::int64_t sites,
     const bool within = (circle.centre.array() - radius >= -rim).all() &&
                         (circle.centre.array() + radius <= box.array() + rim).all();
     if (!within)
-      found = Found::need_more_margin;
+      found = MarginVerdict::need_more_margin;
     if (!(radius < box.minCoeff() / 4) && within)
-      return Found::too_few;
+      return MarginVerdict::too_few;
   }
   return found;
 }
@@ -158,10 +158,10 @@ Mesh triangulate_periodic(const Points3& sites, const Surface& box,
   for (;; margin = std::min(most, 2 * margin)) {
     const Copies copies = copies_within(sites, period, margin);
     const Mesh whole = triangulate(copies.images, {period.x(), period.y()});
-    const Found found = judge(whole, copies, sites.cols(), period, margin);
-    if (found == Found::all)
+    const MarginVerdict found = judge(whole, copies, sites.cols(), period, margin);
+    if (found == MarginVerdict::all)
       return folded(whole, copies, sites, box);
-    if (found == Found::too_few || margin == most)
+    if (found == MarginVerdict::too_few || margin == most)
       refuse_few(sites.cols());
   }
 }

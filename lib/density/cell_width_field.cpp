@@ -16,7 +16,7 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
-[[noreturn]] void refuse(const std::string& problem) {
+[[noreturn]] void refuse_cell_width(const std::string& problem) {
   throw Error(ErrorCode::invalid_argument, "cell width: " + problem);
 }
 
@@ -24,11 +24,11 @@ constexpr double nearest = 1e-9; // degrees between nodes; slopes overflow where
 
 void require_ascending(const DoubleVector& values, const std::string& name) {
   if (values.size() < 2)
-    refuse("fewer than 2 " + name + "; give a grid that covers the sphere");
+    refuse_cell_width("fewer than 2 " + name + "; give a grid that covers the sphere");
   for (Eigen::Index i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]) || (i > 0 && !(values[i] - values[i - 1] >= nearest)))
-      refuse(name + " " + std::to_string(i) +
-             " is not finite and above the one before by 1e-9 degrees; sort them");
+      refuse_cell_width(name + " " + std::to_string(i) +
+                        " is not finite and above the one before by 1e-9 degrees; sort them");
 }
 
 void require(const CellWidth& cell_width) {
@@ -36,18 +36,19 @@ void require(const CellWidth& cell_width) {
   require_ascending(longitudes, "longitudes");
   require_ascending(latitudes, "latitudes");
   if (!(longitudes[longitudes.size() - 1] < longitudes[0] + 360))
-    refuse("the last longitude is not below the first + 360; remove the repeated longitudes");
+    refuse_cell_width(
+        "the last longitude is not below the first + 360; remove the repeated longitudes");
   if (latitudes[0] < -90 || latitudes[latitudes.size() - 1] > 90)
-    refuse("latitudes outside -90 to 90; give degrees north");
+    refuse_cell_width("latitudes outside -90 to 90; give degrees north");
   if (cell_width.widths.rows() != longitudes.size() || cell_width.widths.cols() != latitudes.size())
-    refuse("the widths are not longitudes x latitudes; give one for each node");
+    refuse_cell_width("the widths are not longitudes x latitudes; give one for each node");
   for (Eigen::Index j = 0; j < latitudes.size(); ++j)
     for (Eigen::Index i = 0; i < longitudes.size(); ++i)
       if (!(cell_width.widths(i, j) > 0) || !std::isfinite(cell_width.widths(i, j)))
-        refuse("widths (" + std::to_string(i) + ", " + std::to_string(j) +
-               ") is not positive and finite; correct it");
+        refuse_cell_width("widths (" + std::to_string(i) + ", " + std::to_string(j) +
+                          ") is not positive and finite; correct it");
   if (cell_width.widths.maxCoeff() > 1e30 * cell_width.widths.minCoeff())
-    refuse("the widths differ by more than 1e30; give them in one unit");
+    refuse_cell_width("the widths differ by more than 1e30; give them in one unit");
 }
 
 /// The mean of a row, exact if all values are equal.

@@ -3,12 +3,11 @@
 
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "density/density_evaluator.h"
 #include "density/surface_density.h"
 #include "domain/surface.h"
 #include "exact/predicates.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -20,10 +19,6 @@
 namespace calotte {
 namespace density_detail {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorCode::invalid_argument, what);
-}
 
 Profile profile_of(const Bump& bump, std::size_t b) {
   const std::string name = "bump " + std::to_string(b) + " of the density: ";

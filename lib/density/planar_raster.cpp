@@ -26,7 +26,7 @@ using density_detail::field_of;
 using density_detail::PlanarField;
 using domain_detail::require_plane;
 
-const char* const widths_are = "cell widths by x and y are";
+const char* const rasters_are = "cell widths by x and y are";
 
 void require_axis(const DoubleVector& values, const std::string& of, const std::string& name) {
   require(values.size() >= 2,
@@ -137,7 +137,7 @@ Density density_of(const PlanarCellWidth& cell_width) {
 }
 
 double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) {
-  require_plane(surface, widths_are);
+  require_plane(surface, rasters_are);
   constexpr std::int64_t samples = 1 << 18;
   const PlanarField field = field_of(cell_width);
   const Points3 places = draw(samples, Density{}, surface, 1);
@@ -150,7 +150,7 @@ double implied_cells(const PlanarCellWidth& cell_width, const Surface& surface) 
 }
 
 void require_covering(const PlanarCellWidth& cell_width, const Surface& surface) {
-  require_plane(surface, widths_are);
+  require_plane(surface, rasters_are);
   density_detail::require_widths(cell_width);
   domain_detail::require_finite_plane(surface);
   const Surface::Rings& rings = surface.rings();

@@ -15,7 +15,7 @@ namespace calotte::density_detail {
 namespace {
 
 /// \pre bumps.
-std::vector<Profile> profiles_of(const Density& density) {
+std::vector<Profile> planar_profiles(const Density& density) {
   require(!density.bumps.empty(), "the density has no bump: give one, or make it uniform");
   std::vector<Profile> profiles;
   for (std::size_t b = 0; b < density.bumps.size(); ++b) {
@@ -42,7 +42,7 @@ double distance_from(const Profile& bump, const Vec3& x, const Plane& plane) {
 }
 
 Density::Callable bump_values(const Density& density, const Plane& plane) {
-  return [profiles = profiles_of(density), plane, sum = density.kind == Density::Kind::sum](
+  return [profiles = planar_profiles(density), plane, sum = density.kind == Density::Kind::sum](
              const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
       const Vec3 place{x(0, i), x(1, i), 0};

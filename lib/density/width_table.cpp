@@ -12,9 +12,9 @@
 namespace calotte::density_detail {
 namespace {
 
-constexpr std::size_t batch = 128;
-using Row = std::array<double, batch>;
-using Places = std::array<std::int32_t, batch>;
+constexpr std::size_t batch_size = 128;
+using BatchRow = std::array<double, batch_size>;
+using Places = std::array<std::int32_t, batch_size>;
 
 /// atan(t) for 0 <= t <= 1 by interpolation of atan(t)/t in t^2 at Chebyshev's points, to 3e-14;
 /// summed in pairs, whose chains of operations overlap.
@@ -32,7 +32,7 @@ CALOTTE_INLINE double short_arc_tangent(double t) {
 }
 
 /// atan2(opposite, adjacent) of two lengths >= 0, not both 0.
-CALOTTE_INLINE double angle_of(double opposite, double adjacent) {
+CALOTTE_INLINE double angle_of_legs(double opposite, double adjacent) {
   const bool steep = opposite > adjacent;
   const double low = steep ? adjacent : opposite, high = steep ? opposite : adjacent;
   const double angle = short_arc_tangent(low / (high + 1e-300));
@@ -51,7 +51,7 @@ CALOTTE_INLINE void split(double position, std::int32_t intervals, std::int32_t&
 
 struct Cells {
   Places place; ///< of the south-west corner
-  Row u, v;
+  BatchRow u, v;
 };
 
 CALOTTE_VECTOR_WIDTHS
@@ -61,11 +61,11 @@ void find_cells(const WidthTable::Grid& grid, const double* x, const double* y, 
   const WidthTable::Grid g = grid; // writing cannot change it
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
-    const double east = angle_of(std::abs(y[k]), std::abs(x[k]));
+    const double east = angle_of_legs(std::abs(y[k]), std::abs(x[k]));
     const double half = x[k] < 0 ? pi - east : east;
     const double longitude = y[k] < 0 ? -half : half;
     const double turned = longitude < g.west ? longitude + 2 * pi : longitude;
-    const double north = angle_of(std::abs(z[k]), std::sqrt(x[k] * x[k] + y[k] * y[k]));
+    const double north = angle_of_legs(std::abs(z[k]), std::sqrt(x[k] * x[k] + y[k] * y[k]));
     const double latitude = z[k] < 0 ? -north : north;
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;
@@ -157,8 +157,8 @@ std::optional<WidthTable> WidthTable::make(const std::vector<double>& longitudes
 void WidthTable::operator()(const double* x, const double* y, const double* z, std::size_t count,
                             double* widths) const {
   Cells cells;
-  for (std::size_t begin = 0; begin < count; begin += batch) {
-    const std::size_t size = std::min(batch, count - begin);
+  for (std::size_t begin = 0; begin < count; begin += batch_size) {
+    const std::size_t size = std::min(batch_size, count - begin);
     find_cells(grid_, x + begin, y + begin, z + begin, size, cells);
     interpolate(cells, widths_.data(), widths_.data() + grid_.columns + 1, size, widths + begin);
   }

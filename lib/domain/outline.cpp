@@ -17,7 +17,7 @@ namespace {
 
 constexpr double largest_coordinate = 1e30, least_extent = 1e-30;
 
-[[noreturn]] void refuse(const std::string& what, std::int64_t index = -1) {
+[[noreturn]] void refuse_domain(const std::string& what, std::int64_t index = -1) {
   throw Error(ErrorCode::invalid_argument, "the domain: " + what, index);
 }
 
@@ -32,18 +32,18 @@ struct Name {
 void require_ring(const DoubleMatrix& ring, std::int64_t r) {
   const std::string name = "ring " + std::to_string(r);
   if (ring.rows() != 2)
-    refuse(name + " has " + std::to_string(ring.rows()) + (ring.rows() == 1 ? " row" : " rows") +
-               "; give 2 x n columns x y",
-           r);
+    refuse_domain(name + " has " + std::to_string(ring.rows()) +
+                      (ring.rows() == 1 ? " row" : " rows") + "; give 2 x n columns x y",
+                  r);
   if (ring.cols() < 3)
-    refuse(name + " has " + std::to_string(ring.cols()) +
-           " corners and encloses nothing; give three at least");
+    refuse_domain(name + " has " + std::to_string(ring.cols()) +
+                  " corners and encloses nothing; give three at least");
   for (Eigen::Index i = 0; i < ring.cols(); ++i) {
     const Name corner{r, i};
     if (!(ring.col(i).cwiseAbs().maxCoeff() <= largest_coordinate)) // NaN included
-      refuse(corner.words() + " is not finite, or beyond 1e30; give numbers within", r);
+      refuse_domain(corner.words() + " is not finite, or beyond 1e30; give numbers within", r);
     if (ring.col(i) == ring.col((i + 1) % ring.cols()))
-      refuse(corner.words() + " and the next are one place; leave one of them out", r);
+      refuse_domain(corner.words() + " and the next are one place; leave one of them out", r);
   }
 }
 
@@ -114,9 +114,9 @@ void Outline::require_simple() const {
                        : next_in_list(edges_, f) == e ? fold(edge(f), edge(e))
                                                       : meet(edge(e), edge(f));
       if (bad)
-        refuse("the edges from " + name_of(e) + " and from " + name_of(f) +
-                   " meet; rings may neither cross nor touch themselves or each other",
-               list_of(edges_, e));
+        refuse_domain("the edges from " + name_of(e) + " and from " + name_of(f) +
+                          " meet; rings may neither cross nor touch themselves or each other",
+                      list_of(edges_, e));
     });
   }
 }
@@ -164,7 +164,7 @@ Outline::Outline(const Surface::Rings& rings) {
             {std::max(box_.high.x, own.high.x), std::max(box_.high.y, own.high.y)}};
   }
   if (!(std::min(box_.high.x - box_.low.x, box_.high.y - box_.low.y) >= least_extent))
-    refuse("it is narrower than 1e-30; give it in a smaller unit of length");
+    refuse_domain("it is narrower than 1e-30; give it in a smaller unit of length");
   make_strips();
   require_simple();
   orient();

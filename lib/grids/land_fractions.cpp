@@ -28,7 +28,7 @@ namespace calotte {
 namespace grids_detail {
 namespace {
 
-constexpr double sphere = 4 * std::numbers::pi;
+constexpr double whole_sphere = 4 * std::numbers::pi;
 
 // ---- Arcs
 
@@ -268,7 +268,7 @@ CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
 
 /// The fractions, once it is known how many spheres the areas are too low.
 DoubleVector fractions_of(const CellAreas& areas, double area) {
-  const double excess = (area - areas.land.sum()) / sphere, spheres = std::round(excess);
+  const double excess = (area - areas.land.sum()) / whole_sphere, spheres = std::round(excess);
   require(std::abs(excess - spheres) < 1e-6,
           "the area of the land is not that of its coast; give both anew");
   DoubleVector fractions = areas.land.cwiseQuotient(areas.whole).array() + spheres;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/limited_area.h>
 
+#include "base/lists.h"
 #include "base/require.h"
 #include "domain/surface.h"
 #include "grids/room.h"
@@ -12,9 +13,7 @@
 namespace calotte {
 namespace {
 
-using base_detail::require;
-
-constexpr std::int32_t none = -1;
+using base_detail::none, base_detail::require;
 
 /// The cells that are neighbours of a ring and in none.
 std::vector<std::int32_t> next_ring(const IdLists& cells_on_cell,

@@ -209,9 +209,9 @@ std::vector<std::vector<std::int32_t>> rings_of(const Mesh& mesh, const Marks& t
   return rings;
 }
 
-Patch patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
-               std::vector<std::int32_t>&& component) {
-  Patch patch;
+PatchRegion patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
+                     std::vector<std::int32_t>&& component) {
+  PatchRegion patch;
   patch.rings = rings_of(mesh, triangles, component);
   std::vector<std::int32_t> sites;
   for (const std::int32_t t : component)
@@ -342,8 +342,8 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Mark
   return wanted;
 }
 
-std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const WantedWidths& wanted,
-                              int rows_that_adapt) {
+std::vector<PatchRegion> patches_of(const Mesh& mesh, const DoubleVector& own,
+                                    const WantedWidths& wanted, int rows_that_adapt) {
   constexpr double least_change = 0.01;
   constexpr int rows_that_stay = 1; // and one more, the rim of their stars
   const auto n = static_cast<std::size_t>(mesh.points.cols());
@@ -361,7 +361,7 @@ std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const W
   Marks triangles = stars_of(mesh, grown(mesh, is_free, rows_that_stay));
   separate(mesh, triangles);
   Marks left = triangles;
-  std::vector<Patch> patches;
+  std::vector<PatchRegion> patches;
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     if (left[static_cast<std::size_t>(t)] != 0)
       patches.push_back(patch_of(mesh, triangles, is_free, take_component(mesh, left, t)));

@@ -49,7 +49,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const mesh_detail::RingStarts& ring
 
 /// A part of a mesh whose triangles hang together, bounded by simple rings of edges. Beside the
 /// boundary there are two rows of sites that stay, so that its triangles stay, too.
-struct Patch {
+struct PatchRegion {
   std::vector<std::int32_t> free;      ///< sites that move, or vanish; ascending
   std::vector<std::int32_t> fixed;     ///< sites that stay; ascending
   std::vector<std::int32_t> triangles; ///< ascending
@@ -63,7 +63,7 @@ struct Patch {
 /// \param rows_that_adapt of cells around those whose widths change.
 /// \throws Error invalid_argument, with the index of a site where the mesh's boundary meets itself,
 ///         if a patch would hold triangles on both sides of it.
-std::vector<Patch> patches_of(const Mesh& mesh, const DoubleVector& own, const WantedWidths& wanted,
-                              int rows_that_adapt);
+std::vector<PatchRegion> patches_of(const Mesh& mesh, const DoubleVector& own,
+                                    const WantedWidths& wanted, int rows_that_adapt);
 
 } // namespace calotte::grids_detail

@@ -34,7 +34,8 @@ struct LocalSites {
 };
 
 /// \throws Error invalid_argument for a patch that leads around a periodic plane.
-template <Space S> LocalSites local_sites(const Mesh& mesh, const S& space, const Patch& patch) {
+template <Space S>
+LocalSites local_sites(const Mesh& mesh, const S& space, const PatchRegion& patch) {
   LocalSites out;
   out.site = patch.fixed;
   out.site.insert(out.site.end(), patch.free.begin(), patch.free.end());
@@ -82,7 +83,7 @@ template <Space S> LocalSites local_sites(const Mesh& mesh, const S& space, cons
 }
 
 /// The triangles of a patch, with its sites by themselves.
-Mesh local_mesh(const Mesh& mesh, const Patch& patch, const LocalSites& sites) {
+Mesh local_mesh(const Mesh& mesh, const PatchRegion& patch, const LocalSites& sites) {
   Mesh out;
   out.points = sites.points;
   out.surface = mesh.surface.is_sphere() ? Surface::sphere() : Surface::plane();
@@ -156,7 +157,7 @@ DoubleVector width_ratio(const Mesh& local, const DoubleVector& own, const Densi
 }
 
 /// The surface that the rings of a patch bound.
-Surface surface_of(const Mesh& mesh, const Patch& patch, const LocalSites& sites) {
+Surface surface_of(const Mesh& mesh, const PatchRegion& patch, const LocalSites& sites) {
   Surface::Rings rings;
   const bool sphere = mesh.surface.is_sphere();
   for (const std::vector<std::int32_t>& ring : patch.rings) {
@@ -171,7 +172,8 @@ Surface surface_of(const Mesh& mesh, const Patch& patch, const LocalSites& sites
 }
 
 /// The number of sites that a patch is to have.
-std::int64_t count_of(const Patch& patch, const DoubleVector& own, const DoubleVector& wanted) {
+std::int64_t count_of(const PatchRegion& patch, const DoubleVector& own,
+                      const DoubleVector& wanted) {
   double sum = 0;
   for (const std::int32_t site : patch.free) {
     const double ratio = own[site] / wanted[site];
@@ -244,7 +246,7 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
 /// The Delaunay triangles of the sites of a patch, of which the fixed ones come first, within its
 /// rings: what is reached from their left without crossing them. Where the rings are straight up to
 /// rounding, it takes more than a triangle's centre to tell.
-Mesh mesh_within(Points3&& points, const Patch& patch, const LocalSites& sites,
+Mesh mesh_within(Points3&& points, const PatchRegion& patch, const LocalSites& sites,
                  const Surface& surface) {
   const auto key = [](std::int32_t from, std::int32_t to) {
     return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
@@ -280,7 +282,7 @@ Mesh mesh_within(Points3&& points, const Patch& patch, const LocalSites& sites,
 
 } // namespace
 
-Replacement replacement_of(const Mesh& mesh, const Patch& patch, const DoubleVector& own,
+Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
                            const DoubleVector& wanted, const FineWidths* fine,
                            const RefineOptions& options) {
   const LocalSites sites = in_space_of(

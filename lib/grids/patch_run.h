@@ -31,7 +31,7 @@ struct FineWidths {
 /// \param own, wanted as of wanted_widths(). \param fine limits widths between sites; null for
 /// none. \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic
 /// plane.
-Replacement replacement_of(const Mesh& mesh, const Patch& patch, const DoubleVector& own,
+Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
                            const DoubleVector& wanted, const FineWidths* fine,
                            const RefineOptions& options);
 

@@ -116,7 +116,7 @@ private:
 
 /// The n + 1 sines, of latitudes or longitudes, of the borders of n equal parts, and the directions
 /// of their middles in the plane of the meridian or the equator.
-struct Parts {
+struct BoxParts {
   std::vector<double> sines;
   std::vector<Vec3> middles;
 };
@@ -124,8 +124,8 @@ struct Parts {
 // Places are turned a little, so that none is a vertex or on an edge of the cells of a lattice.
 constexpr double aside = 1e-10;
 
-Parts parts_of_latitudes(double south, double north, int n) {
-  Parts parts;
+BoxParts parts_of_latitudes(double south, double north, int n) {
+  BoxParts parts;
   for (int p = 0; p <= n; ++p)
     parts.sines.push_back(from_lonlat(0, std::lerp(south, north, double(p) / n)).z);
   for (int p = 0; p < n; ++p)
@@ -170,7 +170,7 @@ private:
   void add(std::size_t column, double land) {
     const double west = grid_.meridians[column], east = grid_.meridians[column + 1];
     const double part = degree * (east - west);
-    const Parts& whole = parts(1);
+    const BoxParts& whole = parts(1);
     cell_ = finder_.locate(cell_, place(grid_.middles[column], whole.middles[0]));
     const int n = count(part);
     if (n == 1)
@@ -178,7 +178,7 @@ private:
     std::vector<Vec3> along;
     for (int q = 0; q < n; ++q)
       along.push_back(middle_of_longitudes(west, east, q, n));
-    const Parts& up = parts(n);
+    const BoxParts& up = parts(n);
     for (std::size_t p = 0; p < up.middles.size(); ++p)
       for (const Vec3& middle : along) {
         cell_ = finder_.locate(cell_, place(middle, up.middles[p]));
@@ -203,8 +203,8 @@ private:
     return parts <= most_parts ? std::max(1, static_cast<int>(parts)) : most_parts;
   }
 
-  const Parts& parts(int n) {
-    std::optional<Parts>& known = parts_[static_cast<std::size_t>(n - 1)];
+  const BoxParts& parts(int n) {
+    std::optional<BoxParts>& known = parts_[static_cast<std::size_t>(n - 1)];
     if (!known)
       known = parts_of_latitudes(south_, north_, n);
     return *known;
@@ -229,7 +229,7 @@ private:
   const Grid& grid_;
   double south_, north_;
   double widest_; ///< cosine of the latitude nearest to the equator
-  std::array<std::optional<Parts>, most_parts> parts_;
+  std::array<std::optional<BoxParts>, most_parts> parts_;
   std::int32_t cell_ = 0;
   std::vector<Sum> sums_;
 };

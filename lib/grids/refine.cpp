@@ -100,7 +100,7 @@ struct NewSites {
 
 /// The sites that stay, then the new ones along the curve.
 template <Space S>
-NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<Patch>& patches,
+NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                    const std::vector<Replacement>& replacements) {
   NewSites out;
   out.new_of_old = Ids::Zero(mesh.points.cols());
@@ -148,7 +148,8 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<Patch>& p
 }
 
 /// Where a patch touches itself across a narrow gap in the surface, it may reach over that.
-void require_inside(const Mesh& mesh, const std::vector<Patch>& patches, const NewSites& sites) {
+void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
+                    const NewSites& sites) {
   if (!mesh.surface.is_bounded())
     return;
   for (std::size_t p = 0; p < patches.size(); ++p)
@@ -162,7 +163,7 @@ void require_inside(const Mesh& mesh, const std::vector<Patch>& patches, const N
 }
 
 /// The triangles beside the patches, and those of the replacements.
-Triangles new_triangles(const Mesh& mesh, const std::vector<Patch>& patches,
+Triangles new_triangles(const Mesh& mesh, const std::vector<PatchRegion>& patches,
                         const std::vector<Replacement>& replacements, const NewSites& sites) {
   std::vector<std::uint8_t> replaced(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   Eigen::Index count = mesh.triangles.cols();
@@ -224,9 +225,9 @@ bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_
 /// A patch of a Delaunay triangulation fits.
 template <Space S>
 [[noreturn]] void refuse_misfit(const Mesh& mesh, const S& space,
-                                const std::vector<Patch>& patches) {
+                                const std::vector<PatchRegion>& patches) {
   std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(mesh.points.cols()), 0);
-  for (const Patch& patch : patches)
+  for (const PatchRegion& patch : patches)
     for (const auto* sites : {&patch.fixed, &patch.free})
       for (const std::int32_t site : *sites)
         of_patch[static_cast<std::size_t>(site)] = 1;
@@ -238,7 +239,7 @@ template <Space S>
 
 /// Puts the patches' replacements in their places.
 template <Space S>
-ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<Patch>& patches,
+ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                       std::vector<Replacement>&& replacements) {
   NewSites sites = new_sites(mesh, space, patches, replacements);
   require_inside(mesh, patches, sites);
@@ -287,9 +288,9 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& demand, Way way,
   // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
-    const std::vector<Patch> patches = patches_of(mesh, own, wanted, rows);
+    const std::vector<PatchRegion> patches = patches_of(mesh, own, wanted, rows);
     std::vector<Replacement> replacements;
-    for (const Patch& patch : patches)
+    for (const PatchRegion& patch : patches)
       replacements.push_back(
           replacement_of(mesh, patch, own, wanted.width, widths.fine(), options));
     if (rows < last_rows && !std::ranges::all_of(replacements, [](const Replacement& made) {

@@ -52,13 +52,13 @@ std::int64_t fill(const IdLists& cells_on_cell, Ids& of_cell) {
 }
 
 /// The parts of the sea.
-struct Parts {
+struct SeaParts {
   Ids of_cell;                    ///< -1 for land
   std::vector<std::int64_t> size; ///< cells of each
 };
 
-Parts parts_of(const IdLists& cells_on_cell, const Ids& of_cell) {
-  Parts parts{Ids::Constant(of_cell.size(), -1), {}};
+SeaParts parts_of(const IdLists& cells_on_cell, const Ids& of_cell) {
+  SeaParts parts{Ids::Constant(of_cell.size(), -1), {}};
   std::vector<std::int32_t> stack;
   for (std::int32_t first = 0; first < of_cell.size(); ++first) {
     if (of_cell[first] != sea || parts.of_cell[first] >= 0)
@@ -82,7 +82,7 @@ Parts parts_of(const IdLists& cells_on_cell, const Ids& of_cell) {
 }
 
 /// Whether each part is kept: those of the seeds, or the largest.
-std::vector<bool> kept_parts(const Parts& parts, const std::vector<std::int32_t>& seeds) {
+std::vector<bool> kept_parts(const SeaParts& parts, const std::vector<std::int32_t>& seeds) {
   std::vector<bool> kept(parts.size.size());
   if (seeds.empty())
     kept[static_cast<std::size_t>(std::max_element(parts.size.begin(), parts.size.end()) -
@@ -108,7 +108,7 @@ SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>
   counts.opened = set(options.opened, sea, of_cell);
   if (options.fill)
     counts.filled = fill(cells_on_cell, of_cell);
-  const Parts parts = parts_of(cells_on_cell, of_cell);
+  const SeaParts parts = parts_of(cells_on_cell, of_cell);
   require(!parts.size.empty(), "no cell is sea; check the land");
   const std::vector<bool> kept = kept_parts(parts, options.seeds);
   counts.parts = std::ssize(parts.size);

@@ -42,13 +42,13 @@ std::array<double, 6> ends(const Vec3& from, const Vec3& to) {
   return {from.x, from.y, from.z, to.x, to.y, to.z};
 }
 
-using Start = std::pair<std::array<double, 3>, std::size_t>; ///< of an arc, and its index
+using ArcStart = std::pair<std::array<double, 3>, std::size_t>; ///< of an arc, and its index
 
 std::array<double, 3> place_of(const Vec3& x) { return {x.x, x.y, x.z}; }
 
 /// The arcs as they follow each other.
 std::vector<ShoreArc> in_shores(const std::vector<Arc>& arcs) {
-  std::vector<Start> starts;
+  std::vector<ArcStart> starts;
   for (std::size_t k = 0; k < arcs.size(); ++k)
     starts.emplace_back(place_of(arcs[k].from), k);
   std::sort(starts.begin(), starts.end());
@@ -58,7 +58,7 @@ std::vector<ShoreArc> in_shores(const std::vector<Arc>& arcs) {
     // Where several begin, the ring goes on with the next one.
     if (arc + 1 < arcs.size() && !used[arc + 1] && place_of(arcs[arc + 1].from) == end)
       return arc + 1;
-    for (auto next = std::lower_bound(starts.begin(), starts.end(), Start{end, 0});
+    for (auto next = std::lower_bound(starts.begin(), starts.end(), ArcStart{end, 0});
          next != starts.end() && next->first == end; ++next)
       if (!used[next->second])
         return next->second;

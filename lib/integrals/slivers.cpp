@@ -60,8 +60,8 @@ bool is_sliver(const TriangleRows& rows, std::size_t lane) {
 
 /// \param height of the circumcentre's direction over the triangle's corners: the cosine of the
 ///        circumcap's radius.
-HalfEdge half_edge(const PreciseVec3& a, const PreciseVec3& b, const mpf_class& cotangent,
-                   const mpf_class& height) {
+HalfEdge precise_half_edge(const PreciseVec3& a, const PreciseVec3& b, const mpf_class& cotangent,
+                           const mpf_class& height) {
   const mpf_class sine = 0.5 * length(a - b), cosine = 0.5 * length(a + b);
   if (cosine == 0) // of a mesh that is no longer Delaunay
     return {1, 0, 0, 0};
@@ -95,7 +95,7 @@ bool resolve(const Batch& batch, Sliver& sliver, TriangleRows& rows) {
     rows.quarter[v][lane] = 0.25 * dot(side[v], side[v]).get_d();
     rows.cotangent[v][lane] = cotangent.get_d();
     sliver.side[v] = rounded(normalised(side[v]));
-    sliver.half[v] = half_edge(x[next], x[previous], cotangent, height / area);
+    sliver.half[v] = precise_half_edge(x[next], x[previous], cotangent, height / area);
   }
   put(rounded(normal), rows.normal, lane);
   rows.scale[lane] = 1 / area.get_d();

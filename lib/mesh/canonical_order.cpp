@@ -17,7 +17,7 @@ namespace {
 
 using Triple = std::array<std::int32_t, 3>;
 
-Triple column(const Triangles& matrix, std::int64_t t) {
+Triple triple(const Triangles& matrix, std::int64_t t) {
   return {matrix(0, t), matrix(1, t), matrix(2, t)};
 }
 
@@ -45,7 +45,7 @@ struct Renamed {
 
   std::int64_t size() const { return triangles.cols(); }
   Triple operator[](std::int64_t t) const {
-    Triple ids = column(triangles, t);
+    Triple ids = triple(triangles, t);
     if (!new_id.empty())
       for (std::int32_t& id : ids)
         id = new_id[static_cast<std::size_t>(id)];
@@ -111,7 +111,7 @@ void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places
     for (std::int64_t t = begin; t != end; ++t) {
       if (t + ahead < end)
         __builtin_prefetch(&out(0, places.place[t + ahead]), 1);
-      const Triple across = turned(column(neighbours, t), places.first[t]);
+      const Triple across = turned(triple(neighbours, t), places.first[t]);
       for (int i = 0; i < 3; ++i) {
         const std::int32_t old = across[static_cast<std::size_t>(i)];
         out(i, places.place[t]) = old < 0 ? -1 : places.place[old];
@@ -134,9 +134,9 @@ void make_canonical(Triangles& triangles, Triangles& neighbours,
 
 bool is_canonical(const Triangles& triangles) {
   return holds_for_blocks(triangles.cols(), [&](std::int64_t begin, std::int64_t end) {
-    Triple before = column(triangles, std::max<std::int64_t>(begin - 1, 0));
+    Triple before = triple(triangles, std::max<std::int64_t>(begin - 1, 0));
     for (std::int64_t t = begin; t != end; ++t) {
-      const Triple ids = column(triangles, t);
+      const Triple ids = triple(triangles, t);
       if (first_vertex(ids) != 0 || ids < before)
         return false;
       before = ids;

@@ -88,7 +88,7 @@ Quality measure(const ClosedMesh& closed, const Density& density) {
 }
 
 /// \param cells whether the Voronoi cells are measured, too.
-Quality measure_open(const Mesh& mesh, bool cells) {
+Quality quality_of_open(const Mesh& mesh, bool cells) {
   const Check found = check_surface(mesh);
   if (!found.passed())
     throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
@@ -129,8 +129,8 @@ Quality quality(const Mesh& mesh, const Density& density) {
   return result;
 }
 
-Quality triangle_quality(const Mesh& mesh) { return quality_detail::measure_open(mesh, false); }
+Quality triangle_quality(const Mesh& mesh) { return quality_detail::quality_of_open(mesh, false); }
 
-Quality open_quality(const Mesh& mesh) { return quality_detail::measure_open(mesh, true); }
+Quality open_quality(const Mesh& mesh) { return quality_detail::quality_of_open(mesh, true); }
 
 } // namespace calotte

@@ -39,7 +39,7 @@ bool set_ring(const Mesh& mesh, std::int32_t site, std::int32_t first,
   return true;
 }
 
-Vec3 circumcentre(const Mesh& mesh, std::int32_t t) {
+Vec3 circumcentre_of(const Mesh& mesh, std::int32_t t) {
   const Vec3 a = column(mesh.points, mesh.triangles(0, t)),
              b = column(mesh.points, mesh.triangles(1, t)),
              c = column(mesh.points, mesh.triangles(2, t));
@@ -81,7 +81,7 @@ WholeCells whole_cells(const Mesh& mesh) {
   cells.vertices.resize(3, vertices);
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     if (const std::int32_t id = vertex[static_cast<std::size_t>(t)]; id >= 0)
-      set_column(cells.vertices, id, circumcentre(mesh, t));
+      set_column(cells.vertices, id, circumcentre_of(mesh, t));
   connect_open(cells);
   measure_open(cells);
   return out;

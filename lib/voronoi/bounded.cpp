@@ -30,8 +30,6 @@
 namespace calotte::voronoi_detail {
 namespace {
 
-constexpr std::int32_t none = -1;
-
 void require_mesh(const Mesh& mesh) {
   require(are_ids(mesh.triangles, mesh.points.cols()),
           "the mesh has an id that is not one of its " + std::to_string(mesh.points.cols()) +
@@ -85,7 +83,7 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_
   return edges;
 }
 
-Neighbours neighbours_of(const std::vector<DelaunayEdge>& edges, std::int64_t sites) {
+Neighbours neighbours_across(const std::vector<DelaunayEdge>& edges, std::int64_t sites) {
   Neighbours out =
       base_detail::lists_by_key<std::vector<std::int32_t>>(sites, [&](const auto& put) {
         for (const DelaunayEdge& edge : edges) {
@@ -208,7 +206,7 @@ Vec3 circumcentre_of(const Points3& sites, const Triangles& triangles, std::int6
 // ---- Cells
 
 /// A side of a cell, counter-clockwise.
-struct Side {
+struct ClippedSide {
   std::int32_t cell, from, to;
   std::int32_t beyond; ///< the cell across, or none
 };
@@ -216,7 +214,7 @@ struct Side {
 /// Of the Voronoi edges: the parts of each start and end in turn.
 void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<Crossing>& crossings,
                      const std::vector<std::int32_t>& vertex_of_triangle,
-                     std::int32_t first_of_boundary, std::vector<Side>& sides) {
+                     std::int32_t first_of_boundary, std::vector<ClippedSide>& sides) {
   const auto vertex_of = [&](std::int32_t triangle) {
     return triangle < 0 ? none : vertex_of_triangle[static_cast<std::size_t>(triangle)];
   };
@@ -240,7 +238,7 @@ void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<C
 }
 
 void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
-                        std::int32_t first_vertex, std::vector<Side>& sides) {
+                        std::int32_t first_vertex, std::vector<ClippedSide>& sides) {
   for (const auto& ring : rings) {
     const auto size = static_cast<std::int32_t>(ring.size());
     for (std::int32_t k = 0; k < size; ++k)
@@ -260,17 +258,19 @@ void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
 
 /// Appends the vertices of a cell, the end of the side towards the lowest neighbour first.
 /// \param sides of the cell, sorted by their first vertex.
-void append_cell(const Side* begin, const Side* end, std::vector<std::int32_t>& vertices) {
-  const Side* first = begin;
-  for (const Side* side = begin; side != end; ++side)
+void append_cell(const ClippedSide* begin, const ClippedSide* end,
+                 std::vector<std::int32_t>& vertices) {
+  const ClippedSide* first = begin;
+  for (const ClippedSide* side = begin; side != end; ++side)
     if (side->beyond >= 0 && (first->beyond < 0 || side->beyond < first->beyond))
       first = side;
   std::int64_t count = 0;
-  const Side* side = first;
+  const ClippedSide* side = first;
   do {
     vertices.push_back(side->to);
-    side = std::lower_bound(begin, end, side->to,
-                            [](const Side& s, std::int32_t vertex) { return s.from < vertex; });
+    side = std::lower_bound(begin, end, side->to, [](const ClippedSide& s, std::int32_t vertex) {
+      return s.from < vertex;
+    });
     if (side == end || side->from != vertices.back() || ++count > end - begin)
       refuse_cell(begin->cell);
   } while (side != first);
@@ -278,18 +278,20 @@ void append_cell(const Side* begin, const Side* end, std::vector<std::int32_t>& 
     refuse_cell(begin->cell);
 }
 
-void set_cells(std::vector<Side> sides, std::int64_t cells, Voronoi& out) {
+void set_cells(std::vector<ClippedSide> sides, std::int64_t cells, Voronoi& out) {
   sort_in_groups(
-      cells, [](const Side& side) { return side.cell; },
-      [](const Side& a, const Side& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); },
+      cells, [](const ClippedSide& side) { return side.cell; },
+      [](const ClippedSide& a, const ClippedSide& b) {
+        return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+      },
       sides);
   std::vector<std::int32_t> vertices;
   out.vertices_on_cell.begin.resize(cells + 1);
-  const Side* side = sides.data();
-  const Side* const end = side + sides.size();
+  const ClippedSide* side = sides.data();
+  const ClippedSide* const end = side + sides.size();
   for (std::int32_t i = 0; i < cells; ++i) {
     out.vertices_on_cell.begin[i] = std::ssize(vertices);
-    const Side* const first = side;
+    const ClippedSide* const first = side;
     while (side != end && side->cell == i)
       ++side;
     if (first == side)
@@ -318,7 +320,8 @@ void set_vertices(const Mesh& mesh, const std::vector<std::int32_t>& vertex_of_t
 
 Voronoi bounded(const Mesh& mesh, const Outline& outline) {
   const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
-  const auto rings = walk_boundary(outline, mesh.points, neighbours_of(edges, mesh.points.cols()));
+  const auto rings =
+      walk_boundary(outline, mesh.points, neighbours_across(edges, mesh.points.cols()));
   const std::vector<Crossing> crossings = crossings_of(rings, edges, mesh.points);
   std::vector<int> starts(edges.size());
   for (const Crossing& crossing : crossings)
@@ -334,7 +337,7 @@ Voronoi bounded(const Mesh& mesh, const Outline& outline) {
   out.on_sphere = false;
   out.cells = with_z(mesh.points.topRows<2>());
   set_vertices(mesh, vertex_of_triangle, rings, inner, out);
-  std::vector<Side> sides;
+  std::vector<ClippedSide> sides;
   add_inner_sides(edges, crossings, vertex_of_triangle, inner, sides);
   add_boundary_sides(rings, inner, sides);
   set_cells(std::move(sides), mesh.points.cols(), out);

@@ -264,13 +264,13 @@ void BoxOverlaps::trace(const PathPoint& from, const PathPoint& to) {
 // ---- Areas
 
 void BoxOverlaps::put(double area, double whole, std::int32_t box, double box_area,
-                      Row& out) const {
+                      WeightRow& out) const {
   constexpr double rounding = 0x1p-50;
   if (box >= 0 && area > rounding * std::sqrt(std::min(whole, box_area)))
     out.push_back({box, area});
 }
 
-double BoxOverlaps::set_areas(Row& out) {
+double BoxOverlaps::set_areas(WeightRow& out) {
   const auto [west, east] =
       std::minmax_element(pieces_.begin(), pieces_.end(),
                           [](const Piece& a, const Piece& b) { return a.column < b.column; });
@@ -308,7 +308,7 @@ double BoxOverlaps::set_areas(Row& out) {
   return whole;
 }
 
-double BoxOverlaps::set(std::span<const Vec3> corners, Row& out) {
+double BoxOverlaps::set(std::span<const Vec3> corners, WeightRow& out) {
   out.clear();
   pieces_.clear();
   set_path(corners);

@@ -24,7 +24,7 @@ public:
   /// Sets the shared areas, sorted by the number of the box, without those below rounding.
   /// \param corners unit vectors, counter-clockwise.
   /// \returns the area of the polygon.
-  double set(std::span<const Vec3> corners, Row& out);
+  double set(std::span<const Vec3> corners, WeightRow& out);
 
 private:
   /// A point of a boundary, and its longitude in degrees, which grows without end eastwards.
@@ -48,8 +48,8 @@ private:
   void trace_in_column(const PathPoint& start, const PathPoint& end, MapPoint from,
                        const MapPoint& to);
   void add_piece(const MapPoint& from, const MapPoint& to);
-  double set_areas(Row& out);
-  void put(double area, double whole, std::int32_t box, double box_area, Row& out) const;
+  double set_areas(WeightRow& out);
+  void put(double area, double whole, std::int32_t box, double box_area, WeightRow& out) const;
 
   const BoxTiling& tiling_;
   std::vector<PathPoint> path_;

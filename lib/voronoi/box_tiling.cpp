@@ -19,16 +19,12 @@ namespace {
 
 using base_detail::require;
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double degree_in_radians = std::numbers::pi / 180;
 constexpr double slack =
     1e-9; ///< degrees, of sides that rounding keeps from a pole or from closing
 constexpr double widest = 180; ///< degrees, of a box; excluded
 
-[[noreturn]] void refuse(const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, problem);
-}
-
-std::string at(const std::string& name, Eigen::Index i, double value) {
+std::string named_value(const std::string& name, Eigen::Index i, double value) {
   return name + "[" + std::to_string(i) + "] = " + std::to_string(value);
 }
 
@@ -36,9 +32,9 @@ std::string at(const std::string& name, Eigen::Index i, double value) {
 void require_order(const DoubleVector& values, const std::string& name, double sign) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]))
-      refuse(at(name, i, values[i]) + " is not finite; correct it");
+      refuse(named_value(name, i, values[i]) + " is not finite; correct it");
     if (i > 0 && !(sign * values[i] > sign * values[i - 1]))
-      refuse(at(name, i, values[i]) + " does not follow " + std::to_string(values[i - 1]) +
+      refuse(named_value(name, i, values[i]) + " does not follow " + std::to_string(values[i - 1]) +
              "; sort the raster along it");
   }
 }
@@ -51,7 +47,7 @@ void require_latitudes(const DoubleVector& values, const std::string& name) {
   require_order(values, name, sign_of(values));
   for (Eigen::Index i = 0; i < values.size(); ++i)
     if (!(std::abs(values[i]) <= 90))
-      refuse(at(name, i, values[i]) + " is outside -90 to 90; give degrees");
+      refuse(named_value(name, i, values[i]) + " is outside -90 to 90; give degrees");
 }
 
 /// Half way between nodes, and half a step beyond the first and the last.
@@ -241,7 +237,8 @@ DoubleVector areas(const LonLatBoxes& boxes) {
     const double high =
         std::abs(rise(height_of(boxes.parallels[j]), height_of(boxes.parallels[j + 1])));
     for (Eigen::Index i = 0; i < columns; ++i)
-      out[j * columns + i] = degree * (boxes.meridians[i + 1] - boxes.meridians[i]) * high;
+      out[j * columns + i] =
+          degree_in_radians * (boxes.meridians[i + 1] - boxes.meridians[i]) * high;
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #include "voronoi/connectivity.h"
 
 #include "base/first_fault.h"
+#include "base/lists.h"
 #include "base/matrix_memory.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -43,8 +44,6 @@ Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, co
       Corner{first, vertex_at(surface.triangle_ids, first, site)},
       [&](Corner corner) { return fitting_next(surface, corner); }, body);
 }
-
-constexpr std::int32_t none = -1;
 
 /// For each site a triangle at it. The choice may vary; the order of the rings does not depend on
 /// it.

@@ -143,7 +143,7 @@ SharedWithBoxes shared_with_boxes(const Polygons& polygons, const LonLatBoxes& b
       [&] {
         return Worker{BoxOverlaps(tiling), {}};
       },
-      [&](Worker& worker, std::int64_t i, Row& row) {
+      [&](Worker& worker, std::int64_t i, WeightRow& row) {
         set_corners(exact_detail::Sphere(), polygons, i, worker.corners);
         out.polygons[i] = worker.overlaps.set(worker.corners, row);
       });
@@ -156,7 +156,7 @@ GridWeights weights_in(const S& space, const Polygons& source, const Polygons& t
   const PolygonOverlaps<S> overlaps(space, source);
   Weights shared = matrix_of(
       target.size(), source.size(), [&] { return PolygonRow<S>(overlaps); },
-      [&](PolygonRow<S>& worker, std::int64_t i, Row& row) { worker.set(target, i, row); });
+      [&](PolygonRow<S>& worker, std::int64_t i, WeightRow& row) { worker.set(target, i, row); });
   return weights_of_areas(shared, areas_in(space, source), areas_in(space, target));
 }
 
@@ -223,13 +223,13 @@ public:
         rows_(boxes.latitudes.size()), descends_(boxes.parallels[0] > boxes.parallels[rows_]),
         closed_(boxes.meridians[columns_] - boxes.meridians[0] > 360 - 1e-9) {}
 
-  void set_nearest(const Vec3& unit, Row& row) const {
+  void set_nearest(const Vec3& unit, WeightRow& row) const {
     const std::int32_t box = box_of(unit);
     if (box >= 0)
       row.push_back({box, 1});
   }
 
-  void set_linear(const Vec3& unit, Row& row) const {
+  void set_linear(const Vec3& unit, WeightRow& row) const {
     if (box_of(unit) < 0)
       return;
     const base_detail::LonLat place = base_detail::lonlat_of(unit);
@@ -283,7 +283,7 @@ private:
 
   /// Between the last latitude and the pole, or the edge of the raster.
   void beyond(Eigen::Index last, double latitude, double pole, const Bracket& along,
-              Row& row) const {
+              WeightRow& row) const {
     const double edge =
         boxes_.parallels[pole > 0 ? (descends_ ? 0 : rows_) : (descends_ ? rows_ : 0)];
     const double from = boxes_.latitudes[last];
@@ -299,13 +299,13 @@ private:
   std::int32_t box(Eigen::Index latitude, std::int32_t column) const {
     return static_cast<std::int32_t>(latitude * columns_) + column;
   }
-  void add(Eigen::Index latitude, const Bracket& along, double weight, Row& row) const {
+  void add(Eigen::Index latitude, const Bracket& along, double weight, WeightRow& row) const {
     if (weight * (1 - along.part) > 0)
       row.push_back({box(latitude, along.first), weight * (1 - along.part)});
     if (along.second >= 0 && weight * along.part > 0)
       row.push_back({box(latitude, along.second), weight * along.part});
   }
-  static void finish(Row& row) {
+  static void finish(WeightRow& row) {
     sort_by_column(row);
     merge_columns(row);
   }
@@ -351,7 +351,7 @@ GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& t
                                                rows = shared_rows(target, source);
   const auto wide = static_cast<std::int64_t>(columns.size());
   const auto width = static_cast<std::int32_t>(source.longitudes.size());
-  Weights shared = matrix_of(target.size(), source.size(), [&](std::int64_t i, Row& row) {
+  Weights shared = matrix_of(target.size(), source.size(), [&](std::int64_t i, WeightRow& row) {
     for (const SharedLength& high : rows[static_cast<std::size_t>(i / wide)])
       for (const SharedLength& part : columns[static_cast<std::size_t>(i % wide)])
         row.push_back({high.other * width + part.other, high.length * part.length});
@@ -397,7 +397,7 @@ Weights interpolation_weights(const LonLatBoxes& source, const PointsRef& positi
                        "give one of these");
   const base_detail::Points3Ref directions = checked_directions(positions);
   const BoxInterpolation boxes(source);
-  return matrix_of(positions.cols(), source.size(), [&](std::int64_t i, Row& row) {
+  return matrix_of(positions.cols(), source.size(), [&](std::int64_t i, WeightRow& row) {
     const Vec3 unit = exact_detail::unit_of_any_norm(column(directions, i));
     if (kind == Interpolation::nearest)
       boxes.set_nearest(unit, row);

@@ -22,7 +22,7 @@
 namespace calotte::voronoi_detail {
 namespace {
 
-[[noreturn]] void refuse(std::int64_t site, const std::string& problem) {
+[[noreturn]] void refuse_boundary(std::int64_t site, const std::string& problem) {
   throw Error(ErrorCode::invalid_argument,
               "the mesh is open, and its boundary is not the hull of its sites: " + problem +
                   "; use the cells of its file, or triangulate the points anew",
@@ -41,12 +41,12 @@ std::vector<std::int32_t> boundary_of(const Mesh& mesh) {
         first = mesh.triangles(next_vertex(v), t);
         auto& end = following[static_cast<std::size_t>(first)];
         if (end >= 0)
-          refuse(first, "it touches itself at site " + std::to_string(first));
+          refuse_boundary(first, "it touches itself at site " + std::to_string(first));
         end = mesh.triangles(previous_vertex(v), t);
         ++edges;
       }
   if (edges == 0)
-    refuse(-1, "it has no triangles");
+    refuse_boundary(-1, "it has no triangles");
   std::vector<std::int32_t> ring;
   for (std::int32_t site = first; ring.size() < edges;) {
     ring.push_back(site);
@@ -54,22 +54,22 @@ std::vector<std::int32_t> boundary_of(const Mesh& mesh) {
     if (site == first)
       break;
     if (site < 0)
-      refuse(ring.back(), "it does not close at site " + std::to_string(ring.back()));
+      refuse_boundary(ring.back(), "it does not close at site " + std::to_string(ring.back()));
   }
   if (ring.size() != edges)
-    refuse(first, "it has several parts");
+    refuse_boundary(first, "it has several parts");
   return ring;
 }
 
 void require_convex(const Mesh& mesh, const std::vector<std::int32_t>& ring) {
   const std::size_t k = ring.size();
   if (mesh.triangles.cols() + static_cast<std::int64_t>(k) - 2 != 2 * mesh.points.cols() - 4)
-    refuse(-1, "some sites are in no triangle");
+    refuse_boundary(-1, "some sites are in no triangle");
   for (std::size_t i = 0; i < k; ++i) {
     const std::int32_t site = ring[(i + 1) % k];
     if (exact_detail::orientation(column(mesh.points, ring[i]), column(mesh.points, site),
                                   column(mesh.points, ring[(i + 2) % k])) < 0)
-      refuse(site, "it turns to the inside at site " + std::to_string(site));
+      refuse_boundary(site, "it turns to the inside at site " + std::to_string(site));
   }
 }
 
@@ -171,7 +171,7 @@ Triangles far_triangles(const Points3& points, std::vector<std::int32_t> ring) {
 
 Mesh hull_of(const Mesh& mesh) {
   if (const Check found = check_surface(mesh); !found.passed())
-    refuse(-1, found.failure);
+    refuse_boundary(-1, found.failure);
   std::vector<std::int32_t> ring = boundary_of(mesh);
   require_convex(mesh, ring);
   const Triangles far = far_triangles(mesh.points, std::move(ring));

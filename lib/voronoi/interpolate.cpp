@@ -30,7 +30,7 @@ using base_detail::require;
 
 /// An edge of the polygon around the triangles whose circumcaps hold a position, which lies to its
 /// left. The triangle is the one inside, with the edge across from its vertex `across`.
-struct Side {
+struct CavityEdge {
   std::int32_t triangle;
   int across;
 };
@@ -43,8 +43,8 @@ public:
       : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)) {}
 
   /// \param t the triangle that holds p, which is no site and not on an open edge.
-  void set(const Position& p, std::int32_t t, Row& out) const {
-    std::vector<Side> sides; // counter-clockwise
+  void set(const Position& p, std::int32_t t, WeightRow& out) const {
+    std::vector<CavityEdge> sides; // counter-clockwise
     for (int v = 0; v < 3; ++v)
       add_sides(p, {t, v}, sides);
     out.clear();
@@ -59,16 +59,16 @@ public:
   }
 
 private:
-  std::int32_t start_of(const Side& side) const {
+  std::int32_t start_of(const CavityEdge& side) const {
     return mesh_.triangles(next_vertex(side.across), side.triangle);
   }
-  std::int32_t end_of(const Side& side) const {
+  std::int32_t end_of(const CavityEdge& side) const {
     return mesh_.triangles(previous_vertex(side.across), side.triangle);
   }
 
   /// The sides beyond an edge of a triangle inside, or the edge itself if none of those beyond it
   /// is inside. The triangles inside form a tree, as no site is inside of all.
-  void add_sides(const Position& p, const Side& edge, std::vector<Side>& out) const {
+  void add_sides(const Position& p, const CavityEdge& edge, std::vector<CavityEdge>& out) const {
     const std::int32_t beyond = mesh_.neighbours(edge.across, edge.triangle);
     if (beyond < 0 || seen_.in_circle(beyond, p) <= 0) {
       out.push_back(edge);
@@ -79,7 +79,7 @@ private:
     add_sides(p, {beyond, previous_vertex(back)}, out);
   }
 
-  Vec3 centre_with(const Position& p, const Side& side) const {
+  Vec3 centre_with(const Position& p, const CavityEdge& side) const {
     return frame_.circumcentre(seen_.seen(p), seen_.seen(start_of(side), p),
                                seen_.seen(end_of(side), p));
   }
@@ -91,7 +91,7 @@ private:
 
   /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
   /// vertices on either side, and the old ones between them, which p removes.
-  double area_between(const Position& p, const Side& before, const Side& after) const {
+  double area_between(const Position& p, const CavityEdge& before, const CavityEdge& after) const {
     const Vec3 first = centre_with(p, before);
     Vec3 last = centre_with(p, after);
     double sum = 0;
@@ -116,7 +116,7 @@ private:
 
 // ---- Rows
 
-void set_linear(const Triangles& triangles, const Locations& at, std::int64_t i, Row& out) {
+void set_linear(const Triangles& triangles, const Locations& at, std::int64_t i, WeightRow& out) {
   out.clear();
   for (int v = 0; v < 3; ++v)
     if (at.weights(v, i) > 0)
@@ -141,7 +141,7 @@ Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Lo
   const Mesh& mesh = seen.mesh();
   const std::int64_t count = at.triangle.size();
   const NaturalNeighbours<S> natural(seen);
-  return matrix_of(count, mesh.points.cols(), [&](std::int64_t i, Row& row) {
+  return matrix_of(count, mesh.points.cols(), [&](std::int64_t i, WeightRow& row) {
     if (kind == Interpolation::nearest)
       row.push_back({at.nearest[i], 1});
     else if (at.triangle[i] < 0)

@@ -15,7 +15,7 @@ namespace calotte {
 namespace voronoi_detail {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// The part of the row's values that are no NaN.
 struct Valid {
@@ -44,7 +44,7 @@ double category_of(const Weights& weights, std::int64_t row, const double* value
   for (Weights::InnerIterator entry(weights, row); entry; ++entry)
     if (const double value = values[entry.col() * stride]; !std::isnan(value))
       shares[value] += entry.value();
-  double best = none, most = 0;
+  double best = missing, most = 0;
   for (const auto& [value, share] : shares)
     if (share > most) {
       best = value;
@@ -80,7 +80,7 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
         const double cover = weights.target_fraction[i] * valid.weight / valid.whole;
         double& value = out.values[i * count + k];
         if (!(valid.weight > 0) || cover < min_cover * (1 - 1e-9))
-          value = none;
+          value = missing;
         else if (field.integer)
           value = category_of(matrix, i, values, count);
         else // divided where some do not count, so that other weights act as they are

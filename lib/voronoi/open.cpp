@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/open.h"
 
+#include "base/lists.h"
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "base/spherical_angles.h"
 #include "exact/space.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -23,24 +23,18 @@
 namespace calotte::voronoi_detail {
 namespace {
 
-constexpr std::int32_t none = -1;
-
-[[noreturn]] void refuse(const std::string& problem, std::int64_t index) {
-  throw Error(ErrorCode::invalid_argument, problem, index);
-}
-
 // ---- Edges
 
 /// A side of a cell, between two vertices: place k of the cell's lists runs from vertex k - 1 to k.
-struct Side {
+struct CellSide {
   std::int32_t low, high; ///< the vertices by number
   std::int32_t cell;
   std::size_t place;
 };
 
 /// Sorted by their vertices, then by cell.
-std::vector<Side> sides_of(const Voronoi& of) {
-  std::vector<Side> sides;
+std::vector<CellSide> sides_of(const Voronoi& of) {
+  std::vector<CellSide> sides;
   sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.items.size()));
   for (std::int32_t i = 0; i < of.cells.cols(); ++i)
     for (std::size_t place = 0; place != of.vertices_on_cell[i].size(); ++place) {
@@ -48,8 +42,8 @@ std::vector<Side> sides_of(const Voronoi& of) {
       sides.push_back({low, high, i, place});
     }
   sort_in_groups(
-      of.vertices.cols(), [](const Side& side) { return side.low; },
-      [](const Side& a, const Side& b) {
+      of.vertices.cols(), [](const CellSide& side) { return side.low; },
+      [](const CellSide& a, const CellSide& b) {
         return std::tie(a.high, a.cell, a.place) < std::tie(b.high, b.cell, b.place);
       },
       sides);
@@ -65,22 +59,22 @@ struct Edge {
 };
 
 /// Two sides of one edge run in opposite directions.
-bool fit(const Voronoi& of, const Side& a, const Side& b) {
+bool fit(const Voronoi& of, const CellSide& a, const CellSide& b) {
   return a.cell != b.cell && start_of(of, a.cell, a.place) == of.vertices_on_cell[b.cell][b.place];
 }
 
 std::vector<Edge> edges_of(const Voronoi& of) {
-  const std::vector<Side> sides = sides_of(of);
+  const std::vector<CellSide> sides = sides_of(of);
   const auto same = [&](std::size_t k) {
     return k + 1 < sides.size() && sides[k].low == sides[k + 1].low &&
            sides[k].high == sides[k + 1].high;
   };
   std::vector<Edge> edges;
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    const Side& side = sides[k];
+    const CellSide& side = sides[k];
     Edge edge{{side.cell, none}, {side.place, 0}};
     if (same(k)) {
-      const Side& other = sides[++k];
+      const CellSide& other = sides[++k];
       if (same(k) || !fit(of, side, other))
         refuse("cell " + std::to_string(side.cell) + " and cell " + std::to_string(other.cell) +
                    " overlap, as they do not lie on opposite sides of their common edge",
@@ -275,7 +269,7 @@ template <Space S> void measure_cell(const S& space, std::int32_t i, Voronoi& ou
   out.cell_area[i] = sum;
 }
 
-template <Space S> void measure(const S& space, const Points3& cut_edges, Voronoi& out) {
+template <Space S> void measure_part(const S& space, const Points3& cut_edges, Voronoi& out) {
   for_each_block(out.cells_on_edge.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e != end; ++e)
       measure_edge(space, e, cut_edges, out);
@@ -311,9 +305,9 @@ void measure_open(Voronoi& out, const Points3& cut_edges) {
   make_room(out.vertex_area, vertices, 1);
   make_room(out.cell_area, out.cells.cols(), 1);
   if (out.on_sphere)
-    measure(Sphere(), cut_edges, out);
+    measure_part(Sphere(), cut_edges, out);
   else
-    measure(Plane(out.period), cut_edges, out);
+    measure_part(Plane(out.period), cut_edges, out);
 }
 
 } // namespace calotte::voronoi_detail

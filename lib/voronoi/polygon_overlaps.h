@@ -191,7 +191,7 @@ public:
       : overlaps_(overlaps), clip_(overlaps.space()) {}
 
   /// Sets the shared areas, sorted by the polygon of the source, without those below rounding.
-  void set(const Polygons& target, std::int64_t i, Row& out) {
+  void set(const Polygons& target, std::int64_t i, WeightRow& out) {
     out.clear();
     set_corners(overlaps_.space(), target, i, corners_);
     if (corners_.size() < 3)
@@ -251,7 +251,7 @@ private:
   }
 
   /// What the polygon shares when it is moved.
-  void add_copies(const Vec3& shift, Row& out) {
+  void add_copies(const Vec3& shift, WeightRow& out) {
     moved_.clear();
     for (const Vec3& corner : corners_)
       moved_.push_back(S::on_sphere ? corner : corner + shift);
@@ -263,7 +263,7 @@ private:
                            [&](std::int32_t other) { add(other, whole, out); });
   }
 
-  void add(std::int32_t other, double whole, Row& out) {
+  void add(std::int32_t other, double whole, WeightRow& out) {
     set_corners(overlaps_.space(), overlaps_.source(), other, others_);
     const double least = std::min(whole, area_of(overlaps_.space(), others_)),
                  area = shared_area(overlaps_.is_convex_source(other));

@@ -23,15 +23,15 @@ struct Weight {
   std::int32_t column;
   double value;
 };
-using Row = std::vector<Weight>;
+using WeightRow = std::vector<Weight>;
 
-inline void sort_by_column(Row& row) {
+inline void sort_by_column(WeightRow& row) {
   std::sort(row.begin(), row.end(),
             [](const Weight& a, const Weight& b) { return a.column < b.column; });
 }
 
 /// Adds weights of the same column. \pre sorted.
-inline void merge_columns(Row& row) {
+inline void merge_columns(WeightRow& row) {
   std::size_t kept = 0;
   for (const Weight& weight : row)
     if (kept > 0 && row[kept - 1].column == weight.column)
@@ -50,13 +50,13 @@ Weights matrix_of(std::int64_t rows, std::int64_t columns, const MakeWorker& mak
                   const SetRow& set_row) {
   struct Block {
     std::vector<std::int32_t> counts;
-    Row entries;
+    WeightRow entries;
   };
   std::vector<Block> blocks(static_cast<std::size_t>(block_count(rows)));
   for_each_block(rows, [&](std::int64_t number, std::int64_t begin, std::int64_t end) {
     Block& block = blocks[static_cast<std::size_t>(number)];
     auto worker = make_worker();
-    Row row;
+    WeightRow row;
     for (std::int64_t i = begin; i != end; ++i) {
       row.clear();
       set_row(worker, i, row);
@@ -91,7 +91,7 @@ Weights matrix_of(std::int64_t rows, std::int64_t columns, const SetRow& set_row
   struct None {};
   return matrix_of(
       rows, columns, [] { return None{}; },
-      [&](None&, std::int64_t i, Row& row) { set_row(i, row); });
+      [&](None&, std::int64_t i, WeightRow& row) { set_row(i, row); });
 }
 
 } // namespace calotte::voronoi_detail
