@@ -3,39 +3,28 @@
 
 #include "base/memory.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include "base/happens_before.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-/// The only file with oneTBB's loops. They run in the caller's task arena. Each body writes its own
+/// The only loops over threads. They run in the caller's task arena. Each body writes its own
 /// slots, so that no result depends on the number of threads.
 namespace calotte::base_detail {
 
-inline int thread_count() { return tbb::this_task_arena::max_concurrency(); }
+int thread_count();
+
+/// call(body, i) for 0 <= i < n, each in its own task. Of one type for all loops, as each type of a
+/// task costs tenths of a second to compile.
+void run_tasks(std::int64_t n, void (*call)(const void* body, std::int64_t i), const void* body);
 
 /// body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
-  HappensBefore order;
-  order.fork();
-  tbb::parallel_for(
-      tbb::blocked_range<std::int64_t>(0, n, 1),
-      [&](const tbb::blocked_range<std::int64_t>& range) CALOTTE_UNSEEN {
-        order.enter();
-        for (std::int64_t i = range.begin(); i != range.end(); ++i)
-          body(i);
-        order.leave();
-      },
-      tbb::simple_partitioner());
-  order.join();
+  run_tasks(
+      n, [](const void* of, std::int64_t i) { (*static_cast<const Body*>(of))(i); }, &body);
 }
 
 /// The number of blocks that for_each_block and exclusive_scan cut n items into: a function of n
@@ -109,6 +98,6 @@ template <class T> T exclusive_scan(std::span<T> values) {
 
 /// Does work during which this thread takes no other task, so that it may be done under a lock or
 /// once for all threads.
-template <class Work> void in_isolation(const Work& work) { tbb::this_task_arena::isolate(work); }
+void in_isolation(const std::function<void()>& work);
 
 } // namespace calotte::base_detail
