@@ -10,19 +10,19 @@ namespace {
 
 constexpr std::string_view digits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::uint32_t padding = 64, none = 65;
+constexpr std::uint32_t padding = 64, no_digit = 65;
 
-constexpr std::array<std::uint8_t, 256> values = [] {
+constexpr std::array<std::uint8_t, 256> digit_values = [] {
   std::array<std::uint8_t, 256> all{};
   for (std::uint8_t& value : all)
-    value = none;
+    value = no_digit;
   for (std::size_t k = 0; k < digits.size(); ++k)
     all[static_cast<unsigned char>(digits[k])] = static_cast<std::uint8_t>(k);
   all['='] = padding;
   return all;
 }();
 
-std::uint32_t value_of(char digit) { return values[static_cast<unsigned char>(digit)]; }
+std::uint32_t value_of(char digit) { return digit_values[static_cast<unsigned char>(digit)]; }
 
 } // namespace
 

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string describe(int error) {
+std::string describe_error(int error) {
   switch (error) {
   case ENOENT:
   case ENOTDIR:
@@ -217,7 +217,7 @@ void OutputFile::require(int error) const {
 }
 
 void OutputFile::fail(int error) const {
-  throw Error(ErrorCode::file, "cannot write " + name_ + ": " + describe(error));
+  throw Error(ErrorCode::file, "cannot write " + name_ + ": " + describe_error(error));
 }
 
 void require_regular_output(const std::string& path) {

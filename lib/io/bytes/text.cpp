@@ -15,7 +15,7 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::size_t chunk = std::size_t{1} << 20;
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_mark(char c) { return c == ',' || c == ';' || c == '|'; }
@@ -64,7 +64,7 @@ template <class T> Columned parse(std::string_view line, int count, T* values) {
 } // namespace
 
 LineReader::LineReader(std::istream& in, std::string name)
-    : in_(in), name_(std::move(name)), buffer_(chunk), at_first_(bytes_left(in)) {
+    : in_(in), name_(std::move(name)), buffer_(buffer_bytes), at_first_(bytes_left(in)) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   while (end_ < mark.size() && refill()) {
   }
@@ -237,16 +237,16 @@ void take_columns(const LineReader& reader, std::string_view line, int count, st
   require_columns(reader, parse(line, count, values), awaited);
 }
 
-Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(chunk + 64); }
+Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(buffer_bytes + 64); }
 
 Writer& Writer::text(std::string_view bytes) {
-  if (bytes.size() > chunk) {
+  if (bytes.size() > buffer_bytes) {
     flush();
     sink_(bytes);
     return *this;
   }
   buffer_.append(bytes);
-  if (buffer_.size() >= chunk)
+  if (buffer_.size() >= buffer_bytes)
     flush();
   return *this;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/xml.h"
 
+#include "io/bytes/file_error.h"
+
 #include <calotte/error.h>
 
 #include <expat.h>
@@ -12,9 +14,9 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::size_t chunk = std::size_t{1} << 20;
-/// Bytes of a tag or a comment. The parser scans each from its begin with every chunk.
-constexpr std::int64_t longest_tag = 2 * chunk;
+constexpr std::size_t parse_bytes = std::size_t{1} << 20; ///< given to the parser at once
+/// Bytes of a tag or a comment. The parser scans each from its begin with every piece of the text.
+constexpr std::int64_t longest_tag = 2 * parse_bytes;
 constexpr std::size_t most_elements = 20'000; ///< so that memory stays in proportion to the file
 
 /// Collects what the parser reports.
@@ -85,8 +87,7 @@ void set_callbacks(Collector& collector) {
                                   : XML_ErrorString(XML_GetErrorCode(collector.parser));
   throw Error(ErrorCode::parse, name + ": the XML is not well-formed at line " +
                                     std::to_string(XML_GetCurrentLineNumber(collector.parser)) +
-                                    " (" + problem +
-                                    "); the file is damaged or incomplete, make it again");
+                                    " (" + problem + ")" + damaged);
 }
 
 } // namespace
@@ -126,8 +127,8 @@ XmlDocument parse_xml(const std::vector<std::string_view>& parts, const std::str
     }
   };
   for (const std::string_view part : parts)
-    for (std::size_t begin = 0; begin < part.size(); begin += chunk)
-      parse(part.substr(begin, chunk), false);
+    for (std::size_t begin = 0; begin < part.size(); begin += parse_bytes)
+      parse(part.substr(begin, parse_bytes), false);
   parse({}, true);
   return std::move(collector.document);
 }

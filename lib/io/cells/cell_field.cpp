@@ -26,8 +26,8 @@ std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64
   return names;
 }
 
-[[noreturn]] void refuse(const io_detail::NetcdfReader& file, const std::string& problem,
-                         std::int64_t cells) {
+[[noreturn]] void refuse_field(const io_detail::NetcdfReader& file, const std::string& problem,
+                               std::int64_t cells) {
   const std::string names = names_of_cell_fields(file, cells);
   throw Error(ErrorCode::invalid_argument,
               file.path() + ": " + problem + "; " +
@@ -39,10 +39,10 @@ std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells) {
   const io_detail::NetcdfReader file(path);
   if (!file.has_variable(name))
-    refuse(file, "no variable " + name, cells);
+    refuse_field(file, "no variable " + name, cells);
   if (!is_cell_field(file, name, cells))
-    refuse(file, name + " has not one value for each of " + std::to_string(cells) + " cells",
-           cells);
+    refuse_field(file, name + " has not one value for each of " + std::to_string(cells) + " cells",
+                 cells);
   const std::vector<double> values = file.doubles(name, file.shape_of(name));
   const double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
   CellField field;

@@ -8,9 +8,9 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double cut = 180; ///< the meridian; any number of turns may be added
+constexpr double cut_longitude = 180; ///< the meridian; any number of turns may be added
 
-using Ring = std::vector<LonLat>;
+using LonLatRing = std::vector<LonLat>;
 
 /// A place whose longitude continues beyond 180 degrees. The turns are kept apart: the longitude of
 /// a corner has the same bits in all cells that share it.
@@ -77,11 +77,12 @@ private:
   void push(const TurnedPlace& next, const Vec3* a = nullptr, const Vec3* b = nullptr) {
     const double last = places_.back().longitude(), low = std::min(last, next.longitude()),
                  high = std::max(last, next.longitude());
-    const int turn = static_cast<int>(std::ceil((low - cut) / 360));
-    if (low < cut + 360 * turn && cut + 360 * turn < high)
-      places_.push_back({{cut, a ? lonlat_of(std::abs(b->y) * *a + std::abs(a->y) * *b).latitude
-                                 : next.place.latitude},
-                         turn});
+    const int turn = static_cast<int>(std::ceil((low - cut_longitude) / 360));
+    if (low < cut_longitude + 360 * turn && cut_longitude + 360 * turn < high)
+      places_.push_back(
+          {{cut_longitude, a ? lonlat_of(std::abs(b->y) * *a + std::abs(a->y) * *b).latitude
+                             : next.place.latitude},
+           turn});
     places_.push_back(next);
   }
 
@@ -89,26 +90,26 @@ private:
 };
 
 /// The part between two cuts, moved there from `turn` turns to the east.
-Ring between_cuts(const TurnedRing& ring, int turn) {
-  Ring part;
+LonLatRing between_cuts(const TurnedRing& ring, int turn) {
+  LonLatRing part;
   for (const TurnedPlace& place : ring)
-    if (const double longitude = place.longitude(turn); std::abs(longitude) <= cut)
+    if (const double longitude = place.longitude(turn); std::abs(longitude) <= cut_longitude)
       part.push_back({longitude, place.place.latitude});
   return part;
 }
 
 /// A ring that runs round once, from the cut to the cut, and back along the pole's edge.
-Ring around_pole(TurnedRing ring, int turns) {
+LonLatRing around_pole(TurnedRing ring, int turns) {
   ring.pop_back();
   const auto start = std::find_if(ring.begin(), ring.end(), [](const TurnedPlace& place) {
-    return std::abs(place.place.longitude) == cut;
+    return std::abs(place.place.longitude) == cut_longitude;
   });
   for (auto place = ring.begin(); place != start; ++place)
     place->turn += turns;
   std::rotate(ring.begin(), start, ring.end());
-  const double begin = turns > 0 ? -cut : cut, edge = turns > 0 ? 90 : -90;
+  const double begin = turns > 0 ? -cut_longitude : cut_longitude, edge = turns > 0 ? 90 : -90;
   const int less = static_cast<int>(std::lround((ring.front().longitude() - begin) / 360));
-  Ring out;
+  LonLatRing out;
   for (const TurnedPlace& place : ring)
     out.push_back({place.longitude(less), place.place.latitude});
   out.insert(out.end(), {{-begin, out.front().latitude}, {-begin, edge}, {begin, edge}});
@@ -116,8 +117,8 @@ Ring around_pole(TurnedRing ring, int turns) {
 }
 
 /// Removes places that repeat the one before; empty if the ring has no width.
-Ring cleaned(const Ring& ring) {
-  Ring out;
+LonLatRing cleaned(const LonLatRing& ring) {
+  LonLatRing out;
   const auto same = [](const LonLat& a, const LonLat& b) {
     return a.longitude == b.longitude && a.latitude == b.latitude;
   };
@@ -130,21 +131,21 @@ Ring cleaned(const Ring& ring) {
       std::minmax_element(out.begin(), out.end(), [](const LonLat& a, const LonLat& b) {
         return a.longitude < b.longitude;
       });
-  return out.size() < 3 || west->longitude == east->longitude ? Ring() : out;
+  return out.size() < 3 || west->longitude == east->longitude ? LonLatRing() : out;
 }
 
 } // namespace
 
 std::vector<std::vector<LonLat>> outline_of(const std::vector<Vec3>& corners) {
   const Unrolled unrolled(corners);
-  std::vector<Ring> rings;
+  std::vector<LonLatRing> rings;
   if (unrolled.turns() != 0) {
     rings.push_back(cleaned(around_pole(unrolled.places(), unrolled.turns())));
   } else {
     for (const int turn : {-1, 0, 1})
       rings.push_back(cleaned(between_cuts(unrolled.places(), turn)));
   }
-  std::erase_if(rings, [](const Ring& ring) { return ring.empty(); });
+  std::erase_if(rings, [](const LonLatRing& ring) { return ring.empty(); });
   return rings;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/mesh_intake.h"
+#include "io/bytes/file_error.h"
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
@@ -25,18 +26,19 @@
 namespace calotte::io_detail {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const std::string& problem, std::int64_t index) {
-  throw Error(ErrorCode::parse, name + ": " + problem + "; make the file again", index);
+[[noreturn]] void fail_mesh(const std::string& name, const std::string& problem,
+                            std::int64_t index) {
+  fail_file(name, problem + "; make the file again", index);
 }
 
 void require_ids(const std::string& name, const Triangles& triangles, std::int64_t points) {
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       if (triangles(i, t) < 0 || triangles(i, t) >= points)
-        refuse(name,
-               "triangle " + std::to_string(t) + " has an id that is not one of the " +
-                   std::to_string(points) + " points",
-               t);
+        fail_mesh(name,
+                  "triangle " + std::to_string(t) + " has an id that is not one of the " +
+                      std::to_string(points) + " points",
+                  t);
 }
 
 std::string triangle_name(const Triangles& triangles, std::int64_t t) {
@@ -52,11 +54,12 @@ void require_one_orientation(const std::string& name, const Triangles& triangles
     return;
   const std::int64_t t = found.first_exception();
   const bool clockwise = t == found.first_clockwise;
-  refuse(name,
-         triangle_name(triangles, t) + " runs " + (clockwise ? "clockwise" : "counter-clockwise") +
-             ", but " + std::to_string(clockwise ? found.counter_clockwise : found.clockwise) +
-             " triangles run the other way, so the file contradicts itself",
-         t);
+  fail_mesh(name,
+            triangle_name(triangles, t) + " runs " +
+                (clockwise ? "clockwise" : "counter-clockwise") + ", but " +
+                std::to_string(clockwise ? found.counter_clockwise : found.clockwise) +
+                " triangles run the other way, so the file contradicts itself",
+            t);
 }
 
 /// Turns clockwise triangles.
@@ -96,19 +99,19 @@ void require_one_surface(const std::string& name, const Triangles& triangles,
                          const Triangles& neighbours) {
   const SharedEdge edge = first_shared_edge(triangles, neighbours);
   if (edge.triangle >= 0)
-    refuse(name,
-           "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
-               " of " + triangle_name(triangles, edge.triangle) +
-               " belongs to more than two triangles, or to two on the same side of it, so the "
-               "triangles overlap",
-           edge.triangle);
+    fail_mesh(name,
+              "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
+                  " of " + triangle_name(triangles, edge.triangle) +
+                  " belongs to more than two triangles, or to two on the same side of it, so the "
+                  "triangles overlap",
+              edge.triangle);
 }
 
 void require_distinct_vertices(const std::string& name, const Triangles& triangles) {
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     if (triangles(0, t) == triangles(1, t) || triangles(1, t) == triangles(2, t) ||
         triangles(2, t) == triangles(0, t))
-      refuse(name, triangle_name(triangles, t) + " has a vertex twice", t);
+      fail_mesh(name, triangle_name(triangles, t) + " has a vertex twice", t);
 }
 
 /// Orientation, order and neighbours. \pre ids are in range.
@@ -129,15 +132,6 @@ void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* pol
       canonical(name, mesh.triangles, mesh.points.cols(),
                 orientations_of(mesh.points, mesh.triangles, mesh.surface), file, polygons);
   mesh.site_of_input = themselves(mesh.points.cols());
-}
-
-/// \param triangulate gives the mesh. \throws what it throws, with the file's name.
-auto named(const std::string& name, const auto& triangulate) {
-  try {
-    return triangulate();
-  } catch (const Error& error) {
-    throw Error(error.code(), name + ": " + error.what(), error.index());
-  }
 }
 
 // ---- Cells
@@ -222,10 +216,10 @@ void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) 
   const auto& sites = file.mesh->site_of_input;
   for (std::size_t i = 0; i < sites.size(); ++i)
     if (sites[i] != static_cast<std::int32_t>(i))
-      refuse(name,
-             "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
-                 " have one centre",
-             static_cast<std::int64_t>(i));
+      fail_mesh(name,
+                "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
+                    " have one centre",
+                static_cast<std::int64_t>(i));
   turn_cells(name, polygons, false, file);
   require_no_overlap(polygons, name);
   std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
@@ -266,7 +260,7 @@ MeshFile rest_of(const std::string& format, RawMesh& raw) {
 void require_places(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (!points.col(i).allFinite())
-      refuse(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
+      fail_mesh(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
     if (points(2, i) != 0)
       throw Error(ErrorCode::invalid_argument,
                   name + ": z is not 0 at point " + std::to_string(i) +
@@ -361,7 +355,8 @@ void require_sphere(const std::string& name, const Points3& points) {
 void require_directions(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!points.col(i).allFinite() || (points.col(i).array() == 0).all())
-      refuse(name, "point " + std::to_string(i) + " has no direction (NaN, infinite or zero)", i);
+      fail_mesh(name, "point " + std::to_string(i) + " has no direction (NaN, infinite or zero)",
+                i);
 }
 
 double radius_of(const Points3& points) {

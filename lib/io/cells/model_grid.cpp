@@ -106,8 +106,8 @@ NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value) {
   });
 }
 
-GridFile::GridFile(const std::string& path, const WriteOptions& options,
-                   const std::string& conventions)
+NetcdfGridFile::NetcdfGridFile(const std::string& path, const WriteOptions& options,
+                               const std::string& conventions)
     : file_(path, options.progress) {
   file_.attribute({"Conventions", conventions});
   file_.attribute({"sphere_radius", options.sphere_radius});
@@ -115,8 +115,8 @@ GridFile::GridFile(const std::string& path, const WriteOptions& options,
     file_.attribute({"history", options.history});
 }
 
-void GridFile::together(const std::vector<Announced>& variables,
-                        const NetcdfWriter::GroupFill& contents) {
+void NetcdfGridFile::together(const std::vector<Announced>& variables,
+                              const NetcdfWriter::GroupFill& contents) {
   std::vector<int> ints, doubles;
   for (const auto& [name, dimensions, attributes, integer] : variables)
     (integer ? ints : doubles)
@@ -125,11 +125,11 @@ void GridFile::together(const std::vector<Announced>& variables,
   then([this, ints, doubles, contents] { file_.put(ints, doubles, contents); });
 }
 
-void GridFile::after(std::function<void()> computation) {
+void NetcdfGridFile::after(std::function<void()> computation) {
   stages_.push_back({std::move(computation), {}});
 }
 
-void GridFile::commit() {
+void NetcdfGridFile::commit() {
   file_.begin();
   stages_.push_back({[] {}, {}});
   for (std::size_t k = 1; k < stages_.size(); ++k)

@@ -71,12 +71,13 @@ template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, con
 }
 
 /// A file whose variables are announced together with their contents.
-class GridFile {
+class NetcdfGridFile {
 public:
   /// With the attributes that all such files have. \throws Error file.
-  GridFile(const std::string& path, const WriteOptions& options, const std::string& conventions);
-  GridFile(const GridFile&) = delete;
-  GridFile& operator=(const GridFile&) = delete;
+  NetcdfGridFile(const std::string& path, const WriteOptions& options,
+                 const std::string& conventions);
+  NetcdfGridFile(const NetcdfGridFile&) = delete;
+  NetcdfGridFile& operator=(const NetcdfGridFile&) = delete;
 
   NetcdfWriter& netcdf() { return file_; }
   template <class T>

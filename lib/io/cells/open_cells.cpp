@@ -37,15 +37,16 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
 }
 
 /// The length of a chord; in a periodic plane to the nearest copy.
-double distance(const Voronoi& cells, const Vec3& from, const Vec3& to) {
+double chord_length(const Voronoi& cells, const Vec3& from, const Vec3& to) {
   return norm(cells.on_sphere ? to - from : Plane(cells.period).offset(from, to));
 }
 
 /// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
 double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
   const Vec3 centre = circumcentre_of(cells, v);
-  const double reach = distance(cells, centre, column(cells.cells, cells.cells_on_vertex(0, v)));
-  return distance(cells, column(cells.vertices, v), centre) / std::max(width, reach);
+  const double reach =
+      chord_length(cells, centre, column(cells.cells, cells.cells_on_vertex(0, v)));
+  return chord_length(cells, column(cells.vertices, v), centre) / std::max(width, reach);
 }
 
 /// The first vertex that is no circumcentre.

@@ -20,7 +20,7 @@ namespace {
 using namespace io_detail;
 
 /// A polygon's corners in a circle; in a periodic plane copies near the first.
-struct Ring {
+struct PolygonRing {
   const Polygons& polygons;
   std::span<const std::int32_t> ids;
 
@@ -28,7 +28,9 @@ struct Ring {
   Vec3 at(std::size_t k) const { return copy_near(polygons, ids[0], ids[k % ids.size()]); }
 };
 
-Ring ring_of(const Polygons& polygons, std::int64_t i) { return {polygons, polygons.ids[i]}; }
+PolygonRing ring_of(const Polygons& polygons, std::int64_t i) {
+  return {polygons, polygons.ids[i]};
+}
 
 /// The sine of the turn to the left at b, on the way from a to c.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
@@ -36,7 +38,7 @@ double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
   return (on_sphere ? dot(b, across) : across.z) / std::sqrt(dot(in, in) * dot(out, out));
 }
 
-bool is_convex(const Ring& ring) {
+bool is_convex(const PolygonRing& ring) {
   constexpr double rounding = 1e-9;
   for (std::size_t k = 0; k < ring.size(); ++k)
     if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.on_sphere) < -rounding)
@@ -45,7 +47,7 @@ bool is_convex(const Ring& ring) {
 }
 
 /// The integral of the place over a polygon: half the sum of its sides' normals times their arcs.
-Vec3 first_moment(const Ring& ring) {
+Vec3 first_moment(const PolygonRing& ring) {
   Vec3 sum{0, 0, 0};
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec3 a = ring.at(k), b = ring.at(k + 1), side = b - a, normal = cross(a, side);
@@ -57,7 +59,7 @@ Vec3 first_moment(const Ring& ring) {
 }
 
 /// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
-Vec3 planar_centroid(const Ring& ring) {
+Vec3 planar_centroid(const PolygonRing& ring) {
   const Vec3 first = ring.at(0);
   Vec3 sum{0, 0, 0};
   double area = 0;
@@ -70,7 +72,7 @@ Vec3 planar_centroid(const Ring& ring) {
   return first + 1 / area * sum;
 }
 
-Vec3 centroid(const Ring& ring) {
+Vec3 centroid(const PolygonRing& ring) {
   return ring.polygons.on_sphere ? normalised(first_moment(ring)) : planar_centroid(ring);
 }
 
@@ -90,7 +92,7 @@ PolygonShapes shapes_of(const Polygons& polygons, const DoubleVector& areas, std
   constexpr double rounding = 1e-6;
   PolygonShapes found;
   for (std::int64_t i = begin; i != end; ++i) {
-    const Ring ring = ring_of(polygons, i);
+    const PolygonRing ring = ring_of(polygons, i);
     if (ring.size() == 0)
       continue;
     if (!has_area(polygons, i, areas[i])) {
@@ -144,7 +146,7 @@ Range area_range(const Polygons& polygons, const DoubleVector& areas) {
 }
 
 /// In a periodic plane to the nearest copy.
-double distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
+double centre_distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
   return polygons.on_sphere ? 2 * std::atan2(length(b - a), length(a + b))
                             : length(Plane(polygons.period).offset(a, b));
 }
@@ -159,8 +161,8 @@ Range spacing_of(const Polygons& polygons) {
     for (const auto& [to, polygon] : sides.from[from])
       if (from < to)
         if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
-          distances.push_back(distance(polygons, column(polygons.centres, polygon),
-                                       column(polygons.centres, other)));
+          distances.push_back(centre_distance(polygons, column(polygons.centres, polygon),
+                                              column(polygons.centres, other)));
   return range_of(Eigen::Map<const DoubleVector>(distances.data(), std::ssize(distances)));
 }
 
@@ -170,7 +172,7 @@ Points3 io_detail::centroids_of(const Polygons& polygons) {
   Points3 centroids(3, polygons.size());
   for_each_block(polygons.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      const Ring ring = ring_of(polygons, i);
+      const PolygonRing ring = ring_of(polygons, i);
       const Vec3 middle = centroid(ring);
       set_column(centroids, i, std::isfinite(norm(middle)) ? middle : ring.at(0));
     }

@@ -74,7 +74,7 @@ double nearest(const Vec3& p, const Points3& points, std::span<const std::int32_
 }
 
 /// The largest distance from a corner of either cell to the nearest corner of the other.
-double distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t cell) {
+double corner_distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t cell) {
   const std::span<const std::int32_t> corners = polygons.ids[cell],
                                       vertices = voronoi.vertices_on_cell[cell];
   double most = 0;
@@ -347,7 +347,7 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::int64_t& found = first[static_cast<std::size_t>(block)];
     for (std::int64_t i = begin; i != end && found < 0; ++i)
-      if (!(distance(voronoi, polygons, i) <= tolerance))
+      if (!(corner_distance(voronoi, polygons, i) <= tolerance))
         found = i;
   });
   const auto found =
@@ -357,7 +357,7 @@ std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, do
   if (polygons.ids.count(*found) == 0)
     return name_of(*found) + " has no corners";
   return "a corner of " + name_of(*found) + " is " +
-         std::to_string(distance(voronoi, polygons, *found) / width) +
+         std::to_string(corner_distance(voronoi, polygons, *found) / width) +
          " mean cell widths away from that of the Voronoi cell of its centre";
 }
 

@@ -12,22 +12,22 @@ namespace calotte::io_detail {
 namespace {
 
 /// The sides of a triangle, shortest first.
-struct Sides {
+struct SideLengths {
   double a, b, c;
 };
 
-Sides sorted(double x, double y, double z) {
+SideLengths sorted(double x, double y, double z) {
   const double low = std::min(x, y), high = std::max(x, y);
   return {std::min(low, z), std::max(low, std::min(high, z)), std::max(high, z)};
 }
 
-Sides arcs(const Voronoi& voronoi, std::int64_t vertex) {
+SideLengths arcs(const Voronoi& voronoi, std::int64_t vertex) {
   const auto side = [&](int j) { return voronoi.dc[voronoi.edges_on_vertex(j, vertex)]; };
   return sorted(side(0), side(1), side(2));
 }
 
 /// Of the flat triangle.
-Sides chords(const Voronoi& voronoi, std::int64_t vertex) {
+SideLengths chords(const Voronoi& voronoi, std::int64_t vertex) {
   if (!voronoi.on_sphere)
     return arcs(voronoi, vertex);
   const auto corner = [&](int j) {
@@ -64,7 +64,7 @@ bool has_triangle(const Voronoi& voronoi, std::int64_t vertex) {
 double side_quality(const Voronoi& voronoi, std::int64_t vertex) {
   if (!has_triangle(voronoi, vertex))
     return 0;
-  const Sides sides = arcs(voronoi, vertex);
+  const SideLengths sides = arcs(voronoi, vertex);
   return sides.a / sides.c;
 }
 
@@ -82,7 +82,8 @@ void fill_angle_qualities(const Voronoi& voronoi, std::int64_t begin, std::int64
   for (std::int64_t first = begin; first < end; first += lanes) {
     const std::int64_t count = std::min(lanes, end - first);
     for (std::int64_t i = 0; i < count; ++i) {
-      const Sides of = has_triangle(voronoi, first + i) ? arcs(voronoi, first + i) : Sides{1, 1, 1};
+      const SideLengths of =
+          has_triangle(voronoi, first + i) ? arcs(voronoi, first + i) : SideLengths{1, 1, 1};
       const auto lane = static_cast<std::size_t>(i);
       sides[0][lane] = of.a, sides[1][lane] = of.b, sides[2][lane] = of.c;
     }

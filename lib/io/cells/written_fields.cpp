@@ -15,7 +15,7 @@ namespace {
 /// The library's own, for integers.
 constexpr std::int32_t no_int = std::numeric_limits<std::int32_t>::min() + 1;
 
-template <class T> T stored_as(double value) {
+template <class T> T written_as(double value) {
   if constexpr (std::is_same_v<T, double>)
     return value;
   else
@@ -35,7 +35,7 @@ template <class T> NetcdfWriter::Fill<T> contents_of(const MeshField& field) {
     for (std::int64_t k = begin * width; k < end * width; k += after) {
       const std::int64_t place = k / after % places, leading = k / after / places;
       const double* const from = values + (place * before + leading) * after;
-      out = std::transform(from, from + after, out, stored_as<T>);
+      out = std::transform(from, from + after, out, written_as<T>);
     }
   };
 }
@@ -89,7 +89,7 @@ bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
   return has_place && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
 }
 
-void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
+void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FieldPlaces& places,
                 const NetcdfMeshNames& names) {
   for (const MeshField& field : options.fields) {
     const FieldPlace& place = place_of(places, field.location);

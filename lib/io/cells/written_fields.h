@@ -35,7 +35,7 @@ bool can_hold(const NetcdfMeshNames& names, const MeshField& field);
 
 /// Announces the options' fields whose location has a dimension, without masks and those that have
 /// the name of one of the mesh's variables.
-void add_fields(GridFile& file, const WriteOptions& options, const FieldPlaces& places,
+void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FieldPlaces& places,
                 const NetcdfMeshNames& names);
 
 /// Gives all fields names that NetCDF takes and that differ.

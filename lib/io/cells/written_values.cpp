@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/written_values.h"
+#include "io/bytes/file_error.h"
 
 #include "io/cells/field_order.h"
 #include "mesh/canonical_order.h"
-
-#include <calotte/error.h>
 
 #include <cmath>
 #include <iterator>
@@ -12,25 +11,21 @@
 namespace calotte::io_detail {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
-}
-
 void require_size(const std::string& path, const std::string& what, std::int64_t size,
                   std::int64_t expected) {
   if (size != expected)
-    refuse(path, what + " has " + std::to_string(size) + " values; give one for each of " +
-                     std::to_string(expected));
+    refuse_path(path, what + " has " + std::to_string(size) + " values; give one for each of " +
+                          std::to_string(expected));
 }
 
 void require_density(const std::string& path, const DoubleVector& density, std::int64_t sites) {
   require_size(path, "the density of the sites", density.size(), sites);
   for (Eigen::Index i = 0; i < density.size(); ++i)
     if (!(density[i] >= 0 && std::isfinite(density[i])))
-      refuse(path, "the density is " + std::to_string(density[i]) + " at site " +
-                       std::to_string(i) + "; give finite numbers that are not negative");
+      refuse_path(path, "the density is " + std::to_string(density[i]) + " at site " +
+                            std::to_string(i) + "; give finite numbers that are not negative");
   if (density.maxCoeff() == 0)
-    refuse(path, "the density is zero at every site; make it positive somewhere");
+    refuse_path(path, "the density is zero at every site; make it positive somewhere");
 }
 
 /// What FESOM demands: it stops below three levels, and takes what is beyond 11 km for ids of an
@@ -39,30 +34,35 @@ void require_depths(const std::string& path, const WriteOptions& options, std::i
   constexpr double deepest = 11000; // metres
   const DoubleVector levels = options.depth_levels.cwiseAbs();
   if (options.depth_levels.size() < 3 || options.depth_levels[0] != 0)
-    refuse(path, "the levels of depth are fewer than 3, or do not begin with 0; give such as 0, "
-                 "10, 30, 100, in metres");
+    refuse_path(path,
+                "the levels of depth are fewer than 3, or do not begin with 0; give such as 0, "
+                "10, 30, 100, in metres");
   for (Eigen::Index k = 1; k < levels.size(); ++k)
     if (!(levels[k] > levels[k - 1] && levels[k] <= deepest &&
           std::signbit(options.depth_levels[k]) == std::signbit(options.depth_levels[1])))
-      refuse(path, "level " + std::to_string(k) + " of the depths is " +
-                       std::to_string(options.depth_levels[k]) +
-                       " m; each lies deeper than the one before, and none deeper than 11000 m");
+      refuse_path(path,
+                  "level " + std::to_string(k) + " of the depths is " +
+                      std::to_string(options.depth_levels[k]) +
+                      " m; each lies deeper than the one before, and none deeper than 11000 m");
   require_size(path, "the depth of the bottom", options.site_depth.size(), sites);
   for (Eigen::Index i = 0; i < options.site_depth.size(); ++i)
     if (!(std::abs(options.site_depth[i]) <= deepest))
-      refuse(path, "the bottom is " + std::to_string(options.site_depth[i]) + " m deep at site " +
-                       std::to_string(i) + "; give metres, at most 11000");
+      refuse_path(path, "the bottom is " + std::to_string(options.site_depth[i]) +
+                            " m deep at site " + std::to_string(i) +
+                            "; give metres, at most 11000");
 }
 
 void require_dimensions(const std::string& path, const MeshField& field) {
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
-      refuse(path, "the dimension " + dimension.name + " of the field " + field.name +
-                       " has the size " + std::to_string(dimension.size) + "; give one from 1 on");
+      refuse_path(path, "the dimension " + dimension.name + " of the field " + field.name +
+                            " has the size " + std::to_string(dimension.size) +
+                            "; give one from 1 on");
   if (field.leading < 0 || field.leading > std::ssize(field.dimensions))
-    refuse(path, "the field " + field.name + " has " + std::to_string(field.dimensions.size()) +
-                     " dimensions, of which " + std::to_string(field.leading) +
-                     " cannot come before its location's; correct `leading`");
+    refuse_path(path, "the field " + field.name + " has " +
+                          std::to_string(field.dimensions.size()) + " dimensions, of which " +
+                          std::to_string(field.leading) +
+                          " cannot come before its location's; correct `leading`");
 }
 
 Pairs renamed(Pairs pairs, std::span<const std::int32_t> new_site) {
@@ -82,8 +82,8 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
     require_dimensions(path, field);
     const bool at_edges = field.location == Location::edges;
     if (at_edges && !mesh.closed)
-      refuse(path, "the field " + field.name +
-                       " is at edges, which only closed meshes number; leave it out");
+      refuse_path(path, "the field " + field.name +
+                            " is at edges, which only closed meshes number; leave it out");
     const std::int64_t places = field.location == Location::cells ? mesh.sites
                                 : at_edges                        ? 3 * mesh.triangles / 2
                                                                   : mesh.triangles;

@@ -15,8 +15,6 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
 
 // ---- Orientation and cover
@@ -82,7 +80,7 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector&
   });
   if (!grid.polygons.on_sphere)
     return;
-  const double whole = 4 * pi, sum = std::abs(areas.sum());
+  const double whole = 4 * std::numbers::pi, sum = std::abs(areas.sum());
   if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
     return;
   deviations.add(grid.corners,
@@ -121,7 +119,8 @@ void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations&
     if (polygons.ids.count(i) < 3)
       return Verdict::untested;
     const double turn = turn_around(polygons, i, column(polygons.centres, i));
-    return verdict_of((areas[i] < 0 ? -turn : turn) > (polygons.on_sphere ? pi : on_boundary));
+    return verdict_of((areas[i] < 0 ? -turn : turn) >
+                      (polygons.on_sphere ? std::numbers::pi : on_boundary));
   });
   if (found.any())
     deviations.add(grid.centres,
@@ -132,7 +131,7 @@ void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations&
 }
 
 /// Distances that are equal but for rounding.
-struct Range {
+struct DistanceRange {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   void add(const Vec3& apart) {
     const double distance = norm(apart);
@@ -149,7 +148,7 @@ struct Range {
 bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
-    Range range;
+    DistanceRange range;
     for (const std::int32_t id : polygons.ids[i])
       range.add(column(polygons.corners, id) - column(polygons.centres, i));
     return verdict_of(range.is_one(grid.rounding));
@@ -168,7 +167,7 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
 Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t node) {
   if (sides.from.count(node) < 3)
     return Verdict::untested;
-  Range range;
+  DistanceRange range;
   for (const Side& side : sides.from[node])
     range.add(column(grid.polygons.corners, node) - column(grid.polygons.centres, side.polygon));
   return verdict_of(range.is_one(grid.rounding));

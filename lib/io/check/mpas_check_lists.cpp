@@ -125,7 +125,7 @@ void check_edges_on_vertices(const MpasCheck& check) {
 // ---- Weights
 
 /// The edges and weights of an edge of the file, in its order and with its signs.
-struct Weights {
+struct EdgeWeights {
   std::vector<std::int32_t> edges; ///< of the tessellation
   std::vector<double> values;
   std::int64_t shift = 0, count = 0;
@@ -162,7 +162,7 @@ Differences visit_weights(const MpasCheck& check, const std::string& variable,
   const std::int64_t width = check.deviations.width(variable);
   return check.deviations.visit_blocks<T>(
       variable, [&](std::int64_t begin, std::int64_t end, const T* row, Differences& out) {
-        Weights weights;
+        EdgeWeights weights;
         for (std::int64_t e = begin; e != end; ++e, row += width) {
           if (check.numbering.edge[e] < 0)
             continue;
@@ -200,7 +200,7 @@ void check_mpas_weights(const MpasCheck& check) {
     check.add(mpas::edges_on_edge,
               visit_weights<std::int32_t>(
                   check, mpas::edges_on_edge,
-                  [&](std::int64_t place, std::int32_t stored, const Weights& weights,
+                  [&](std::int64_t place, std::int32_t stored, const EdgeWeights& weights,
                       std::int64_t k, Differences& out) {
                     const std::int32_t e = check.numbering.file_edge[weights.edge(k)];
                     if (e >= 0)
@@ -208,15 +208,15 @@ void check_mpas_weights(const MpasCheck& check) {
                   }));
   if (check.has(mpas::weights_on_edge))
     check.add(mpas::weights_on_edge,
-              visit_weights<double>(check, mpas::weights_on_edge,
-                                    [&](std::int64_t place, double stored, const Weights& weights,
-                                        std::int64_t k, Differences& out) {
-                                      const std::int32_t other = weights.edge(k);
-                                      out.compare(place, stored, weights.weight(check, k),
-                                                  (voronoi.dv[other] + voronoi.dc[other]) /
-                                                      voronoi.dc[weights.own],
-                                                  check.tolerance);
-                                    }));
+              visit_weights<double>(
+                  check, mpas::weights_on_edge,
+                  [&](std::int64_t place, double stored, const EdgeWeights& weights, std::int64_t k,
+                      Differences& out) {
+                    const std::int32_t other = weights.edge(k);
+                    out.compare(place, stored, weights.weight(check, k),
+                                (voronoi.dv[other] + voronoi.dc[other]) / voronoi.dc[weights.own],
+                                check.tolerance);
+                  }));
 }
 
 } // namespace calotte::io_detail

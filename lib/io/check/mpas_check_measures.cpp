@@ -14,8 +14,6 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // ---- Places
 
 /// Cells, edges or vertices.
@@ -74,7 +72,8 @@ void check_angles(const MpasCheck& check, const Kind& kind) {
   const bool on_sphere = check.voronoi.on_sphere;
   const auto tolerance = [&](const std::string& name) {
     return rounding_of_others * check.width + arc_sine_rounding +
-           (check.deviations.file().has_variable(name) ? 2 * pi * check.rounding(name) : 0);
+           (check.deviations.file().has_variable(name) ? 2 * std::numbers::pi * check.rounding(name)
+                                                       : 0);
   };
   const std::string latitude = kind.names.latitude(), longitude = kind.names.longitude();
   const double of_latitude = tolerance(latitude), of_longitude = tolerance(longitude);
@@ -89,7 +88,8 @@ void check_angles(const MpasCheck& check, const Kind& kind) {
       [&](std::int64_t row, std::int32_t i, double stored, Differences& out) {
         const Vec3& p = column(kind.points, i);
         const double east = on_sphere ? longitude_of(p.x, p.y) : 0;
-        const double derived = east + 2 * pi * std::round((stored - east) / (2 * pi));
+        const double derived =
+            east + 2 * std::numbers::pi * std::round((stored - east) / (2 * std::numbers::pi));
         out.compare(row, stored, derived, 1,
                     of_longitude / std::hypot(p.x, p.y)); // infinite at a pole
       });
@@ -155,7 +155,7 @@ double angle_of_converter(const Voronoi& voronoi, std::int32_t e, bool reversed,
   const Vec3& left = column(voronoi.vertices, voronoi.vertices_on_edge(1, e));
   const double rise = latitude_of(left.x, left.y, left.z) - latitude_of(right.x, right.y, right.z);
   const double cosine = std::clamp((reversed ? -rise : rise) / voronoi.dv[e], -1.0, 1.0);
-  return std::copysign(std::acos(cosine), std::remainder(exact, 2 * pi));
+  return std::copysign(std::acos(cosine), std::remainder(exact, 2 * std::numbers::pi));
 }
 
 /// Whether a stored angle follows that formula, whose cosine has single precision.
@@ -177,8 +177,9 @@ void check_edge_angles(const MpasCheck& check) {
         if (e < 0)
           return;
         const bool reversed = check.numbering.reversed[e];
-        const double exact = voronoi.angle[e] + (reversed ? pi : 0);
-        const double derived = exact + 2 * pi * std::round((*stored - exact) / (2 * pi));
+        const double exact = voronoi.angle[e] + (reversed ? std::numbers::pi : 0);
+        const double derived =
+            exact + 2 * std::numbers::pi * std::round((*stored - exact) / (2 * std::numbers::pi));
         const double across = std::hypot(voronoi.edges(0, e), voronoi.edges(1, e));
         // East turns by the edge's place, infinitely fast at a pole; the normal by that of its
         // cells.

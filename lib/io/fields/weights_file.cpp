@@ -26,8 +26,8 @@ namespace {
 
 using base_detail::require;
 using voronoi_detail::matrix_of;
-using voronoi_detail::Row;
 using voronoi_detail::Weight;
+using voronoi_detail::WeightRow;
 
 // ---- The grids beside the weights
 
@@ -108,7 +108,7 @@ GridNames scrip_grid(const std::string& role) {
 }
 
 /// Announces a grid; returns the dimension of its cells.
-int add_grid(GridFile& file, const DescribedGrid& grid, const GridNames& names) {
+int add_grid(NetcdfGridFile& file, const DescribedGrid& grid, const GridNames& names) {
   const int size = file.netcdf().dimension(names.size, grid.centres.cols()),
             rank = file.netcdf().dimension(names.rank, std::ssize(grid.dimensions));
   file.ints(names.dimensions, {rank}, units("1"),
@@ -171,7 +171,7 @@ NetcdfWriter::Fill<double> links_of(const Weights& weights) {
                        [&weights](std::int64_t k, std::int64_t) { return weights.valuePtr()[k]; });
 }
 
-void add_links(GridFile& file, const Weights& weights, WeightsFormat format) {
+void add_links(NetcdfGridFile& file, const Weights& weights, WeightsFormat format) {
   const bool esmf = format == WeightsFormat::esmf;
   const int links = file.netcdf().dimension(esmf ? "n_s" : "num_links", weights.nonZeros());
   file.ints(esmf ? "col" : "src_address", {links}, {}, columns_of(weights));
@@ -183,7 +183,7 @@ void add_links(GridFile& file, const Weights& weights, WeightsFormat format) {
                  links_of(weights));
 }
 
-void add_attributes(GridFile& file, const DescribedGrid& source, const DescribedGrid& target,
+void add_attributes(NetcdfGridFile& file, const DescribedGrid& source, const DescribedGrid& target,
                     Interpolation kind, WeightsFormat format) {
   const auto add = [&](const std::string& name, const std::string& value) {
     file.netcdf().attribute({name, value});
@@ -246,11 +246,11 @@ Weights matrix_of_links(std::int64_t rows, std::int64_t columns,
                         const std::vector<std::int32_t>& row,
                         const std::vector<std::int32_t>& column,
                         const std::vector<double>& weight) {
-  const auto links = base_detail::lists_by_key<Row>(rows, [&](const auto& put) {
+  const auto links = base_detail::lists_by_key<WeightRow>(rows, [&](const auto& put) {
     for (std::size_t k = 0; k < row.size(); ++k)
       put(row[k] - 1, Weight{column[k] - 1, weight[k]});
   });
-  return matrix_of(rows, columns, [&](std::int64_t i, Row& out) {
+  return matrix_of(rows, columns, [&](std::int64_t i, WeightRow& out) {
     out.assign(links[i].begin(), links[i].end());
     sort_by_column(out);
     merge_columns(out);
@@ -296,7 +296,7 @@ void write_weights(const std::string& path, const GridWeights& weights, const Fi
                       to = described(target, weights.target_area, weights.target_fraction);
   WriteOptions options;
   options.history = history;
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   const bool esmf = format == WeightsFormat::esmf;
   add_attributes(file, from, to, kind, format);
   add_grid(file, from, esmf ? esmf_grid("a", "src") : scrip_grid("src"));

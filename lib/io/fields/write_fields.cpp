@@ -47,7 +47,7 @@ NetcdfWriter::Fill<T> contents_of(const MeshField& field, std::int64_t slowest, 
 }
 
 /// \param dimensions of the cells, the slowest first.
-void add_field(GridFile& file, const MeshField& field, const std::vector<int>& dimensions,
+void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& dimensions,
                std::int64_t slowest, const std::string& coordinates) {
   NetcdfAttributes attributes;
   if (!field.units.empty())
@@ -71,7 +71,7 @@ void add_field(GridFile& file, const MeshField& field, const std::vector<int>& d
 
 // ---- Rasters
 
-void add_axis(GridFile& file, const std::string& name, const std::string& standard_name,
+void add_axis(NetcdfGridFile& file, const std::string& name, const std::string& standard_name,
               const std::string& unit, const DoubleVector& nodes, const DoubleVector& sides,
               int dimension, int pair) {
   file.doubles(name, {dimension},
@@ -83,7 +83,7 @@ void add_axis(GridFile& file, const std::string& name, const std::string& standa
 
 void write_raster(const std::string& path, const LonLatBoxes& boxes,
                   const std::vector<MeshField>& fields, const WriteOptions& options) {
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   const int lat = file.netcdf().dimension("lat", boxes.latitudes.size()),
             lon = file.netcdf().dimension("lon", boxes.longitudes.size()),
             pair = file.netcdf().dimension("bnds", 2);
@@ -104,7 +104,7 @@ void write_cells(const std::string& path, const FieldGrid& grid,
                               : centroids_of(*grid.mesh.polygons);
   const bool sphere =
       grid.mesh.polygons ? grid.mesh.polygons->on_sphere : grid.mesh.mesh->surface.is_sphere();
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   const int cells = file.netcdf().dimension(cell_dimension(grid.mesh.format), grid.size());
   if (sphere) {
     file.doubles(

@@ -23,10 +23,10 @@ using namespace io_detail;
 using base_detail::CompactField;
 using cvt_detail::State;
 
-constexpr std::string_view format = "calotte checkpoint ";
+constexpr std::string_view checkpoint_format = "calotte checkpoint ";
 
-std::string head() {
-  std::string line(format);
+std::string checkpoint_head() {
+  std::string line(checkpoint_format);
   line += "14, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
@@ -91,7 +91,7 @@ void put_checkpoint(const Sink& sink, const State& state, const std::string& con
                     const std::string& command) {
   Writer out(sink);
   const auto raw = [&](const auto& value) { out.raw(value); };
-  out.text(head());
+  out.text(checkpoint_head());
   out.raw(std::ssize(configuration)).text(configuration);
   out.raw(std::ssize(command)).text(command);
   visit_arrays(state, Put{&out});
@@ -177,12 +177,12 @@ State take_state(Bytes& bytes) {
 /// What stands after the head. \throws Error parse.
 std::string_view after_head(const std::string& path, std::string_view content) {
   const Bytes bytes(content, path);
-  const std::string expected = head();
+  const std::string expected = checkpoint_head();
   const std::string_view start = content.substr(0, expected.size());
   if (start != expected) {
     if (expected.starts_with(start))
       bytes.fail("the checkpoint is cut short; use another or start anew");
-    if (start.starts_with(format))
+    if (start.starts_with(checkpoint_format))
       bytes.fail("a checkpoint of another version of calotte or kind of machine; finish the run "
                  "there or start anew");
     bytes.fail("not a checkpoint; give the file that a run wrote as its checkpoint");

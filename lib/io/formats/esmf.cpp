@@ -14,7 +14,7 @@ namespace calotte::io_detail {
 namespace {
 
 /// The corners of each element, 1-based.
-void add_elements(GridFile& file, const Polygons& cells, int elements) {
+void add_elements(NetcdfGridFile& file, const Polygons& cells, int elements) {
   const std::int64_t most = most_corners(cells);
   const int corners = file.netcdf().dimension("maxNodePElement", most);
   const std::string unit = "1";
@@ -108,7 +108,7 @@ const NetcdfMeshNames& esmf_names() {
 
 void write_esmf(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   file.netcdf().attribute({"gridType", std::string("unstructured")});
   file.netcdf().attribute({"version", std::string("0.9")});
   const int nodes = file.netcdf().dimension("nodeCount", cells.corners.cols());

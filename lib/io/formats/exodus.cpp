@@ -114,7 +114,7 @@ const NetcdfMeshNames& exodus_names() {
 
 void write_exodus(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   NetcdfWriter& netcdf = file.netcdf();
   netcdf.attribute({"title", std::string("cells of a grid on the unit sphere")});
   netcdf.attribute({"api_version", 5.0});

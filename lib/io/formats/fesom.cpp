@@ -26,7 +26,7 @@
 namespace calotte::io_detail {
 namespace {
 
-std::string beside(const std::string& path, std::string_view name) {
+std::string beside_nodes(const std::string& path, std::string_view name) {
   return sibling(path, fesom_nodes_name, name).value_or(path);
 }
 
@@ -171,13 +171,13 @@ void put_depths(const WriteOptions& options, OutputFile& file) {
 } // namespace
 
 void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
-  OutputFile nodes(path), elements(beside(path, fesom_elements_name));
+  OutputFile nodes(path), elements(beside_nodes(path, fesom_elements_name));
   std::optional<OutputFile> depths;
   nodes.watch(options.progress, 60 * mesh.points.cols());
   put_nodes(mesh, nodes);
   put_elements(mesh, elements);
   if (options.depth_levels.size() > 0) {
-    depths.emplace(beside(path, fesom_depths_name));
+    depths.emplace(beside_nodes(path, fesom_depths_name));
     put_depths(options, *depths);
     depths->commit();
   }
@@ -188,7 +188,7 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
 RawMesh read_fesom(const std::string& path) {
   std::vector<double> longitudes;
   RawMesh raw = read_nodes(path, longitudes);
-  raw.triangles = read_elements(beside(path, fesom_elements_name), raw.points.cols());
+  raw.triangles = read_elements(beside_nodes(path, fesom_elements_name), raw.points.cols());
   require_no_channel(path, longitudes, raw);
   return raw;
 }

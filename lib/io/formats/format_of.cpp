@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/text.h"
 #include "io/formats/format_table.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -31,10 +30,6 @@ const FormatInfo* by_suffix(const std::string& suffix) {
   return nullptr;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
-}
-
 } // namespace
 
 std::optional<Format> format_of_name(const std::string& path) {
@@ -57,8 +52,9 @@ void refuse_name(const std::string& path) {
       else if (by_suffix(name) == &row.info)
         suffixes.push_back(name + (row.info.word.empty() ? " (read only)" : ""));
   const std::string suffix = suffix_of(path);
-  refuse(path, (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                   "; a mesh file ends in " + listed(suffixes) + ", or is named " + listed(names));
+  refuse_path(path, (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
+                        "; a mesh file ends in " + listed(suffixes) + ", or is named " +
+                        listed(names));
 }
 
 } // namespace io_detail
@@ -84,15 +80,16 @@ Format format_of(const std::string& path, Format option) {
     refuse_name(path);
   const FormatInfo& info = info_of(format);
   if (info.word.empty() || (named && info_of(*named).word.empty()))
-    refuse(path, info_of(info.word.empty() ? format : *named).title +
-                     " files are read, but not written; write .vtp, .vtu or .nc");
+    refuse_path(path, info_of(info.word.empty() ? format : *named).title +
+                          " files are read, but not written; write .vtp, .vtu or .nc");
   if (const std::string name = whole_name(info); !name.empty() && named != format)
-    refuse(path,
-           "files of that format are named " + name +
-               (format == Format::fesom ? "; give that name" : " and so on; give such a name"));
+    refuse_path(
+        path, "files of that format are named " + name +
+                  (format == Format::fesom ? "; give that name" : " and so on; give such a name"));
   if (named && named != format &&
       (!whole_name(info_of(*named)).empty() || !has_suffix(info, suffix_of(path))))
-    refuse(path, "its name belongs to another format than the selected one; change one of them");
+    refuse_path(path,
+                "its name belongs to another format than the selected one; change one of them");
   return format;
 }
 

@@ -39,7 +39,7 @@ constexpr const char* no_collection = ": no GeoJSON FeatureCollection; give one 
 constexpr std::array axes{"x", "y", "z"};
 
 /// Numbers for each feature under one name; NaN where a feature has none.
-struct Column {
+struct FeatureValues {
   std::vector<double> values;
   bool integer = true;
 
@@ -254,7 +254,7 @@ private:
 
   void add_fields(bool has_sites, RawMesh& raw) {
     for (auto& [name, column] : columns_) {
-      column.values.resize(static_cast<std::size_t>(count_), Column::none);
+      column.values.resize(static_cast<std::size_t>(count_), FeatureValues::none);
       DoubleVector values =
           Eigen::Map<const DoubleVector>(column.values.data(), std::ssize(column.values));
       if (is_derived(name, values, has_sites, raw))
@@ -274,7 +274,7 @@ private:
   std::vector<CornerRing> rings_; ///< of all features, or none
   std::int64_t voronoi_ = 0;      ///< features that are Voronoi cells of calotte
   std::string unread_;            ///< what the first of them says whose ring is not read; or ""
-  std::map<std::string, Column> columns_;
+  std::map<std::string, FeatureValues> columns_;
   std::set<std::string> ignored_;
 };
 

@@ -22,7 +22,7 @@
 namespace calotte::io_detail {
 namespace {
 
-std::string beside(const std::string& path, std::string_view name) {
+std::string beside_vertices(const std::string& path, std::string_view name) {
   return sibling(path, vertices_name, name).value_or(path);
 }
 
@@ -56,7 +56,7 @@ bool close_sphere(const Points3& points, const Triangles& triangles) {
 /// The triangles of the file beside the points, where they fit: those of another run, or a part of
 /// them, do not close the sphere.
 Triangles triangles_of(const std::string& path, const Points3& points) {
-  const std::string file = beside(path, triangles_name);
+  const std::string file = beside_vertices(path, triangles_name);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     return {};
   try {
@@ -74,7 +74,7 @@ Triangles triangles_of(const std::string& path, const Points3& points) {
 /// The density of the file beside the points, where it has a finite number for each that is not
 /// negative; otherwise the file is ignored.
 void read_density(const std::string& path, RawMesh& raw) {
-  const std::string file = beside(path, density_name);
+  const std::string file = beside_vertices(path, density_name);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     return;
   std::ifstream in = open_input(file);
@@ -102,8 +102,8 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
     set_column(units, i, normalised(column(mesh.points, i)));
   const DoubleVector density =
       options.site_density.size() > 0 ? options.site_density : evaluate(options.density, units);
-  OutputFile vertices(path), triangles(beside(path, triangles_name)),
-      densities(beside(path, density_name));
+  OutputFile vertices(path), triangles(beside_vertices(path, triangles_name)),
+      densities(beside_vertices(path, density_name));
   constexpr std::int64_t bytes_a_site = 60;
   vertices.watch(options.progress, bytes_a_site * mesh.points.cols());
   const auto to = [](OutputFile& file) {

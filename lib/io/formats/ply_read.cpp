@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/scalars.h"
 #include "io/formats/formats.h"
 #include "io/formats/poly_data.h"
-
-#include <calotte/error.h>
 
 #include <array>
 #include <bit>
@@ -16,13 +15,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-const std::string again = "; the file is damaged or incomplete, make it again";
-
-[[noreturn]] void fail(const std::string& name, const std::string& problem,
-                       std::int64_t index = -1) {
-  throw Error(ErrorCode::parse, name + ": " + problem, index);
-}
 
 // ---- The head
 
@@ -43,30 +35,31 @@ struct Head {
   std::vector<Element> elements;
 };
 
-constexpr std::array<std::pair<std::string_view, Scalar>, 18> types{{{"char", Scalar::int8},
-                                                                     {"int8", Scalar::int8},
-                                                                     {"uchar", Scalar::uint8},
-                                                                     {"uint8", Scalar::uint8},
-                                                                     {"short", Scalar::int16},
-                                                                     {"int16", Scalar::int16},
-                                                                     {"ushort", Scalar::uint16},
-                                                                     {"uint16", Scalar::uint16},
-                                                                     {"int", Scalar::int32},
-                                                                     {"int32", Scalar::int32},
-                                                                     {"uint", Scalar::uint32},
-                                                                     {"uint32", Scalar::uint32},
-                                                                     {"int64", Scalar::int64},
-                                                                     {"uint64", Scalar::uint64},
-                                                                     {"float", Scalar::float32},
-                                                                     {"float32", Scalar::float32},
-                                                                     {"double", Scalar::float64},
-                                                                     {"float64", Scalar::float64}}};
+constexpr std::array<std::pair<std::string_view, Scalar>, 18> ply_types{
+    {{"char", Scalar::int8},
+     {"int8", Scalar::int8},
+     {"uchar", Scalar::uint8},
+     {"uint8", Scalar::uint8},
+     {"short", Scalar::int16},
+     {"int16", Scalar::int16},
+     {"ushort", Scalar::uint16},
+     {"uint16", Scalar::uint16},
+     {"int", Scalar::int32},
+     {"int32", Scalar::int32},
+     {"uint", Scalar::uint32},
+     {"uint32", Scalar::uint32},
+     {"int64", Scalar::int64},
+     {"uint64", Scalar::uint64},
+     {"float", Scalar::float32},
+     {"float32", Scalar::float32},
+     {"double", Scalar::float64},
+     {"float64", Scalar::float64}}};
 
 Scalar type_of(std::string_view word, const std::string& name) {
-  for (const auto& [text, type] : types)
+  for (const auto& [text, type] : ply_types)
     if (text == word)
       return type;
-  fail(name, in_quotes(word) + " is not a type of .ply files" + again);
+  fail_file(name, in_quotes(word) + " is not a type of .ply files" + damaged);
 }
 
 void read_format(std::string_view words, const std::string& name, Head& head) {
@@ -75,8 +68,8 @@ void read_format(std::string_view words, const std::string& name, Head& head) {
   head.binary = big || format == "binary_little_endian";
   head.swapped = big == (std::endian::native == std::endian::little);
   if (!head.binary && format != "ascii")
-    fail(name, "its format " + in_quotes(format) +
-                   " is not ascii, binary_little_endian or binary_big_endian" + again);
+    fail_file(name, "its format " + in_quotes(format) +
+                        " is not ascii, binary_little_endian or binary_big_endian" + damaged);
 }
 
 Element element_of(std::string_view words, const std::string& name) {
@@ -84,8 +77,8 @@ Element element_of(std::string_view words, const std::string& name) {
   const std::string_view count = take_word(words);
   std::int32_t number = -1;
   if (!parse_number(count, Scalar::int64, number) || number < 0)
-    fail(name, "the number of element " + in_quotes(element.name) + " is " + in_quotes(count) +
-                   ", not one from 0 to 2147483647" + again);
+    fail_file(name, "the number of element " + in_quotes(element.name) + " is " + in_quotes(count) +
+                        ", not one from 0 to 2147483647" + damaged);
   element.count = number;
   return element;
 }
@@ -105,7 +98,7 @@ Property property_of(std::string_view words, const std::string& name) {
 /// \throws Error parse for a file that starts as no .ply file does.
 void require_ply(std::string_view start, const std::string& name) {
   if (take_word(start) != "ply")
-    fail(name, "it does not start with the line \"ply\", so it is no .ply file");
+    fail_file(name, "it does not start with the line \"ply\", so it is no .ply file");
 }
 
 /// Takes the head, up to the end of its last line, from the file's contents.
@@ -118,7 +111,7 @@ Head take_head(std::string_view& content, const std::string& name) {
     std::string_view line = content.substr(0, end);
     const std::string_view keyword = take_word(line);
     if (end == std::string_view::npos)
-      fail(name, "its head has no end_header" + again);
+      fail_file(name, "its head has no end_header" + damaged);
     content.remove_prefix(end + 1);
     if (keyword == "end_header")
       return head;
@@ -129,9 +122,10 @@ Head take_head(std::string_view& content, const std::string& name) {
     else if (keyword == "property" && !head.elements.empty())
       head.elements.back().properties.push_back(property_of(line, name));
     else if (!first && keyword != "comment" && keyword != "obj_info" && !keyword.empty())
-      fail(name, in_quotes(keyword) + " is not a keyword of the head of a .ply file" + again);
+      fail_file(name,
+                in_quotes(keyword) + " is not a keyword of the head of a .ply file" + damaged);
   }
-  fail(name, "its head has more than " + std::to_string(most_lines) + " lines" + again);
+  fail_file(name, "its head has more than " + std::to_string(most_lines) + " lines" + damaged);
 }
 
 // ---- The rows
@@ -189,15 +183,15 @@ public:
   void finish() const {
     std::string_view rest = rest_;
     if (!take_word(rest).empty())
-      fail(name_, std::to_string(size()) + " bytes follow after its last element" + again);
+      fail_file(name_, std::to_string(size()) + " bytes follow after its last element" + damaged);
   }
 
   [[noreturn]] void fail_row(const Element& element, std::int64_t row,
                              const std::string& problem) const {
-    fail(name_,
-         "element " + in_quotes(element.name) + ", row " + std::to_string(row) +
-             " (0-based): " + problem + again,
-         row);
+    fail_file(name_,
+              "element " + in_quotes(element.name) + ", row " + std::to_string(row) +
+                  " (0-based): " + problem + damaged,
+              row);
   }
 
 private:
@@ -228,7 +222,7 @@ template <class Wanted>
 void require_properties(const Element& element, const Wanted& wanted, std::ptrdiff_t count,
                         const std::string& what, const std::string& name) {
   if (std::count_if(element.properties.begin(), element.properties.end(), wanted) != count)
-    fail(name, "its element " + in_quotes(element.name) + " does not have " + what + again);
+    fail_file(name, "its element " + in_quotes(element.name) + " does not have " + what + damaged);
 }
 
 void read_points(const Element& element, const std::string& name, Body& body, PolyData& poly_data) {
@@ -289,7 +283,7 @@ RawMesh get_ply(std::istream& in, const std::string& name) {
   PolyData poly_data;
   for (const Element& element : head.elements) {
     if (element.name == "tristrips")
-      fail(name, "it has triangle strips, which are not read; write triangles");
+      fail_file(name, "it has triangle strips, which are not read; write triangles");
     body.require_rows(element);
     if (element.name == "vertex")
       read_points(element, name, body, poly_data);

@@ -49,7 +49,7 @@ const NetcdfMeshNames& scrip_names() {
 void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   const std::string unit = "1", coordinates = "grid_center_lat grid_center_lon";
-  GridFile file(path, options, "CF-1.8");
+  NetcdfGridFile file(path, options, "CF-1.8");
   const int size = file.netcdf().dimension("grid_size", cells.size());
   const int corners = file.netcdf().dimension("grid_corners", most_corners(cells));
   const int rank = file.netcdf().dimension("grid_rank", 1);

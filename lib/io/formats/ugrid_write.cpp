@@ -27,7 +27,7 @@ std::string coordinates_of(const std::string& prefix, bool on_sphere) {
 
 /// The variable that says what the others are.
 /// \param sites the prefix of the variables of the sites' places; empty for none.
-void add_topology(GridFile& file, const std::string& what, const std::string& sites,
+void add_topology(NetcdfGridFile& file, const std::string& what, const std::string& sites,
                   bool face_places, bool on_sphere) {
   NetcdfAttributes attributes{
       {"cf_role", std::string("mesh_topology")},
@@ -46,8 +46,8 @@ void add_topology(GridFile& file, const std::string& what, const std::string& si
 }
 
 /// x and y in a plane. \param of in words.
-void add_projected(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
-                   const Points3& points) {
+void add_projected(NetcdfGridFile& file, const std::string& prefix, int dimension,
+                   const std::string& of, const Points3& points) {
   for (int row = 0; row < 2; ++row) {
     const std::string axis(1, "xy"[row]);
     std::string name = prefix + "_";
@@ -62,8 +62,8 @@ void add_projected(GridFile& file, const std::string& prefix, int dimension, con
 
 /// Longitudes and latitudes of nodes or faces. \param of in words. \param bounds whether these have
 /// bounds, see add_bounds().
-void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const std::string& of,
-                 const Points3& points, bool bounds = false) {
+void add_lonlats(NetcdfGridFile& file, const std::string& prefix, int dimension,
+                 const std::string& of, const Points3& points, bool bounds = false) {
   const auto add = [&](const std::string& axis, const std::string& name, const std::string& units,
                        const NetcdfWriter::Fill<double>& contents) {
     NetcdfAttributes attributes{
@@ -81,7 +81,7 @@ void add_lonlats(GridFile& file, const std::string& prefix, int dimension, const
 /// row.
 /// \param corner(face, k) the k-th corner of a face, k < most; the last one from there on.
 template <class Corner>
-void add_bounds(GridFile& file, int faces, std::int64_t most, const Corner& corner) {
+void add_bounds(NetcdfGridFile& file, int faces, std::int64_t most, const Corner& corner) {
   const int corners = file.netcdf().dimension("mesh_max_face_bounds", most);
   const auto add = [&](const std::string& axis, const std::string& what, const std::string& units,
                        const auto& angle) {
@@ -95,7 +95,8 @@ void add_bounds(GridFile& file, int faces, std::int64_t most, const Corner& corn
   add("_lat", "latitude", "degrees_north", [](const LonLat& place) { return place.latitude; });
 }
 
-void add_places(GridFile& file, const std::string& prefix, int dimension, const Points3& points) {
+void add_places(NetcdfGridFile& file, const std::string& prefix, int dimension,
+                const Points3& points) {
   for (int row = 0; row < 3; ++row) {
     const std::string axis(1, "xyz"[row]);
     std::string name = prefix + "_";
@@ -108,7 +109,7 @@ void add_places(GridFile& file, const std::string& prefix, int dimension, const 
 
 /// \param node of face and corner; -1 past the last.
 template <class Node>
-void add_face_nodes(GridFile& file, int faces, std::int64_t most, const Node& node) {
+void add_face_nodes(NetcdfGridFile& file, int faces, std::int64_t most, const Node& node) {
   const int corners = file.netcdf().dimension("mesh_max_face_nodes", most);
   file.ints(face_nodes_name, {faces, corners},
             {{"cf_role", std::string("face_node_connectivity")},
@@ -131,7 +132,7 @@ NetcdfAttributes located(const std::string& location, const std::string& coordin
 }
 
 /// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(GridFile& file, int faces, const DoubleVector& areas, bool face_places,
+void add_areas(NetcdfGridFile& file, int faces, const DoubleVector& areas, bool face_places,
                bool on_sphere) {
   NetcdfAttributes attributes =
       located("face", face_places ? coordinates_of(face_name, on_sphere) : "");
@@ -159,7 +160,7 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
   const bool on_sphere = cells.on_sphere;
-  GridFile file(path, on_sphere ? options : of_plane(options), conventions);
+  NetcdfGridFile file(path, on_sphere ? options : of_plane(options), conventions);
   const auto add_coordinates = [&](const std::string& prefix, int dimension, const std::string& of,
                                    const Points3& points) {
     if (on_sphere)
@@ -198,7 +199,7 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
   const Points3 sites = on_sphere(mesh.points, options.sphere_radius);
   const Points3 directions = on_sphere(mesh.points, 1);
   const Points3 centres = mesh.closed() ? voronoi(mesh).vertices : Points3();
-  GridFile file(path, options, conventions);
+  NetcdfGridFile file(path, options, conventions);
   const int nodes = file.netcdf().dimension(node_name, sites.cols());
   const int faces = file.netcdf().dimension(face_name, mesh.triangles.cols());
   add_topology(file, "Delaunay triangles of the sites", node_name, mesh.closed(), true);

@@ -8,8 +8,6 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::int32_t triangle_type = 5, polygon_type = 7, quad_type = 9;
-
 /// VTK's name of a type that is not read (vtkCellType.h).
 std::string name_of(std::int32_t type) {
   constexpr std::array<std::pair<std::int32_t, std::string_view>, 17> names{

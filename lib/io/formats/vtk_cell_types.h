@@ -4,9 +4,13 @@
 #include "io/formats/poly_data.h"
 #include "io/formats/room.h"
 
+#include <cstdint>
 #include <string>
 
 namespace calotte::io_detail {
+
+/// Types of cells that are read (vtkCellType.h).
+inline constexpr std::int32_t triangle_type = 5, polygon_type = 7, quad_type = 9;
 
 /// Accepts the cell types triangle (5), polygon (7) and quad (9) of VTK.
 /// \param types one for each polygon.

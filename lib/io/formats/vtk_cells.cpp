@@ -2,12 +2,12 @@
 #include "io/cells/mesh_intake.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
+#include "io/formats/vtk_cell_types.h"
 #include "io/formats/vtk_xml.h"
 
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::uint8_t polygon_type = 7;
 constexpr const char* cell_data = "CellData Scalars=\"spacing\"";
 
 /// Points, connectivity, offsets and types.
@@ -26,7 +26,7 @@ void add_shapes(const Points3& corners, const Polygons& cells, VtkHead& head,
   });
   if (head.flavour.types)
     contents.emplace_back([&cells](Writer& out) {
-      out.text(std::string(static_cast<std::size_t>(cells.size()), polygon_type));
+      out.text(std::string(static_cast<std::size_t>(cells.size()), char{polygon_type}));
     });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/vtk_legacy.h"
+#include "io/bytes/file_error.h"
 
 #include "io/bytes/text.h"
 
@@ -14,7 +15,6 @@ namespace calotte::io_detail {
 namespace {
 
 constexpr bool swapped = std::endian::native == std::endian::little;
-const std::string again = "; the file is damaged or incomplete, make it again";
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
@@ -24,7 +24,7 @@ bool equal_but_case(std::string_view a, std::string_view b) {
 }
 
 /// `bit` and `string` have values of other sizes.
-constexpr std::array<std::pair<std::string_view, Scalar>, 15> types{
+constexpr std::array<std::pair<std::string_view, Scalar>, 15> legacy_types{
     {{"char", Scalar::int8},
      {"signed_char", Scalar::int8},
      {"unsigned_char", Scalar::uint8},
@@ -65,7 +65,7 @@ LegacyText::LegacyText(std::string_view content, std::string name)
   const std::string_view encoding = word();
   binary_ = equal_but_case(encoding, "BINARY");
   if (!binary_ && !equal_but_case(encoding, "ASCII"))
-    fail("its third line is " + in_quotes(encoding) + ", not ASCII or BINARY" + again);
+    fail("its third line is " + in_quotes(encoding) + ", not ASCII or BINARY" + damaged);
 }
 
 std::string_view LegacyText::word() { return take_word(rest_); }
@@ -95,7 +95,7 @@ std::int64_t LegacyText::count(const std::string& what) {
   const std::string_view text = word();
   std::int32_t count = -1;
   if (!parse_number(text, Scalar::int64, count) || count < 0)
-    fail(in_quotes(text) + " is not the number of " + what + ", from 0 to 2147483647" + again);
+    fail(in_quotes(text) + " is not the number of " + what + ", from 0 to 2147483647" + damaged);
   return count;
 }
 
@@ -115,11 +115,11 @@ LegacyText::Type LegacyText::type() {
   Type type;
   for (const char c : word())
     type.name += lower(c);
-  for (const auto& [name, scalar] : types)
+  for (const auto& [name, scalar] : legacy_types)
     if (name == type.name)
       type.scalar = scalar;
   if (!type.scalar && type.name != "bit" && type.name != "string")
-    fail(in_quotes(type.name) + " is not a type of legacy VTK files" + again);
+    fail(in_quotes(type.name) + " is not a type of legacy VTK files" + damaged);
   return type;
 }
 
@@ -135,7 +135,7 @@ Column<T> LegacyText::numbers(const std::string& array, Scalar type, std::int64_
   const auto size = static_cast<std::int64_t>(rest_.size());
   if (count > (binary_ ? size / size_of(type) : (size + 1) / 2)) // a digit and white space
     fail_array(name_, array,
-               "the file ends before its " + std::to_string(count) + " numbers" + again);
+               "the file ends before its " + std::to_string(count) + " numbers" + damaged);
   Column<T> numbers(count);
   if (binary_) {
     copy_numbers(rest_.data(), count, type, swapped, numbers.data());
@@ -156,7 +156,7 @@ template Column<std::int64_t> LegacyText::numbers(const std::string&, Scalar, st
 
 void LegacyText::skip_bytes(const std::string& array, std::int64_t count) {
   if (count > static_cast<std::int64_t>(rest_.size()))
-    fail_array(name_, array, "the file ends before its data" + again);
+    fail_array(name_, array, "the file ends before its data" + damaged);
   rest_.remove_prefix(static_cast<std::size_t>(count));
 }
 
@@ -185,7 +185,7 @@ void LegacyText::skip(const std::string& array, const Type& type, std::int64_t c
   } else if (!binary_) {
     for (std::int64_t i = 0; i < count; ++i)
       if (word().empty())
-        fail_array(name_, array, "the file ends before its data" + again);
+        fail_array(name_, array, "the file ends before its data" + damaged);
   } else if (type.scalar) {
     skip_bytes(array, count * size_of(*type.scalar));
   } else if (type.name == "bit") {

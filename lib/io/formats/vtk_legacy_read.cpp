@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 #include "io/formats/poly_data.h"
 #include "io/formats/vtk_cell_types.h"
@@ -17,26 +18,25 @@
 namespace calotte::io_detail {
 namespace {
 
-const std::string again = "; the file is damaged or incomplete, make it again";
-
 /// The points of cells of one kind. As of version 5.1: offsets from 0 on, and the points.
 IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
                      std::int64_t points) {
   const auto type = [&] {
     const LegacyText::Type read = text.type();
     if (!read.scalar)
-      fail_array(text.name(), section, "its type is " + read.name + ", not one of numbers" + again);
+      fail_array(text.name(), section,
+                 "its type is " + read.name + ", not one of numbers" + damaged);
     return *read.scalar;
   };
   IdLists cells;
   const Scalar of_offsets = type();
   cells.begin = text.numbers<std::int64_t>(section, of_offsets, offsets);
   if (!text.take("CONNECTIVITY"))
-    fail_array(text.name(), section, "no CONNECTIVITY follows its OFFSETS" + again);
+    fail_array(text.name(), section, "no CONNECTIVITY follows its OFFSETS" + damaged);
   const Scalar of_points = type();
   cells.items = text.numbers<std::int32_t>(section, of_points, points);
   if (offsets > 0 && cells.begin[0] != 0)
-    fail_array(text.name(), section, "its OFFSETS do not start with 0" + again);
+    fail_array(text.name(), section, "its OFFSETS do not start with 0" + damaged);
   return cells;
 }
 
@@ -47,7 +47,7 @@ IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t co
   if (count > size)
     fail_array(text.name(), section,
                "its " + std::to_string(size) + " numbers cannot hold " + std::to_string(count) +
-                   " cells" + again);
+                   " cells" + damaged);
   IdLists cells{Offsets::Zero(count + 1), Ids(size - count)};
   std::int64_t place = 0, end = 0;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -55,7 +55,7 @@ IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t co
     if (corners < 0 || corners > size - place - 1 || end + corners > cells.items.size())
       fail_array(text.name(), section,
                  "cell " + std::to_string(i) + " runs beyond the " + std::to_string(size) +
-                     " numbers" + again,
+                     " numbers" + damaged,
                  i);
     cells.items.segment(end, corners) = list.segment(place + 1, corners);
     place += corners + 1;
@@ -84,7 +84,7 @@ public:
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
       if (!read_geometry(lower) && !read_attribute(lower))
         text_.fail(in_quotes(keyword) + " is not a keyword of " +
-                   (grid_ ? "UNSTRUCTURED_GRID" : "POLYDATA") + " in a legacy VTK file" + again);
+                   (grid_ ? "UNSTRUCTURED_GRID" : "POLYDATA") + " in a legacy VTK file" + damaged);
     }
     return finish();
   }
@@ -121,7 +121,7 @@ private:
     const LegacyText::Type type = text_.type();
     if (!type.scalar)
       fail_array(text_.name(), "POINTS",
-                 "its type is " + type.name + ", not one of numbers" + again);
+                 "its type is " + type.name + ", not one of numbers" + damaged);
     const Column<double> numbers = text_.numbers<double>("POINTS", *type.scalar, 3 * count);
     poly_data_.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
     poly_data_.single = type.scalar == Scalar::float32;
@@ -194,7 +194,8 @@ private:
     std::int64_t components = 1;
     if (const std::string_view word = text_.word_of_line();
         !word.empty() && (!parse_number(word, Scalar::int64, components) || components < 0))
-      fail_array(text_.name(), name, in_quotes(word) + " is not its number of components" + again);
+      fail_array(text_.name(), name,
+                 in_quotes(word) + " is not its number of components" + damaged);
     if (text_.take("LOOKUP_TABLE"))
       text_.word();
     read_array(name, type, components, tuples_);
@@ -229,10 +230,10 @@ private:
           text_.name(), name,
           "it has " + std::to_string(tuples) + " values, but POINT_DATA or CELL_DATA " +
               (of_cells_.has_value() ? "announces " + std::to_string(tuples_) : "is missing") +
-              again);
+              damaged);
     if (components > most_components)
       fail_array(text_.name(), name,
-                 "it has " + std::to_string(components) + " components" + again);
+                 "it has " + std::to_string(components) + " components" + damaged);
     if (!type.scalar || !is_read(name, *of_cells_, components))
       return ignore(name, type, components * tuples);
     poly_data_.arrays.push_back({name, *of_cells_, static_cast<int>(components),
@@ -246,7 +247,7 @@ private:
       if (types_.size() != poly_data_.size())
         fail_array(text_.name(), "CELL_TYPES",
                    "it has " + std::to_string(types_.size()) + " types for " +
-                       std::to_string(poly_data_.size()) + " cells" + again);
+                       std::to_string(poly_data_.size()) + " cells" + damaged);
       require_cell_types(text_.name(), poly_data_, types_, "CELL_TYPES");
     }
     const std::string section = grid_ ? "CELLS" : "POLYGONS";
@@ -264,7 +265,7 @@ private:
       fail_array(text_.name(), array.name,
                  "it has " + std::to_string(array.values.size() / array.components) +
                      " values for " + std::to_string(skipped + used) +
-                     (array.of_polygons ? " cells" : " points") + again);
+                     (array.of_polygons ? " cells" : " points") + damaged);
     if (skipped > 0)
       array.values = Column<double>(array.values.tail(array.components * used));
   }

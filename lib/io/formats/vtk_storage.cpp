@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/vtk_storage.h"
+#include "io/bytes/file_error.h"
 
 #include "io/bytes/base64.h"
 #include "io/bytes/text.h"
 #include "io/formats/poly_data.h"
 
-#define ZLIB_CONST
 #include <zlib.h>
 
 #include <algorithm>
@@ -17,8 +17,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-const std::string again = "; the file is damaged or incomplete, make it again";
 
 /// An array of a file, for messages.
 struct Place {
@@ -57,7 +55,7 @@ public:
   /// \throws Error parse if there are fewer.
   StoredBytes take(std::uint64_t count) {
     if (count > static_cast<std::uint64_t>(most()))
-      place_.fail("its data end early" + again);
+      place_.fail("its data end early" + damaged);
     if (!is_base64_) {
       const std::string_view taken = raw_.substr(0, count);
       raw_.remove_prefix(count);
@@ -67,7 +65,7 @@ public:
     out.reserve(count);
     base64_.take(static_cast<std::int64_t>(count), out);
     if (out.size() != count)
-      place_.fail("its base64 text ends early or has another character" + again);
+      place_.fail("its base64 text ends early or has another character" + damaged);
     return StoredBytes(std::move(out));
   }
 
@@ -92,7 +90,7 @@ std::string count_text(std::uint64_t bytes) { return std::to_string(bytes) + " b
 void require_size(const Place& place, std::uint64_t bytes, std::int64_t size) {
   if (size >= 0 && bytes != static_cast<std::uint64_t>(size))
     place.fail("it has " + count_text(bytes) + ", but " + std::to_string(size) + " belong there" +
-               again);
+               damaged);
 }
 
 // ---- Compression
@@ -117,7 +115,7 @@ Blocks take_blocks(const Place& place, Source& source) {
   Blocks blocks{.size = source.take_length(), .last = source.take_length(), .compressed = {}};
   if (count > static_cast<std::uint64_t>(source.most() / size_of(place.storage.length_type)))
     place.fail("its header announces " + std::to_string(count) + " blocks, more than there are" +
-               again);
+               damaged);
   for (std::uint64_t i = 0; i < count; ++i)
     blocks.compressed.push_back(source.take_length());
   auto left = static_cast<std::uint64_t>(source.most());
@@ -125,7 +123,8 @@ Blocks take_blocks(const Place& place, Source& source) {
     const std::uint64_t compressed = blocks.compressed[i], size = blocks.size_of_block(i);
     if (compressed > left || !is_plausible(size, compressed))
       place.fail("its header announces block " + std::to_string(i) + " of " +
-                 count_text(compressed) + " for " + count_text(size) + ", which cannot be" + again);
+                 count_text(compressed) + " for " + count_text(size) + ", which cannot be" +
+                 damaged);
     left -= compressed;
   }
   return blocks;
@@ -136,7 +135,8 @@ Blocks take_blocks(const Place& place, Source& source) {
 bool inflate_block(std::string_view compressed, std::uint64_t size, std::string& out) {
   constexpr std::uint64_t chunk = std::uint64_t{1} << 20;
   z_stream stream{};
-  stream.next_in = reinterpret_cast<const Bytef*>(compressed.data());
+  // inflate() does not change its input; the member is const only with ZLIB_CONST.
+  stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(compressed.data()));
   stream.avail_in = static_cast<uInt>(compressed.size());
   if (compressed.size() > std::numeric_limits<uInt>::max() || inflateInit(&stream) != Z_OK)
     return false;
@@ -165,7 +165,7 @@ StoredBytes take_compressed(const Place& place, Source& source, std::int64_t siz
     const StoredBytes block = source.take(blocks.compressed[i]);
     if (!inflate_block(block.view(), blocks.size_of_block(i), out))
       place.fail("block " + std::to_string(i) + " is not " + count_text(blocks.size_of_block(i)) +
-                 " compressed by zlib" + again);
+                 " compressed by zlib" + damaged);
   }
   return StoredBytes(std::move(out));
 }
@@ -177,13 +177,13 @@ Source source_of(const Place& place, bool appended) {
   if (!appended)
     return {place, place.array.text, true};
   if (!storage.appended)
-    place.fail("its data are appended, but the file has no AppendedData" + again);
+    place.fail("its data are appended, but the file has no AppendedData" + damaged);
   const std::string text = place.array.attribute("offset");
   std::int64_t offset = -1;
   if (!parse_number(text, Scalar::int64, offset) || offset < 0 ||
       offset > static_cast<std::int64_t>(storage.appended->size()))
     place.fail("its offset is " + in_quotes(text) + ", which is not within the " +
-               std::to_string(storage.appended->size()) + " bytes of AppendedData" + again);
+               std::to_string(storage.appended->size()) + " bytes of AppendedData" + damaged);
   return {place, storage.appended->substr(static_cast<std::size_t>(offset)),
           storage.appended_base64};
 }
@@ -210,7 +210,7 @@ void read_text(const Place& place, Scalar type, std::int64_t count, const Room<T
   }
   if (count >= 0 && std::ssize(numbers) != count)
     place.fail("it has " + std::to_string(numbers.size()) + " numbers, but " +
-               std::to_string(count) + " belong there" + again);
+               std::to_string(count) + " belong there" + damaged);
   std::copy(numbers.begin(), numbers.end(), room(std::ssize(numbers)));
 }
 
@@ -251,7 +251,7 @@ void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::i
   const auto size = static_cast<std::int64_t>(bytes.view().size());
   if (size % width != 0)
     place.fail("it has " + std::to_string(size) + " bytes, which are not numbers of " +
-               std::to_string(width) + again);
+               std::to_string(width) + damaged);
   copy_numbers(bytes.view().data(), size / width, *type, storage.swapped, room(size / width));
 }
 

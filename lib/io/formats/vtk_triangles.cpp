@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/model_grid.h"
+#include "io/formats/vtk_cell_types.h"
 #include "io/formats/vtk_xml.h"
 
 namespace calotte::io_detail {
 namespace {
-
-constexpr std::uint8_t triangle_type = 5;
 
 /// Whether each cell has all its corners.
 bool has_fields(const Mesh& mesh) {
@@ -42,7 +41,7 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
   });
   if (flavour.types)
     contents.emplace_back([&](Writer& out) {
-      out.text(std::string(static_cast<std::size_t>(triangles), triangle_type));
+      out.text(std::string(static_cast<std::size_t>(triangles), char{triangle_type}));
     });
   put_vtk(sink, head, contents);
 }

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "io/command.h"
 #include "io/mpas/mpas_cull.h"
+#include "io/mpas/mpas_subset.h"
 #include "io/mpas/mpas_variables.h"
 #include "voronoi/cell_walk.h"
 
@@ -204,11 +205,6 @@ private:
   std::optional<CellMapFiles> maps_;
 };
 
-void add_attributes(double radius, NetcdfSubset& subset) {
-  subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
-  subset.attributes["sphere_radius"] = {"sphere_radius", radius};
-}
-
 } // namespace
 } // namespace io_detail
 
@@ -234,7 +230,7 @@ CullReport cull(const std::string& source_path, const std::string& target,
   add_kites(source, part, subset);
   add_maps(part, subset);
   add_radius(source, radius, subset);
-  add_attributes(radius, subset);
+  set_sphere(radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
   report.sphere_radius = radius;

@@ -98,13 +98,9 @@ void add_density(const MpasSource& source, const MpasPart& part, double radius, 
 // ---- The file
 
 void add_attributes(double radius, NetcdfSubset& subset) {
-  const auto set = [&](const std::string& name, const auto& value) {
-    subset.attributes[name] = {name, value};
-  };
-  set("on_a_sphere", std::string("YES"));
-  set("sphere_radius", radius);
-  set("is_periodic", std::string("NO"));
-  set("mesh_spec", std::string("1.1"));
+  set_sphere(radius, subset);
+  subset.attributes["is_periodic"] = {"is_periodic", std::string("NO")};
+  subset.attributes["mesh_spec"] = {"mesh_spec", std::string("1.1")};
 }
 
 CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {

@@ -71,7 +71,7 @@ Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int
 } // namespace
 
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
-    : GridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
+    : NetcdfGridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
   const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.maxCoeff() > 0;
   netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
   netcdf().attribute({"is_periodic", std::string(periodic ? "YES" : "NO")});
@@ -87,7 +87,7 @@ void MpasFile::define(MpasDimension dimension, std::int64_t size) {
   ids_[dimension] = netcdf().dimension(name_of(dimension), size);
 }
 
-GridFile::Announced MpasFile::announced(const std::string& name) const {
+NetcdfGridFile::Announced MpasFile::announced(const std::string& name) const {
   const MpasVariable& row = mpas_variable(name);
   std::vector<int> dimensions;
   for (const MpasDimension dimension : {row.rows, row.columns})

@@ -40,7 +40,7 @@ struct MpasMesh {
 
 /// A file with the attributes of its kind and those that tell of the mesh. Its variables are rows
 /// of the table of MPAS's variables.
-class MpasFile : public GridFile {
+class MpasFile : public NetcdfGridFile {
 public:
   /// \throws Error file.
   MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options);

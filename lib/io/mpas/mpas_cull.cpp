@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_cull.h"
+#include "io/mpas/mpas_subset.h"
 
 #include "base/parallel.h"
 #include "io/bytes/big_endian.h"
@@ -17,11 +18,6 @@ namespace {
 
 std::int64_t value_bytes(const NetcdfReader& file, int variable) {
   return size_of(*file.variables()[static_cast<std::size_t>(variable)].type);
-}
-
-std::int64_t width_of(const NetcdfReader& file, int variable) {
-  return file.product(variable, 1,
-                      file.variables()[static_cast<std::size_t>(variable)].dimensions.size());
 }
 
 /// Rows of new 1-based ids of a variable of the source, one at a time.

@@ -12,7 +12,7 @@
 namespace calotte::io_detail {
 namespace {
 
-using Announced = GridFile::Announced;
+using Announced = NetcdfGridFile::Announced;
 
 // ---- Values
 
@@ -113,7 +113,7 @@ std::vector<Announced> coordinates(const MpasFile& file, const MpasKind& kind) {
 }
 
 /// In the order of fill_places(), the numbers last.
-std::vector<Announced> places_of(const MpasFile& file, const MpasKind& kind) {
+std::vector<Announced> announced_places(const MpasFile& file, const MpasKind& kind) {
   std::vector<Announced> out{file.announced(kind.latitude()), file.announced(kind.longitude())};
   for (Announced& row : coordinates(file, kind))
     out.push_back(std::move(row));
@@ -132,7 +132,7 @@ void put_coordinates(MpasFile& file, const MpasKind& kind, const Points3& points
 }
 
 void put_cells(MpasFile& file, const MpasMesh& mesh) {
-  file.together(places_of(file, mpas_cell),
+  file.together(announced_places(file, mpas_cell),
                 [&mesh](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
                         double* const* doubles) {
                   const Voronoi& voronoi = mesh.voronoi;
@@ -142,14 +142,14 @@ void put_cells(MpasFile& file, const MpasMesh& mesh) {
 }
 
 void put_vertices(MpasFile& file, const MpasMesh& mesh) {
-  std::vector<Announced> variables = places_of(file, mpas_vertex);
+  std::vector<Announced> variables = announced_places(file, mpas_vertex);
   variables.push_back(file.announced(mpas::area_triangle));
   variables.push_back(file.announced(mpas::kite_areas_on_vertex));
   file.together(variables, [&mesh](auto... arguments) { fill_vertices(mesh, arguments...); });
 }
 
 void put_edges(MpasFile& file, const MpasMesh& mesh) {
-  std::vector<Announced> variables = places_of(file, mpas_edge);
+  std::vector<Announced> variables = announced_places(file, mpas_edge);
   variables.push_back(file.announced(mpas::dc_edge));
   variables.push_back(file.announced(mpas::dv_edge));
   variables.push_back(file.announced(mpas::angle_edge));

@@ -23,7 +23,7 @@ namespace calotte::io_detail {
 namespace {
 
 /// One row of coordinates a call, which all have the same length. \param kind of places.
-Points3 places_of(const NetcdfReader& file, const MpasKind& kind) {
+Points3 read_coordinates(const NetcdfReader& file, const MpasKind& kind) {
   Points3 places;
   for (int row = 0; row < 3; ++row) {
     const std::string name = kind.axis(row);
@@ -152,13 +152,13 @@ void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Field
     raw.density = values_with_fill(file, mpas::mesh_density);
 }
 
-bool has_cells(const NetcdfReader& file) {
+bool holds_cells(const NetcdfReader& file) {
   return file.has_variable(mpas::vertices_on_cell) && file.has_variable(mpas::n_edges_on_cell) &&
          file.has_variable("xVertex");
 }
 
-Points3 finite_places_of(const NetcdfReader& file, const MpasKind& kind) {
-  Points3 places = places_of(file, kind);
+Points3 read_finite_coordinates(const NetcdfReader& file, const MpasKind& kind) {
+  Points3 places = read_coordinates(file, kind);
   if (!places.allFinite())
     file.fail("a coordinate " + kind.axis(0) + " or " + kind.axis(1) +
               " is NaN or infinite; make the file again");
@@ -180,10 +180,10 @@ void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool
 /// The cells of a channel, or of a box with land.
 Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
                              const Eigen::Vector2d& period) {
-  if (!has_cells(file))
+  if (!holds_cells(file))
     file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
               "xVertex); make the file again");
-  Points3 vertices = finite_places_of(file, mpas_vertex);
+  Points3 vertices = read_finite_coordinates(file, mpas_vertex);
   wrap(vertices, period);
   Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
   polygons.on_sphere = false;
@@ -193,11 +193,11 @@ Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
 
 /// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
 RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
-  if (!has_cells(file))
+  if (!holds_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  RawMesh raw{.points = places_of(file, mpas_cell), .has_cells = true, .planar = true};
-  Points3 vertices = finite_places_of(file, mpas_vertex);
+  RawMesh raw{.points = read_coordinates(file, mpas_cell), .has_cells = true, .planar = true};
+  Points3 vertices = read_finite_coordinates(file, mpas_vertex);
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   raw.polygons = cells_of(file, raw.points, std::move(vertices));
   raw.polygons.on_sphere = false;
@@ -206,7 +206,7 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
 
 RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
   const Eigen::Vector2d period = periods_of(file);
-  RawMesh raw{.points = finite_places_of(file, mpas_cell),
+  RawMesh raw{.points = read_finite_coordinates(file, mpas_cell),
               .has_cells = true,
               .planar = true,
               .period = period};
@@ -236,7 +236,7 @@ Points3 read_mpas_sites(const NetcdfReader& file) {
   if (is_planar_mpas(file))
     throw Error(ErrorCode::invalid_argument, file.path() + " holds a mesh of the plane, not of the "
                                                            "sphere; read it with read_mesh()");
-  return places_of(file, mpas_cell);
+  return read_coordinates(file, mpas_cell);
 }
 
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
@@ -248,8 +248,8 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
   const std::int64_t cells = raw.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
   read_density_and_fields(file, cells, choice, raw);
-  if (has_cells(file)) {
-    const Points3 vertices = places_of(file, mpas_vertex);
+  if (holds_cells(file)) {
+    const Points3 vertices = read_coordinates(file, mpas_vertex);
     require_directions(file.path() + ": of the vertices", vertices);
     if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
       raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));

@@ -32,12 +32,6 @@ template <class T, class Work> void on_values(char* bytes, std::int64_t count, c
             " (both 1-based), but there are " + std::to_string(count) + "; make the file again");
 }
 
-/// Values in a row of a variable whose rows are those of its first dimension.
-std::int64_t width_of(const NetcdfReader& source, int variable) {
-  return source.product(variable, 1,
-                        source.variables()[static_cast<std::size_t>(variable)].dimensions.size());
-}
-
 /// Models write the number after the last for a missing one, others 0.
 template <class T> bool is_missing(T id, std::int64_t count) { return id == 0 || id == count + 1; }
 
@@ -156,6 +150,11 @@ const Kept* things_of(MpasNumbers numbers, const MpasPart& part) {
 
 } // namespace
 
+std::int64_t width_of(const NetcdfReader& source, int variable) {
+  return source.product(variable, 1,
+                        source.variables()[static_cast<std::size_t>(variable)].dimensions.size());
+}
+
 NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
   const NetcdfReader& file = source.netcdf();
   NetcdfSubset subset;
@@ -176,6 +175,11 @@ NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
     add_change(file, mpas::weights_on_edge, subset,
                [&](int v) { return weights_of(file, v, part); });
   return subset;
+}
+
+void set_sphere(double radius, NetcdfSubset& subset) {
+  subset.attributes["on_a_sphere"] = {"on_a_sphere", std::string("YES")};
+  subset.attributes["sphere_radius"] = {"sphere_radius", radius};
 }
 
 void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset) {

@@ -5,6 +5,7 @@
 #include "io/mpas/room.h"
 #include "io/netcdf/netcdf_subset.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,6 +16,12 @@ namespace calotte::io_detail {
 /// What becomes of the variables of a file that holds the part: ids are numbered anew, 0 for what
 /// is left out, and weights of edges that are left out are 0. The result refers to both.
 NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part);
+
+/// Values in a row of a variable whose rows are those of its first dimension.
+std::int64_t width_of(const NetcdfReader& source, int variable);
+
+/// Sets the attributes that say which sphere a file is of.
+void set_sphere(double radius, NetcdfSubset& subset);
 
 /// Adds what becomes of lengths, areas and what else depends on the radius of the sphere, if they
 /// are to belong to another one.

@@ -207,10 +207,11 @@ void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& o
   file.commit();
 }
 
-using Writer = void (*)(const std::string&, MpasMesh, const WriteOptions&);
+using MpasWriter = void (*)(const std::string&, MpasMesh, const WriteOptions&);
 
 /// All is computed from the places as the file holds them, so that its mesh gives the same file.
-void write_mesh(const std::string& path, Mesh mesh, const WriteOptions& options, Writer writer) {
+void write_mesh(const std::string& path, Mesh mesh, const WriteOptions& options,
+                MpasWriter writer) {
   if (!mesh.surface.is_sphere()) {
     BegunVoronoi cells = begun(mesh);
     return writer(path, {cells.voronoi, {}, 1, [&] { connect(cells); }}, options);

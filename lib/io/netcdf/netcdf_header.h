@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,12 @@ std::optional<NetcdfType> netcdf_type(std::int64_t code);
 
 /// Bytes of a value.
 std::int64_t size_of(NetcdfType type);
+
+/// The type of values that stand in memory as double, std::int32_t or std::int8_t.
+template <class T>
+inline constexpr NetcdfType type_in_memory = std::is_same_v<T, double>         ? NetcdfType::float64
+                                             : std::is_same_v<T, std::int32_t> ? NetcdfType::int32
+                                                                               : NetcdfType::int8;
 
 /// Several numbers of one type, in the machine's order of bytes.
 struct NetcdfValues {

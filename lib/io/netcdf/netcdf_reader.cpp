@@ -93,10 +93,6 @@ template <class T> Problem convert(NetcdfType type, const char* bytes, std::int6
   }
 }
 
-template <class T>
-constexpr NetcdfType type_in_memory =
-    std::is_same_v<T, double> ? NetcdfType::float64 : NetcdfType::int32;
-
 bool is_floating(std::optional<NetcdfType> type) {
   return type == NetcdfType::float32 || type == NetcdfType::float64;
 }

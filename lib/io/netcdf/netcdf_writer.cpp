@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <mutex>
 #include <new>
-#include <type_traits>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -28,11 +27,6 @@ static_assert(static_cast<int>(NetcdfType::text) == NC_CHAR &&
 nc_type code_of(NetcdfType type) { return static_cast<nc_type>(type); }
 
 bool needs_cdf5(NetcdfType type) { return type > NetcdfType::float64; }
-
-template <class T>
-constexpr NetcdfType type_in_memory = std::is_same_v<T, double>         ? NetcdfType::float64
-                                      : std::is_same_v<T, std::int32_t> ? NetcdfType::int32
-                                                                        : NetcdfType::int8;
 
 int put_attribute(int id, int variable, const NetcdfAttribute& attribute) {
   const char* name = attribute.name.c_str();

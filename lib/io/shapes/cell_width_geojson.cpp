@@ -15,8 +15,6 @@
 namespace calotte::io_detail {
 namespace {
 
-using Json = nlohmann::json;
-
 /// One file's polygons with their widths.
 class Collector {
 public:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/command.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/cell_width_mesh.h"
@@ -14,10 +15,6 @@ namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-
-[[noreturn]] void refuse(const std::string& name, const std::string& problem) {
-  throw Error(ErrorCode::parse, name + ": " + problem);
-}
 
 CellWidth of_grid(const JigsawFile& file, const std::string& name, const Surface& region) {
   require_values(file, file.x_grid.size() * file.y_grid.size(), name);
@@ -42,7 +39,7 @@ DoubleVector widths_of_points(const JigsawFile& file, const std::string& name) {
   require_values(file, static_cast<std::size_t>(file.points.cols()), name);
   for (std::size_t i = 0; i < file.values.size(); ++i)
     if (!(file.values[i] > 0))
-      refuse(name, "VALUE of point " + std::to_string(i) + " is not positive; correct it");
+      fail_file(name, "VALUE of point " + std::to_string(i) + " is not positive; correct it");
   return vector_of(file.values);
 }
 
@@ -68,8 +65,8 @@ CellWidth widths_of(const JigsawFile& file, const std::string& name, const Surfa
     return of_grid(file, name, region);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
     return of_mesh(file, name);
-  refuse(name, "no cell widths of the sphere in a file of the kind \"" + file.kind +
-                   "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
+  fail_file(name, "no cell widths of the sphere in a file of the kind \"" + file.kind +
+                      "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
 }
 
 PlanarCellWidth read_planar_cell_width_msh(const std::string& path) {
@@ -80,8 +77,8 @@ PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& path
   if (file.kind == "euclidean-mesh" && file.dimensions == 2)
     return resampled_in_plane(Points2(file.points), widths_of_points(file, path));
   if (file.kind != "euclidean-grid")
-    refuse(path, "no cell widths of a plane in a file of the kind \"" + file.kind +
-                     "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
+    fail_file(path, "no cell widths of a plane in a file of the kind \"" + file.kind +
+                        "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
   const auto nx = std::ssize(file.x_grid), ny = std::ssize(file.y_grid);
   require_values(file, file.x_grid.size() * file.y_grid.size(), path);
   return checked({.x = vector_of(file.x_grid),

@@ -17,7 +17,7 @@ namespace {
 using namespace io_detail;
 
 /// The rings of a file, each with its origin for messages.
-struct Rings {
+struct FileRings {
   std::vector<GeoRing> corners;
   std::vector<std::string> origins;
 
@@ -48,9 +48,9 @@ GeoPosition corner_of(const LineReader& reader, std::string_view line) {
   return corner;
 }
 
-Rings rings_of_text(std::istream& in, const std::string& name) {
+FileRings rings_of_text(std::istream& in, const std::string& name) {
   LineReader reader(in, name);
-  Rings rings;
+  FileRings rings;
   bool header = false, open = false;
   for (std::string_view line; reader.next(line);) {
     if (ends_ring(line)) {
@@ -80,8 +80,8 @@ Rings rings_of_text(std::istream& in, const std::string& name) {
   return rings;
 }
 
-Rings rings_of_geojson(std::istream& in, const std::string& name) {
-  Rings rings;
+FileRings rings_of_geojson(std::istream& in, const std::string& name) {
+  FileRings rings;
   const GeoPolygons polygons = read_polygons(in, name, {"[x, y]", "give two numbers"});
   for (const GeoGeometry& geometry : polygons.geometries) {
     std::int64_t number = 0;
@@ -95,7 +95,7 @@ Rings rings_of_geojson(std::istream& in, const std::string& name) {
   return rings;
 }
 
-Surface domain_of(const Rings& rings) {
+Surface domain_of(const FileRings& rings) {
   Surface::Rings all;
   for (const GeoRing& corners : rings.corners) {
     DoubleMatrix ring(2, std::ssize(corners));
@@ -122,7 +122,7 @@ Surface read_domain(const std::string& path) {
     return domain_of_jigsaw(path);
   std::ifstream in = open_input(path);
   const bool json = suffix == ".geojson" || suffix == ".json";
-  const Rings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
+  const FileRings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
   try {
     return domain_of(rings);
   } catch (const Error& error) {

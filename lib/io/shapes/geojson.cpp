@@ -11,8 +11,6 @@
 namespace calotte::io_detail {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* as_rfc = "; give GeoJSON as RFC 7946 has it";
 constexpr int deepest = 8; ///< geometry collections within each other
 

@@ -14,6 +14,7 @@
 /// GeoJSON (Butler et al., RFC 7946, 2016): one parse for all that read it.
 namespace calotte::io_detail {
 
+using Json = nlohmann::json;
 using GeoPosition = std::array<double, 2>;
 
 /// A feature, or a geometry that stands for one.

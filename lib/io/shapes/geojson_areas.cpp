@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson_areas.h"
+#include "io/bytes/file_error.h"
 
 #include "base/lonlat.h"
 #include "io/shapes/region_file.h"
-
-#include <calotte/error.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,12 +11,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-using Json = nlohmann::json;
-
-[[noreturn]] void fail(const std::string& name, const std::string& problem) {
-  throw Error(ErrorCode::parse, name + ": " + problem);
-}
 
 std::string ring_name(std::size_t ring) { return "ring " + std::to_string(ring); }
 
@@ -55,8 +48,8 @@ GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
 void require_degrees(const GeoPosition& position, const std::string& name,
                      const std::string& what) {
   if (!are_degrees(position))
-    fail(name, what + " is [" + Json(position[0]).dump() + ", " + Json(position[1]).dump() +
-                   "], no longitude and latitude in degrees; correct it");
+    fail_file(name, what + " is [" + Json(position[0]).dump() + ", " + Json(position[1]).dump() +
+                        "], no longitude and latitude in degrees; correct it");
 }
 
 std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::string& name) {
@@ -65,7 +58,7 @@ std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::str
   const Json& given = geometry.properties["inside"];
   const std::string what = geometry.where + "its property \"inside\"";
   if (!is_position(given))
-    fail(name, what + " is not a position [longitude, latitude]; give degrees");
+    fail_file(name, what + " is not a position [longitude, latitude]; give degrees");
   const GeoPosition position = position_of(given);
   require_degrees(position, name, what);
   return position;

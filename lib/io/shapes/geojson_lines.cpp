@@ -15,8 +15,6 @@
 namespace calotte {
 namespace io_detail {
 
-using Json = nlohmann::json;
-
 namespace {
 
 /// \param where names the file and the feature.

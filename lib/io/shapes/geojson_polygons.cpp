@@ -8,8 +8,6 @@
 namespace calotte::io_detail {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Of one geometry.
 class PolygonReader {
 public:

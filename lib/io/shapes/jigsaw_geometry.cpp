@@ -2,6 +2,7 @@
 #include "base/points.h"
 #include "domain/surface.h"
 #include "generators/line_network.h"
+#include "io/bytes/file_error.h"
 #include "io/command.h"
 #include "io/shapes/jigsaw.h"
 
@@ -19,10 +20,6 @@ namespace {
 using namespace io_detail;
 using generators_detail::LineNetwork;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::parse, path + ": " + problem);
-}
-
 /// The edges, each a line of two points, and the points without one.
 std::vector<Points3> lines_of(const JigsawFile& file, const Points3& points) {
   std::vector<Points3> lines;
@@ -38,7 +35,7 @@ std::vector<Points3> lines_of(const JigsawFile& file, const Points3& points) {
   return lines;
 }
 
-Points3 line_of(const LineNetwork& network, const std::vector<std::int32_t>& chain) {
+Points3 line_of_chain(const LineNetwork& network, const std::vector<std::int32_t>& chain) {
   Points3 line(3, std::ssize(chain));
   for (std::size_t k = 0; k < chain.size(); ++k)
     base_detail::set_column(line, static_cast<std::int64_t>(k),
@@ -115,31 +112,31 @@ private:
 /// Closed rings of a plane bound the domain; lines, which may end at them, stay.
 JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
   if (file.parts > 1)
-    refuse(path, "a geometry of " + std::to_string(file.parts) +
-                     " parts (BOUND); give each part a file of its own");
+    fail_file(path, "a geometry of " + std::to_string(file.parts) +
+                        " parts (BOUND); give each part a file of its own");
   JigsawGeometry out;
   const LineNetwork all = generators_detail::network_of(
       lines_of(file, base_detail::with_z(Points2(file.points))), false);
   const ClosedWays closed(all);
   std::vector<Points3> sides;
   for (std::size_t c = 0; c < all.chains.size(); ++c)
-    (closed.has(c) ? sides : out.lines).push_back(line_of(all, all.chains[c]));
+    (closed.has(c) ? sides : out.lines).push_back(line_of_chain(all, all.chains[c]));
   const LineNetwork network = generators_detail::network_of(sides, false);
   Surface::Rings rings;
   for (const std::vector<std::int32_t>& chain : network.chains) {
-    const Points3 line = line_of(network, chain);
+    const Points3 line = line_of_chain(network, chain);
     if (chain.front() != chain.back() ||
         network.neighbours[static_cast<std::size_t>(chain.front())] != 2)
-      refuse(path, "rings of edges touch at the point " + std::to_string(line(0, 0)) + " " +
-                       std::to_string(line(1, 0)) + "; let each ring have corners of its own");
+      fail_file(path, "rings of edges touch at the point " + std::to_string(line(0, 0)) + " " +
+                          std::to_string(line(1, 0)) + "; let each ring have corners of its own");
     rings.emplace_back(line.topLeftCorner(2, line.cols() - 1));
   }
   if (rings.empty())
-    refuse(path, "no closed ring of edges that bounds a domain; give one");
+    fail_file(path, "no closed ring of edges that bounds a domain; give one");
   try {
     out.surface = Surface::plane().within(std::move(rings));
   } catch (const Error& error) {
-    refuse(path, error.what());
+    fail_file(path, error.what());
   }
   const auto& [low, high] = domain_detail::outline_of<exact_detail::Plane>(out.surface)->box();
   out.extent = (high.x - low.x + high.y - low.y) / 2;
@@ -153,10 +150,10 @@ JigsawGeometry read_jigsaw_geometry(const std::string& path) {
   if (file.kind == "euclidean-mesh" && file.dimensions == 2)
     return in_plane(file, path);
   if (file.kind != "ellipsoid-mesh")
-    refuse(path, "a geometry of the kind \"" + file.kind + "\" and " +
-                     std::to_string(file.dimensions) +
-                     " dimensions; only a sphere (ellipsoid-mesh) and a plane (euclidean-mesh, "
-                     "NDIMS=2) are meshed");
+    fail_file(path, "a geometry of the kind \"" + file.kind + "\" and " +
+                        std::to_string(file.dimensions) +
+                        " dimensions; only a sphere (ellipsoid-mesh) and a plane (euclidean-mesh, "
+                        "NDIMS=2) are meshed");
   JigsawGeometry out;
   out.radius = radius_of(file, path);
   out.extent = 2 * out.radius;
@@ -168,11 +165,11 @@ JigsawGeometry read_jigsaw_geometry(const std::string& path) {
 JigsawPoints read_jigsaw_points(const std::string& path, bool plane) {
   const JigsawFile file = read_jigsaw(path);
   if (file.points.cols() == 0)
-    refuse(path, "no POINT section; give points");
+    fail_file(path, "no POINT section; give points");
   const bool flat = file.kind == "euclidean-mesh" && file.dimensions == 2;
   if (flat != plane)
-    refuse(path, plane ? "points of the sphere; give those of a plane (NDIMS=2)"
-                       : "points of a plane; give those of the sphere");
+    fail_file(path, plane ? "points of the sphere; give those of a plane (NDIMS=2)"
+                          : "points of a plane; give those of the sphere");
   return {flat ? base_detail::with_z(Points2(file.points)) : directions_of(file, path), file.fixed};
 }
 

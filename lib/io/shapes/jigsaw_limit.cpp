@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "base/points.h"
+#include "io/bytes/file_error.h"
 #include "io/command.h"
 #include "io/shapes/jigsaw.h"
 
 #include <calotte/cell_width.h>
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <numbers>
@@ -16,19 +16,15 @@ namespace {
 
 using namespace io_detail;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::parse, path + ": " + problem);
-}
-
 /// The one slope of a file.
 double slope_of(const JigsawFile& file, const std::string& path) {
   if (file.slopes.empty())
-    refuse(path, "no SLOPE section; give the largest gradient, SLOPE=1;1 and the number");
+    fail_file(path, "no SLOPE section; give the largest gradient, SLOPE=1;1 and the number");
   const auto [least, most] = std::minmax_element(file.slopes.begin(), file.slopes.end());
   if (*least != *most)
-    refuse(path, "SLOPE differs between nodes; give one number");
+    fail_file(path, "SLOPE differs between nodes; give one number");
   if (!(*least > 0))
-    refuse(path, "SLOPE is not positive; correct it");
+    fail_file(path, "SLOPE is not positive; correct it");
   return *least;
 }
 
@@ -65,15 +61,15 @@ std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& 
 void limit_jigsaw_values(const std::string& path, double radius) {
   JigsawFile file = read_jigsaw(path);
   if (file.values_of_each > 1)
-    refuse(path, "VALUE has several numbers for each node; give one, the width");
+    fail_file(path, "VALUE has several numbers for each node; give one, the width");
   std::vector<double> values;
   if (file.kind == "ellipsoid-grid")
     values = limited_on_sphere(file, path, file.radii ? radius_of(file, path) : radius);
   else if (file.kind == "euclidean-grid")
     values = limited_in_plane(file, path);
   else
-    refuse(path, "values of the kind \"" + file.kind +
-                     "\"; give a grid: ellipsoid-grid or euclidean-grid");
+    fail_file(path, "values of the kind \"" + file.kind +
+                        "\"; give a grid: ellipsoid-grid or euclidean-grid");
   for (std::size_t i = 0; i < values.size(); ++i) // rounding at a node raises none
     file.values[i] = std::min(file.values[i], values[i]);
   write_jigsaw_grid(path, file);

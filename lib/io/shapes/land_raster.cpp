@@ -14,13 +14,14 @@ namespace {
 
 using namespace io_detail;
 
-constexpr double slack = 1e-6; ///< of fractions that a program rounded
+constexpr double fraction_slack = 1e-6; ///< of fractions that a program rounded
 
 RasterLaw law_of(RasterValues values) {
   if (values == RasterValues::height)
     return {[](double height) { return std::isfinite(height); }, "finite"};
-  return {[](double fraction) { return fraction >= -slack && fraction <= 1 + slack; },
-          "a fraction from 0 to 1"};
+  return {
+      [](double fraction) { return fraction >= -fraction_slack && fraction <= 1 + fraction_slack; },
+      "a fraction from 0 to 1"};
 }
 
 double land_of(RasterValues values, double value) {

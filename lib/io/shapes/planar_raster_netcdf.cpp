@@ -16,7 +16,7 @@ namespace {
 using io_detail::NetcdfReader;
 using io_detail::PlanarGrid;
 
-DoubleVector coordinate(const NetcdfReader& file, const std::string& name) {
+DoubleVector read_coordinate(const NetcdfReader& file, const std::string& name) {
   if (!file.has_variable(name) || file.shape_of(name).size() != 1)
     file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ")");
   const std::vector<double> values = file.doubles(name, {-1});
@@ -27,7 +27,8 @@ DoubleVector coordinate(const NetcdfReader& file, const std::string& name) {
 PlanarGrid read_grid(const NetcdfReader& file, const std::string& variable) {
   if (!file.has_variable(variable))
     file.fail("no variable " + variable + "; give " + variable + "(y, x)");
-  PlanarGrid grid{.x = coordinate(file, "x"), .y = coordinate(file, "y"), .value_name = variable};
+  PlanarGrid grid{
+      .x = read_coordinate(file, "x"), .y = read_coordinate(file, "y"), .value_name = variable};
   const std::vector<std::string> expected{file.dimensions_of("y")[0], file.dimensions_of("x")[0]};
   if (file.dimensions_of(variable) != expected)
     file.fail(variable + " is not " + variable + "(" + expected[0] + ", " + expected[1] +

@@ -18,8 +18,8 @@ using io_detail::Columned;
 using io_detail::LineReader;
 using io_detail::Outcome;
 
-/// The content of a line.
-struct Row {
+/// What stands in a line.
+struct LineFormat {
   int columns;
   std::string expected; ///< what to write in a line, for messages
   std::string perhaps;  ///< a remedy where a column is missing, or empty
@@ -55,7 +55,7 @@ void append_xy(std::vector<double>& coordinates, const double* values) {
   coordinates.insert(coordinates.end(), {values[0], values[1], 0});
 }
 
-Row row_of(Columns columns) {
+LineFormat line_format(Columns columns) {
   if (columns == Columns::lonlat)
     return {2,
             "write longitude and latitude in degrees on each line",
@@ -74,47 +74,48 @@ Row row_of(Columns columns) {
           append_xyz};
 }
 
-[[noreturn]] void refuse(const LineReader& reader, const Columned& read, const Row& row) {
+[[noreturn]] void refuse_line(const LineReader& reader, const Columned& read,
+                              const LineFormat& format) {
   if (read.outcome != Outcome::too_few)
-    reader.fail(describe(read) + "; " + row.expected);
+    reader.fail(describe(read) + "; " + format.expected);
   const std::string has =
       read.columns == 1 ? "1 column" : std::to_string(read.columns) + " columns";
-  reader.fail(has + " only; " + row.expected + (read.columns == 2 ? row.perhaps : ""));
+  reader.fail(has + " only; " + format.expected + (read.columns == 2 ? format.perhaps : ""));
 }
 
-void require_finite(const LineReader& reader, const double* values, const Row& row) {
-  for (int i = 0; i < row.columns; ++i)
+void require_finite(const LineReader& reader, const double* values, const LineFormat& format) {
+  for (int i = 0; i < format.columns; ++i)
     if (!std::isfinite(values[i]))
       reader.fail(std::string(std::isnan(values[i]) ? "NaN" : "an infinite number") + " gives no " +
-                  row.use + "; remove the point or correct it");
+                  format.use + "; remove the point or correct it");
 }
 
 /// \param lines receives those of the columns, unless it is null.
 Points3 read_rows(std::istream& in, const std::string& name, Columns columns,
                   std::vector<std::int64_t>* lines) {
-  const Row row = row_of(columns);
+  const LineFormat format = line_format(columns);
   LineReader reader(in, name);
   std::vector<double> coordinates;
   bool header = false;
   for (std::string_view line; reader.next_content(line);) {
     double values[3];
-    const Columned read = io_detail::parse_columns(line, row.columns, values);
+    const Columned read = io_detail::parse_columns(line, format.columns, values);
     if (read.outcome != Outcome::ok) {
       if (header || !coordinates.empty() || io_detail::holds_number(line))
-        refuse(reader, read, row);
+        refuse_line(reader, read, format);
       header = true;
       continue;
     }
-    require_finite(reader, values, row);
-    row.require(reader, values);
-    row.append(coordinates, values);
+    require_finite(reader, values, format);
+    format.require(reader, values);
+    format.append(coordinates, values);
     if (lines != nullptr)
       lines->push_back(reader.number());
   }
   if (coordinates.empty())
     throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
                                       (reader.number() == 1 ? " line" : " lines") + "; " +
-                                      row.expected);
+                                      format.expected);
   return Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/raster_file.h"
+#include "io/bytes/file_error.h"
 
 #include "base/number_text.h"
 #include "density/cell_width_field.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,51 +13,47 @@ namespace calotte::io_detail {
 namespace {
 
 /// Tolerance in degrees for coordinates rounded in a file.
-constexpr double slack = 1e-3;
+constexpr double degree_slack = 1e-3;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& problem) {
-  throw Error(ErrorCode::parse, name + ": " + problem);
-}
-
-std::string at(const std::string& variable, std::size_t index) {
+std::string element_name(const std::string& variable, std::size_t index) {
   return variable + "[" + std::to_string(index) + "]";
 }
 
 void require_ascending(const std::vector<double>& values, const std::string& variable,
                        const std::string& name) {
   if (values.size() < 2)
-    refuse(name, variable + " has fewer than 2 values; give a raster of the whole sphere");
+    fail_file(name, variable + " has fewer than 2 values; give a raster of the whole sphere");
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]))
-      refuse(name, at(variable, i) + " is NaN or infinite; correct it");
+      fail_file(name, element_name(variable, i) + " is NaN or infinite; correct it");
     if (i > 0 && !(values[i] > values[i - 1]))
-      refuse(name, at(variable, i) + " = " + shortly(values[i]) + " does not follow " +
-                       shortly(values[i - 1]) + "; sort the raster along it");
+      fail_file(name, element_name(variable, i) + " = " + shortly(values[i]) + " does not follow " +
+                          shortly(values[i - 1]) + "; sort the raster along it");
   }
 }
 
 /// The first meridian may be repeated at the end.
-void drop_repeated(Raster& raster, const std::string& name) {
+void drop_repeated_meridian(Raster& raster, const std::string& name) {
   const double around = raster.longitudes.back() - raster.longitudes.front() - 360;
-  if (around > slack)
-    refuse(name,
-           raster.longitude_name + " spans more than 360 degrees; remove the repeated longitudes");
-  if (around < -slack)
+  if (around > degree_slack)
+    fail_file(name, raster.longitude_name +
+                        " spans more than 360 degrees; remove the repeated longitudes");
+  if (around < -degree_slack)
     return;
   const Eigen::Index last = raster.values.rows() - 1;
   for (Eigen::Index j = 0; j < raster.values.cols(); ++j)
     if (const double first = raster.values(0, j), again = raster.values(last, j);
         std::abs(again - first) > 1e-3 * std::abs(first))
-      refuse(name, raster.value_name + " differs at longitudes " +
-                       shortly(raster.longitudes.front()) + " and " +
-                       shortly(raster.longitudes.back()) + " of latitude " +
-                       shortly(raster.latitudes[static_cast<std::size_t>(j)]) +
-                       ", which are one place; make them equal or leave the last out");
+      fail_file(name, raster.value_name + " differs at longitudes " +
+                          shortly(raster.longitudes.front()) + " and " +
+                          shortly(raster.longitudes.back()) + " of latitude " +
+                          shortly(raster.latitudes[static_cast<std::size_t>(j)]) +
+                          ", which are one place; make them equal or leave the last out");
   raster.longitudes.pop_back();
   raster.values.conservativeResize(last, Eigen::NoChange);
 }
 
-void require_values(const Raster& raster, const std::string& name, const RasterLaw& law) {
+void require_law(const Raster& raster, const std::string& name, const RasterLaw& law) {
   for (Eigen::Index j = 0; j < raster.values.cols(); ++j)
     for (Eigen::Index i = 0; i < raster.values.rows(); ++i) {
       const double value = raster.values(i, j);
@@ -66,14 +61,15 @@ void require_values(const Raster& raster, const std::string& name, const RasterL
         continue;
       const Eigen::Index first = raster.longitude_fastest ? j : i,
                          second = raster.longitude_fastest ? i : j;
-      refuse(name, raster.value_name + "[" + std::to_string(first) + "][" + std::to_string(second) +
-                       "] = " + shortly(value) + " is not " + law.name + "; correct it");
+      fail_file(name, raster.value_name + "[" + std::to_string(first) + "][" +
+                          std::to_string(second) + "] = " + shortly(value) + " is not " + law.name +
+                          "; correct it");
     }
 }
 
 /// Returns the first of the names that is a variable of one dimension in the file.
-std::string coordinate(const NetcdfReader& file, const std::string& name,
-                       const std::string& long_name) {
+std::string coordinate_name(const NetcdfReader& file, const std::string& name,
+                            const std::string& long_name) {
   for (const std::string& candidate : {name, long_name})
     if (file.has_variable(candidate) && file.shape_of(candidate).size() == 1)
       return candidate;
@@ -97,26 +93,26 @@ Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
   if (raster.latitudes.size() > 1 && raster.latitudes[1] < raster.latitudes[0]) {
     std::reverse(raster.latitudes.begin(), raster.latitudes.end());
     require_ascending(raster.latitudes, raster.latitude_name + " backwards", name);
-    require_values(raster, name, law); // before the reversal, so that indices are those of the file
+    require_law(raster, name, law); // before the reversal, so that indices are those of the file
     raster.values.rowwise().reverseInPlace();
   }
   require_ascending(raster.longitudes, raster.longitude_name, name);
   require_ascending(raster.latitudes, raster.latitude_name, name);
   for (double& latitude : raster.latitudes) {
-    if (std::abs(latitude) > 90 + slack)
-      refuse(name, raster.latitude_name + " " + shortly(latitude) +
-                       " is outside -90 to 90; give degrees");
+    if (std::abs(latitude) > 90 + degree_slack)
+      fail_file(name, raster.latitude_name + " " + shortly(latitude) +
+                          " is outside -90 to 90; give degrees");
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
   require_ascending(raster.latitudes, raster.latitude_name, name); // still ascending after clamping
-  require_values(raster, name, law);
-  drop_repeated(raster, name);
+  require_law(raster, name, law);
+  drop_repeated_meridian(raster, name);
   require_ascending(raster.longitudes, raster.longitude_name, name);
   const std::string problem =
       density_detail::uncovered(vector_of(raster.longitudes), vector_of(raster.latitudes), region,
                                 raster.longitude_name, raster.latitude_name);
   if (!problem.empty())
-    refuse(name, problem);
+    fail_file(name, problem);
   return raster;
 }
 
@@ -125,8 +121,8 @@ Raster read_raster(const NetcdfReader& file, const std::string& variable) {
     file.fail("no variable " + variable + "; give " + variable + "(lat, lon)");
   Raster raster;
   raster.value_name = variable;
-  raster.latitude_name = coordinate(file, "lat", "latitude");
-  raster.longitude_name = coordinate(file, "lon", "longitude");
+  raster.latitude_name = coordinate_name(file, "lat", "latitude");
+  raster.longitude_name = coordinate_name(file, "lon", "longitude");
   raster.latitudes = file.doubles(raster.latitude_name, {-1});
   raster.longitudes = file.doubles(raster.longitude_name, {-1});
   const auto rows = static_cast<std::int64_t>(raster.latitudes.size()),

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "domain/written_rings.h"
+#include "io/bytes/file_error.h"
 #include "io/shapes/room.h"
 
-#include <calotte/error.h>
 #include <calotte/surface.h>
 
 #include <iosfwd>
@@ -12,15 +12,6 @@
 
 /// Readers of regions of the sphere, one a format; see read_region().
 namespace calotte::io_detail {
-
-/// Calls a function whose errors are those of a file.
-template <class Call> auto named(const std::string& name, const Call& call) -> decltype(call()) {
-  try {
-    return call();
-  } catch (const Error& error) {
-    throw Error(error.code(), name + ": " + error.what(), error.index());
-  }
-}
 
 Surface read_region_geojson(std::istream& in, const std::string& name);
 
