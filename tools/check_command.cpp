@@ -105,7 +105,7 @@ std::string table(const PolygonShapes& found, const MeshFile& file) {
   return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
 }
 
-std::string lines_of(const std::vector<Deviation>& deviations) {
+std::string deviation_lines(const std::vector<Deviation>& deviations) {
   std::string lines;
   for (const Deviation& deviation : deviations)
     lines += deviation.text + "\n";
@@ -122,7 +122,7 @@ std::string failure_of(const std::vector<Deviation>& deviations) {
          " from the mesh or the format";
 }
 
-void run(const MeshSource& source) {
+void run_check(const MeshSource& source) {
   std::string text, failure;
   {
     Progress progress;
@@ -146,7 +146,7 @@ void run(const MeshSource& source) {
         failure = without_area(found);
     }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
-    text += lines_of(deviations);
+    text += deviation_lines(deviations);
     if (failure.empty())
       failure = failure_of(deviations);
   }
@@ -170,7 +170,7 @@ void add_check(CLI::App& app) {
   set_help(*command,
            {.common = {},
             .examples = {"calotte check mesh.nc", "calotte check mesh.tri --points points.txt"}});
-  command->callback([source] { run(*source); });
+  command->callback([source] { run_check(*source); });
 }
 
 } // namespace calotte::tools

@@ -10,6 +10,7 @@
 #include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "options/numbers.h"
+#include "options/sphere_radius_option.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
 #include "run/shapes.h"
@@ -27,7 +28,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct ConvertRequest {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<FormatWords> format;
@@ -38,7 +39,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any input is read.
-void require_request(const Request& request) {
+void require_request(const ConvertRequest& request) {
   const MeshSource& source = *request.source;
   const Format format = options_of(*request.format, request.output)
                             .format; // throws for a file that cannot be written
@@ -54,28 +55,28 @@ void require_request(const Request& request) {
            "the file holds points, triangulate them with calotte delaunay");
 }
 
-constexpr double kilometre = 1000; // metres
-
 /// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
 bool is_in_kilometres(double radius) { return radius > 6300 && radius < 6400; }
 
 /// Whether the radius is that of the file.
-bool keeps_radius(const Request& request) {
+bool keeps_radius(const ConvertRequest& request) {
   return !request.format->sphere_radius && !request.format->model;
 }
 
 /// Whether neither the options nor the file say what density the mesh was made for. Writers of
 /// other programs store 1 then.
-bool lacks_density(const Request& request, const MeshFile& file) {
+bool lacks_density(const ConvertRequest& request, const MeshFile& file) {
   return request.density->densities.empty() && !request.density->widths.given() &&
          (file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff());
 }
 
-WriteOptions write_options(const Request& request, const Density& density, const MeshFile& file) {
+WriteOptions write_options(const ConvertRequest& request, const Density& density,
+                           const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
   if (keeps_radius(request))
-    options.sphere_radius =
-        is_in_kilometres(file.sphere_radius) ? kilometre * file.sphere_radius : file.sphere_radius;
+    options.sphere_radius = is_in_kilometres(file.sphere_radius)
+                                ? metres_per_km * file.sphere_radius
+                                : file.sphere_radius;
   options.density = density;
   if (is_mpas(options.format) && lacks_density(request, file))
     options.site_density = spacing_density(file);
@@ -84,7 +85,7 @@ WriteOptions write_options(const Request& request, const Density& density, const
   return options;
 }
 
-std::string describe(const MeshFile& file) {
+std::string describe_mesh(const MeshFile& file) {
   const Mesh* plane = file.plane();
   if (plane && file.polygons)
     return std::to_string(file.polygons->size()) + (plane->surface.period().maxCoeff() > 0
@@ -109,8 +110,8 @@ std::string renamed(const std::vector<std::array<std::string, 2>>& names) {
 }
 
 /// What the output does not hold of the input, and a unit that was taken for granted.
-std::string remarks(const Request& request, const MeshFile& file, const WriteOptions& options,
-                    const WrittenFields& written) {
+std::string remarks(const ConvertRequest& request, const MeshFile& file,
+                    const WriteOptions& options, const WrittenFields& written) {
   std::string lines;
   if (is_in_kilometres(file.sphere_radius) && keeps_radius(request) &&
       request.output.ends_with(".nc"))
@@ -132,7 +133,7 @@ std::string remarks(const Request& request, const MeshFile& file, const WriteOpt
 }
 
 /// \throws Error invalid_argument, where the domain of a plane is missing or in vain.
-MeshFile read_input(const Request& request) {
+MeshFile read_input(const ConvertRequest& request) {
   MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
   const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;
   const std::optional<Surface> part = surface_of(*request.domain);
@@ -149,7 +150,7 @@ MeshFile read_input(const Request& request) {
 }
 
 /// Makes an open mesh one that FESOM reads, where it is written for it.
-EarReport remove_ears(const Request& request, MeshFile& file) {
+EarReport remove_ears(const ConvertRequest& request, MeshFile& file) {
   if (!file.sphere() || file.mesh->closed() ||
       options_of(*request.format, request.output).format != Format::fesom)
     return {};
@@ -158,7 +159,7 @@ EarReport remove_ears(const Request& request, MeshFile& file) {
   return rest.removed;
 }
 
-std::string describe(const Request& request, const EarReport& ears) {
+std::string describe_ears(const ConvertRequest& request, const EarReport& ears) {
   if (ears.triangles == 0 && ears.sites == 0)
     return "";
   return request.output + ": without " + std::to_string(ears.triangles) +
@@ -166,7 +167,7 @@ std::string describe(const Request& request, const EarReport& ears) {
          " nodes that no triangle has then: FESOM refuses them\n";
 }
 
-void run(const Request& request) {
+void run(const ConvertRequest& request) {
   require_request(request);
   const Density density = density_of(*request.density);
   std::string words, fault;
@@ -178,8 +179,8 @@ void run(const Request& request) {
     progress.stage("writing " + request.output);
     const WriteOptions options = write_options(request, density, file);
     const WrittenFields written = write(request.output, file, options);
-    words = changes_of(*request.source, file) + describe(request, ears) +
-            remarks(request, file, options, written) + request.output + ": " + describe(file) +
+    words = changes_of(*request.source, file) + describe_ears(request, ears) +
+            remarks(request, file, options, written) + request.output + ": " + describe_mesh(file) +
             "\n";
     if (file.polygons)
       fault = without_area(shapes(*file.polygons));
@@ -198,7 +199,7 @@ void add_convert(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "convert", "Converts a mesh, its density and its fields to another format. Points, "
                  "triangles and cells do not change.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ConvertRequest>();
   request->source = add_mesh_source(*command, "IN,--input");
   add_plane(*command, *request->source);
   command->add_option("OUT,-o,--output", request->output, help_of_output())

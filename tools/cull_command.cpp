@@ -26,7 +26,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct CullRequest {
   std::string source, output, mask, cell_map;
   std::optional<std::string> model;
   std::vector<std::string> land, passages, barriers, seeds;
@@ -46,7 +46,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any input is read.
-void require_request(const Request& request) {
+void require_request(const CullRequest& request) {
   require_mpas_name(request.output);
   require_mpas_model(request.model);
   if (request.land.empty() && request.raster.empty() && request.field.empty() &&
@@ -71,7 +71,7 @@ Coast coast_of(const std::vector<std::string>& files) {
   return all;
 }
 
-std::vector<Points3> lines_of(const std::vector<std::string>& files) {
+std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
   std::vector<Points3> all;
   for (const std::string& file : files) {
     const std::vector<Points3> lines = read_lines(file);
@@ -91,7 +91,7 @@ Points3 places_of(const std::vector<std::string>& words) {
   return read_points(in, "--seed", Columns::lonlat);
 }
 
-CullOptions options_of(const Request& request) {
+CullOptions options_of(const CullRequest& request) {
   CullOptions options;
   options.coast = coast_of(request.land);
   if (!request.raster.empty())
@@ -103,8 +103,8 @@ CullOptions options_of(const Request& request) {
     options.field.lower = *request.from;
   if (request.from || request.below)
     options.field.upper = request.below.value_or(std::numeric_limits<double>::infinity());
-  options.passages = lines_of(request.passages);
-  options.barriers = lines_of(request.barriers);
+  options.passages = read_all_lines(request.passages);
+  options.barriers = read_all_lines(request.barriers);
   options.fill = !request.no_fill;
   options.seeds = places_of(request.seeds);
   options.mask_path = request.mask;
@@ -120,7 +120,7 @@ CullOptions options_of(const Request& request) {
   return options;
 }
 
-std::string describe(const Request& request, const CullReport& report) {
+std::string describe_cull(const CullRequest& request, const CullReport& report) {
   const auto line = [](const std::string& name, std::int64_t cells) {
     std::string text = name;
     text.resize(28, ' ');
@@ -147,7 +147,7 @@ std::string describe(const Request& request, const CullReport& report) {
                                                           : std::vector<FieldDimension>{});
 }
 
-void run(const Request& request) {
+void run(const CullRequest& request) {
   require_request(request);
   CullReport report;
   {
@@ -157,10 +157,10 @@ void run(const Request& request) {
     progress.stage("culling " + request.source);
     report = cull(request.source, request.output, options);
   }
-  std::cout << describe(request, report);
+  std::cout << describe_cull(request, report);
 }
 
-void add_raster(CLI::App& command, Request& request) {
+void add_raster(CLI::App& command, CullRequest& request) {
   CLI::Option* const file =
       command
           .add_option("--raster", request.raster,
@@ -188,7 +188,7 @@ void add_raster(CLI::App& command, Request& request) {
       ->needs(file);
 }
 
-void add_land(CLI::App& command, Request& request) {
+void add_land(CLI::App& command, CullRequest& request) {
   const OptionGroup group(command, "Land");
   command
       .add_option("--land", request.land,
@@ -227,7 +227,7 @@ void add_land(CLI::App& command, Request& request) {
       ->needs("--field");
 }
 
-void add_sea(CLI::App& command, Request& request) {
+void add_sea(CLI::App& command, CullRequest& request) {
   const OptionGroup group(command, "Sea");
   command
       .add_option("--passage", request.passages,
@@ -254,7 +254,7 @@ void add_sea(CLI::App& command, Request& request) {
 void add_cull(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "cull", "Makes an ocean grid: leaves the cells of land out of a global MPAS file.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<CullRequest>();
   add_global(*command, request->source);
   add_land(*command, *request);
   add_sea(*command, *request);

@@ -21,7 +21,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct CutRequest {
   std::string source, region, inside, output;
   int rings = limited_area_rings;
   std::optional<double> sphere_radius;
@@ -30,7 +30,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any input is read.
-void require_request(const Request& request) {
+void require_request(const CutRequest& request) {
   require_mpas_name(request.output);
   if (request.sphere_radius)
     require_sphere_radius(*request.sphere_radius);
@@ -39,7 +39,7 @@ void require_request(const Request& request) {
   require_outputs({{"grid", request.output}}, {request.source, region_file(request.region)});
 }
 
-CutOptions options_of(const Request& request) {
+CutOptions options_of(const CutRequest& request) {
   CutOptions options;
   options.rings = request.rings;
   if (request.keep_radius)
@@ -61,7 +61,7 @@ std::string rings_in_words(int rings, std::int64_t inside, std::int64_t around) 
          std::to_string(rings) + (rings == 1 ? " ring around it" : " rings around it");
 }
 
-std::string describe(const Request& request, const CutReport& report) {
+std::string describe_cut(const CutRequest& request, const CutReport& report) {
   const std::int64_t inside = report.cells_by_mask.front();
   std::string lines;
   for (const std::string& name : report.left_out)
@@ -76,7 +76,7 @@ std::string describe(const Request& request, const CutReport& report) {
                                         : "");
 }
 
-void run(const Request& request) {
+void run(const CutRequest& request) {
   require_request(request);
   CutReport report;
   {
@@ -86,7 +86,7 @@ void run(const Request& request) {
     progress.stage("cutting " + request.source);
     report = cut(request.source, request.output, region, options_of(request));
   }
-  std::cout << describe(request, report);
+  std::cout << describe_cut(request, report);
 }
 
 } // namespace
@@ -94,7 +94,7 @@ void run(const Request& request) {
 void add_cut(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "cut", "Cuts a limited-area grid from a global MPAS file, with all its fields.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<CutRequest>();
   add_global(*command, request->source);
   command
       ->add_option("--region", request->region,

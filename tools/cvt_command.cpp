@@ -74,7 +74,7 @@ private:
   Clock::time_point time_ = Clock::now();
 };
 
-struct Outcome {
+struct CvtOutcome {
   CvtReport report;
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
@@ -111,7 +111,7 @@ void keep(const CvtState& state, KeptStates& states, Progress& progress) {
 
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
 Next after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
-                     KeptStates& states, Progress& progress, Outcome& outcome) {
+                     KeptStates& states, Progress& progress, CvtOutcome& outcome) {
   progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
     keep(now.state, states, progress);
@@ -153,7 +153,7 @@ Run prepare(const CvtRequest& request, Progress& progress) {
 }
 
 /// Where the cell of the worst shape is: " (at ...)"; "" without one.
-std::string worst_place(const Outcome& outcome) {
+std::string worst_place(const CvtOutcome& outcome) {
   const std::int64_t cell = outcome.report.worst_cell;
   if (cell < 0)
     return "";
@@ -166,8 +166,8 @@ std::string worst_place(const Outcome& outcome) {
 }
 
 /// \param run its state is moved out.
-Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
-  Outcome outcome;
+CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
+  CvtOutcome outcome;
   outcome.before = run.state ? run.state->report().iterations.size() : 0;
   Keeper keeper(request, run.configuration, outcome.before);
   KeptStates states(request, run.schedule.recipe.surface, outcome.before);
@@ -198,7 +198,7 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
 // ---- After it
 
 /// Prints where a signal ended the run and how to resume it.
-[[noreturn]] void finish_interrupted(const CvtRequest& request, const Outcome& outcome) {
+[[noreturn]] void finish_interrupted(const CvtRequest& request, const CvtOutcome& outcome) {
   const std::vector<CvtIteration>& iterations = outcome.report.iterations;
   const std::string residual = residual_words(request, outcome.report);
   std::cerr << std::string("calotte: stopped by ") +
@@ -214,7 +214,7 @@ Outcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
 }
 
 /// The mesh is a good CVT, but not all shapes are those asked for.
-[[noreturn]] void finish_not_well_centred(const CvtRequest& request, const Outcome& outcome) {
+[[noreturn]] void finish_not_well_centred(const CvtRequest& request, const CvtOutcome& outcome) {
   const CvtReport& report = outcome.report;
   // A file of a part of the cells numbers them anew; a run that had ended does not know its worst.
   const bool part =
@@ -291,7 +291,8 @@ std::string part_line(const std::string& path, const Recipe& asked, const GridFi
   return "";
 }
 
-void write_result(const CvtRequest& request, const Run& run, Outcome& outcome, Progress& progress) {
+void write_result(const CvtRequest& request, const Run& run, CvtOutcome& outcome,
+                  Progress& progress) {
   progress.stage("writing " + request.mesh);
   const Recipe& made = run.schedule.recipe;
   WriteOptions options = write_options(request);
@@ -305,11 +306,11 @@ void write_result(const CvtRequest& request, const Run& run, Outcome& outcome, P
 
 /// From here on a signal ends the run after the current iteration, with its output complete.
 /// \param schedule receives that of the run.
-Outcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
+CvtOutcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
   Progress progress;
   Run run = prepare(request, progress);
   const Interruption interruption;
-  Outcome outcome = tessellate(request, run, progress);
+  CvtOutcome outcome = tessellate(request, run, progress);
   if (const std::int64_t count = run.schedule.on_boundary; count > 0)
     outcome.doubt =
         doubt_of_boundary(outcome.mesh, run.schedule.recipe.fixed.cols() - count, count);
@@ -327,7 +328,8 @@ std::string models_of(const CvtRequest& request) {
 }
 
 /// Prints what the run's result lacks.
-void warn_of_result(const CvtRequest& request, const Schedule& schedule, const Outcome& outcome) {
+void warn_of_result(const CvtRequest& request, const Schedule& schedule,
+                    const CvtOutcome& outcome) {
   if (request.points.empty() && outcome.cells != schedule.recipe.cells && !request.domain->walls)
     std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
                      std::to_string(schedule.recipe.cells) + ": " +
@@ -364,7 +366,7 @@ void run(CvtRequest request) {
   }
   require_request(request);
   Schedule schedule;
-  const Outcome outcome = tessellate_and_write(request, schedule);
+  const CvtOutcome outcome = tessellate_and_write(request, schedule);
   const Stop& stop = schedule.recipe.stop;
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);

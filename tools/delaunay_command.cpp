@@ -30,7 +30,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct DelaunayRequest {
   std::string points, mesh, report;
   bool lonlat = false, plane = false;
   std::optional<std::string> periodic;
@@ -40,7 +40,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any work.
-void require_request(const Request& request) {
+void require_request(const DelaunayRequest& request) {
   if (request.plane && request.format->sphere_radius)
     refuse("--sphere-radius does not apply with --plane; leave it out");
   if (request.plane && holds_points(request.points))
@@ -52,12 +52,12 @@ void require_request(const Request& request) {
                   {request.points, *request.config});
 }
 
-Surface surface_of(const Request& request) {
+Surface surface_of(const DelaunayRequest& request) {
   const std::optional<Eigen::Vector2d> period = period_of(request.periodic);
   return period ? Surface::periodic(*period) : request.plane ? Surface::plane() : Surface::sphere();
 }
 
-Triangulation triangulate(PointFile&& input, const Request& request,
+Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
                           const DelaunayOptions& options) {
   Triangulation result;
   try {
@@ -70,7 +70,7 @@ Triangulation triangulate(PointFile&& input, const Request& request,
   return result;
 }
 
-WriteOptions write_options(const Request& request, std::int64_t points) {
+WriteOptions write_options(const DelaunayRequest& request, std::int64_t points) {
   WriteOptions options = options_of(*request.format, request.mesh);
   options.history = "calotte " CALOTTE_VERSION " delaunay: " + request.points + ", " +
                     std::to_string(points) + " points; duplicates " +
@@ -117,7 +117,7 @@ std::string kind_of(const Mesh& mesh) {
   return std::to_string(2 * mesh.points.cols() - 2 - mesh.triangles.cols()) + " sites on the hull";
 }
 
-std::string summary(const Request& request, const Triangulation& result) {
+std::string summary(const DelaunayRequest& request, const Triangulation& result) {
   const std::int64_t duplicates = result.report.duplicates;
   std::string line = request.mesh + ": " + std::to_string(result.mesh.points.cols()) + " sites, " +
                      std::to_string(result.mesh.triangles.cols()) + " triangles, ";
@@ -129,7 +129,7 @@ std::string summary(const Request& request, const Triangulation& result) {
 }
 
 /// What a model reads of the file.
-std::string remarks(const Request& request, const WriteOptions& output) {
+std::string remarks(const DelaunayRequest& request, const WriteOptions& output) {
   std::string lines;
   if (output.site_density.size() > 0)
     lines += derived_density(request.mesh, output.site_density);
@@ -155,7 +155,7 @@ std::string warning_of(const std::string& points, bool closed) {
 }
 
 /// \returns the lines to print.
-std::string triangulate_file(const Request& request, const DelaunayOptions& options) {
+std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptions& options) {
   Progress progress;
   PointFile input;
   progress.stage("reading points");
@@ -179,7 +179,7 @@ std::string triangulate_file(const Request& request, const DelaunayOptions& opti
          summary(request, result);
 }
 
-void run(const Request& request) {
+void run(const DelaunayRequest& request) {
   require_request(request);
   std::cout << triangulate_file(request, options_of(*request.partition));
 }
@@ -190,7 +190,7 @@ void add_delaunay(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("delaunay", "Triangulates points on the sphere or in the plane. The mesh "
                                      "has the same bits for any number of threads and regions.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<DelaunayRequest>();
   command
       ->add_option("POINTS,--points", request->points,
                    "Input points: text with x y z on each line (vectors of any length), - for "

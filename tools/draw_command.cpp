@@ -20,7 +20,6 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 namespace calotte::tools {
@@ -38,10 +37,6 @@ void draw_reports(const DrawArguments& arguments) {
   draw_history(arguments.output, histories, arguments.options.look.size);
   std::cout << arguments.output << ": convergence of " << histories.size()
             << (histories.size() == 1 ? " run\n" : " runs\n");
-}
-
-std::string file_name(const MeshSource& source) {
-  return std::filesystem::path(source.path).filename();
 }
 
 /// Throws for a density without an option that uses it, and for a missing density.

@@ -112,7 +112,7 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
 }
 
 /// --range: two numbers.
-void add_range(CLI::App& command, std::optional<Range>& range) {
+void add_range(CLI::App& command, std::optional<ColourRange>& range) {
   const auto set = [&range](const std::string& text) {
     const auto ends = numbers_of<2>(text);
     if (!ends || !((*ends)[0] < (*ends)[1])) {

@@ -20,11 +20,11 @@ namespace {
 
 constexpr const char* command_line = "calotte"; ///< before the name of a command
 
-[[noreturn]] void refuse(const CLI::App& app, const std::string& name) {
+[[noreturn]] void refuse_topic(const CLI::App& app, const std::string& name) {
   std::vector<std::string> names = command_names(app);
   for (const Topic& topic : topics())
     names.push_back(topic.name);
-  tools::refuse("no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
+  refuse("no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
 }
 
 /// \param name of a command or a topic; "" for the main command.
@@ -39,7 +39,7 @@ std::string help_on(const CLI::App& app, const std::string& name) {
     if (command->get_name() == name)
       return command->get_formatter()->make_help(command, std::string(command_line) + " " + name,
                                                  mode);
-  refuse(app, name);
+  refuse_topic(app, name);
 }
 
 /// \param name of a command; "" for the main command.
@@ -49,8 +49,8 @@ std::string man_page_of(const CLI::App& app, const std::string& name) {
   for (const CLI::App* command : app.get_subcommands({}))
     if (command->get_name() == name)
       return man_page(app, *command);
-  tools::refuse("no manual page of \"" + name + "\"; " +
-                remedy_for(name, command_names(app), "", "calotte --help"));
+  refuse("no manual page of \"" + name + "\"; " +
+         remedy_for(name, command_names(app), "", "calotte --help"));
 }
 
 struct HelpRequest {

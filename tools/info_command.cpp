@@ -31,7 +31,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct InfoRequest {
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<DensityWords> density;
   std::shared_ptr<DomainWords> domain; ///< of a mesh of the plane
@@ -43,19 +43,20 @@ struct Request {
 };
 
 /// The report replaces no input.
-void require_report(const Request& request) {
+void require_report(const InfoRequest& request) {
   const WidthWords& widths = request.density->widths;
   require_outputs({{"report", request.report}},
                   {request.source->path, request.source->points, widths.file, widths.raster,
                    request.domain->file.value_or("")});
 }
 
-std::optional<double> radius_of(const Request& request, const MeshFile& file) {
+std::optional<double> radius_of(const InfoRequest& request, const MeshFile& file) {
   return radius_km(file, request.density->widths, request.sphere_radius);
 }
 
 /// The density that is given, or else that of the file.
-Density density_of(const Request& request, const MeshFile& file, Measured& measured) {
+Density density_or_file_density(const InfoRequest& request, const MeshFile& file,
+                                Measured& measured) {
   const Density given = density_of(*request.density, file.mesh->surface);
   measured.density = density_name(*request.density);
   if (!given.uniform() || file.density.size() == 0 || !file.sphere() ||
@@ -101,7 +102,7 @@ std::vector<std::int64_t> masks_of(const std::string& path, std::int64_t cells) 
 constexpr const char* no_operators =
     "operators need Voronoi cells, so their errors are not measured";
 
-void measure_sphere(const Request& request, const MeshFile& file, Measured& measured) {
+void measure_sphere(const InfoRequest& request, const MeshFile& file, Measured& measured) {
   const Mesh& mesh = *file.mesh;
   measured.radius_km = radius_of(request, file);
   measured.unit = unit_of(request.units, measured.radius_km);
@@ -112,8 +113,9 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
     measured.areas = shapes(*file.polygons).area;
     measured.cells_area = areas(*file.polygons).sum() / (4 * std::numbers::pi);
   }
-  const Density density =
-      measured.cells && !measured.open ? density_of(request, file, measured) : Density{};
+  const Density density = measured.cells && !measured.open
+                              ? density_or_file_density(request, file, measured)
+                              : Density{};
   measured.quality = !measured.cells ? triangle_quality(mesh)
                      : measured.open ? open_quality(mesh)
                                      : quality(mesh, density);
@@ -129,7 +131,7 @@ void measure_sphere(const Request& request, const MeshFile& file, Measured& meas
 
 /// A plane with walls, such as a channel: as an open mesh of the sphere. The file's cells have the
 /// area.
-void measure_walls(const Request& request, const MeshFile& file, Measured& measured) {
+void measure_walls(const InfoRequest& request, const MeshFile& file, Measured& measured) {
   find_boundary(count_edges(*file.mesh), measured);
   measured.quality = open_quality(*file.mesh);
   measured.domain_area = areas(*file.polygons).sum();
@@ -137,7 +139,7 @@ void measure_walls(const Request& request, const MeshFile& file, Measured& measu
     measured.remarks.emplace_back("the operators of a plane with walls are not measured");
 }
 
-void measure_plane(const Request& request, const MeshFile& file,
+void measure_plane(const InfoRequest& request, const MeshFile& file,
                    const std::optional<Surface>& covered, Measured& measured) {
   if (!covered && file.polygons && file.mesh->surface.period().maxCoeff() > 0)
     return measure_walls(request, file, measured);
@@ -156,7 +158,7 @@ void measure_plane(const Request& request, const MeshFile& file,
 
 /// Whether the file's cells are measured by their corners alone: those of the sphere that are no
 /// Voronoi cells, and those of a plane whose domain nothing tells.
-bool as_polygons(const Request& request, const MeshFile& file,
+bool as_polygons(const InfoRequest& request, const MeshFile& file,
                  const std::optional<Surface>& covered) {
   if (!file.polygons)
     return false;
@@ -165,7 +167,7 @@ bool as_polygons(const Request& request, const MeshFile& file,
   return !file.mesh || file.mesh->closed();
 }
 
-std::string remarks_of(const Request& request, const Measured& measured) {
+std::string remarks_of(const InfoRequest& request, const Measured& measured) {
   std::string lines;
   for (const auto* list : {&measured.changes, &measured.remarks})
     for (const std::string& remark : *list)
@@ -174,7 +176,7 @@ std::string remarks_of(const Request& request, const Measured& measured) {
 }
 
 /// The numbers of one cell, a line each.
-std::string cell_table(const Request& request, const MeshFile& file) {
+std::string cell_table(const InfoRequest& request, const MeshFile& file) {
   const ViewMesh mesh = view_mesh(request.source->path, file,
                                   {.density = density_of(*request.density, file.mesh->surface),
                                    .radius_km = radius_of(request, file),
@@ -185,7 +187,7 @@ std::string cell_table(const Request& request, const MeshFile& file) {
 }
 
 /// The table to print. Writes the report, too.
-std::string read_and_measure(const Request& request) {
+std::string read_and_measure(const InfoRequest& request) {
   Progress progress;
   progress.stage("reading " + request.source->path);
   MeshFile file =
@@ -224,7 +226,7 @@ std::string read_and_measure(const Request& request) {
          (by_corners ? table(*file.polygons, file.mesh, measured.unit) : table(measured));
 }
 
-void run(const Request& request) {
+void run(const InfoRequest& request) {
   request.density->widths.plane = request.source->plane;
   require_sphere_radius(request.sphere_radius.value_or(1));
   require_report(request);
@@ -238,7 +240,7 @@ void add_info(CLI::App& app) {
       "info",
       "Measures a mesh: spacing, quality of cells and triangles, and distance from a CVT. calotte "
       "help measures explains the words.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<InfoRequest>();
   request->source = add_mesh_source(*command);
   add_plane(*command, *request->source);
   request->domain = add_domain(*command);

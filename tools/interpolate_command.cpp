@@ -25,7 +25,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct InterpolateRequest {
   std::string source, mesh, target, output, weights, apply;
   std::vector<std::string> fields, categories, numbers;
   Interpolation method = Interpolation::conservative;
@@ -36,7 +36,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any input is read.
-void require_request(const Request& request) {
+void require_request(const InterpolateRequest& request) {
   if (request.output.empty() && request.weights.empty())
     refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
   if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
@@ -47,21 +47,21 @@ void require_request(const Request& request) {
                   {request.source, request.mesh, request.target, request.apply});
 }
 
-FieldGrid grid_of(const std::string& word, FieldChoice choice) {
+FieldGrid raster_or_mesh(const std::string& word, FieldChoice choice) {
   if (std::optional<FieldGrid> raster = raster_of(word))
     return *std::move(raster);
   return read_field_grid(word, choice);
 }
 
-FieldGrid source_of(const Request& request) {
+FieldGrid source_of(const InterpolateRequest& request) {
   const FieldChoice choice = request.output.empty() ? FieldChoice::none : FieldChoice::all;
-  return request.mesh.empty() ? grid_of(request.source, choice)
+  return request.mesh.empty() ? raster_or_mesh(request.source, choice)
                               : read_field_grid(request.source, request.mesh, choice);
 }
 
 // ---- Fields
 
-std::vector<std::string> names_of(const std::vector<MeshField>& fields) {
+std::vector<std::string> field_names(const std::vector<MeshField>& fields) {
   std::vector<std::string> names;
   for (const MeshField& field : fields)
     names.push_back(field.name);
@@ -73,7 +73,7 @@ MeshField& field_named(const std::string& name, FieldGrid& source) {
                                   [&](const MeshField& field) { return field.name == name; });
   if (found != source.fields.end())
     return *found;
-  const std::vector<std::string> names = names_of(source.fields);
+  const std::vector<std::string> names = field_names(source.fields);
   const std::string nearest = nearest_name(name, names);
   refuse(source.name + " has no field " + name + " at cells" +
          (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
@@ -82,7 +82,7 @@ MeshField& field_named(const std::string& name, FieldGrid& source) {
 }
 
 /// The fields that are asked for; all without names.
-std::vector<MeshField> chosen_fields(const Request& request, FieldGrid& source) {
+std::vector<MeshField> chosen_fields(const InterpolateRequest& request, FieldGrid& source) {
   if (request.fields.empty() && source.fields.empty())
     refuse(source.name + " has no fields at cells; give a file that has, or --weights without -o");
   if (request.fields.empty())
@@ -99,7 +99,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 /// Whether integers are categories: what the options say, or those without a unit.
 /// \returns the remark on a decision that no option made.
-std::string decide_categories(const Request& request, MeshField& field) {
+std::string decide_categories(const InterpolateRequest& request, MeshField& field) {
   if (contains(request.categories, field.name)) {
     if (!field.integer)
       refuse("--categories " + field.name + ": the field does not hold integers; leave it out");
@@ -121,8 +121,8 @@ std::string decide_categories(const Request& request, MeshField& field) {
 
 // ---- Weights
 
-void require_fit(const Request& request, const GridWeights& weights, const FieldGrid& source,
-                 const FieldGrid& target) {
+void require_fit(const InterpolateRequest& request, const GridWeights& weights,
+                 const FieldGrid& source, const FieldGrid& target) {
   const auto require = [&](std::int64_t known, const FieldGrid& grid, const std::string& role) {
     if (known != grid.size())
       refuse(request.apply + ": the weights are for a " + role + " of " + std::to_string(known) +
@@ -133,7 +133,8 @@ void require_fit(const Request& request, const GridWeights& weights, const Field
   require(weights.weights.rows(), target, "target");
 }
 
-GridWeights weights_of(const Request& request, const FieldGrid& source, const FieldGrid& target) {
+GridWeights weights_of(const InterpolateRequest& request, const FieldGrid& source,
+                       const FieldGrid& target) {
   if (request.apply.empty())
     return interpolation_weights(source, target, request.method);
   GridWeights weights = read_weights(request.apply);
@@ -159,8 +160,8 @@ std::string plural(std::int64_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : more);
 }
 
-std::string describe(const Request& request, const FieldGrid& source, const GridWeights& weights,
-                     const std::vector<MeshField>& fields) {
+std::string describe_weights(const InterpolateRequest& request, const FieldGrid& source,
+                             const GridWeights& weights, const std::vector<MeshField>& fields) {
   std::string lines;
   const std::string& name = request.output.empty() ? request.weights : request.output;
   const std::int64_t outside = rows_without_weights(weights.weights);
@@ -176,18 +177,18 @@ std::string describe(const Request& request, const FieldGrid& source, const Grid
              " weights from " + std::to_string(weights.weights.cols()) + " to " +
              std::to_string(weights.weights.rows()) + " cells\n";
   if (!request.output.empty())
-    lines += request.output + ": " + joined(names_of(fields)) + " at " +
+    lines += request.output + ": " + joined(field_names(fields)) + " at " +
              plural(weights.weights.rows(), "cell, ", "cells, ") +
              (request.apply.empty() ? request.method_word : "by " + request.apply) + "\n";
   return lines;
 }
 
-std::string history_of(const Request& request) {
+std::string history_of(const InterpolateRequest& request) {
   return "calotte " CALOTTE_VERSION " interpolate: " + request.source + " " + request.target +
          (request.apply.empty() ? " --method " + request.method_word : " --apply " + request.apply);
 }
 
-void run(const Request& request) {
+void run(const InterpolateRequest& request) {
   require_request(request);
   std::string lines;
   {
@@ -200,7 +201,7 @@ void run(const Request& request) {
     for (MeshField& field : fields)
       lines += decide_categories(request, field);
     progress.stage("reading " + request.target);
-    const FieldGrid target = grid_of(request.target, FieldChoice::none);
+    const FieldGrid target = raster_or_mesh(request.target, FieldChoice::none);
     progress.stage("weights");
     const GridWeights weights = weights_of(request, source, target);
     for (MeshField& field : fields)
@@ -211,12 +212,12 @@ void run(const Request& request) {
                     history_of(request));
     if (!request.output.empty())
       write_fields(request.output, target, fields, history_of(request));
-    lines += describe(request, source, weights, fields);
+    lines += describe_weights(request, source, weights, fields);
   }
   std::cout << lines;
 }
 
-void add_field_options(CLI::App& command, Request& request) {
+void add_field_options(CLI::App& command, InterpolateRequest& request) {
   const auto add = [&](const std::string& name, std::vector<std::string>& names,
                        const std::string& help) {
     command.add_option(name, names, help)->type_name("NAMES")->delimiter(',');
@@ -242,7 +243,7 @@ void add_field_options(CLI::App& command, Request& request) {
       "unit.");
 }
 
-void add_weights_options(CLI::App& command, Request& request) {
+void add_weights_options(CLI::App& command, InterpolateRequest& request) {
   command
       .add_option("--weights", request.weights,
                   "Also write the weights to this NetCDF file, for ncremap, CDO and --apply.")
@@ -267,7 +268,7 @@ void add_interpolate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "interpolate", "Takes fields from one grid to another: meshes and rasters of longitude and "
                      "latitude.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<InterpolateRequest>();
   command
       ->add_option("SOURCE,--source", request->source,
                    "Mesh with fields at its cells, or raster: NetCDF with lat(lat) and lon(lon).")

@@ -109,7 +109,7 @@ Job job_of(const JigFile& jig) {
   return job;
 }
 
-Cvt grid_of(const Job& job, const std::optional<int>& threads, Progress& progress) {
+Cvt make_mesh(const Job& job, const std::optional<int>& threads, Progress& progress) {
   Cvt grid;
   with_threads(threads, [&] {
     const Schedule schedule = plan(job.recipe);
@@ -123,7 +123,7 @@ Cvt grid_of(const Job& job, const std::optional<int>& threads, Progress& progres
   return grid;
 }
 
-void run(const std::string& path) {
+void run_jigsaw(const std::string& path) {
   const JigFile jig(path);
   const std::string output = jig.file("MESH_FILE");
   require_outputs({{"mesh", output}},
@@ -136,7 +136,7 @@ void run(const std::string& path) {
   if (jig.whole("VERBOSITY").value_or(0) > 0)
     for (const std::string& remark : job.remarks)
       std::cout << "calotte: " + remark + "\n";
-  Cvt grid = grid_of(job, threads > 0 ? std::optional(threads) : std::nullopt, progress);
+  Cvt grid = make_mesh(job, threads > 0 ? std::optional(threads) : std::nullopt, progress);
   const std::int64_t cells = grid.mesh.points.cols();
   progress.stage("writing " + output);
   grid.mesh.points *= job.radius;
@@ -165,7 +165,7 @@ void add_jigsaw(CLI::App& app) {
   set_help(*command, {.common = {},
                       .examples = {"calotte jigsaw mesh.jig",
                                    "calotte jigsaw mesh.jig && calotte info mesh.msh"}});
-  command->callback([path] { run(*path); });
+  command->callback([path] { run_jigsaw(*path); });
 }
 
 } // namespace calotte::tools

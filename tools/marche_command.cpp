@@ -17,7 +17,7 @@
 namespace calotte::tools {
 namespace {
 
-void run(const std::string& path) {
+void run_marche(const std::string& path) {
   const JigFile jig(path);
   const std::string widths = jig.file("HFUN_FILE");
   const double radius =
@@ -45,7 +45,7 @@ void add_marche(CLI::App& app) {
   set_help(*command, {.common = {},
                       .examples = {"calotte marche mesh.jig",
                                    "calotte marche mesh.jig && calotte jigsaw mesh.jig"}});
-  command->callback([path] { run(*path); });
+  command->callback([path] { run_marche(*path); });
 }
 
 } // namespace calotte::tools

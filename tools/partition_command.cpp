@@ -35,7 +35,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct PartitionRequest {
   std::string mesh, output, weights, report;
   std::vector<std::string> parts;
   std::optional<int> threads;
@@ -49,7 +49,7 @@ struct Row {
 };
 
 /// Of all files.
-struct Outcome {
+struct PartitionOutcome {
   std::int64_t cells = 0, edges = 0;
   std::vector<std::int64_t> components; ///< their numbers of cells
   std::vector<Row> rows;                ///< by number of parts
@@ -60,7 +60,7 @@ struct Outcome {
 // ---- Names
 
 /// What the names of the files have before the number of parts: NAME.graph.info.part. of NAME.nc.
-std::string prefix_of(const Request& request) {
+std::string prefix_of(const PartitionRequest& request) {
   const std::string name =
       request.output.empty()
           ? std::filesystem::path(request.mesh).replace_extension(".graph.info").string()
@@ -68,11 +68,11 @@ std::string prefix_of(const Request& request) {
   return name.ends_with(".") || name.ends_with("/") ? name : name + ".part.";
 }
 
-std::string path_of(const Request& request, std::int64_t parts) {
+std::string path_of(const PartitionRequest& request, std::int64_t parts) {
   return prefix_of(request) + std::to_string(parts);
 }
 
-void require_files(const Request& request, const std::vector<std::int64_t>& counts) {
+void require_files(const PartitionRequest& request, const std::vector<std::int64_t>& counts) {
   std::vector<Output> outputs{{"report", request.report}};
   for (const std::int64_t parts : counts)
     outputs.push_back({std::to_string(parts) + " parts", path_of(request, parts)});
@@ -86,7 +86,7 @@ void require_files(const Request& request, const std::vector<std::int64_t>& coun
                 "file that calotte convert makes of it");
 }
 
-MeshFile read_cells(const Request& request) {
+MeshFile read_cells(const PartitionRequest& request) {
   if (holds_triangles(request.mesh))
     refuse_triangles(request.mesh);
   MeshFile file = read_mesh_file(
@@ -100,7 +100,7 @@ MeshFile read_cells(const Request& request) {
 }
 
 /// A field of the file, or a variable that describes the mesh itself, such as areaCell.
-DoubleVector weights_of(const Request& request, const MeshFile& file, std::int64_t cells) {
+DoubleVector weights_of(const PartitionRequest& request, const MeshFile& file, std::int64_t cells) {
   if (request.weights.empty())
     return {};
   std::vector<std::string> names;
@@ -122,7 +122,7 @@ std::string edges_cut(std::int64_t count) {
   return std::to_string(count) + (count == 1 ? " edge" : " edges") + " cut";
 }
 
-std::string describe(const Row& row) {
+std::string describe_partition(const Row& row) {
   const std::int64_t unconnected = row.parts.unconnected;
   return row.path + ": " + edges_cut(row.parts.edge_cut) + ", imbalance " +
          formatted("%.4f", row.parts.imbalance) +
@@ -133,7 +133,7 @@ std::string describe(const Row& row) {
 }
 
 /// A line on a mesh that is not connected.
-std::string describe_components(const Request& request, const Outcome& outcome) {
+std::string describe_components(const PartitionRequest& request, const PartitionOutcome& outcome) {
   const std::vector<std::int64_t>& sizes = outcome.components;
   if (sizes.size() < 2)
     return "";
@@ -143,7 +143,7 @@ std::string describe_components(const Request& request, const Outcome& outcome) 
          "; a part may have cells of several\n";
 }
 
-std::string to_json(const Request& request, const Outcome& outcome) {
+std::string to_json(const PartitionRequest& request, const PartitionOutcome& outcome) {
   nlohmann::ordered_json json;
   json["mesh"] = request.mesh;
   json["cells"] = outcome.cells;
@@ -164,7 +164,7 @@ std::string to_json(const Request& request, const Outcome& outcome) {
 }
 
 /// Why partitions are not as balanced as their cells allow; empty if they are.
-std::string fault_of(const Outcome& outcome) {
+std::string fault_of(const PartitionOutcome& outcome) {
   const auto unbalanced = [](const Row& row) { return !row.parts.balanced; };
   const auto first = std::find_if(outcome.rows.begin(), outcome.rows.end(), unbalanced);
   if (first == outcome.rows.end())
@@ -178,7 +178,7 @@ std::string fault_of(const Outcome& outcome) {
 // ---- The run
 
 /// Partitions the cells for each number of parts, and writes the files.
-std::vector<Row> write_all(const Request& request, const IdLists& neighbours,
+std::vector<Row> write_all(const PartitionRequest& request, const IdLists& neighbours,
                            const std::vector<std::int64_t>& counts,
                            const PartitionOptions& options) {
   std::mutex mutex;
@@ -202,9 +202,10 @@ std::vector<Row> write_all(const Request& request, const IdLists& neighbours,
   return rows;
 }
 
-Outcome partition_file(const Request& request, const std::vector<PartCounts>& asked) {
+PartitionOutcome partition_file(const PartitionRequest& request,
+                                const std::vector<PartCounts>& asked) {
   Progress progress;
-  Outcome outcome;
+  PartitionOutcome outcome;
   MeshFile file;
   IdLists neighbours;
   progress.stage("reading " + request.mesh);
@@ -237,13 +238,13 @@ Outcome partition_file(const Request& request, const std::vector<PartCounts>& as
   return outcome;
 }
 
-void run(const Request& request) {
+void run(const PartitionRequest& request) {
   const std::vector<PartCounts> asked = part_counts(request.parts);
   require_files(request, {asked.front().first});
-  const Outcome outcome = partition_file(request, asked);
+  const PartitionOutcome outcome = partition_file(request, asked);
   std::cout << describe_components(request, outcome);
   for (const Row& row : outcome.rows)
-    std::cout << describe(row);
+    std::cout << describe_partition(row);
   const std::string fault = fault_of(outcome);
   if (fault.empty())
     return;
@@ -258,7 +259,7 @@ void add_partition(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "partition", "Partitions the cells of a mesh for many numbers of processes, with METIS. It "
                    "writes graph.info.part.N for each, as gpmetis does and MPAS reads it.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PartitionRequest>();
   command
       ->add_option("MESH,--input", request->mesh,
                    "Mesh file with cells: MPAS, UGRID, SCRIP, ESMF, Exodus, GeoJSON or others; the "

@@ -31,7 +31,6 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -39,10 +38,7 @@
 namespace calotte::tools {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double metres = 1000; // a km
-
-struct Request {
+struct PlanRequest {
   std::shared_ptr<DensityWords> density;
   RegionWords part;                  ///< of the sphere
   std::optional<std::int64_t> cells; ///< or those that the widths imply
@@ -70,14 +66,14 @@ struct Plan {
 };
 
 /// What a plan begins with.
-struct Input {
+struct PlanInput {
   Recipe recipe;
   std::optional<WidthRules> rules;
   double seconds = 0; ///< that the widths took
 };
 
-Input input_of(const Request& request) {
-  Input input;
+PlanInput input_of(const PlanRequest& request) {
+  PlanInput input;
   Recipe& recipe = input.recipe;
   const WidthWords& words = request.density->widths;
   if (!request.part.region.empty())
@@ -111,7 +107,7 @@ SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor,
           steepest_of(scaled, words, factor)};
 }
 
-Plan plan_of(const Request& request, const Input& input, const Schedule& schedule) {
+Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule& schedule) {
   const Recipe& recipe = input.recipe;
   Plan plan;
   plan.density = density_name(*request.density);
@@ -125,7 +121,7 @@ Plan plan_of(const Request& request, const Input& input, const Schedule& schedul
   if (recipe.widths)
     plan.radius_km = recipe.radius_km;
   else if (request.sphere_radius)
-    plan.radius_km = *request.sphere_radius / metres;
+    plan.radius_km = *request.sphere_radius / metres_per_km;
   plan.spacing = survey(recipe, made, plan.factor, request.density->widths);
   if (recipe.widths) {
     plan.doubt = doubt_of(*recipe.widths, request.density->widths);
@@ -195,7 +191,8 @@ std::string table(const Plan& plan) {
   if (plan.radius_km)
     row("cell width, km",
         interval(plan.spacing.least * *plan.radius_km, plan.spacing.greatest * *plan.radius_km));
-  row("cell width, degrees", interval(plan.spacing.least / degree, plan.spacing.greatest / degree));
+  row("cell width, degrees", interval(plan.spacing.least / radians_per_degree,
+                                      plan.spacing.greatest / radians_per_degree));
   row("steepest gradient", gradient_words(plan.spacing.steepest));
   for (const CvtLevel& level : plan.levels)
     row("level of the run", level_words(level));
@@ -229,8 +226,8 @@ std::string to_json(const Plan& plan) {
   if (plan.radius_km)
     json["width_km"] = {{"min", plan.spacing.least * *plan.radius_km},
                         {"max", plan.spacing.greatest * *plan.radius_km}};
-  json["width_degrees"] = {{"min", plan.spacing.least / degree},
-                           {"max", plan.spacing.greatest / degree}};
+  json["width_degrees"] = {{"min", plan.spacing.least / radians_per_degree},
+                           {"max", plan.spacing.greatest / radians_per_degree}};
   json["gradient"] = {{"slope", plan.spacing.steepest.slope},
                       {"longitude", plan.spacing.steepest.longitude},
                       {"latitude", plan.spacing.steepest.latitude}};
@@ -250,8 +247,8 @@ std::string to_json(const Plan& plan) {
 }
 
 /// The spacings on the map, in km if the radius is known, else in degrees.
-void draw_widths(const Request& request, const Density& density, const Plan& plan) {
-  const double radius = plan.radius_km.value_or(1 / degree);
+void draw_widths(const PlanRequest& request, const Density& density, const Plan& plan) {
+  const double radius = plan.radius_km.value_or(1 / radians_per_degree);
   const double unit = plan.spacing.unit * radius;
   const auto values = [&](const Points3& x) { return spacings_of(density, unit, x); };
   const std::string range = range_text(radius * plan.spacing.least, radius * plan.spacing.greatest,
@@ -266,7 +263,7 @@ void draw_widths(const Request& request, const Density& density, const Plan& pla
 
 // ---- The command
 
-void require_request(const Request& request) {
+void require_request(const PlanRequest& request) {
   require_region_words(request.part);
   const WidthWords& widths = request.density->widths;
   if (!request.cells && !widths.in_km())
@@ -286,10 +283,10 @@ void require_request(const Request& request) {
 }
 
 /// Writes the picture and the report, too.
-Plan make_plan(const Request& request) {
+Plan make_plan(const PlanRequest& request) {
   Progress progress;
   progress.stage("reading the density");
-  const Input input = input_of(request);
+  const PlanInput input = input_of(request);
   Plan plan;
   with_threads(request.threads, [&] {
     const Schedule schedule = calotte::plan(input.recipe);
@@ -305,7 +302,7 @@ Plan make_plan(const Request& request) {
   return plan;
 }
 
-void run(const Request& request) {
+void run(const PlanRequest& request) {
   require_request(request);
   const Plan plan = make_plan(request);
   if (!plan.doubt.empty())
@@ -313,7 +310,7 @@ void run(const Request& request) {
   std::cout << table(plan);
 }
 
-void add_cells(CLI::App& command, Request& request) {
+void add_cells(CLI::App& command, PlanRequest& request) {
   const auto set = [&request](const std::string& text) {
     if (text != "auto")
       request.cells = std::stoi(text);
@@ -333,7 +330,7 @@ void add_plan(CLI::App& app) {
       "plan",
       "Describes the grid that calotte cvt would make, without making it. It prints cells, widths "
       "and their gradient, and estimates of time, memory and file sizes.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PlanRequest>();
   request->density = add_density(*command);
   add_cells(*command, *request);
   add_region(*command, request->part);

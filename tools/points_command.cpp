@@ -20,7 +20,7 @@
 namespace calotte::tools {
 namespace {
 
-struct Request {
+struct PointsRequest {
   std::string kind, output;
   std::int64_t count = 0;
   std::optional<std::uint64_t> seed;
@@ -30,7 +30,7 @@ struct Request {
   bool planar() const { return kind == "random-plane" || kind == "hexagonal"; }
 };
 
-void require_options(const Request& request) {
+void require_request(const PointsRequest& request) {
   if (request.seed && request.kind != "random" && request.kind != "random-plane")
     refuse("--seed applies to random points only; leave it out");
   if (request.planar() && !request.domain->given())
@@ -66,7 +66,7 @@ int level_of(std::int64_t count) {
          std::to_string(fewer) + " or fewer");
 }
 
-Points3 generate(const Request& request) {
+Points3 generate(const PointsRequest& request) {
   if (request.kind == "random")
     return random_sphere(request.count, request.seed.value_or(1));
   if (request.kind == "fibonacci")
@@ -82,13 +82,13 @@ Points3 generate(const Request& request) {
   return cubed_sphere(request.count);
 }
 
-Points2 generate_in(const Surface& part, const Request& request) {
+Points2 generate_in(const Surface& part, const PointsRequest& request) {
   return request.kind == "hexagonal"
              ? hexagonal_lattice(request.count, part).topRows<2>()
              : random_points(request.count, part, {}, request.seed.value_or(1)).topRows<2>();
 }
 
-template <class Points> void put(const Points& points, const Request& request) {
+template <class Points> void put(const Points& points, const PointsRequest& request) {
   if (request.output == "-") {
     write_points(std::cout, points);
     return;
@@ -97,8 +97,8 @@ template <class Points> void put(const Points& points, const Request& request) {
   std::cout << request.output << ": " << points.cols() << " points\n";
 }
 
-void run(const Request& request) {
-  require_options(request);
+void run(const PointsRequest& request) {
+  require_request(request);
   if (const std::optional<Surface> part = surface_of(*request.domain))
     put(generate_in(*part, request), request);
   else
@@ -110,7 +110,7 @@ void run(const Request& request) {
 void add_points(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("points", "Writes points as text: x y z on each line, in the plane x y.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<PointsRequest>();
   command
       ->add_option(
           "KIND", request->kind,

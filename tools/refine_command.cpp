@@ -56,7 +56,7 @@ constexpr Verb coarsening{
     "narrower",
     coarsen};
 
-struct Request {
+struct RefineRequest {
   const Verb* verb = nullptr;
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<FormatWords> format;
@@ -71,7 +71,7 @@ struct Request {
 };
 
 /// Checks all options that can fail, before any input is read.
-void require_request(const Request& request) {
+void require_request(const RefineRequest& request) {
   options_of(*request.format, request.output);
   if (!request.widths.in_km() && request.region.empty())
     refuse("there are no widths; give --cell-width KM|FILE, or --region REGION with --factor F");
@@ -88,7 +88,7 @@ void require_request(const Request& request) {
 
 /// A plane is known by the rings that clip its cells, or by its period: given, or what the cells
 /// fill.
-void set_known_surface(const Request& request, MeshFile& file) {
+void set_known_surface(const RefineRequest& request, MeshFile& file) {
   const std::optional<Surface> given = surface_of(*request.domain);
   if (!file.plane() || (!given && file.mesh->surface.period().maxCoeff() > 0))
     return;
@@ -99,7 +99,7 @@ void set_known_surface(const Request& request, MeshFile& file) {
   set_surface(*file.mesh, *domain);
 }
 
-WidthDemand demand_of(const Request& request, const MeshFile& file) {
+WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
   const Surface& surface = file.mesh->surface;
   WidthDemand demand;
   demand.radius_km = radius_km(file, request.widths).value_or(request.widths.radius);
@@ -115,7 +115,7 @@ WidthDemand demand_of(const Request& request, const MeshFile& file) {
   return demand;
 }
 
-RefineOptions options_of(const Request& request, Progress& progress) {
+RefineOptions options_of(const RefineRequest& request, Progress& progress) {
   RefineOptions options;
   options.tolerance = request.tolerance;
   options.gradient = request.gradient.value_or(options.gradient);
@@ -130,7 +130,7 @@ RefineOptions options_of(const Request& request, Progress& progress) {
   return options;
 }
 
-WriteOptions write_options(const Request& request, const MeshFile& file) {
+WriteOptions write_options(const RefineRequest& request, const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
   if (!request.format->sphere_radius && !request.format->model)
     options.sphere_radius = file.sphere_radius;
@@ -175,9 +175,9 @@ std::string to_json(const ChangedMesh& changed, double read, double change, doub
   return json.dump(2) + "\n";
 }
 
-std::string describe(const Request& request, const std::vector<std::string>& ignored,
-                     const ChangedMesh& changed, const ChangedFile& file,
-                     const WrittenFields& written) {
+std::string describe_change(const RefineRequest& request, const std::vector<std::string>& ignored,
+                            const ChangedMesh& changed, const ChangedFile& file,
+                            const WrittenFields& written) {
   std::string lines;
   const auto list = [&](const std::string& what, const std::vector<std::string>& names) {
     if (!names.empty())
@@ -200,7 +200,7 @@ std::string describe(const Request& request, const std::vector<std::string>& ign
 }
 
 /// A line about what falls short, with its exit code.
-void judge(const Request& request, const ChangedMesh& changed) {
+void judge(const RefineRequest& request, const ChangedMesh& changed) {
   const Totals totals(changed.patches);
   if (changed.held > 0)
     std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.held) +
@@ -218,7 +218,7 @@ void judge(const Request& request, const ChangedMesh& changed) {
     finish(not_well_centred);
 }
 
-void run(const Request& request) {
+void run(const RefineRequest& request) {
   require_request(request);
   std::string words;
   ChangedMesh changed;
@@ -250,8 +250,8 @@ void run(const Request& request) {
         [&] { written = calotte::write(request.output, file.file, write_options(request, base)); });
     if (maps)
       maps->commit();
-    words =
-        changes_of(*request.source, base) + describe(request, base.ignored, changed, file, written);
+    words = changes_of(*request.source, base) +
+            describe_change(request, base.ignored, changed, file, written);
     if (!request.report.empty())
       write_file(request.report, to_json(changed, read, change, write));
   }
@@ -261,7 +261,7 @@ void run(const Request& request) {
 
 void add(CLI::App& app, const Verb& verb) {
   CLI::App* command = app.add_subcommand(verb.name, verb.purpose);
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<RefineRequest>();
   request->verb = &verb;
   request->source = add_mesh_source(*command, "BASE");
   add_plane(*command, *request->source);

@@ -34,9 +34,7 @@ extern char** environ; // NOLINT: of POSIX
 namespace calotte::tools {
 namespace {
 
-constexpr double metres = 1000; // a km
-
-struct Request {
+struct ViewRequest {
   std::shared_ptr<MeshSource> source;
   std::string other; ///< the mesh beside it, or ""
   std::shared_ptr<DensityWords> density;
@@ -54,16 +52,14 @@ struct Request {
   bool open = false;
 };
 
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename(); }
-
-std::string output_of(const Request& request) {
+std::string output_of(const ViewRequest& request) {
   if (!request.output.empty())
     return request.output;
   return request.plan ? "plan.html"
                       : std::filesystem::path(request.source->path).replace_extension(".html");
 }
 
-void require_request(const Request& request) {
+void require_request(const ViewRequest& request) {
   if (request.plan == !request.source->path.empty())
     refuse(request.plan ? "--plan shows widths before there is a mesh; leave MESH out"
                         : "give a mesh, or --plan and the widths of a grid");
@@ -86,15 +82,15 @@ void require_request(const Request& request) {
 }
 
 /// A mesh to show, and the radius of its sphere if it is known.
-struct Input {
+struct ViewInput {
   MeshSource source;
   MeshFile file;
   std::optional<double> radius_km;
 };
 
-Input read_input(const Request& request, const MeshSource& source, Progress& progress) {
+ViewInput read_input(const ViewRequest& request, const MeshSource& source, Progress& progress) {
   progress.stage("reading " + source.path);
-  Input input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
+  ViewInput input{source, read_mesh_file(source, FieldChoice::scalars), std::nullopt};
   if (!input.file.plane())
     input.radius_km = radius_km(input.file, request.density->widths, request.sphere_radius);
   return input;
@@ -102,8 +98,8 @@ Input read_input(const Request& request, const MeshSource& source, Progress& pro
 
 /// The mesh, and the one beside it. A sphere of unknown radius has that of the other, so that both
 /// are measured in the same unit.
-std::vector<Input> read_inputs(const Request& request, Progress& progress) {
-  std::vector<Input> inputs = {read_input(request, *request.source, progress)};
+std::vector<ViewInput> read_inputs(const ViewRequest& request, Progress& progress) {
+  std::vector<ViewInput> inputs = {read_input(request, *request.source, progress)};
   if (request.other.empty())
     return inputs;
   inputs.push_back(
@@ -116,7 +112,7 @@ std::vector<Input> read_inputs(const Request& request, Progress& progress) {
   return inputs;
 }
 
-ViewChoice choice_of(const Request& request) {
+ViewChoice choice_of(const ViewRequest& request) {
   const std::optional<Surface> surface = surface_of(*request.domain);
   return {.surface = surface,
           .density =
@@ -128,15 +124,15 @@ ViewChoice choice_of(const Request& request) {
           .most_cells = request.most_cells};
 }
 
-ViewPage view_of_meshes(const Request& request, Progress& progress) {
+ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
   ViewChoice choice = choice_of(request);
   ViewPage view;
-  for (Input& input : read_inputs(request, progress)) {
+  for (ViewInput& input : read_inputs(request, progress)) {
     progress.stage("measuring " + input.source.path);
     choice.radius_km = input.radius_km;
-    view.title += (view.title.empty() ? "" : " and ") + file_name(input.source.path);
+    view.title += (view.title.empty() ? "" : " and ") + file_name(input.source);
     const std::string changes = changes_of(input.source, input.file);
-    view.meshes.push_back(view_mesh(file_name(input.source.path), std::move(input.file), choice));
+    view.meshes.push_back(view_mesh(file_name(input.source), std::move(input.file), choice));
     std::cerr << changes;
   }
   view.side_by_side = view.meshes.size();
@@ -151,13 +147,13 @@ ViewPage view_of_meshes(const Request& request, Progress& progress) {
   return view;
 }
 
-ViewPage view_of_plan(const Request& request) {
+ViewPage view_of_plan(const ViewRequest& request) {
   const WidthWords& widths = request.density->widths;
   const Resolution resolution = resolution_of(*request.density);
   ViewPage view;
   view.title = "plan: " + density_name(*request.density);
   std::optional<double> radius =
-      request.sphere_radius ? std::optional(*request.sphere_radius / metres) : std::nullopt;
+      request.sphere_radius ? std::optional(*request.sphere_radius / metres_per_km) : std::nullopt;
   if (widths.in_km())
     radius = widths.radius;
   const double unit = resolution.widths && !request.cells
@@ -192,7 +188,7 @@ std::string summary(const ViewPage& view) {
   return text;
 }
 
-void run(const Request& request) {
+void run(const ViewRequest& request) {
   require_request(request);
   const std::string output = output_of(request);
   ViewPage view;
@@ -207,7 +203,7 @@ void run(const Request& request) {
     open_in_browser(output);
 }
 
-void add_content(CLI::App& command, Request& request) {
+void add_content(CLI::App& command, ViewRequest& request) {
   command
       .add_option("--field", request.fields,
                   "A field of the file at cells or triangles, by its name; may be given several "
@@ -233,7 +229,7 @@ void add_content(CLI::App& command, Request& request) {
   add_coastlines(command, request.coastlines);
 }
 
-void add_plan_options(CLI::App& command, Request& request) {
+void add_plan_options(CLI::App& command, ViewRequest& request) {
   command.add_flag("--plan", request.plan,
                    "Show the widths that --cell-width or --density prescribes and their gradient, "
                    "before there is a mesh");
@@ -249,7 +245,7 @@ void add_view(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "view", "Writes an HTML page that shows a mesh, or two side by side, in a browser. Turn it, "
               "find its worst cells, read their numbers. The page needs no network.");
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<ViewRequest>();
   request->source = add_mesh_source(*command);
   command->get_option("MESH")->required(false); // --plan replaces it
   command->add_option("OTHER", request->other, "A second mesh, shown beside the first")

@@ -16,10 +16,10 @@ namespace {
 constexpr Rgb border_colour = {0.25, 0.27, 0.31};
 constexpr Rgb grid_colour = {0.91, 0.92, 0.93};
 constexpr double smallest = 1e-100; ///< on a logarithmic axis, and the largest's inverse
-constexpr double fuzz =
+constexpr double end_tolerance =
     1e-9; ///< distance in steps within which a tick counts as an end of the axis
 
-std::string plain(double value) {
+std::string plain_label(double value) {
   if (std::abs(value) >= 1000 && std::abs(value) < 1e15 && value == std::round(value)) {
     return (value < 0 ? "\u2212" : "") + grouped(std::llround(std::abs(value)));
   }
@@ -29,7 +29,7 @@ std::string plain(double value) {
 /// digit times a power of ten.
 std::string logarithmic_label(int digit, int exponent) {
   if (exponent >= -4 && exponent <= 3) {
-    return plain(digit * std::pow(10, exponent));
+    return plain_label(digit * std::pow(10, exponent));
   }
   const std::string factor = digit == 1 ? "" : std::to_string(digit) + "\u2009\u00d7\u2009";
   return factor + power_of_ten(exponent);
@@ -40,7 +40,7 @@ double round_step(double range, int most) {
   const double least = range / most;
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double factor : {1., 2., 5.}) {
-    if (factor * power >= least * (1 - fuzz)) {
+    if (factor * power >= least * (1 - end_tolerance)) {
       return factor * power;
     }
   }
@@ -50,10 +50,10 @@ double round_step(double range, int most) {
 AxisTicks linear_ticks(const Axis& axis, int most) {
   AxisTicks ticks;
   const double step = round_step(axis.high - axis.low, most);
-  const double first = std::ceil(axis.low / step - fuzz);
-  for (int k = 0; (first + k) * step <= axis.high + fuzz * step; ++k) {
+  const double first = std::ceil(axis.low / step - end_tolerance);
+  for (int k = 0; (first + k) * step <= axis.high + end_tolerance * step; ++k) {
     const double value = (first + k) * step;
-    ticks.labelled.push_back({axis.place(value), plain(value)});
+    ticks.labelled.push_back({axis.place(value), plain_label(value)});
   }
   return ticks;
 }
@@ -92,14 +92,16 @@ AxisTicks digit_ticks(const Axis& axis, int first, int last, const std::vector<i
 }
 
 void drop_outside(AxisTicks& ticks) {
-  const auto outside = [](double place) { return place < -fuzz || place > 1 + fuzz; };
+  const auto outside = [](double place) {
+    return place < -end_tolerance || place > 1 + end_tolerance;
+  };
   std::erase_if(ticks.labelled, [&](const Tick& tick) { return outside(tick.place); });
   std::erase_if(ticks.unlabelled, outside);
 }
 
 AxisTicks logarithmic_ticks(const Axis& axis, int most) {
-  const auto first = static_cast<int>(std::ceil(std::log10(axis.low) - fuzz));
-  const auto last = static_cast<int>(std::floor(std::log10(axis.high) + fuzz));
+  const auto first = static_cast<int>(std::ceil(std::log10(axis.low) - end_tolerance));
+  const auto last = static_cast<int>(std::floor(std::log10(axis.high) + end_tolerance));
   const bool short_labels = axis.low >= 5e-4 && axis.high < 1e4; // of digits between the powers
   if (last - first >= 2 || (last > first && !short_labels)) {
     AxisTicks ticks = decade_ticks(axis, first, last, most);

@@ -160,7 +160,7 @@ namespace {
 
 constexpr LonLat usual_middle = {15, 25};
 
-View view_of(const DrawOptions& options, const Mesh& mesh) {
+View view_of_mesh(const DrawOptions& options, const Mesh& mesh) {
   if (!has_boundary(mesh)) {
     return view_of(options.look, usual_middle);
   }
@@ -192,7 +192,7 @@ Painting make_painting(const Mesh& mesh, const DrawOptions& options, const LonLa
 }
 
 /// The values of cells of any shape.
-std::vector<double> values_of(const Polygons& polygons, const DrawOptions& options) {
+std::vector<double> polygon_values(const Polygons& polygons, const DrawOptions& options) {
   const auto by_cell = [](const DoubleVector& values) {
     return std::vector<double>(values.begin(), values.end());
   };
@@ -262,7 +262,7 @@ void draw_painting(const std::string& path, Painting& painting, const DrawOption
 }
 
 void draw_sphere(const std::string& path, const Mesh& mesh, const DrawOptions& options) {
-  const View view = view_of(options, mesh);
+  const View view = view_of_mesh(options, mesh);
   Painting painting = make_painting(mesh, options, view.middle);
   draw_painting(path, painting, options, view, title_of(painting.scene, options));
 }
@@ -289,7 +289,7 @@ void draw(const std::string& path, const Polygons& polygons, const DrawOptions& 
   const View view = view_around(options.look, usual_middle, polygons.corners);
   Painting painting;
   painting.scene = make_scene(polygons, view.middle);
-  painting.values = values_of(polygons, options);
+  painting.values = polygon_values(polygons, options);
   painting.widths = widths_of(painting.scene, Shapes::cells);
   if (options.colouring == Colouring::valence) {
     painting.markers = markers_of(painting.scene, painting.values, painting.widths);

@@ -7,6 +7,7 @@
 #include <calotte/types.h>
 
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,8 @@ enum class Colouring {
   none,
 };
 
+inline constexpr double radians_per_degree = std::numbers::pi / 180;
+
 /// A point of the globe, degrees.
 struct LonLat {
   double longitude = 0;
@@ -51,7 +54,7 @@ inline constexpr double most_zoom = 2000;
 enum class Palette { viridis, cividis, magma, diverging };
 
 /// The ends of a colour bar, low < high, in the unit that its legend has.
-struct Range {
+struct ColourRange {
   double low = 0, high = 1;
 };
 
@@ -70,8 +73,8 @@ struct Look {
   bool coastlines = true; ///< of the earth
   int size = 1200;        ///< width in pixels; in points for SVG and PDF. 64 to 16384
   Palette palette = Palette::viridis;
-  std::optional<Range> range = {}; ///< of the colour bar; by default that of the values
-  std::string title = {};          ///< in place of the usual one
+  std::optional<ColourRange> range = {}; ///< of the colour bar; by default that of the values
+  std::string title = {};                ///< in place of the usual one
 };
 
 struct DrawOptions {

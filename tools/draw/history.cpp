@@ -165,21 +165,22 @@ void styles_legend(cairo_t* context, const HistoryPage& page,
 
 // ---- The data.
 
-/// The kind of a curve.
-struct Way {
+/// The points of a curve.
+struct CurvePoints {
   std::vector<double> x, y;
+  bool operator==(const CurvePoints&) const = default;
 };
 
-Way accepted_way(const History& history, const std::vector<double>& x, const std::vector<double>& y,
-                 std::size_t first, std::size_t last) {
-  Way way;
+CurvePoints accepted_points(const History& history, const std::vector<double>& x,
+                            const std::vector<double>& y, std::size_t first, std::size_t last) {
+  CurvePoints points;
   for (std::size_t i = first; i < last; ++i) {
     if (history.iterations[i].accepted) {
-      way.x.push_back(x[i]);
-      way.y.push_back(y[i]);
+      points.x.push_back(x[i]);
+      points.y.push_back(y[i]);
     }
   }
-  return way;
+  return points;
 }
 
 /// One curve per level, because values of two levels do not belong to one descent.
@@ -188,22 +189,17 @@ void draw_levels(cairo_t* context, const Frame& frame, const History& history, A
   const std::vector<double> x = places(history, across);
   const std::vector<std::size_t> starts = level_starts(history);
   for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
-    const Way way = accepted_way(history, x, values, starts[level], starts[level + 1]);
-    draw_curve(context, frame, way.x, way.y);
+    const CurvePoints points =
+        accepted_points(history, x, values, starts[level], starts[level + 1]);
+    draw_curve(context, frame, points.x, points.y);
   }
 }
 
-/// A line of the tolerance, with a step where it changes.
-struct ToleranceLine {
-  std::vector<double> x, y;
-  bool operator==(const ToleranceLine&) const = default;
-};
-
-/// From end to end of the axis.
-ToleranceLine tolerance_line(const HistoryColumn& column, const History& history) {
+/// The line of the tolerance from end to end of the axis, with a step where it changes.
+CurvePoints tolerance_line(const HistoryColumn& column, const History& history) {
   const Axis& across = column.norms.across;
   const std::vector<double> tolerance = scaled_tolerance(history);
-  ToleranceLine line = {{across.low}, {tolerance.front()}};
+  CurvePoints line = {{across.low}, {tolerance.front()}};
   for (std::size_t i = 1; i < tolerance.size(); ++i) {
     if (tolerance[i] != tolerance[i - 1] && !std::isnan(tolerance[i])) {
       line.x.insert(line.x.end(), 2, border_before(history, i, column.quantity));
@@ -218,10 +214,10 @@ ToleranceLine tolerance_line(const HistoryColumn& column, const History& history
 /// Draws each line once: overlapping dashes would look like a different pattern.
 void draw_tolerances(cairo_t* context, const HistoryPage& page, const HistoryColumn& column,
                      const std::vector<History>& histories) {
-  std::vector<ToleranceLine> drawn;
+  std::vector<CurvePoints> drawn;
   select_tolerance_line(context, page);
   for (const History& history : histories) {
-    const ToleranceLine line = tolerance_line(column, history);
+    const CurvePoints line = tolerance_line(column, history);
     if (std::find(drawn.begin(), drawn.end(), line) == drawn.end()) {
       draw_curve(context, column.norms, line.x, line.y);
       drawn.push_back(line);

@@ -14,8 +14,9 @@ namespace {
 constexpr double least_excess = 1e-14; ///< smaller differences of energies are rounding
 constexpr std::size_t far_apart = 20;  ///< above this ratio of evaluations the axes are logarithmic
 
-std::vector<double> joined(const std::vector<History>& histories,
-                           const std::function<std::vector<double>(const History&)>& values) {
+std::vector<double>
+values_of_runs(const std::vector<History>& histories,
+               const std::function<std::vector<double>(const History&)>& values) {
   std::vector<double> all;
   for (const History& history : histories) {
     const std::vector<double> own = values(history);
@@ -25,8 +26,9 @@ std::vector<double> joined(const std::vector<History>& histories,
 }
 
 Axis norms_axis(const std::vector<History>& histories) {
-  std::vector<double> all = joined(histories, scaled_l2);
-  for (const auto& others : {joined(histories, scaled_linf), joined(histories, scaled_tolerance)}) {
+  std::vector<double> all = values_of_runs(histories, scaled_l2);
+  for (const auto& others :
+       {values_of_runs(histories, scaled_linf), values_of_runs(histories, scaled_tolerance)}) {
     all.insert(all.end(), others.begin(), others.end());
   }
   return axis_around(all, true);
@@ -71,7 +73,7 @@ Axis seconds_axis(const std::vector<History>& histories) {
 Axis across_axis(const std::vector<History>& histories, Across across) {
   if (are_far_apart(histories)) {
     const auto own = [&](const History& history) { return places(history, across); };
-    return axis_around(joined(histories, own), true, 0.01);
+    return axis_around(values_of_runs(histories, own), true, 0.01);
   }
   return across == Across::seconds ? seconds_axis(histories) : evaluations_axis(histories);
 }

@@ -72,10 +72,8 @@ json parse(const std::string& path) {
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw Error(ErrorCode::parse,
-                path + " line " + std::to_string(line) +
-                    ": this is not JSON, or was cut short; give a report of calotte cvt --report",
-                line);
+    refuse_line(path, line,
+                "this is not JSON, or was cut short; give a report of calotte cvt --report");
   } catch (const json::out_of_range&) {
     throw Error(ErrorCode::parse, path + ": a number in it is too large for a double; give a "
                                          "report of calotte cvt --report");

@@ -191,8 +191,8 @@ void arrange(Page& page, double below, bool with_legend) {
 } // namespace
 
 std::optional<Place> rim_place(const LonLat& view, double latitude) {
-  constexpr double degree = std::numbers::pi / 180;
-  const double up = std::sin(latitude * degree), most = std::cos(view.latitude * degree);
+  const double up = std::sin(latitude * radians_per_degree),
+               most = std::cos(view.latitude * radians_per_degree);
   if (!(std::abs(up) < 0.995 * most)) {
     return std::nullopt;
   }

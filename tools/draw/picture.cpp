@@ -28,8 +28,8 @@ namespace calotte::tools {
 
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoContext = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 /// Receives bytes from Cairo's C code, which exceptions must not cross: an exception is stored
 /// until the call returns.
@@ -58,7 +58,7 @@ struct Stream {
   }
 };
 
-Surface surface_for(PictureFormat format, int width, int height, Stream& stream) {
+CairoSurface surface_for(PictureFormat format, int width, int height, Stream& stream) {
   cairo_surface_t* surface = nullptr;
   if (format == PictureFormat::png) {
     surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
@@ -101,9 +101,9 @@ void write_picture(const std::string& path, int width, int height,
   require_picture(path, width);
   const PictureFormat format = picture_format(path);
   Stream stream{};
-  const Surface surface = surface_for(format, width, height, stream);
+  const CairoSurface surface = surface_for(format, width, height, stream);
   {
-    const Context context(cairo_create(surface.get()), cairo_destroy);
+    const CairoContext context(cairo_create(surface.get()), cairo_destroy);
     cairo_set_source_rgb(context.get(), 1, 1, 1);
     cairo_paint(context.get());
     paint(context.get());

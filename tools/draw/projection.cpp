@@ -6,7 +6,7 @@ namespace calotte::tools {
 namespace {
 
 /// Larger than the displacement of a place by rounding.
-constexpr double fuzz = 1e-9;
+constexpr double rounding_margin = 1e-9;
 
 double longitude_step(const Vector3d& from, const Vector3d& to) {
   return std::remainder(PlateCarree::place(to).u - PlateCarree::place(from).u, PlateCarree::period);
@@ -98,7 +98,8 @@ Bounds PlateCarree::bounds(const Facet& f) {
   const double b = a + longitude_step(f.a, f.b);
   const double c = b + longitude_step(f.b, f.c);
   const auto [left, right] = std::minmax({a, b, c});
-  return {left - fuzz, right + fuzz, bounds.bottom - fuzz, bounds.top + fuzz};
+  return {left - rounding_margin, right + rounding_margin, bounds.bottom - rounding_margin,
+          bounds.top + rounding_margin};
 }
 
 bool PlateCarree::direction(const Place& place, Vector3d& p) {

@@ -14,7 +14,7 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr Rgb plain = {0.90, 0.93, 0.95};
+constexpr Rgb uniform_colour = {0.90, 0.93, 0.95};
 constexpr int least_class = 3;
 constexpr int greatest_class = 9;
 
@@ -73,7 +73,7 @@ double Scale::place(double value) const {
 
 Rgb Scale::colour(double value) const {
   if (colouring == Colouring::none) {
-    return plain;
+    return uniform_colour;
   }
   return has_classes(colouring) ? class_colour(colouring, value)
                                 : palette_colour(palette, place(value));
@@ -110,7 +110,7 @@ bool has_classes(Colouring colouring) {
   return colouring == Colouring::valence || colouring == Colouring::region;
 }
 
-void set_range(Scale& scale, const Range& range) {
+void set_range(Scale& scale, const ColourRange& range) {
   if (scale.colouring == Colouring::none || has_classes(scale.colouring)) {
     refuse("--range sets the ends of a colour bar, which this --colour "
            "does not have; leave --range out");

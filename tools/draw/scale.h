@@ -51,7 +51,7 @@ Scale make_scale(const std::vector<double>& values, Colouring colouring);
 
 /// Makes the colour bar that of a range.
 /// \throws Error invalid_argument for a colouring that has no colour bar.
-void set_range(Scale& scale, const Range& range);
+void set_range(Scale& scale, const ColourRange& range);
 
 /// Whether the values are a few classes of a colour each, with a legend of these.
 bool has_classes(Colouring colouring);

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace calotte::tools {
 
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double degree = std::numbers::pi / 180;
 
 double arc(const Vector3d& a, const Vector3d& b) {
   return 2 * std::atan2((a - b).norm(), (a + b).norm());
@@ -117,14 +114,14 @@ Vector3d direction_of(const Vector3d& point) {
 }
 
 Vector3d direction_of(const LonLat& place) {
-  const double lon = place.longitude * degree;
-  const double lat = place.latitude * degree;
+  const double lon = place.longitude * radians_per_degree;
+  const double lat = place.latitude * radians_per_degree;
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
 Eigen::Matrix3d frame_of(const LonLat& view) {
-  const double lon = view.longitude * degree;
-  const double lat = view.latitude * degree;
+  const double lon = view.longitude * radians_per_degree;
+  const double lat = view.latitude * radians_per_degree;
   Eigen::Matrix3d frame;
   frame.row(0) << -std::sin(lon), std::cos(lon), 0;
   frame.row(1) << -std::sin(lat) * std::cos(lon), -std::sin(lat) * std::sin(lon), std::cos(lat);

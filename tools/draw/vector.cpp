@@ -16,7 +16,7 @@ constexpr double tolerance = 0.1; ///< maximum distance in pixels of a chord fro
 
 /// A line on a map, continuous across the seam: places beyond the seam represent those a period
 /// away.
-using Way = std::vector<Place>;
+using MapPath = std::vector<Place>;
 
 /// Of the places that represent a direction, the one nearest to another. A pole, and a direction
 /// that rounding cannot distinguish from it, has all longitudes.
@@ -29,10 +29,10 @@ template <class Map> Place place_near(const Vector3d& p, const Place& other) {
   return place;
 }
 
-/// Adds the great-circle arc from a, whose place ends the way, to b.
+/// Adds the great-circle arc from a, whose place ends the path, to b.
 template <class Map>
-void add_arc(Way& way, const Vector3d& a, const Vector3d& b, double scale, int depth = 0) {
-  const Place from = way.back();
+void add_arc(MapPath& path, const Vector3d& a, const Vector3d& b, double scale, int depth = 0) {
+  const Place from = path.back();
   const Vector3d sum = a + b;
   if (sum.norm() < 1e-9) {
     return;
@@ -44,57 +44,58 @@ void add_arc(Way& way, const Vector3d& a, const Vector3d& b, double scale, int d
   const bool straight = (a - b).squaredNorm() < 0.02 && off * scale < tolerance;
   if (straight || depth == 12) {
     if (Map::period != 0 && std::hypot(a.x(), a.z()) < 1e-9) {
-      way.push_back({to.u, from.v}); // along the pole
+      path.push_back({to.u, from.v}); // along the pole
     }
-    way.push_back(to);
+    path.push_back(to);
     return;
   }
-  add_arc<Map>(way, a, middle, scale, depth + 1);
-  add_arc<Map>(way, middle, b, scale, depth + 1);
+  add_arc<Map>(path, a, middle, scale, depth + 1);
+  add_arc<Map>(path, middle, b, scale, depth + 1);
 }
 
 /// Around a polygon, back to its first corner or to a place a period away.
-template <class Map> Way way_around(const std::vector<Vector3d>& polygon, double scale) {
-  Way way;
+template <class Map> MapPath path_around(const std::vector<Vector3d>& polygon, double scale) {
+  MapPath path;
   if (!polygon.empty()) {
-    way.push_back(Map::place(polygon.front()));
+    path.push_back(Map::place(polygon.front()));
   }
   if constexpr (std::is_same_v<Map, Flat>) {
     for (std::size_t i = 1; i < polygon.size(); ++i) {
-      way.push_back(Map::place(polygon[i]));
+      path.push_back(Map::place(polygon[i]));
     }
-    return way;
+    return path;
   }
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    add_arc<Map>(way, polygon[i], polygon[(i + 1) % polygon.size()], scale);
+    add_arc<Map>(path, polygon[i], polygon[(i + 1) % polygon.size()], scale);
   }
-  return way;
+  return path;
 }
 
 /// The winding number of the line around the map: 1 counter-clockwise around the north pole.
-template <class Map> int turns_of(const Way& way) {
-  return Map::period == 0 || way.empty()
+template <class Map> int turns_of(const MapPath& path) {
+  return Map::period == 0 || path.empty()
              ? 0
-             : static_cast<int>(std::lround((way.back().u - way.front().u) / Map::period));
+             : static_cast<int>(std::lround((path.back().u - path.front().u) / Map::period));
 }
 
-void add_path(cairo_t* context, const Way& way, double scale, double shift) {
+void add_path(cairo_t* context, const MapPath& path, double scale, double shift) {
   cairo_new_sub_path(context);
-  for (const Place& place : way) {
+  for (const Place& place : path) {
     cairo_line_to(context, scale * (place.u + shift), -scale * place.v);
   }
 }
 
 /// Adds the line once for each time that the map shows it.
-template <class Map> void add_copies(cairo_t* context, const Way& way, double scale, bool close) {
+template <class Map>
+void add_copies(cairo_t* context, const MapPath& path, double scale, bool close) {
   const auto by_u = [](const Place& a, const Place& b) { return a.u < b.u; };
-  const auto [left, right] = std::minmax_element(way.begin(), way.end(), by_u);
+  const auto [left, right] = std::minmax_element(path.begin(), path.end(), by_u);
   for (const double shift : {-Map::period, 0.0, Map::period}) {
-    if (way.empty() || (Map::period == 0 && shift != 0) || left->u + shift > Map::half_width ||
+    if (path.empty() || (Map::period == 0 && shift != 0) || left->u + shift > Map::half_width ||
         right->u + shift < -Map::half_width) {
       continue;
     }
-    add_path(context, way, scale, shift);
+    add_path(context, path, scale, shift);
     if (close) {
       cairo_close_path(context);
     }
@@ -107,19 +108,19 @@ template <class Map> void add_copies(cairo_t* context, const Way& way, double sc
 /// The interior of a polygon: around a pole, the area between its outline and the map's edge.
 template <class Map>
 void add_inside(cairo_t* context, const std::vector<Vector3d>& polygon, double scale) {
-  Way way = way_around<Map>(Map::clipped(polygon), scale);
-  if (const int turns = turns_of<Map>(way); turns != 0) {
+  MapPath path = path_around<Map>(Map::clipped(polygon), scale);
+  if (const int turns = turns_of<Map>(path); turns != 0) {
     const double pole = turns > 0 ? Map::half_height : -Map::half_height;
-    way.push_back({way.back().u, pole});
-    way.push_back({way.front().u, pole});
+    path.push_back({path.back().u, pole});
+    path.push_back({path.front().u, pole});
   }
-  add_copies<Map>(context, way, scale, true);
+  add_copies<Map>(context, path, scale, true);
 }
 
 template <class Map>
 void add_outline(cairo_t* context, const std::vector<Vector3d>& polygon, double scale) {
-  const Way way = way_around<Map>(Map::clipped(polygon), scale);
-  add_copies<Map>(context, way, scale, turns_of<Map>(way) == 0);
+  const MapPath path = path_around<Map>(Map::clipped(polygon), scale);
+  add_copies<Map>(context, path, scale, turns_of<Map>(path) == 0);
 }
 
 template <class Map>
@@ -178,22 +179,22 @@ template <class Map> std::int64_t count_visible(const Painting& painting, const 
 /// Adds the line through directions of the scene, in its visible part.
 template <class Map>
 void add_line(cairo_t* context, const std::vector<Vector3d>& line, double scale) {
-  Way way;
+  MapPath path;
   const auto flush = [&] {
-    add_copies<Map>(context, way, scale, false);
-    way.clear();
+    add_copies<Map>(context, path, scale, false);
+    path.clear();
   };
   Vector3d before = Vector3d::Zero();
   for (const Vector3d& p : line) {
     const bool first = &p == &line.front();
     if (Map::shows(p)) {
-      if (way.empty()) {
+      if (path.empty()) {
         before = first ? p : limb_between(before, p);
-        way.push_back(Map::place(before));
+        path.push_back(Map::place(before));
       }
-      add_arc<Map>(way, before, p, scale);
-    } else if (!way.empty()) {
-      add_arc<Map>(way, before, limb_between(before, p), scale);
+      add_arc<Map>(path, before, p, scale);
+    } else if (!path.empty()) {
+      add_arc<Map>(path, before, limb_between(before, p), scale);
       flush();
     }
     before = p;

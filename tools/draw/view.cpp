@@ -9,7 +9,6 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double margin = 1.07;    ///< of the picture, over the mesh
 constexpr double least_zoom = 1.5; ///< a mesh that would be enlarged less is drawn on a whole map
 
@@ -63,7 +62,7 @@ template <class Map> View centred(const Look& look, const LonLat& centre, double
   }
   const double most = Map::half_height * (1 - 1 / zoom);
   return {{centre.longitude, 0},
-          {look.projection, zoom, std::clamp(centre.latitude * degree, -most, most)}};
+          {look.projection, zoom, std::clamp(centre.latitude * radians_per_degree, -most, most)}};
 }
 
 /// How far a map whose window has that centre can be enlarged; 0 if it does not show all places.
@@ -72,7 +71,7 @@ template <class Map> double zoom_around(const View& view, double latitude, const
   if (!bounds) {
     return 0;
   }
-  const double v = Map::period > 0 ? latitude * degree : 0;
+  const double v = Map::period > 0 ? latitude * radians_per_degree : 0;
   const double width = std::max(-bounds->left, bounds->right);
   const double height = std::max(v - bounds->bottom, bounds->top - v);
   const double zoom =

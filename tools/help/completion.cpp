@@ -40,7 +40,7 @@ Values values_for(const CLI::Option& option) {
   return values;
 }
 
-std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+std::vector<const CLI::Option*> listed_options(const CLI::App& command) {
   std::vector<const CLI::Option*> all;
   for (const auto& [name, members] : groups_of(command))
     all.insert(all.end(), members.begin(), members.end());
@@ -63,7 +63,7 @@ Values positional_values(const CLI::App& app, const CLI::App& command) {
     for (const Topic& topic : topics())
       all.words.push_back(topic.name);
   }
-  for (const CLI::Option* option : options_of(command))
+  for (const CLI::Option* option : listed_options(command))
     if (option->get_positional()) {
       const Values values = values_for(*option);
       all.words.insert(all.words.end(), values.words.begin(), values.words.end());
@@ -82,7 +82,7 @@ std::string bash_values(const Values& values) {
 /// The branch of a command: its options, its arguments, and the values of the option before.
 std::string bash_command(const CLI::App& app, const CLI::App& command) {
   std::string names = "--help --help-all", cases;
-  for (const CLI::Option* option : options_of(command)) {
+  for (const CLI::Option* option : listed_options(command)) {
     const std::string pattern = joined(dashed_names(*option), "|");
     for (const std::string& name : dashed_names(*option))
       names += " " + name;
@@ -169,7 +169,7 @@ std::string zsh_option(const CLI::Option& option) {
 
 std::string zsh_command(const CLI::App& app, const CLI::App& command) {
   std::string text = "  " + command.get_name() + ")\n    _arguments \\\n";
-  for (const CLI::Option* option : options_of(command))
+  for (const CLI::Option* option : listed_options(command))
     text += zsh_option(*option);
   text += "      '--help[Shows the common options]' \\\n"
           "      '--help-all[Shows all options]' \\\n";

@@ -51,7 +51,7 @@ std::string wrapped(const std::string& head, std::size_t indent, const std::stri
 
 // ---- One option
 
-std::string head_of(const CLI::Option& option) {
+std::string plain_head(const CLI::Option& option) {
   const std::string values = values_of(option);
   const std::string names = joined(names_of(option), ",");
   return "  " + names + (values.empty() || names == values ? "" : " " + values);
@@ -59,11 +59,11 @@ std::string head_of(const CLI::Option& option) {
 
 /// The first sentence of its text.
 std::string brief(const CLI::Option& option) {
-  return wrapped(head_of(option), text_column, brief_text(option));
+  return wrapped(plain_head(option), text_column, brief_text(option));
 }
 
 std::string whole(const CLI::Option& option) {
-  return wrapped(head_of(option), text_column, whole_text(option));
+  return wrapped(plain_head(option), text_column, whole_text(option));
 }
 
 // ---- A command

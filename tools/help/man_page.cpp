@@ -70,7 +70,7 @@ std::string title(const std::string& name, const std::string& summary) {
          " \\- " + escaped(lowered(summary)) + "\n";
 }
 
-std::string head_of(const CLI::Option& option) {
+std::string man_head(const CLI::Option& option) {
   std::string head;
   for (const std::string& name : names_of(option))
     head += (head.empty() ? "" : ", ") + (name[0] == '-' ? bold(name) : italic(name));
@@ -87,7 +87,7 @@ std::string options(const CLI::App& command) {
     if (groups.size() > 1)
       text += ".SS " + escaped(name) + "\n";
     for (const CLI::Option* option : members)
-      text += ".TP\n" + head_of(*option) + "\n" + escaped(whole_text(*option)) + ".\n";
+      text += ".TP\n" + man_head(*option) + "\n" + escaped(whole_text(*option)) + ".\n";
   }
   return text;
 }

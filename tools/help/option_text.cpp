@@ -16,7 +16,7 @@ std::string without_stop(const std::string& text) {
   return text.substr(0, text.find_last_not_of('.') + 1);
 }
 
-std::string names_of(const std::set<CLI::Option*>& options) {
+std::string name_list(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
     names.push_back(option->get_name());
@@ -80,9 +80,9 @@ std::string whole_text(const CLI::Option& option) {
   const std::vector<std::string> choices = choices_of(option);
   if (!choices.empty() && text.find(choices.back()) == std::string::npos)
     text += ". One of " + joined(choices);
-  if (const std::string needed = names_of(option.get_needs()); !needed.empty())
+  if (const std::string needed = name_list(option.get_needs()); !needed.empty())
     text += ". Requires " + needed;
-  if (const std::string excluded = names_of(option.get_excludes()); !excluded.empty())
+  if (const std::string excluded = name_list(option.get_excludes()); !excluded.empty())
     text += ". Excludes " + excluded;
   return text + (option.get_required() ? " (required)" : "");
 }

@@ -20,7 +20,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 /// "--tolerence=3" without hyphens and value.
-std::string name_of(const std::string& option) {
+std::string bare_name(const std::string& option) {
   const std::string name = option.substr(option.find_first_not_of('-'));
   return name.substr(0, name.find('='));
 }
@@ -34,7 +34,7 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
   if (word == words.end())
     return "";
   return "unknown option " + word->substr(0, word->find('=')) + "; " +
-         remedy_for(name_of(*word), option_names(app), "--", help);
+         remedy_for(bare_name(*word), option_names(app), "--", help);
 }
 
 } // namespace

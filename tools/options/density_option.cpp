@@ -43,20 +43,20 @@ struct BumpWords {
   std::map<std::string, std::string> values;
 };
 
-[[noreturn]] void refuse(const std::string& text, const std::string& problem) {
-  tools::refuse("--density \"" + text + "\": " + problem);
+[[noreturn]] void refuse_density(const std::string& text, const std::string& problem) {
+  refuse("--density \"" + text + "\": " + problem);
 }
 
 [[noreturn]] void refuse_value(const BumpWords& words, const std::string& key,
                                const std::string& remedy) {
-  refuse(words.text, key + " \"" + words.values.at(key) + "\" " + remedy);
+  refuse_density(words.text, key + " \"" + words.values.at(key) + "\" " + remedy);
 }
 
 void require_known(const std::string& text, const std::string& key, const Grammar& grammar) {
   std::vector<std::string> known(grammar.needed.begin(), grammar.needed.end());
   known.insert(known.end(), grammar.further.begin(), grammar.further.end());
   if (std::find(known.begin(), known.end(), key) == known.end())
-    refuse(text, "unknown key \"" + key + "\"; the keys are " + joined(known));
+    refuse_density(text, "unknown key \"" + key + "\"; the keys are " + joined(known));
 }
 
 /// The paper's bump by its contrast of widths, such as x8.
@@ -65,32 +65,32 @@ bool is_usual(const std::string& text, const Grammar& grammar) {
          text.find_first_not_of("0123456789.", 1) == std::string::npos;
 }
 
-BumpWords split(const std::string& text, const Grammar& grammar) {
+BumpWords parse_bump(const std::string& text, const Grammar& grammar) {
   if (is_usual(text, grammar))
     return {text,
             {{"lon", "270"}, {"lat", "30"}, {"beta", "30deg"}, {"alpha", "0.2"}, {"gamma", text}}};
   constexpr std::string_view kind = "tanh:";
   if (!text.starts_with(kind))
-    refuse(text, std::string("not a density; give uniform or, for instance, ") +
-                     (&grammar == &on_sphere ? "x8 or " : "") + grammar.example);
+    refuse_density(text, std::string("not a density; give uniform or, for instance, ") +
+                             (&grammar == &on_sphere ? "x8 or " : "") + grammar.example);
   BumpWords words{text, {}};
   std::istringstream rest(text.substr(kind.size()));
   for (std::string word; std::getline(rest, word, ',');) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos)
-      refuse(text, "\"" + word + "\" is not key=value; write it as " + grammar.example);
+      refuse_density(text, "\"" + word + "\" is not key=value; write it as " + grammar.example);
     const std::string key = word.substr(0, equals);
     require_known(text, key, grammar);
     if (!words.values.emplace(key, word.substr(equals + 1)).second)
-      refuse(text, key + " is given twice; leave one out");
+      refuse_density(text, key + " is given twice; leave one out");
   }
   for (const char* key : grammar.needed)
     if (!words.values.contains(key))
-      refuse(text, std::string(key) + " is missing; write it as " + grammar.example);
+      refuse_density(text, std::string(key) + " is missing; write it as " + grammar.example);
   const auto [stretch, turn] = grammar.further;
   if (words.values.contains(stretch) != words.values.contains(turn))
-    refuse(text,
-           std::string("stretch and ") + turn + " define an ellipse together; give both or none");
+    refuse_density(text, std::string("stretch and ") + turn +
+                             " define an ellipse together; give both or none");
   return words;
 }
 
@@ -154,7 +154,7 @@ Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
 }
 
 Bump bump_of(const std::string& text) {
-  const BumpWords words = split(text, on_sphere);
+  const BumpWords words = parse_bump(text, on_sphere);
   const double longitude = degrees_of(words, "lon"), latitude = degrees_of(words, "lat");
   if (std::abs(latitude) > 90)
     refuse_value(words, "lat", "is outside -90 to 90; give degrees north");
@@ -185,7 +185,7 @@ double length_of(const BumpWords& words, const std::string& key) {
 }
 
 Bump planar_bump_of(const std::string& text) {
-  const BumpWords words = split(text, in_plane);
+  const BumpWords words = parse_bump(text, in_plane);
   Bump bump;
   bump.centre = {number_of(words, "x"), number_of(words, "y"), 0};
   bump.beta = length_of(words, "beta");
@@ -204,7 +204,7 @@ Density bumps_of(const DensityWords& words, bool planar) {
     if (text != "uniform")
       density.bumps.push_back(planar ? planar_bump_of(text) : bump_of(text));
     else if (words.densities.size() > 1)
-      refuse(text, "uniform excludes other densities; give uniform alone, or leave it out");
+      refuse_density(text, "uniform excludes other densities; give uniform alone, or leave it out");
   }
   if (!density.bumps.empty())
     density.kind = words.join == "sum" ? Density::Kind::sum : Density::Kind::maximum;

@@ -15,25 +15,25 @@
 namespace calotte::tools {
 namespace {
 
-std::optional<double> number_of(const std::string& text) {
+std::optional<double> parse_number(const std::string& text) {
   double value = 0;
   return CLI::detail::lexical_cast(text, value) ? std::optional(value) : std::nullopt;
 }
 
 /// The text of the option, or that of the file which it names.
-std::string text_of(const std::string& word) {
+std::string levels_text(const std::string& word) {
   if (word.find(',') != std::string::npos)
     return word;
   return read_file(word);
 }
 
 DoubleVector levels_of(const std::string& word) {
-  std::string text = text_of(word);
+  std::string text = levels_text(word);
   std::replace(text.begin(), text.end(), ',', ' ');
   std::istringstream in(text);
   std::vector<double> levels;
   for (std::string item; in >> item;) {
-    const std::optional<double> level = number_of(item);
+    const std::optional<double> level = parse_number(item);
     if (!level)
       refuse("--depth-levels " + word + ": \"" + item + "\" is not a number; give metres");
     levels.push_back(*level);
@@ -50,7 +50,7 @@ DoubleVector depths_of(const DoubleVector& values) {
 
 DoubleVector bottom_of(const std::string& name, const MeshFile& file) {
   const std::int64_t sites = file.mesh ? file.mesh->points.cols() : 0;
-  if (const std::optional<double> flat = number_of(name))
+  if (const std::optional<double> flat = parse_number(name))
     return DoubleVector::Constant(sites, *flat);
   for (const MeshField& field : file.fields)
     if (field.name == name && field.location == Location::cells && field.values.size() == sites)

@@ -21,7 +21,7 @@ namespace {
 const std::map<std::string, Numbering> numberings{
     {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
 
-Format format_of(const FormatWords& words, const std::string& path) {
+Format chosen_format(const FormatWords& words, const std::string& path) {
   Format given = Format::by_name;
   for (const FormatInfo& info : formats())
     if (words.format == info.word)
@@ -118,7 +118,7 @@ std::string help_of_output() {
 
 WriteOptions options_of(const FormatWords& words, const std::string& path) {
   WriteOptions options;
-  options.format = format_of(words, path);
+  options.format = chosen_format(words, path);
   const Model* const model = model_of(words.model);
   options.sphere_radius = words.sphere_radius.value_or(options.sphere_radius);
   require_radius(options.sphere_radius, options.format, path);

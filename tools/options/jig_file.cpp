@@ -3,6 +3,7 @@
 
 #include "io/command.h"
 #include "text/jigsaw_options.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 
@@ -27,11 +28,6 @@ std::string in_case(int (*convert)(int), std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [&](unsigned char c) { return static_cast<char>(convert(c)); });
   return text;
-}
-
-[[noreturn]] void refuse_line(const std::string& path, std::int64_t line,
-                              const std::string& problem) {
-  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
 }
 
 } // namespace

@@ -9,7 +9,13 @@
 
 #include <CLI/App.hpp>
 
+#include <filesystem>
+
 namespace calotte::tools {
+
+std::string file_name(const MeshSource& source) {
+  return std::filesystem::path(source.path).filename();
+}
 
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names) {
   auto source = std::make_shared<MeshSource>();
@@ -53,11 +59,10 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
 
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
                                 std::optional<double> metres) {
-  constexpr double kilometre = 1000; // metres
   if (metres)
-    return *metres / kilometre;
+    return *metres / metres_per_km;
   if (file.sphere_radius != 1 && is_netcdf(file))
-    return file.sphere_radius / kilometre;
+    return file.sphere_radius / metres_per_km;
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
 }
 

@@ -20,6 +20,9 @@ struct MeshSource {
   bool plane = false; ///< a mesh of the plane
 };
 
+/// The name of its file, without the folder.
+std::string file_name(const MeshSource& source);
+
 /// Adds the positional MESH, or of another name, and the options --points and --lonlat.
 std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string& names = "MESH");
 

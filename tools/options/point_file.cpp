@@ -12,7 +12,7 @@ namespace calotte::tools {
 namespace {
 
 /// Text; "-" is standard input.
-PointFile text_of(const std::string& path, Columns columns) {
+PointFile read_text_points(const std::string& path, Columns columns) {
   const std::string name = path == "-" ? "standard input" : path;
   PointLines read =
       path == "-" ? read_point_lines(std::cin, name, columns) : read_point_lines(path, columns);
@@ -27,12 +27,12 @@ PointFile read_point_file(const std::string& path, bool lonlat) {
       refuse(path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
     return {path, read_sites(path), {}};
   }
-  return text_of(path, lonlat ? Columns::lonlat : Columns::xyz);
+  return read_text_points(path, lonlat ? Columns::lonlat : Columns::xyz);
 }
 
 PointFile read_planar_point_file(const std::string& path) {
   if (!holds_points(path))
-    return text_of(path, Columns::xy);
+    return read_text_points(path, Columns::xy);
   Mesh mesh = read_mesh(path);
   if (mesh.surface.is_sphere())
     refuse(path + ": it holds points of the sphere, not of a plane");

@@ -25,13 +25,13 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// A word of an option and its parts after the equals sign.
-struct Word {
+struct OptionWord {
   std::string option, text, form; ///< form: what to write instead, for messages
   std::vector<std::string> parts;
 };
 
-[[noreturn]] void refuse(const Word& word, const std::string& problem) {
-  tools::refuse(word.option + " " + word.text + ": " + problem + "; give " + word.form);
+[[noreturn]] void refuse_word(const OptionWord& word, const std::string& problem) {
+  refuse(word.option + " " + word.text + ": " + problem + "; give " + word.form);
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -46,17 +46,17 @@ std::vector<std::string> split(std::string_view text) {
 }
 
 /// A number of degrees, with or without the unit.
-double degrees(const Word& word, std::size_t part, double limit) {
+double degrees(const OptionWord& word, std::size_t part, double limit) {
   const std::optional<Measure> angle = measure_of(word.parts[part]);
   if (!angle || !(angle->unit.empty() || angle->unit == "deg") ||
       !(std::abs(angle->value) <= limit))
-    refuse(word, "\"" + word.parts[part] + "\" is no angle from " + shortest(-limit) + " to " +
-                     shortest(limit) + " degrees");
+    refuse_word(word, "\"" + word.parts[part] + "\" is no angle from " + shortest(-limit) + " to " +
+                          shortest(limit) + " degrees");
   return angle->value;
 }
 
 /// A length on the sphere as an angle: its unit is km, m or deg.
-double length(const Word& word, std::size_t part, double radius_km) {
+double length(const OptionWord& word, std::size_t part, double radius_km) {
   const std::optional<Measure> size = measure_of(word.parts[part]);
   const std::string unit = size ? size->unit : "";
   const double angle = unit == "km"    ? size->value / radius_km
@@ -64,16 +64,16 @@ double length(const Word& word, std::size_t part, double radius_km) {
                        : unit == "deg" ? size->value * degree
                                        : 0;
   if (!(angle > 0))
-    refuse(word, "\"" + word.parts[part] + "\" is no positive length such as 1000km or 30deg");
+    refuse_word(word, "\"" + word.parts[part] + "\" is no positive length such as 1000km or 30deg");
   return angle;
 }
 
 /// Two parts as a direction.
-Eigen::Vector3d place(const Word& word, std::size_t part = 0) {
+Eigen::Vector3d place(const OptionWord& word, std::size_t part = 0) {
   return direction_at(degrees(word, part, 720), degrees(word, part + 1, 90));
 }
 
-Surface made_of(const Word& word, std::string_view shape, double radius_km) {
+Surface made_of(const OptionWord& word, std::string_view shape, double radius_km) {
   if (shape == "circle")
     return circle(place(word), length(word, 2, radius_km));
   if (shape == "ellipse")
@@ -95,10 +95,10 @@ std::vector<std::string> parts_of(const std::string& word) {
 }
 
 /// \throws Error unless a word has so many parts.
-void require_parts(const Word& word, std::size_t count) {
+void require_parts(const OptionWord& word, std::size_t count) {
   if (word.parts.size() != count)
-    refuse(word, "the number of values is " + std::to_string(word.parts.size()) + " instead of " +
-                     std::to_string(count));
+    refuse_word(word, "the number of values is " + std::to_string(word.parts.size()) +
+                          " instead of " + std::to_string(count));
 }
 
 Surface shape_or_file(const std::string& word, double radius_km) {
@@ -109,7 +109,7 @@ Surface shape_or_file(const std::string& word, double radius_km) {
       {"land", "land=FILE,LON,LAT, as in land=binned_GSHHS_l.nc,134,-25"}};
   for (const auto& [shape, form] : shapes)
     if (word.starts_with(shape + "=")) {
-      const Word parsed{"--region", word, form, parts_of(word)};
+      const OptionWord parsed{"--region", word, form, parts_of(word)};
       require_parts(parsed, split(form.substr(0, form.find(", as"))).size());
       return made_of(parsed, shape, radius_km);
     }
@@ -164,7 +164,7 @@ Surface region_of(const std::string& word, const std::string& inside, double rad
   Surface region = shape_or_file(word, radius_km);
   if (inside.empty())
     return region;
-  const Word parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside)};
+  const OptionWord parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside)};
   require_parts(parsed, 2);
   try {
     return region_around({region.rings().begin(), region.rings().end()}, place(parsed));

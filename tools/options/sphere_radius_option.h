@@ -11,6 +11,8 @@ namespace calotte::tools {
 /// The Earth's radius in MPAS, in metres: --sphere-radius earth.
 inline constexpr double earth_radius = 6371229;
 
+inline constexpr double metres_per_km = 1000;
+
 /// Adds --sphere-radius: metres, or the word earth. A value that may be in km gives a warning.
 /// \param help the use of the radius, and its default.
 void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const std::string& help);

@@ -2,10 +2,12 @@
 #include "options/toml_file.h"
 
 #include "io/command.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -91,10 +93,6 @@ toml::table read_toml(const std::string& path) {
     refuse_line(path, error.source().begin.line,
                 std::string(error.description()) + "; write key = value, with text in quotes");
   }
-}
-
-void refuse_line(const std::string& path, std::int64_t line, const std::string& problem) {
-  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
 }
 
 } // namespace calotte::tools

@@ -11,6 +11,10 @@ namespace calotte::tools {
 
 void refuse(const std::string& problem) { throw Error(ErrorCode::invalid_argument, problem); }
 
+void refuse_line(const std::string& path, std::int64_t line, const std::string& problem) {
+  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
+}
+
 std::string shortest(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};

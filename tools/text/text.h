@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@ namespace calotte::tools {
 
 /// \throws Error invalid_argument with this message.
 [[noreturn]] void refuse(const std::string& problem);
+
+/// \throws Error parse, always: "PATH line LINE: problem".
+[[noreturn]] void refuse_line(const std::string& path, std::int64_t line,
+                              const std::string& problem);
 
 /// Formats a number with the fewest digits that read back to the same bits.
 std::string shortest(double value);
