@@ -29,7 +29,7 @@ using calotte::test::error_of;
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 
 double kilometres(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return earth_radius_km * angle(a, b);
@@ -141,7 +141,7 @@ TEST_CASE("limited widths are the least of all cones, over the poles and the dat
       const CellWidth given = raster(6, true, width), limited = limit_gradient(given, gradient);
       // A source that lowers no neighbour, but a node beyond, is replaced by the neighbour: the way
       // is longer by at most 1 - cos(pi / 8) of a step.
-      const double step_km = 6 * radians * earth_radius_km;
+      const double step_km = 6 * radians_per_degree * earth_radius_km;
       const DoubleMatrix exact = least_of_cones(given, gradient);
       CHECK((limited.widths - exact).cwiseAbs().maxCoeff() <
             (name == "points" ? 1e-10 : 0.08 * gradient * step_km));

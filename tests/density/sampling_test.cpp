@@ -103,12 +103,12 @@ std::vector<std::int64_t> class_counts(const Points3& points) {
   return out;
 }
 
-struct Case {
+struct SampledDensity {
   const char* name;
   Density density;
 };
 
-std::vector<Case> smooth_cases() {
+std::vector<SampledDensity> smooth_cases() {
   Density ellipse = tanh_bump({1, 2, -1}, 0.3, 0.2, 1e-3), sum, maximum;
   ellipse.bumps[0].stretch = 3;
   sum.bumps = {{{0, 0, 1}, 0.5, 0.2, 1e-3},
@@ -177,7 +177,7 @@ Points3 with_threads(std::size_t threads, const std::function<Points3()>& make) 
 } // namespace
 
 TEST_CASE("points drawn from a density are distributed as it is") {
-  for (const Case& c : smooth_cases()) {
+  for (const SampledDensity& c : smooth_cases()) {
     CAPTURE(c.name);
     const Points3 points = random_sphere(100000, c.density, 11);
     REQUIRE(points.cols() == 100000);
@@ -258,7 +258,7 @@ TEST_CASE("a callable's spike that only proposals find gets its share of points 
 }
 
 TEST_CASE("the same points for any number of threads; another seed, other points") {
-  for (const Case& c : smooth_cases()) {
+  for (const SampledDensity& c : smooth_cases()) {
     CAPTURE(c.name);
     const auto draw = [&] { return random_sphere(50000, c.density, 3); };
     const Points3 one = with_threads(1, draw);
@@ -268,7 +268,7 @@ TEST_CASE("the same points for any number of threads; another seed, other points
 }
 
 TEST_CASE("fewer points are the first of more") {
-  for (const Case& c : smooth_cases()) {
+  for (const SampledDensity& c : smooth_cases()) {
     CAPTURE(c.name);
     const Points3 points = random_sphere(40000, c.density, 3);
     for (const std::int64_t n : {1, 2, 100, 8191, 30000})

@@ -34,7 +34,7 @@ Eigen::Vector3d lonlat(double longitude, double latitude) {
   return vector(base_detail::from_lonlat(longitude, latitude));
 }
 
-Points3 ring_of(const std::vector<std::array<double, 2>>& lonlats) {
+Points3 spherical_ring(const std::vector<std::array<double, 2>>& lonlats) {
   Points3 ring(3, std::ssize(lonlats));
   for (std::size_t i = 0; i < lonlats.size(); ++i)
     ring.col(static_cast<Eigen::Index>(i)) = lonlat(lonlats[i][0], lonlats[i][1]);
@@ -107,28 +107,28 @@ Region comb() {
     const double west = 3.0 * tooth - 20, east = west + 3 - 1e-7;
     corners.insert(corners.end(), {{east, 0}, {east, 40}, {west, 40}, {west, 0}});
   }
-  return {{ring_of(corners)}};
+  return {{spherical_ring(corners)}};
 }
 
 std::vector<Shape> shapes() {
   const Vec3 generic{0.31234, 0.41357, 0.21579};
   return {
-      {"hemisphere", {{ring_of({{0, 0}, {120, 0}, {240, 0}})}}, generic},
+      {"hemisphere", {{spherical_ring({{0, 0}, {120, 0}, {240, 0}})}}, generic},
       {"western hemisphere",
-       {{ring_of({{0, 0}, {0, 90}, {180, 0}, {0, -90}})}},
+       {{spherical_ring({{0, 0}, {0, 90}, {180, 0}, {0, -90}})}},
        {-0.31, -0.4, 0.2}},
       {"cap of 1 degree", circle(lonlat(20, 30), 1 * degree), base_detail::from_lonlat(20.1, 30.2)},
       {"cap of 170 degrees", circle(lonlat(20, 30), 170 * degree, 100), generic},
       {"ring around a pole",
-       {{ring_of({{0, 60}, {90, 50}, {180, 70}, {270, 40}})}},
+       {{spherical_ring({{0, 60}, {90, 50}, {180, 70}, {270, 40}})}},
        {.01, .02, .9}},
       {"over the date line",
-       {{ring_of({{170, -10}, {-170, -20}, {-160, 10}, {175, 20}})}},
+       {{spherical_ring({{170, -10}, {-170, -20}, {-160, 10}, {175, 20}})}},
        base_detail::from_lonlat(179.123, 1.2345)},
       {"channel with an island",
        {{channel(-0.4, 0.5, 24).rings()[0], channel(-0.4, 0.5, 24).rings()[1],
-         reversed(ring_of({{10, -5}, {30, -5}, {30, 15}, {10, 15}})),
-         ring_of({{15, 0}, {20, 0}, {20, 5}})}},
+         reversed(spherical_ring({{10, -5}, {30, -5}, {30, 15}, {10, 15}})),
+         spherical_ring({{15, 0}, {20, 0}, {20, 5}})}},
        base_detail::from_lonlat(18.76, 1.2345)},
       {"archipelago", archipelago(200), {0, 0, 0}},
       {"comb", comb(), base_detail::from_lonlat(0.1234, -3.3217)}};
@@ -179,7 +179,7 @@ TEST_CASE("the side of a place is that of a search over all edges in exact arith
 }
 
 TEST_CASE("places exactly on meridians, on the equator and on diagonals are on the boundary") {
-  const SphericalOutline octant({ring_of({{0, 0}, {90, 0}, {0, 90}})});
+  const SphericalOutline octant({spherical_ring({{0, 0}, {90, 0}, {0, 90}})});
   CHECK(octant.area() == doctest::Approx(pi / 2).epsilon(1e-15));
   test::Random random(2);
   for (int i = 0; i < 1000; ++i) {
@@ -283,8 +283,8 @@ TEST_CASE("a rotation of the axes changes neither sides nor areas") {
 }
 
 TEST_CASE("all edges within a distance are reported once, and few others") {
-  const Region region{
-      {circle({1, 2, 3}, 0.6, 5000).rings()[0], reversed(ring_of({{60, 50}, {70, 50}, {65, 60}}))}};
+  const Region region{{circle({1, 2, 3}, 0.6, 5000).rings()[0],
+                       reversed(spherical_ring({{60, 50}, {70, 50}, {65, 60}}))}};
   const SphericalOutline outline(region.surface_rings());
   test::Random random(5);
   for (int i = 0; i < 200; ++i) {
@@ -329,7 +329,7 @@ Points3 parallel(double latitude) {
   std::vector<std::array<double, 2>> corners;
   for (int longitude = -180; longitude < 180; longitude += 10)
     corners.push_back({1.0 * longitude, latitude});
-  return ring_of(corners);
+  return spherical_ring(corners);
 }
 
 TEST_CASE("rings enclose the side without poles, or else the smaller side") {
@@ -344,23 +344,32 @@ TEST_CASE("rings enclose the side without poles, or else the smaller side") {
   for (int longitude = 170; longitude >= -170; longitude -= 10)
     wide.push_back({1.0 * longitude, 80});
   const std::vector<Case> cases{
-      {"beside a pole", {ring_of({{10, 88}, {60, 88}, {30, 89.999}})}, {{30, 89}}, {{30, 0}}},
-      {"beside the other", {ring_of({{10, -88}, {60, -88}, {30, -89.999}})}, {{30, -89}}, {{0, 0}}},
+      {"beside a pole",
+       {spherical_ring({{10, 88}, {60, 88}, {30, 89.999}})},
+       {{30, 89}},
+       {{30, 0}}},
+      {"beside the other",
+       {spherical_ring({{10, -88}, {60, -88}, {30, -89.999}})},
+       {{30, -89}},
+       {{0, 0}}},
       {"round a pole", {parallel(30)}, {{0, 90}}, {{0, -90}, {0, 0}}},
       {"round the other", {parallel(-10)}, {{0, -90}}, {{0, 90}, {0, 0}}},
-      {"most of the sphere", {ring_of(wide)}, {{0, 0}, {90, 70}}, {{180, 0}, {0, 90}, {0, -90}}},
+      {"most of the sphere",
+       {spherical_ring(wide)},
+       {{0, 0}, {90, 70}},
+       {{180, 0}, {0, 90}, {0, -90}}},
       {"a wide band", {parallel(-60), parallel(60)}, {{0, 0}}, {{0, 90}, {0, -90}}},
       {"a band with a hole",
-       {parallel(-60), parallel(60), ring_of({{0, 0}, {9, 0}, {9, 9}})},
+       {parallel(-60), parallel(60), spherical_ring({{0, 0}, {9, 0}, {9, 9}})},
        {{100, 0}},
        {{0, 90}, {6, 3}}},
-      {"a corner at a pole", {ring_of({{0, 0}, {90, 0}, {0, 90}})}, {{45, 30}}, {{180, 0}}},
+      {"a corner at a pole", {spherical_ring({{0, 0}, {90, 0}, {0, 90}})}, {{45, 30}}, {{180, 0}}},
       {"through a pole",
-       {ring_of({{0, 80}, {180, 80}, {135, 60}, {45, 60}})},
+       {spherical_ring({{0, 80}, {180, 80}, {135, 60}, {45, 60}})},
        {{90, 70}},
        {{-90, 85}, {0, 0}}},
       {"two islands",
-       {ring_of({{0, 0}, {9, 0}, {9, 9}}), ring_of({{50, 0}, {59, 0}, {59, 9}})},
+       {spherical_ring({{0, 0}, {9, 0}, {9, 9}}), spherical_ring({{50, 0}, {59, 0}, {59, 9}})},
        {{6, 3}, {56, 3}},
        {{30, 0}, {0, 90}}}};
   for (const Case& c : cases)
@@ -385,13 +394,13 @@ TEST_CASE("rings enclose the side without poles, or else the smaller side") {
 TEST_CASE("closed rings, repeated corners, and cuts along a meridian whose sides differ a little") {
   const std::vector<std::array<double, 2>> around{{-180, 60}, {-120, 61}, {-60, 60},
                                                   {0, 62},    {60, 60},   {120, 61}};
-  const Region cap = enclosed_region({ring_of(around)});
+  const Region cap = enclosed_region({spherical_ring(around)});
   CHECK(contains(cap, lonlat(0, 90)));
   const auto is_cap = [&](std::vector<std::array<double, 2>> rest, double tolerance = 1e-14) {
     std::vector<std::array<double, 2>> corners(around.begin(), around.end());
     corners.insert(corners.end(), rest.begin(), rest.end());
     for (const bool backwards : {false, true}) {
-      const Points3 ring = backwards ? reversed(ring_of(corners)) : ring_of(corners);
+      const Points3 ring = backwards ? reversed(spherical_ring(corners)) : spherical_ring(corners);
       const Region found = enclosed_region({ring});
       CHECK(found.rings.size() == 1);
       CHECK(std::abs(area(found) - area(cap)) < tolerance);
@@ -415,16 +424,16 @@ TEST_CASE("closed rings, repeated corners, and cuts along a meridian whose sides
   // The ring does not meet itself at the cut: 0.5 degrees of it are left.
   std::vector<std::array<double, 2>> step(around.begin(), around.end());
   step.insert(step.end(), {{180, 60.5}, {180, 90}, {-180, 90}});
-  CHECK(enclosed_region({ring_of(step)}).rings()[0].cols() == 7);
+  CHECK(enclosed_region({spherical_ring(step)}).rings()[0].cols() == 7);
   // Nor are thousands of corners in one place a cut.
   std::vector<std::array<double, 2>> heap;
   for (int i = 0; i < 20'000; ++i)
     heap.push_back({1e-12 * (i * 7919 % 20'000), 1e-12 * (i * 104'729 % 20'011)});
-  CHECK_THROWS_AS(enclosed_region({ring_of(heap)}), Error);
+  CHECK_THROWS_AS(enclosed_region({spherical_ring(heap)}), Error);
   // Two halves of a cap, cut at 0 and 180 degrees.
   const Region halves = enclosed_region(
-      {ring_of({{0, 62}, {60, 60}, {120, 61}, {180, 60}, {180, 75}, {180, 90}, {0, 70}}),
-       ring_of({{-180, 60}, {-120, 61}, {-60, 60}, {0, 62}, {0, 65}, {0, 90}, {-180, 70}})});
+      {spherical_ring({{0, 62}, {60, 60}, {120, 61}, {180, 60}, {180, 75}, {180, 90}, {0, 70}}),
+       spherical_ring({{-180, 60}, {-120, 61}, {-60, 60}, {0, 62}, {0, 65}, {0, 90}, {-180, 70}})});
   CHECK(halves.rings.size() == 1);
   CHECK(area(halves) == doctest::Approx(area(cap)).epsilon(1e-9));
 }
@@ -451,15 +460,15 @@ bool holds(const std::string& text, const std::string& part) {
 }
 
 TEST_CASE("rings that bound no region are refused, with ring and corner") {
-  const Points3 triangle = ring_of({{0, 0}, {40, 0}, {20, 40}}),
-                inner = ring_of({{15, 5}, {25, 5}, {20, 15}});
+  const Points3 triangle = spherical_ring({{0, 0}, {40, 0}, {20, 40}}),
+                inner = spherical_ring({{15, 5}, {25, 5}, {20, 15}});
   CHECK(refusal_of({}) == "");
   CHECK(refusal_of({triangle}) == "");
   CHECK(refusal_of({triangle, reversed(inner)}) == "");
   CHECK(refusal_of({triangle, inner}) ==
         "the region: it is to the left of ring 0 and to the right of ring 1; give rings that all "
         "have it to their left: an outer boundary counter-clockwise, a hole clockwise");
-  const Points3 innermost = ring_of({{19, 8}, {21, 8}, {20, 10}});
+  const Points3 innermost = spherical_ring({{19, 8}, {21, 8}, {20, 10}});
   CHECK(refusal_of({triangle, reversed(inner), reversed(innermost)}) != "");
   CHECK(holds(refusal_of({triangle, Points3(3, 0)}), "ring 1 has 0 corners"));
   CHECK(holds(refusal_of({triangle.leftCols(1)}), "ring 0 has 1 corner and"));
@@ -468,24 +477,24 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
   CHECK(holds(refusal_of({inner, bad}), "ring 1, corner 2 is no direction"));
   bad(1, 1) = NAN;
   CHECK(holds(refusal_of({bad}), "ring 0, corner 1 is no direction"));
-  CHECK(holds(refusal_of({ring_of({{0, 0}, {40, 0}, {20, 40}, {0, 0}})}),
+  CHECK(holds(refusal_of({spherical_ring({{0, 0}, {40, 0}, {20, 40}, {0, 0}})}),
               "ring 0, corner 3 and the next are one place"));
-  CHECK(holds(refusal_of({ring_of({{0, 0}, {90, 10}, {270, -10}})}),
+  CHECK(holds(refusal_of({spherical_ring({{0, 0}, {90, 10}, {270, -10}})}),
               "ring 0, corner 1 and the next are opposite"));
   const auto meet = [](const std::vector<Points3>& rings) {
     return holds(refusal_of(rings), " meet; rings may neither cross nor touch");
   };
-  CHECK(refusal_of({ring_of({{0, 0}, {20, 20}, {20, 0}, {0, 20}})}) ==
+  CHECK(refusal_of({spherical_ring({{0, 0}, {20, 20}, {20, 0}, {0, 20}})}) ==
         "the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet; rings may "
         "neither cross nor touch themselves or each other");
-  CHECK(meet({ring_of({{0, 0}, {20, 0}, {10, 0}, {10, 10}})}));      // folds back
-  CHECK(meet({ring_of({{0, 0}, {20, 0}, {40, 0}})}));                // no area
-  CHECK(meet({triangle, ring_of({{20, 40}, {10, 60}, {0, 60}})}));   // touch in a corner
-  CHECK(meet({triangle, ring_of({{20, 0}, {20, -20}, {30, -20}})})); // corner on an edge
-  CHECK(meet({triangle, triangle}));                                 // twice the same
-  CHECK(meet({triangle, reversed(triangle)}));                       // nothing between
-  CHECK(meet(
-      {ring_of({{0, 0}, {20, -10}, {40, 0}, {20, 0}, {10, 10}, {0, 10}, {20, 0}})})); // twice there
+  CHECK(meet({spherical_ring({{0, 0}, {20, 0}, {10, 0}, {10, 10}})}));      // folds back
+  CHECK(meet({spherical_ring({{0, 0}, {20, 0}, {40, 0}})}));                // no area
+  CHECK(meet({triangle, spherical_ring({{20, 40}, {10, 60}, {0, 60}})}));   // touch in a corner
+  CHECK(meet({triangle, spherical_ring({{20, 0}, {20, -20}, {30, -20}})})); // corner on an edge
+  CHECK(meet({triangle, triangle}));                                        // twice the same
+  CHECK(meet({triangle, reversed(triangle)}));                              // nothing between
+  CHECK(meet({spherical_ring(
+      {{0, 0}, {20, -10}, {40, 0}, {20, 0}, {10, 10}, {0, 10}, {20, 0}})})); // twice there
   CHECK(holds(refusal([&] { region_around({triangle}, lonlat(10, 0)); }), "is on its boundary"));
   CHECK(holds(refusal([&] { region_around({triangle}, {0, 0, 0}); }), "is no direction"));
   CHECK(holds(refusal([&] { enclosed_region({}); }), "no rings"));
@@ -495,13 +504,13 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
               }),
               "ring 1, corner 1 is no direction"));
   CHECK(holds(refusal([&] {
-                enclosed_region({ring_of({{0, 0}, {20, 20}, {20, 0}, {0, 20}})});
+                enclosed_region({spherical_ring({{0, 0}, {20, 20}, {20, 0}, {0, 20}})});
               }),
               "the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
   // Parts of a millimetre are not healed where they are no cut: a needle that crosses a side.
   CHECK(holds(refusal([&] {
-                enclosed_region(
-                    {ring_of({{0, 0}, {20, 0}, {20, 20}, {10, -1e-6}, {10 + 1e-6, 20}, {0, 20}})});
+                enclosed_region({spherical_ring(
+                    {{0, 0}, {20, 0}, {20, 20}, {10, -1e-6}, {10 + 1e-6, 20}, {0, 20}})});
               }),
               " meet; rings may neither cross nor touch"));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/errors.h"
 #include "support/oracle.h"
 
 #include <calotte/error.h>
@@ -15,6 +16,7 @@
 #include <vector>
 
 using namespace calotte;
+using calotte::test::code_of;
 
 namespace {
 
@@ -55,15 +57,6 @@ std::uint64_t fingerprint(const Points3& points) {
 bool all_distinct(const Points3& points) {
   const std::vector<Point> set = sorted(points);
   return std::adjacent_find(set.begin(), set.end()) == set.end();
-}
-
-ErrorCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ErrorCode::internal;
 }
 
 struct Named {

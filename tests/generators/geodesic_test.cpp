@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "support/errors.h"
 #include "support/planes.h"
 
 #include <calotte/delaunay.h>
@@ -22,6 +23,7 @@
 #include <vector>
 
 using namespace calotte;
+using calotte::test::code_of;
 
 namespace {
 
@@ -76,15 +78,6 @@ double least_distance(const Points3& points) {
       least = std::min(
           least, (mesh.points.col(triangle[i]) - mesh.points.col(triangle[(i + 1) % 3])).norm());
   return least;
-}
-
-ErrorCode code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ErrorCode::internal;
 }
 
 } // namespace

@@ -28,7 +28,7 @@ constexpr double degree = std::numbers::pi / 180;
 /// The distance of neighbours in a uniform grid of the sphere.
 double width(double cells) { return std::sqrt(2 / std::sqrt(3.0) * 4 * std::numbers::pi / cells); }
 
-double least_distance(const Points3& points) {
+double least_distance_of_all(const Points3& points) {
   double least = 4;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     for (Eigen::Index j = 0; j < i; ++j)
@@ -78,7 +78,7 @@ TEST_CASE("lines: confluences and ends stay, neighbours are at the demanded dist
     const LinePoints found = line_points(lines, {}, cells);
     for (const auto& [lon, lat] : {std::pair{175, 10}, {150, 30}, {-160, 35}, {176, -20}})
       CHECK(distance_to(found.points, direction(lon, lat)) < 1e-15);
-    CHECK(least_distance(found.points) > 0.66 * h);
+    CHECK(least_distance_of_all(found.points) > 0.66 * h);
     CHECK(((found.points.colwise().norm().array() - 1).abs() < 1e-15).all());
     CHECK(found.farthest == doctest::Approx(farthest(lines, found.points) / h).epsilon(0.02));
     CHECK(found.farthest < 0.85);
@@ -127,7 +127,7 @@ TEST_CASE("lines: those that run side by side or cross share generators") {
   const std::vector<Points3> lines{directions(north), directions(south), directions(across)};
   const std::int64_t cells = 2000;
   const LinePoints found = line_points(lines, {}, cells);
-  CHECK(least_distance(found.points) > 0.66 * width(cells));
+  CHECK(least_distance_of_all(found.points) > 0.66 * width(cells));
   CHECK(found.farthest < 1.3);
   CHECK(found.points.cols() < 1.3 * (60 + 30) * degree / width(cells));
 }
@@ -159,7 +159,7 @@ TEST_CASE("lines: generators keep their distance from others") {
   const Points3 rest = line_points(rivers(), {}, 3000, {}, beside).points;
   Points3 all(3, beside.cols() + rest.cols());
   all << beside, rest;
-  CHECK(least_distance(all) > 0.66 * width(3000));
+  CHECK(least_distance_of_all(all) > 0.66 * width(3000));
 }
 
 TEST_CASE("lines: a grid keeps them, in the plane, too") {

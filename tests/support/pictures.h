@@ -2,9 +2,8 @@
 #pragma once
 
 #include "draw/scale.h"
+#include "support/errors.h"
 #include "support/planes.h"
-
-#include <calotte/error.h>
 
 #include <cairo.h>
 #include <doctest/doctest.h>
@@ -15,7 +14,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <string>
 
@@ -44,19 +42,6 @@ inline std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-/// The error that `act` throws.
-inline Error error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error;
-  }
-  FAIL("no error");
-  return {ErrorCode::internal, ""};
-}
-
-inline ErrorCode code_of(const std::function<void()>& act) { return error_of(act).code(); }
 
 /// A PNG file, read back.
 struct Picture {

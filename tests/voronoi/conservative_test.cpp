@@ -22,8 +22,6 @@ using namespace calotte;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 Polygons cells_of(const Mesh& mesh) {
   const Voronoi cells = voronoi(mesh);
   return {cells.vertices, cells.vertices_on_cell, cells.cells, cells.on_sphere, cells.period};
@@ -113,7 +111,7 @@ Polygons fine_polygons(const LonLatBoxes& boxes, int parts) {
   polygons.ids.begin.resize(boxes.size() + 1);
   polygons.ids.begin[0] = 0;
   const auto add = [&](double longitude, double latitude) {
-    const double x = longitude * pi / 180, y = latitude * pi / 180;
+    const double x = longitude * std::numbers::pi / 180, y = latitude * std::numbers::pi / 180;
     corners.emplace_back(std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y));
   };
   for (Eigen::Index k = 0; k < boxes.size(); ++k) {
@@ -144,27 +142,28 @@ TEST_CASE("cells and boxes share all of the sphere, in both directions") {
     for (const LonLatBoxes& boxes : closed_boxes()) {
       CAPTURE(cells.size());
       CAPTURE(boxes.size());
-      check_laws(conservative_weights(cells, boxes), 4 * pi);
-      check_laws(conservative_weights(boxes, cells), 4 * pi);
+      check_laws(conservative_weights(cells, boxes), 4 * std::numbers::pi);
+      check_laws(conservative_weights(boxes, cells), 4 * std::numbers::pi);
     }
 }
 
 TEST_CASE("cells and cells, boxes and boxes share all of the sphere") {
   const std::vector<Polygons> cells = closed_cells();
   for (std::size_t k = 0; k < cells.size(); ++k)
-    check_laws(conservative_weights(cells[k], cells[(k + 1) % cells.size()]), 4 * pi);
+    check_laws(conservative_weights(cells[k], cells[(k + 1) % cells.size()]), 4 * std::numbers::pi);
   const std::vector<LonLatBoxes> boxes = closed_boxes();
   for (std::size_t k = 0; k < boxes.size(); ++k)
-    check_laws(conservative_weights(boxes[k], boxes[(k + 1) % boxes.size()]), 4 * pi);
+    check_laws(conservative_weights(boxes[k], boxes[(k + 1) % boxes.size()]), 4 * std::numbers::pi);
 }
 
 TEST_CASE("the areas of boxes are exact, and those at a pole are sectors of its cap") {
   const LonLatBoxes boxes = lon_lat_boxes(1440, 720);
   const DoubleVector found = areas(boxes);
-  CHECK(std::abs(found.sum() - 4 * pi) < 1e-12 * 4 * pi);
-  const double step = pi / 720, half = std::sin(step / 2);
+  CHECK(std::abs(found.sum() - 4 * std::numbers::pi) < 1e-12 * 4 * std::numbers::pi);
+  const double step = std::numbers::pi / 720, half = std::sin(step / 2);
   CHECK(std::abs(found[0] - 2 * step * half * half) < 1e-15 * found[0]);
-  const double third = step * (std::sin(pi / 6) - std::sin(pi / 6 - step));
+  const double third =
+      step * (std::sin(std::numbers::pi / 6) - std::sin(std::numbers::pi / 6 - step));
   CHECK(std::abs(found[1440 * 479] - third) < 1e-13 * third);
 }
 
@@ -197,12 +196,14 @@ TEST_CASE("parallels are small circles: polygons with ever more corners on them 
 }
 
 TEST_CASE("cells that hold many boxes, and boxes that hold many cells") {
-  check_laws(conservative_weights(cells_of(cubed_sphere(1)), lon_lat_boxes(360, 180)), 4 * pi);
+  check_laws(conservative_weights(cells_of(cubed_sphere(1)), lon_lat_boxes(360, 180)),
+             4 * std::numbers::pi);
   check_laws(conservative_weights(lon_lat_boxes(360, 180), cells_of(bisected_icosahedron(0))),
-             4 * pi);
-  check_laws(conservative_weights(cells_of(fibonacci_sphere(20000)), lon_lat_boxes(4, 2)), 4 * pi);
+             4 * std::numbers::pi);
+  check_laws(conservative_weights(cells_of(fibonacci_sphere(20000)), lon_lat_boxes(4, 2)),
+             4 * std::numbers::pi);
   check_laws(conservative_weights(cells_of(fibonacci_sphere(20000)), cells_of(cubed_sphere(1))),
-             4 * pi);
+             4 * std::numbers::pi);
 }
 
 TEST_CASE("a part of the sphere: what is shared, and rows outside that are empty") {
@@ -211,8 +212,9 @@ TEST_CASE("a part of the sphere: what is shared, and rows outside that are empty
   const GridWeights to = conservative_weights(part, cells),
                     from = conservative_weights(cells, part);
   CHECK((from.target_fraction.array() - 1).abs().maxCoeff() < 1e-12);
-  const double area = from.target_area.sum(), width = 42 * pi / 180;
-  CHECK(std::abs(area - width * (std::sin(71 * pi / 180) + std::sin(11 * pi / 180))) < 1e-13);
+  const double area = from.target_area.sum(), width = 42 * std::numbers::pi / 180;
+  CHECK(std::abs(area - width * (std::sin(71 * std::numbers::pi / 180) +
+                                 std::sin(11 * std::numbers::pi / 180))) < 1e-13);
   CHECK(std::abs(to.target_fraction.dot(to.target_area) - area) < 1e-13);
   CHECK(std::abs(from.source_fraction.dot(from.source_area) - area) < 1e-13);
   const DoubleVector values = values_of(part.size()), moved = interpolate(to.weights, values);
@@ -312,8 +314,8 @@ TEST_CASE("positions in rasters") {
     }
     const DoubleVector y = interpolate(linear, latitudes), x = interpolate(linear, longitudes);
     for (Eigen::Index i = 0; i < at.cols(); ++i) {
-      const double latitude = std::asin(at(2, i)) * 180 / pi;
-      double longitude = std::atan2(at(1, i), at(0, i)) * 180 / pi;
+      const double latitude = std::asin(at(2, i)) * 180 / std::numbers::pi;
+      double longitude = std::atan2(at(1, i), at(0, i)) * 180 / std::numbers::pi;
       if (longitude < boxes.longitudes[0])
         longitude += 360;
       if (std::abs(latitude) > boxes.latitudes.cwiseAbs().maxCoeff())
@@ -336,8 +338,8 @@ TEST_CASE("positions in rasters") {
   const Weights nearest = interpolation_weights(part, at, Interpolation::nearest),
                 linear = interpolation_weights(part, at, Interpolation::linear);
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
-    const double latitude = std::asin(at(2, i)) * 180 / pi,
-                 longitude = std::atan2(at(1, i), at(0, i)) * 180 / pi;
+    const double latitude = std::asin(at(2, i)) * 180 / std::numbers::pi,
+                 longitude = std::atan2(at(1, i), at(0, i)) * 180 / std::numbers::pi;
     const bool inside = longitude > 9.5 && longitude < 29.5 && latitude > 20.5 && latitude < 40.5;
     CHECK(nearest.row(i).nonZeros() == (inside ? 1 : 0));
     CHECK(std::abs(linear.row(i).sum() - (inside ? 1 : 0)) < 1e-12);
