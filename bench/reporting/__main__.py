@@ -15,7 +15,7 @@ from reporting.makespan import Network
 from reporting.samples import MOST_OTHERS, BadSamples, Results
 
 PROJECT = Path(__file__).resolve().parents[2]
-PROGRAMS = PROJECT / "build/bench/bench"
+PROGRAMS = PROJECT / "build/release/bench"
 
 
 def say(line):

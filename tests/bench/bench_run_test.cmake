@@ -5,7 +5,7 @@
 
 cmake_minimum_required(VERSION 3.25)
 
-set(programs ${SCRATCH}/build/bench/bench)
+set(programs ${SCRATCH}/build/release/bench)
 set(executable OWNER_READ OWNER_WRITE OWNER_EXECUTE)
 
 function(add_script file text)
