@@ -203,7 +203,7 @@ private:
 
   Points3 points_;
   Partition partition_;
-  std::unique_ptr<cvt_detail::Functional> functional_;
+  std::unique_ptr<cvt_detail::RunFunctional> functional_;
   cvt_detail::Evaluation evaluation_;
   std::vector<CvtRegion> regions_;
   std::vector<std::vector<double>> seconds_; ///< of each iteration, by region
