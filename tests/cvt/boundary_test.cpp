@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
+#include "support/constants.h"
 #include "support/directions.h"
 #include "support/planes.h"
 #include "support/starts.h"
@@ -16,19 +17,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 using namespace calotte;
-using calotte::test::direction;
-using calotte::test::directions;
+using namespace calotte::test;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// A polygon with a reflex corner, and a hole.
 Region holed() {
@@ -36,7 +33,7 @@ Region holed() {
            directions({{28, 8}, {28, 16}, {35, 16}, {35, 8}})}};
 }
 
-Density graded() { return tanh_bump(direction(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
+Density bump_at_the_hole() { return tanh_bump(direction(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
 
 struct Case {
   std::string name;
@@ -48,7 +45,7 @@ std::vector<Case> cases() {
   return {{"circle", circle(direction(10, 20), 12 * degree), {}},
           {"hemisphere", circle(direction(10, 20), 90 * degree), {}},
           {"polygon with a hole", holed(), {}},
-          {"graded", holed(), graded()}};
+          {"graded", holed(), bump_at_the_hole()}};
 }
 
 /// The arcs' distance from a place, as a sine.
@@ -81,11 +78,11 @@ double demanded(const Mesh& mesh, const Density& density, const Eigen::Vector3d&
   return sum / count * std::pow(rho, -0.25);
 }
 
-using Edge = std::pair<std::int32_t, std::int32_t>;
+using DirectedEdge = std::pair<std::int32_t, std::int32_t>;
 
 /// The outer edges of a mesh, each with the mesh to its left.
-std::set<Edge> outer_edges(const Mesh& mesh) {
-  std::set<Edge> edges;
+std::set<DirectedEdge> outer_edges(const Mesh& mesh) {
+  std::set<DirectedEdge> edges;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)
       if (mesh.neighbours(v, t) < 0)
@@ -105,14 +102,14 @@ double least_angle(const Mesh& mesh) {
   return least;
 }
 
-struct Run {
+struct BoundaryRun {
   Points3 start;
   CvtOptions options;
 };
 
-Run run_of(const Case& here, std::int64_t cells) {
+BoundaryRun run_of(const Case& here, std::int64_t cells) {
   const Points3 boundary = boundary_points(here.region, cells, here.density);
-  Run run;
+  BoundaryRun run;
   run.options.density = here.density;
   run.options.fixed = boundary.cols();
   run.options.boundary = Boundary::generators;
@@ -154,7 +151,7 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
   for (const Case& here : cases()) {
     CAPTURE(here.name);
     const std::int64_t cells = 1500;
-    const Run run = run_of(here, cells);
+    const BoundaryRun run = run_of(here, cells);
     const Cvt grid = spherical_cvt(run.start, here.region, run.options);
     const Mesh& mesh = grid.mesh;
     const auto f = static_cast<std::int32_t>(run.options.fixed);
@@ -166,7 +163,7 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
       CHECK(inside(mesh.points.col(i)));
     // Each edge along the boundary joins a generator to the next one of its ring; rings close.
-    const std::set<Edge> outer = outer_edges(mesh);
+    const std::set<DirectedEdge> outer = outer_edges(mesh);
     CHECK(std::ssize(outer) == f);
     std::size_t returns = 0;
     double shortest = 1e9, longest = 0;
@@ -194,7 +191,7 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
   const Case here = cases().back();
-  const Run run = run_of(here, 900);
+  const BoundaryRun run = run_of(here, 900);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options = run.options;

@@ -31,7 +31,7 @@ using namespace calotte::test;
 namespace {
 
 /// A pure CVT with many dislocations, some of them on the brink of a step.
-Points3 relaxed(std::int64_t n, const Density& density, std::uint64_t seed) {
+Points3 with_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
   CvtOptions options;
   options.density = density;
   options.tolerance = 1e-4;
@@ -39,7 +39,7 @@ Points3 relaxed(std::int64_t n, const Density& density, std::uint64_t seed) {
 }
 
 /// The same with few dislocations.
-Points3 refined(std::int64_t n, const Density& density, std::uint64_t seed) {
+Points3 with_few_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
   const test::FirstGenerators start = test::multilevel(n, {}, density, seed);
   CvtOptions options;
   options.density = density;
@@ -77,15 +77,15 @@ double energy_of(const Points3& points, const Density& density) {
 }
 
 /// The points after a glide, and the number of its steps.
-struct Moved {
+struct Glided {
   Points3 points;
   std::int64_t steps = 0;
   std::optional<cvt_detail::Connectivity> mesh;
 };
 
-Moved moved(const Points3& points, const CvtOptions& options,
-            const std::vector<std::uint8_t>& fixed = {}) {
-  Moved result{points, 0, std::nullopt};
+Glided glided(const Points3& points, const CvtOptions& options,
+              const std::vector<std::uint8_t>& fixed = {}) {
+  Glided result{points, 0, std::nullopt};
   const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), options);
   functional->hold(fixed);
   result.steps = functional->glide(result.points, cvt_detail::shape_limits);
@@ -99,10 +99,10 @@ TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is
   for (const Density& density : {Density{}, x8()})
     for (std::uint64_t seed = 1; seed <= (test::sanitized ? 1 : 2); ++seed) {
       CAPTURE(seed);
-      const Points3 before = refined(10000, density, seed);
+      const Points3 before = with_few_dislocations(10000, density, seed);
       CvtOptions options;
       options.density = density;
-      const Moved after = moved(before, options);
+      const Glided after = glided(before, options);
       REQUIRE(short_edges(before) > 1);
       CHECK(short_edges(after.points) < short_edges(before));
       CHECK(after.steps > 0);
@@ -114,7 +114,7 @@ TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is
 }
 
 TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
-  Moved after = moved(relaxed(1500, x8(), 3), {.density = x8()});
+  Glided after = glided(with_dislocations(1500, x8(), 3), {.density = x8()});
   REQUIRE(after.mesh);
   REQUIRE(after.steps > 0);
   mesh_detail::make_canonical(after.mesh->triangles, after.mesh->neighbours);
@@ -124,10 +124,10 @@ TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
 }
 
 TEST_CASE("glide: fixed generators keep their bits") {
-  const Points3 before = relaxed(2000, Density{}, 1);
+  const Points3 before = with_dislocations(2000, Density{}, 1);
   std::vector<std::uint8_t> fixed(2000, 0);
   std::fill(fixed.begin(), fixed.begin() + 1000, 1);
-  const Moved after = moved(before, {}, fixed), free = moved(before, {});
+  const Glided after = glided(before, {}, fixed), free = glided(before, {});
   CHECK(after.steps > 0);
   CHECK((after.points.leftCols(1000) == before.leftCols(1000)));
   CHECK((free.points.leftCols(1000) != before.leftCols(1000)));
@@ -137,21 +137,21 @@ TEST_CASE("glide: a mesh without short edges stays") {
   CvtOptions options;
   options.tolerance = 1e-6;
   const Points3 points = spherical_cvt(bisected_icosahedron(4), options).mesh.points;
-  const Moved after = moved(points, options);
+  const Glided after = glided(points, options);
   CHECK(after.steps == 0);
   CHECK((after.points == points));
 }
 
 TEST_CASE("glide: threads and regions have no effect") {
-  const Points3 before = relaxed(3000, x8(), 4);
+  const Points3 before = with_dislocations(3000, x8(), 4);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options;
     options.density = x8();
     options.partition.regions = regions;
-    return moved(before, options);
+    return glided(before, options);
   };
-  const Moved one = with(1, 1);
+  const Glided one = with(1, 1);
   CHECK(one.steps > 0);
   CHECK((one.points == with(2, 12).points));
   CHECK((one.points == with(4, 40).points));

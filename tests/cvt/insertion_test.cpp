@@ -29,24 +29,24 @@ using namespace calotte::test;
 
 namespace {
 
-using Place = std::array<double, 3>;
+using Coordinates = std::array<double, 3>;
 
-std::set<Place> places_of(const Points3& points) {
-  std::set<Place> places;
+std::set<Coordinates> places_in(const Points3& points) {
+  std::set<Coordinates> places;
   for (const auto& x : points.colwise())
     places.insert({x[0], x[1], x[2]});
   return places;
 }
 
 /// The ends of each edge once, and its length over the spacing up to a factor.
-struct Edge {
+struct EdgeLength {
   double length;
   std::int32_t a, b;
 };
 
-std::vector<Edge> edges_of(const Mesh& mesh, const Density& density) {
+std::vector<EdgeLength> edge_lengths(const Mesh& mesh, const Density& density) {
   const Eigen::VectorXd rho = evaluate(density, mesh.points);
-  std::vector<Edge> edges;
+  std::vector<EdgeLength> edges;
   for (const auto& t : mesh.triangles.colwise())
     for (int i = 0; i < 3; ++i)
       if (const std::int32_t a = t[i], b = t[(i + 1) % 3]; a < b)
@@ -56,7 +56,7 @@ std::vector<Edge> edges_of(const Mesh& mesh, const Density& density) {
   return edges;
 }
 
-Mesh relaxed(std::int64_t n, const Density& density) {
+Mesh graded_mesh(std::int64_t n, const Density& density) {
   return spherical_delaunay(random_sphere(n, site_density(density), 3));
 }
 
@@ -81,11 +81,11 @@ std::int64_t odd_sites(const Mesh& mesh) {
 } // namespace
 
 TEST_CASE("insertion: counts, unit columns, and points that stay keep their bits and order") {
-  const Mesh mesh = relaxed(2000, x8());
+  const Mesh mesh = graded_mesh(2000, x8());
   const Points3 points = split_and_collapse(mesh, x8(), 30, 20);
   REQUIRE(points.cols() == 2010);
   CHECK(((points.colwise().norm().array() - 1).abs() < 1e-15).all());
-  CHECK(places_of(points).size() == 2010); // distinct
+  CHECK(places_in(points).size() == 2010); // distinct
   std::int64_t from = 0, kept = 0;
   for (std::int64_t i = 0; i < 1980; ++i) {
     std::int64_t at = from;
@@ -108,10 +108,10 @@ TEST_CASE("insertion: the longest edges are split and the shortest contracted") 
   points.col(100) = (points.col(100) + 0.03 * Eigen::Vector3d(1, 2, 3)).normalized();
   const Mesh moved = spherical_delaunay(points);
   REQUIRE(odd_sites(moved) == 0);
-  std::vector<Edge> sorted = edges_of(moved, Density{});
+  std::vector<EdgeLength> sorted = edge_lengths(moved, Density{});
   std::sort(sorted.begin(), sorted.end(),
-            [](const Edge& e, const Edge& f) { return e.length < f.length; });
-  const auto middle_of = [&](const Edge& e) {
+            [](const EdgeLength& e, const EdgeLength& f) { return e.length < f.length; });
+  const auto middle_of = [&](const EdgeLength& e) {
     return Eigen::Vector3d((points.col(e.a) + points.col(e.b)).normalized());
   };
   CHECK(has(split_and_collapse(moved, Density{}, 1, 0), middle_of(sorted.back())));
@@ -128,7 +128,7 @@ TEST_CASE("insertion: the choice does not depend on the numbers of the points") 
   const auto of = [](const Points3& start) {
     const Points3 out = split_and_collapse(spherical_delaunay(start), x8(), 40, 40);
     Points3 rounded = (out.array() * 1e12).round(); // a + b and b + a round alike; a midpoint's
-    return places_of(rounded);                      // place in the sum may not
+    return places_in(rounded);                      // place in the sum may not
   };
   CHECK(of(points) == of(shuffled));
 }
@@ -171,9 +171,9 @@ TEST_CASE("insertion: sites with 8 neighbours lose some") {
 }
 
 TEST_CASE("insertion: dislocations grow as the root of the number, and uniform meshes need none") {
-  CHECK(cvt_detail::dislocations(relaxed(1000, Density{}), Density{}) == 0);
-  const double few = cvt_detail::dislocations(relaxed(4000, x8()), x8()),
-               many = cvt_detail::dislocations(relaxed(16000, x8()), x8());
+  CHECK(cvt_detail::dislocations(graded_mesh(1000, Density{}), Density{}) == 0);
+  const double few = cvt_detail::dislocations(graded_mesh(4000, x8()), x8()),
+               many = cvt_detail::dislocations(graded_mesh(16000, x8()), x8());
   CHECK(many / few == doctest::Approx(2).epsilon(0.05));
 }
 

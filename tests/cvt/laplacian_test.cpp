@@ -5,6 +5,7 @@
 #include "cvt/laplacian.h"
 #include "cvt/multigrid.h"
 #include "cvt/state.h"
+#include "support/constants.h"
 #include "support/densities.h"
 #include "support/planes.h"
 #include "support/starts.h"
@@ -18,17 +19,14 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 using namespace calotte;
+using namespace calotte::test;
 using namespace calotte::cvt_detail;
-using test::x8;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Generators along a space-filling curve, near an optimum of the energy.
 Points3 near_optimum(const Density& density, std::int64_t cells) {

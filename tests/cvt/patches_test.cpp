@@ -28,13 +28,13 @@ PlacedSites<Sphere> placed(const Points3& points) {
 using Triple = std::array<std::int32_t, 3>;
 
 /// The lowest site first.
-Triple turned(Triple triple) {
+Triple lowest_first(Triple triple) {
   std::rotate(triple.begin(), std::min_element(triple.begin(), triple.end()), triple.end());
   return triple;
 }
 
 Triple sites_of(const Triangles& triangles, Eigen::Index t) {
-  return turned({triangles(0, t), triangles(1, t), triangles(2, t)});
+  return lowest_first({triangles(0, t), triangles(1, t), triangles(2, t)});
 }
 
 std::set<Triple> all_triangles(const Triangles& triangles) {
@@ -93,7 +93,7 @@ void check_patches(const std::vector<Patch>& patches, const Triangles& triangles
 }
 
 /// Points moved by some spacings at random.
-Points3 moved(const Points3& points, double amount) {
+Points3 shaken(const Points3& points, double amount) {
   const double h = std::sqrt(4 * std::numbers::pi / static_cast<double>(points.cols()));
   return (points + amount * h * random_sphere(points.cols(), 7)).colwise().normalized();
 }
@@ -137,7 +137,7 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
       Connectivity mesh = connectivity(start);
       const Ownership ownership = random_ownership(start.cols(), 5, 6);
       std::vector<Patch> patches = make_patches(mesh.triangles, ownership);
-      const Points3 points = moved(start, amount);
+      const Points3 points = shaken(start, amount);
       const std::optional<Repair> repaired = repair(mesh, placed(points), all_faults(mesh, points));
       if (!repaired) { // a new triangulation is cheaper
         CHECK(amount >= 0.3);

@@ -5,7 +5,11 @@
 #include <calotte/io.h>
 
 #include "cvt/cvt.h"
+#include "support/constants.h"
+#include "support/descent.h"
+#include "support/directions.h"
 #include "support/files.h"
+#include "support/laws.h"
 #include "support/planes.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
@@ -21,15 +25,15 @@
 #include <vector>
 
 using namespace calotte;
+using namespace calotte::test;
 using namespace calotte::test::region_laws;
-using calotte::test::Scratch;
 
 namespace {
 
 Region polygon(const std::vector<std::pair<double, double>>& corners) {
   Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
   for (std::size_t k = 0; k < corners.size(); ++k)
-    ring.col(static_cast<Eigen::Index>(k)) = at(corners[k].first, corners[k].second);
+    ring.col(static_cast<Eigen::Index>(k)) = direction(corners[k].first, corners[k].second);
   return {{ring}};
 }
 
@@ -37,13 +41,13 @@ Region archipelago() {
   Region region;
   for (int k = 0; k < 200; ++k)
     region.rings.push_back(
-        circle(at(6.0 * (k % 20), -30 + 6.0 * (k / 20)), (1 + 0.1 * (k % 7)) * degree, 12)
+        circle(direction(6.0 * (k % 20), -30 + 6.0 * (k / 20)), (1 + 0.1 * (k % 7)) * degree, 12)
             .rings()[0]);
   return region;
 }
 
 /// Walls of 0.2 degrees between bays.
-Region comb() {
+Region narrow_bays() {
   std::vector<std::pair<double, double>> corners{{0, 0}, {20, 0}};
   for (int tooth = 9; tooth >= 0; --tooth) {
     corners.push_back({2.0 * tooth + 2, 10});
@@ -56,28 +60,28 @@ Region comb() {
 }
 
 Region with_hole() {
-  Region region = circle(at(90, 85), 25 * degree); // holds the pole
-  const Points3 hole = circle(at(0, 90), 8 * degree, 40).rings()[0];
+  Region region = circle(direction(90, 85), 25 * degree); // holds the pole
+  const Points3 hole = circle(direction(0, 90), 8 * degree, 40).rings()[0];
   region.rings.push_back(hole.rowwise().reverse());
   return region;
 }
 
 std::vector<std::pair<std::string, Region>> regions() {
-  return {{"hemisphere", circle(at(10, 20), 90 * degree)},
-          {"a degree", circle(at(10, 20), degree)},
-          {"170 degrees", circle(at(10, 20), 170 * degree)},
+  return {{"hemisphere", circle(direction(10, 20), 90 * degree)},
+          {"a degree", circle(direction(10, 20), degree)},
+          {"170 degrees", circle(direction(10, 20), 170 * degree)},
           {"pole", polygon({{0, 60}, {90, 60}, {180, 60}, {-90, 60}})},
           {"date line", polygon({{170, -10}, {-170, -12}, {-165, 15}, {172, 11}})},
           {"bay", polygon({{0, 0}, {40, 0}, {40, 30}, {21, 30}, {20, 3}, {19, 30}, {0, 30}})},
           {"hole", with_hole()},
-          {"comb", comb()},
+          {"comb", narrow_bays()},
           {"an octant", polygon({{0, 0}, {90, 0}, {0, 90}})}, // boxes of its arcs reach far
           {"archipelago", archipelago()}};
 }
 
-CvtOptions graded(std::int64_t cells, int bisections) {
+CvtOptions well_centred(std::int64_t cells, int bisections) {
   CvtOptions options;
-  options.density = tanh_bump(at(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
+  options.density = tanh_bump(direction(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
   options.insertion_rounds = 1;
   options.cells = cells;
   options.bisections = bisections;
@@ -109,7 +113,7 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
     CHECK(grid.mesh.points.cols() == 300);
     CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / whole - 1) < 1e-12);
     CHECK(check_surface(grid.mesh).failure == "");
-    CHECK(energies_fall(grid.report));
+    check_descent(grid.report, 1e-9);
     const auto inside = containing(region);
     for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
       CHECK(inside(grid.mesh.points.col(i)));
@@ -117,8 +121,8 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
 }
 
 TEST_CASE("region: generators that start in a corner spread over all of it") {
-  const Region region = circle(at(10, 20), 30 * degree);
-  const Points3 corner = random_points(150, circle(at(30, 20), degree));
+  const Region region = circle(direction(10, 20), 30 * degree);
+  const Points3 corner = random_points(150, circle(direction(30, 20), degree));
   CvtOptions options;
   options.tolerance = 1e-3;
   const Cvt grid = spherical_cvt(corner, region, options);
@@ -127,7 +131,7 @@ TEST_CASE("region: generators that start in a corner spread over all of it") {
 }
 
 TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
-  const Region region = circle(at(10, 20), 30 * degree);
+  const Region region = circle(direction(10, 20), 30 * degree);
   CvtOptions options;
   options.tolerance = 1e-6;
   const Cvt grid = spherical_cvt(random_points(300, region), region, options);
@@ -139,7 +143,7 @@ TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
 }
 
 TEST_CASE("region: uniform density by closed forms and by quadrature") {
-  const Region region = circle(at(200, -70), 5 * degree);
+  const Region region = circle(direction(200, -70), 5 * degree);
   const Points3 start = random_points(200, region);
   CvtOptions options;
   options.norm = Norm::none;
@@ -159,11 +163,11 @@ TEST_CASE("region: uniform density by closed forms and by quadrature") {
 // Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE(
     "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
-  const Region region = circle(at(20, 40), 14 * degree);
-  const test::FirstGenerators from = test::multilevel(1500, region, graded(1500, 0).density);
+  const Region region = circle(direction(20, 40), 14 * degree);
+  const test::FirstGenerators from = test::multilevel(1500, region, well_centred(1500, 0).density);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    CvtOptions options = graded(1500, from.bisections);
+    CvtOptions options = well_centred(1500, from.bisections);
     options.partition.regions = regions;
     return spherical_cvt(from.start, region, options);
   };
@@ -171,21 +175,22 @@ TEST_CASE(
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(one.report.well_centred);
-  CHECK(std::abs(sum_of_cells(region, one.mesh.points, graded(1500, 0).density) / area(region) -
-                 1) < 1e-12);
-  CHECK(equal(one, with(2, 12)));
-  CHECK(equal(one, with(4, 42)));
+  CHECK(
+      std::abs(sum_of_cells(region, one.mesh.points, well_centred(1500, 0).density) / area(region) -
+               1) < 1e-12);
+  CHECK(identical(one.mesh, with(2, 12).mesh));
+  CHECK(identical(one.mesh, with(4, 42).mesh));
   const Scratch scratch;
   std::vector<CvtState> states;
-  const CvtOptions options = graded(1500, from.bisections);
+  const CvtOptions options = well_centred(1500, from.bisections);
   spherical_cvt(from.start, region, options, [&](const CvtProgress& now) {
     states.push_back(now.state);
     return false;
   });
   for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
-    CHECK(
-        equal(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), region, options), one));
+    const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
+    CHECK(identical(spherical_cvt(state, region, options).mesh, one.mesh));
   }
 }
 
@@ -208,14 +213,14 @@ TEST_CASE("region: a wider one holds all places within the distance") {
                        std::sin(3 * degree) * (std::cos(angle) * east + std::sin(angle) * north)));
         }
   }
-  CHECK(widened(circle(at(0, 0), 170 * degree), 0.1).is_whole_sphere());
-  CHECK_THROWS_AS(widened(circle(at(0, 0), 1), -1), Error);
+  CHECK(widened(circle(direction(0, 0), 170 * degree), 0.1).is_whole_sphere());
+  CHECK_THROWS_AS(widened(circle(direction(0, 0), 1), -1), Error);
 }
 
 TEST_CASE("region: bad input is an error") {
-  const Region region = circle(at(0, 0), 10 * degree);
+  const Region region = circle(direction(0, 0), 10 * degree);
   Points3 start = random_points(20, region);
-  start.col(7) = at(90, 0);
+  start.col(7) = direction(90, 0);
   CHECK(message_of(start, region).find("generator 7 is outside the region") == 0);
   CHECK(message_of(random_points(3, region), region).find("at least 4") != std::string::npos);
   CHECK(message_of(start, Region{{region.rings[0].leftCols(2)}}).find("corners") !=

@@ -18,8 +18,8 @@ using namespace calotte::delaunay_detail;
 
 namespace {
 
-ErrorCode code_of(const Points3& points, std::int64_t& index,
-                  Duplicates duplicates = Duplicates::merge, double within = 0) {
+ErrorCode refusal_of(const Points3& points, std::int64_t& index,
+                     Duplicates duplicates = Duplicates::merge, double within = 0) {
   try {
     make_sites(points, duplicates, within);
   } catch (const Error& e) {
@@ -63,7 +63,7 @@ TEST_CASE("equal directions of any norm are merged into the lowest index") {
   CHECK(sites.size() == 5);
   CHECK(sites.points.col(3) == points.col(6));
   std::int64_t index = -1;
-  CHECK(code_of(points, index, Duplicates::refuse) == ErrorCode::duplicate);
+  CHECK(refusal_of(points, index, Duplicates::refuse) == ErrorCode::duplicate);
   CHECK(index == 2);
 }
 
@@ -146,15 +146,16 @@ TEST_CASE("bad input is refused with its first offending index") {
   points(1, 39000) = nan;
   points.col(20001).setZero();
   std::int64_t index = -1;
-  CHECK(code_of(points, index) == ErrorCode::zero_vector);
+  CHECK(refusal_of(points, index) == ErrorCode::zero_vector);
   CHECK(index == 20001);
   points(2, 17) = -infinity;
-  CHECK(code_of(points, index) == ErrorCode::not_finite);
+  CHECK(refusal_of(points, index) == ErrorCode::not_finite);
   CHECK(index == 17);
-  CHECK(code_of(points.leftCols(2), index) == ErrorCode::too_few_sites);
-  CHECK(code_of(Points3(3, 0), index) == ErrorCode::too_few_sites);
+  CHECK(refusal_of(points.leftCols(2), index) == ErrorCode::too_few_sites);
+  CHECK(refusal_of(Points3(3, 0), index) == ErrorCode::too_few_sites);
   Points3 same = Points3::Ones(3, 10);
-  CHECK(code_of(same, index) == ErrorCode::too_few_sites);
-  CHECK(code_of(random_sphere(10), index, Duplicates::merge, -1) == ErrorCode::invalid_argument);
-  CHECK(code_of(random_sphere(10), index, Duplicates::merge, nan) == ErrorCode::invalid_argument);
+  CHECK(refusal_of(same, index) == ErrorCode::too_few_sites);
+  CHECK(refusal_of(random_sphere(10), index, Duplicates::merge, -1) == ErrorCode::invalid_argument);
+  CHECK(refusal_of(random_sphere(10), index, Duplicates::merge, nan) ==
+        ErrorCode::invalid_argument);
 }

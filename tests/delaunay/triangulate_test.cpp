@@ -28,7 +28,7 @@ std::vector<Member> all_members(const Sites& sites) {
 }
 
 /// Finite faces by sites, starting at the lowest; each neighbour is checked to point back.
-std::set<Triple> faces_of(Cap& cap) {
+std::set<Triple> finite_faces(Cap& cap) {
   std::set<Triple> faces;
   cap.for_each_face([&](Cap::Face face) {
     for (int i = 0; i < 3; ++i) {
@@ -50,7 +50,7 @@ std::set<Triple> faces_in_order(const SphereChart& view, const std::vector<Membe
   Cap cap{view};
   REQUIRE(cap.build(members));
   CHECK(cap.members().size() == members.size());
-  return faces_of(cap);
+  return finite_faces(cap);
 }
 
 } // namespace
@@ -85,7 +85,7 @@ TEST_CASE("a site inserted later is in the triangulation as if it had been there
   REQUIRE(cap.build(std::span(members).first(members.size() / 2)));
   for (std::size_t m = members.size() / 2; m < members.size(); ++m)
     cap.insert(members[m]);
-  CHECK(faces_of(cap) == faces_in_order(view, members));
+  CHECK(finite_faces(cap) == faces_in_order(view, members));
 }
 
 TEST_CASE("sites on one line of the view cannot be triangulated") {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/disc_rule.h"
+#include "grids/rotations.h"
+#include "support/constants.h"
 #include "support/directions.h"
 #include "support/files.h"
 #include "support/gshhg.h"
@@ -17,24 +19,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 // Widths across channels against channels of known width.
 
 using namespace calotte;
-using calotte::test::angle;
-using calotte::test::direction;
-using calotte::test::directions;
-using calotte::test::error_of;
+using namespace calotte::test;
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
-
 Points3 round_ring(double longitude, double latitude, double radius) {
-  return circle(direction(longitude, latitude), radius * radians).rings().front();
+  return circle(direction(longitude, latitude), radius * degree).rings().front();
 }
 
 /// Land west and east of a channel about the meridian 0, which is `south` and `north` degrees wide
@@ -44,7 +40,7 @@ Coast banks(double south, double north) {
            directions({{south, -40}, {25, -40}, {25, 40}, {north, 40}})}};
 }
 
-Coast turned(const Coast& coast, const Eigen::Matrix3d& rotation) {
+Coast rotated(const Coast& coast, const Eigen::Matrix3d& rotation) {
   Coast out;
   for (const Points3& each : coast.rings)
     out.rings.emplace_back(rotation * each);
@@ -58,19 +54,10 @@ double on_axis(double south, double north, double latitude, double cells) {
   double width = Widths::no_demand;
   for (double at = -39; at < 39; at += 0.001) {
     const double distance = std::asin(std::abs(normal.dot(direction(0, at))));
-    if (std::abs(at - latitude) * radians <= distance)
+    if (std::abs(at - latitude) * degree <= distance)
       width = std::min(width, 2 * earth_radius_km * distance / cells);
   }
   return width;
-}
-
-/// North over a pole, and across the date line.
-std::vector<Eigen::Matrix3d> rotations() {
-  using Eigen::AngleAxisd;
-  return {Eigen::Matrix3d::Identity(),
-          AngleAxisd(-80 * radians, Eigen::Vector3d::UnitY()).toRotationMatrix(),
-          AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-          AngleAxisd(2, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix()};
 }
 
 } // namespace
@@ -79,7 +66,7 @@ TEST_CASE("in a channel between two shores there are so many cells across") {
   for (const auto& [south, north] : {std::array{1.0, 1.0}, {0.3, 2.0}})
     for (const Eigen::Matrix3d& rotation : rotations()) {
       const Widths widths =
-          Widths::by_channel(turned(banks(south, north), rotation), {.cells = 4, .least = 5});
+          Widths::by_channel(rotated(banks(south, north), rotation), {.cells = 4, .least = 5});
       for (const double latitude : {-30.0, -10.0, 0.0, 20.0, 35.0}) {
         const Points3 place = rotation * direction(0, latitude);
         CHECK(evaluate(widths, place)[0] ==
@@ -137,7 +124,7 @@ TEST_CASE("between islands there is a strait") {
   const Coast islands{
       {round_ring(0, 89, 0.5), round_ring(180, 89, 0.5)}}; // either side of the pole
   const Widths widths = Widths::by_channel(islands, {.cells = 5, .least = 2});
-  const double km = earth_radius_km * radians;
+  const double km = earth_radius_km * degree;
   CHECK(evaluate(widths, direction(0, 90))[0] == doctest::Approx(km / 5).epsilon(0.01));
   CHECK(evaluate(widths, direction(90, 80))[0] == Widths::no_demand);
   // It grows from the circle between them.

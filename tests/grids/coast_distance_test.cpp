@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/constants.h"
 #include "support/directions.h"
 #include "support/files.h"
 #include "support/gshhg.h"
@@ -16,16 +17,14 @@
 // Widths by the distance from a coast, apart in the sea and on land.
 
 using namespace calotte;
-using calotte::test::angle;
-using calotte::test::direction;
-using calotte::test::error_of;
+using namespace calotte::test;
 
 namespace {
 
-constexpr double radians = std::numbers::pi / 180, round = std::numbers::pi * earth_radius_km;
+constexpr double half_round = pi * earth_radius_km;
 
 /// A width that tells the distance.
-const WidthProfile tells{{{-round, 1e6 - round}, {round, 1e6 + round}}};
+const WidthProfile tells{{{-half_round, 1e6 - half_round}, {half_round, 1e6 + half_round}}};
 
 DoubleVector distances(const Coast& coast, const Points3& places) {
   return evaluate(Widths::by_coast(coast, tells), places).array() - 1e6;
@@ -37,7 +36,7 @@ TEST_CASE("distances from a coast are positive in the sea and negative on land")
   // An island over the north pole, and a lake with an island in it over the date line.
   const Eigen::Vector3d pole = direction(0, 90), lake = direction(180, 0);
   const auto ring = [](const Eigen::Vector3d& centre, double radius) -> Points3 {
-    return circle(centre, radius * radians, 4000).rings().front();
+    return circle(centre, radius * degree, 4000).rings().front();
   };
   const Coast coast{
       {ring(pole, 10), ring(lake, 50), ring(lake, 30).rowwise().reverse(), ring(lake, 5)}};
@@ -45,14 +44,14 @@ TEST_CASE("distances from a coast are positive in the sea and negative on land")
   const DoubleVector got = distances(coast, places);
   double worst = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const double from_lake = angle(lake, places.col(i)) / radians,
-                 from_pole = angle(pole, places.col(i)) / radians;
+    const double from_lake = angle(lake, places.col(i)) / degree,
+                 from_pole = angle(pole, places.col(i)) / degree;
     // From the nearest circle, and from the island at the pole, which the ring does not reach.
     const double nearest = from_lake > 30     ? std::max(from_lake - 50, 30 - from_lake)
                            : from_lake > 17.5 ? 30 - from_lake
                                               : from_lake - 5,
                  expected = std::min(nearest, from_pole - 10);
-    worst = std::max(worst, std::abs(got[i] - expected * radians * earth_radius_km));
+    worst = std::max(worst, std::abs(got[i] - expected * degree * earth_radius_km));
   }
   CHECK(worst < 0.01); // km, of the polygons
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/constants.h"
 #include "support/densities.h"
 #include "support/files.h"
 #include "support/planes.h"
@@ -14,10 +15,10 @@
 #include <string>
 
 using namespace calotte;
+using namespace calotte::test;
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Region part() { return circle({1, 1, 1}, 20 * degree); }

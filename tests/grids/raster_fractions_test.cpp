@@ -6,6 +6,8 @@
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
+#include "support/constants.h"
+#include "support/directions.h"
 #include "support/files.h"
 #include "support/planes.h"
 
@@ -15,7 +17,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,9 @@ using namespace calotte::test;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// A raster with its nodes in the middle of equal steps.
-LandRaster raster_of(int columns, int rows,
-                     const std::function<double(double lon, double lat)>& land) {
+LandRaster land_raster(int columns, int rows,
+                       const std::function<double(double lon, double lat)>& land) {
   LandRaster raster;
   raster.longitudes =
       Eigen::VectorXd::LinSpaced(columns, -180 + 180.0 / columns, 180 - 180.0 / columns);
@@ -42,12 +41,7 @@ LandRaster raster_of(int columns, int rows,
   return raster;
 }
 
-Eigen::Vector3d at(double lon, double lat) {
-  const base_detail::Vec3 x = base_detail::from_lonlat(lon, lat);
-  return {x.x, x.y, x.z};
-}
-
-Voronoi cells_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
+Voronoi voronoi_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
 
 std::vector<Points3> clouds() {
   return {bisected_icosahedron(0), bisected_icosahedron(2), cubed_sphere(8), fibonacci_sphere(1000),
@@ -62,14 +56,14 @@ double noise(double lon, double lat) {
 
 TEST_CASE("a raster of one value gives it to every cell; complements add up to 1") {
   for (const Points3& points : clouds()) {
-    const Voronoi cells = cells_of(points);
+    const Voronoi cells = voronoi_of(points);
     for (const auto& [columns, rows] : {std::pair{8, 4}, std::pair{90, 45}, std::pair{361, 180}}) {
       for (const double value : {0.0, 0.3, 1.0}) {
-        const Eigen::VectorXd same =
-            land_fractions(cells, raster_of(columns, rows, [&](double, double) { return value; }));
+        const Eigen::VectorXd same = land_fractions(
+            cells, land_raster(columns, rows, [&](double, double) { return value; }));
         CHECK((same.array() - value).abs().maxCoeff() < 1e-12);
       }
-      LandRaster raster = raster_of(columns, rows, noise);
+      LandRaster raster = land_raster(columns, rows, noise);
       const Eigen::VectorXd land = land_fractions(cells, raster);
       raster.land = 1 - raster.land.array();
       const Eigen::VectorXd sea = land_fractions(cells, raster);
@@ -81,14 +75,14 @@ TEST_CASE("a raster of one value gives it to every cell; complements add up to 1
 }
 
 TEST_CASE("a fine raster of a region gives about the exact fractions") {
-  for (const Region& region :
-       std::vector<Region>{circle(at(30, 40), 50 * degree), circle(at(0, 90), 20 * degree),
-                           circle(at(180, -5), 30 * degree)}) {
+  for (const Region& region : std::vector<Region>{circle(direction(30, 40), 50 * degree),
+                                                  circle(direction(0, 90), 20 * degree),
+                                                  circle(direction(180, -5), 30 * degree)}) {
     const auto inside = containing(region);
-    const LandRaster raster =
-        raster_of(720, 360, [&](double lon, double lat) { return inside(at(lon, lat)) ? 1 : 0; });
+    const LandRaster raster = land_raster(
+        720, 360, [&](double lon, double lat) { return inside(direction(lon, lat)) ? 1 : 0; });
     for (const Points3& points : {fibonacci_sphere(400), bisected_icosahedron(3)}) {
-      const Voronoi cells = cells_of(points);
+      const Voronoi cells = voronoi_of(points);
       const Eigen::VectorXd sampled = land_fractions(cells, raster),
                             exact = land_fractions(cells, Coast{region.rings, area(region)});
       // Of a cell about 10 degrees wide, half of the rectangles along its boundary and the coast.
@@ -100,7 +94,7 @@ TEST_CASE("a fine raster of a region gives about the exact fractions") {
 
 TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
   for (const auto& [columns, rows] : {std::pair{12, 6}, std::pair{5, 3}}) {
-    const LandRaster raster = raster_of(columns, rows, [](double lon, double lat) {
+    const LandRaster raster = land_raster(columns, rows, [](double lon, double lat) {
       return std::fmod(std::abs(3 * lon + 7 * lat), 10) / 10;
     });
     const auto index_of = [&](const Eigen::Vector3d& x) {
@@ -108,7 +102,7 @@ TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
       return std::pair{static_cast<Eigen::Index>((lon + 180) / 360 * columns),
                        static_cast<Eigen::Index>((lat + 90) / 180 * rows)};
     };
-    const Voronoi cells = cells_of(random_sphere(4000, 11));
+    const Voronoi cells = voronoi_of(random_sphere(4000, 11));
     const Eigen::VectorXd fractions = land_fractions(cells, raster);
     int within = 0;
     for (Eigen::Index i = 0; i < fractions.size(); ++i) {
@@ -127,16 +121,16 @@ TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
 
 TEST_CASE("cells that are much smaller than their neighbours have a value, too") {
   Points3 points(3, 600);
-  points << random_sphere(300, 5), random_points(300, circle(at(77, 33), 1e-5));
-  const Voronoi cells = cells_of(points);
-  const Eigen::VectorXd fractions = land_fractions(cells, raster_of(36, 18, noise));
+  points << random_sphere(300, 5), random_points(300, circle(direction(77, 33), 1e-5));
+  const Voronoi cells = voronoi_of(points);
+  const Eigen::VectorXd fractions = land_fractions(cells, land_raster(36, 18, noise));
   CHECK(fractions.minCoeff() >= 0);
   CHECK(fractions.maxCoeff() <= 1);
 }
 
 TEST_CASE("the fractions of a raster have the same bits for any number of threads") {
-  const Voronoi cells = cells_of(fibonacci_sphere(3000));
-  const LandRaster raster = raster_of(144, 600, noise); // more rows than are taken at once
+  const Voronoi cells = voronoi_of(fibonacci_sphere(3000));
+  const LandRaster raster = land_raster(144, 600, noise); // more rows than are taken at once
   const Eigen::VectorXd once = land_fractions(cells, raster);
   for (const int threads : {1, 3}) {
     tbb::task_arena arena(threads);
@@ -145,8 +139,8 @@ TEST_CASE("the fractions of a raster have the same bits for any number of thread
 }
 
 TEST_CASE("rasters that are refused") {
-  const Voronoi cells = cells_of(bisected_icosahedron(1));
-  const LandRaster good = raster_of(8, 4, noise);
+  const Voronoi cells = voronoi_of(bisected_icosahedron(1));
+  const LandRaster good = land_raster(8, 4, noise);
   const auto refusal = [&](const std::function<void(LandRaster&)>& spoil) {
     LandRaster bad = good;
     spoil(bad);

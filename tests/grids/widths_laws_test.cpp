@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "grids/rotations.h"
+#include "support/constants.h"
 #include "support/directions.h"
 
 #include <calotte/generators.h>
@@ -10,17 +12,14 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 // Rotated rules give rotated widths: no rule knows of poles or of the date line.
 
 using namespace calotte;
-using calotte::test::direction;
+using namespace calotte::test;
 
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 using Rotation = Eigen::Matrix3d;
 
@@ -36,21 +35,12 @@ std::vector<Points3> lines(const Rotation& rotation) {
 }
 
 /// Two islands with a strait between them.
-Coast islands(const Rotation& rotation) {
+Coast two_islands(const Rotation& rotation) {
   Coast coast;
   for (const double longitude : {-8.0, 8.0})
     coast.rings.emplace_back(rotation *
-                             circle(direction(longitude, 5), 7 * radians, 100).rings().front());
+                             circle(direction(longitude, 5), 7 * degree, 100).rings().front());
   return coast;
-}
-
-/// Over a pole, and the date line.
-const std::vector<Rotation>& rotations() {
-  static const std::vector<Rotation> all{
-      Eigen::AngleAxisd(-80 * radians, Eigen::Vector3d::UnitY()).toRotationMatrix(),
-      Eigen::AngleAxisd(179 * radians, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-      Eigen::AngleAxisd(2, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix()};
-  return all;
 }
 
 /// The largest difference at random places, km.
@@ -70,9 +60,11 @@ double change(const std::function<Widths(const Rotation&)>& rule) {
 TEST_CASE("rotated rules give rotated widths") {
   const WidthProfile grows{{{0, 10}, {2000, 90}}}, sides{{{-500, 80}, {0, 10}, {2000, 90}}};
   const auto lines_rule = [&](const Rotation& r) { return Widths::by_distance(lines(r), grows); };
-  const auto coast_rule = [&](const Rotation& r) { return Widths::by_coast(islands(r), sides); };
+  const auto coast_rule = [&](const Rotation& r) {
+    return Widths::by_coast(two_islands(r), sides);
+  };
   const auto channels = [&](const Rotation& r) {
-    return Widths::by_channel(islands(r), {.cells = 4, .least = 20});
+    return Widths::by_channel(two_islands(r), {.cells = 4, .least = 20});
   };
   const auto blend = [&](const Rotation& r) {
     return Widths::blend(lines_rule(r), 200.0, Share(region(r), {{{-100, 1}, {900, 0}}}));
@@ -90,7 +82,7 @@ TEST_CASE("rotated rules give rotated widths") {
 }
 
 TEST_CASE("rotated rules limited at a raster give rotated widths within a step of it") {
-  const double gradient = 0.05, step = earth_radius_km * radians; // of 1 degree
+  const double gradient = 0.05, step = earth_radius_km * degree; // of 1 degree
   CHECK(change([&](const Rotation& r) {
           return Widths::where(region(r), 150.0, 400.0).limit_gradient(gradient);
         }) < 1.5 * gradient * step);

@@ -3,6 +3,7 @@
 
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/densities.h"
 #include "support/planes.h"
 
@@ -13,7 +14,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +22,6 @@ using namespace calotte;
 using namespace calotte::test;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// Of the values that are numbers.
 Range range_of(const Eigen::VectorXd& values) {

@@ -2,6 +2,8 @@
 #include <calotte/quality.h>
 
 #include "delaunay/delaunay.h"
+#include "quality/long_doubles.h"
+#include "support/constants.h"
 #include "support/densities.h"
 #include "support/laws.h"
 #include "support/planes.h"
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 #include <vector>
@@ -27,11 +28,7 @@ using namespace calotte::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
-using Edge = std::pair<std::int32_t, std::int32_t>;
+using EdgeEnds = std::pair<std::int32_t, std::int32_t>;
 
 double limit_of(double root_integral) {
   return 5 / (18 * std::sqrt(3.0)) * root_integral * root_integral;
@@ -53,10 +50,8 @@ double x8_profile(double t) {
   return (std::tanh((pi / 6 - t) / 0.2) + 1) / (2 * (1 - gamma)) + gamma;
 }
 
-Real arc(const Vector& a, const Vector& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 /// What the header defines, from the list of all edges.
-struct Definition {
+struct DemandByDefinition {
   std::vector<double> fits, ratios;
   std::int64_t short_edges = 0, mismatched_edges = 0;
   std::map<std::int32_t, std::vector<double>> arcs; ///< by cell
@@ -66,11 +61,11 @@ struct Definition {
     return mesh.points.col(i).cast<Real>().normalized();
   }
 
-  Definition(const Mesh& mesh, const Density& density, double root_integral) {
+  DemandByDefinition(const Mesh& mesh, const Density& density, double root_integral) {
     const double n = static_cast<double>(mesh.points.cols());
     const double h = std::sqrt(2 / (std::sqrt(3.0) * n) * root_integral);
     const Eigen::VectorXd inverse = evaluate(density, mesh.points).array().pow(0.25) / h;
-    std::map<Edge, Vector> left; // the circumcentre to the left of each way
+    std::map<EdgeEnds, Vector> left; // the circumcentre to the left of each way
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
       const Triple v = triple(mesh, t);
       const Vector a = at(mesh, v[0]), b = at(mesh, v[1]), c = at(mesh, v[2]);
@@ -93,7 +88,7 @@ struct Definition {
     }
   }
 
-  void add(const Edge& edge, double fit, double ratio) {
+  void add(const EdgeEnds& edge, double fit, double ratio) {
     fits.push_back(fit);
     ratios.push_back(ratio);
     const bool is_short = ratio < 0.18, unfit = fit < 0.75 || fit > 1.4;
@@ -111,7 +106,7 @@ struct Definition {
 };
 
 void check_definition(const Mesh& mesh, const Density& density, double root_integral) {
-  Definition truth(mesh, density, root_integral);
+  DemandByDefinition truth(mesh, density, root_integral);
   const Quality q = quality(mesh, density);
   CHECK(q.limit == doctest::Approx(limit_of(root_integral)).epsilon(1e-7));
   CHECK(q.excess == doctest::Approx(q.energy * static_cast<double>(q.cells) / q.limit - 1));

@@ -4,6 +4,7 @@
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/densities.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -23,7 +24,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,8 +36,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 using Named = std::pair<std::string, const ErrorNorms*>;
 
@@ -395,7 +393,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr Complex i_unit{0, 1};
 
-Vector2d turned(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
+Vector2d turned_by(const Vector2d& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
 
 /// Squares of the errors of the operators for the wave exp(i k . x) on regular hexagons, which
 /// cosine and sine share.
@@ -406,7 +404,7 @@ struct Wave {
   Complex slope(const Vector2d& direction, const Vector2d& at) const {
     return i_unit * k.dot(direction) * std::exp(i_unit * k.dot(at));
   }
-  Vector2d direction(int j) const { return turned({1, 0}, j * pi / 3); }
+  Vector2d direction(int j) const { return turned_by({1, 0}, j * pi / 3); }
   Vector2d left(const Vector2d& v) const { return {-v.y(), v.x()}; }
 
   double divergence() const {
@@ -438,7 +436,7 @@ struct Wave {
   double curl() const {
     Complex of_gradient = 0, of_rotated = 0; // area sqrt(3)/4 d^2, midpoints d / (2 sqrt 3) away
     for (int j = 0; j < 3; ++j) {
-      const Vector2d out = turned({0, -1}, 2 * j * pi / 3), at = d / std::sqrt(12.0) * out;
+      const Vector2d out = turned_by({0, -1}, 2 * j * pi / 3), at = d / std::sqrt(12.0) * out;
       of_gradient += 4 / (std::sqrt(3.0) * d) * slope(left(out), at);
       of_rotated -= 4 / (std::sqrt(3.0) * d) * slope(left(left(out)), at);
     }
@@ -453,7 +451,7 @@ struct Wave {
       Complex of_gradient = 0, of_rotated = 0;
       for (const double side : {1.0, -1.0})
         for (int other = 1; other < 6; ++other) {
-          const Vector2d outward = turned(side * normal, other * pi / 3),
+          const Vector2d outward = turned_by(side * normal, other * pi / 3),
                          at = d / 2 * (outward - side * normal);
           const double weight = side * (3 - other) / (6 * std::sqrt(3.0));
           of_gradient += weight * slope(outward, at);

@@ -3,7 +3,9 @@
 
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "quality/long_doubles.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/laws.h"
 #include "support/planes.h"
 
@@ -30,8 +32,6 @@ using namespace calotte;
 using namespace calotte::test;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Case {
   const char* name;
@@ -87,9 +87,6 @@ void check_same(const Quality& a, const Quality& b) {
 
 // ---- The measures by their definitions, in long doubles
 
-using Real = long double;
-using Vector = Eigen::Matrix<Real, 3, 1>;
-
 /// Smallest, mean and largest.
 Range range_of(const std::vector<Real>& values) {
   if (values.empty())
@@ -102,14 +99,12 @@ Range range_of(const std::vector<Real>& values) {
           static_cast<double>(*most)};
 }
 
-Real arc(const Vector& a, const Vector& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-struct Definition {
+struct ShapesByDefinition {
   const Mesh& mesh;
   std::vector<Vector> site, centre; ///< unit; circumcentres of the triangles
   std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> triangle_of_edge;
 
-  explicit Definition(const Mesh& of) : mesh(of) {
+  explicit ShapesByDefinition(const Mesh& of) : mesh(of) {
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
       site.push_back(mesh.points.col(i).cast<Real>().normalized());
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
@@ -239,7 +234,7 @@ TEST_CASE("every measure agrees with its definition") {
   all.push_back({"several blocks", spherical_delaunay(random_sphere(20000, 4))});
   for (const Case& c : all) {
     CAPTURE(c.name);
-    check_same(quality(c.mesh), Definition(c.mesh).quality());
+    check_same(quality(c.mesh), ShapesByDefinition(c.mesh).quality());
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/exact.h"
+#include "support/joined.h"
 #include "support/oracle.h"
 #include "support/planes.h"
 #include "support/random.h"
@@ -38,12 +39,6 @@ inline Points3 columns(const std::vector<Vec3>& points) {
   Points3 out(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
     out.col(static_cast<Eigen::Index>(i)) << points[i].x, points[i].y, points[i].z;
-  return out;
-}
-
-inline Points3 joined(const Points3& a, const Points3& b) {
-  Points3 out(3, a.cols() + b.cols());
-  out << a, b;
   return out;
 }
 

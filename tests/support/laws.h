@@ -7,9 +7,7 @@
 #include <calotte/check.h>
 #include <calotte/types.h>
 
-#include <CGAL/Delaunay_triangulation_on_sphere_2.h>
-#include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <Eigen/Geometry>
 
 #include <doctest/doctest.h>
 
@@ -41,7 +39,7 @@ template <class Matrix> bool same_bits(const Matrix& a, const Matrix& b) {
 }
 
 /// Equal to the last bit.
-inline bool identical(const Mesh& a, const Mesh& b) {
+template <class AnyMesh> bool identical(const AnyMesh& a, const AnyMesh& b) {
   return same_bits(a.points, b.points) && same_bits(a.triangles, b.triangles) &&
          same_bits(a.neighbours, b.neighbours) && a.site_of_input == b.site_of_input;
 }
@@ -160,42 +158,6 @@ inline Mesh renumbered(const Mesh& mesh, const std::vector<std::int32_t>& to) {
     triangles.push_back(own);
   }
   return oracle::mesh_of(points, std::move(triangles));
-}
-
-/// CGAL's triangles of the points, in canonical order, without the ghosts of an open boundary. CGAL
-/// merges sites nearer than 2^-23 and treats the stored doubles as points on the sphere: for sets
-/// in general position only.
-inline std::vector<Triple> cgal_triangles(const Points3& points) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
-  CGAL::Delaunay_triangulation_on_sphere_2<Traits> triangulation(
-      Traits(Kernel::Point_3(0, 0, 0), 1));
-  std::map<Kernel::Point_3, std::int32_t> ids;
-  for (std::int32_t i = 0; i < points.cols(); ++i) {
-    const base_detail::Vec3 p = exact_detail::normalised(site(points, i));
-    const Kernel::Point_3 point(p.x, p.y, p.z);
-    ids[point] = i;
-    triangulation.insert(point);
-  }
-  std::vector<Triple> triangles;
-  for (auto face = triangulation.all_faces_begin(); face != triangulation.all_faces_end(); ++face) {
-    if (face->is_ghost())
-      continue;
-    Triple t{};
-    for (int i = 0; i < 3; ++i)
-      t[static_cast<std::size_t>(i)] = ids.at(face->vertex(i)->point());
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    triangles.push_back(t);
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
-inline void require_as_cgal(const Mesh& mesh) {
-  const std::vector<Triple> expected = cgal_triangles(mesh.points);
-  REQUIRE(mesh.triangles.cols() == std::ssize(expected));
-  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-    REQUIRE(triple(mesh, t) == expected[static_cast<std::size_t>(t)]);
 }
 
 } // namespace calotte::test

@@ -11,18 +11,10 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 /// The laws of tessellations of regions of the sphere.
 namespace calotte::test::region_laws {
-
-inline constexpr double degree = std::numbers::pi / 180;
-
-inline Eigen::Vector3d at(double lon, double lat) {
-  return {std::cos(lat * degree) * std::cos(lon * degree),
-          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)};
-}
 
 /// The sum of the areas of the cells, as a run has them, clipped by the region.
 inline double sum_of_cells(const Region& region, const Points3& points,
@@ -43,22 +35,6 @@ inline double sum_of_cells(const Region& region, const Points3& points,
     sum += integrals_detail::clipped_area(outline, base_detail::column(points, i),
                                           around[static_cast<std::size_t>(i)]);
   return sum;
-}
-
-/// Accepted iterations do not raise the energy beyond rounding.
-inline bool energies_fall(const CvtReport& report) {
-  double before = report.iterations.front().energy;
-  for (const CvtIteration& iteration : report.iterations)
-    if (iteration.accepted) {
-      if (!(iteration.energy <= before * (1 + 1e-9)))
-        return false;
-      before = iteration.energy;
-    }
-  return true;
-}
-
-inline bool equal(const Cvt& a, const Cvt& b) {
-  return a.mesh.points == b.mesh.points && a.mesh.triangles == b.mesh.triangles;
 }
 
 } // namespace calotte::test::region_laws

@@ -6,6 +6,7 @@
 
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
+#include "support/joined.h"
 #include "support/planes.h"
 
 #include <doctest/doctest.h>
@@ -16,6 +17,7 @@
 #include <vector>
 
 using namespace calotte;
+using namespace calotte::test;
 
 namespace {
 
@@ -29,18 +31,6 @@ Eigen::VectorXd dense_row(const Weights& weights, std::int64_t i) {
 Eigen::VectorXd stolen(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   const Eigen::Index n = before.size();
   return (before - after.head(n)) / after[n];
-}
-
-Points3 joined(const Points3& points, const Eigen::Vector3d& p) {
-  Points3 all(3, points.cols() + 1);
-  all << points, p;
-  return all;
-}
-
-Points2 joined(const Points2& points, const Eigen::Vector2d& p) {
-  Points2 all(2, points.cols() + 1);
-  all << points, p;
-  return all;
 }
 
 /// Weights of both kinds: >= 0, and their sum is 1.
