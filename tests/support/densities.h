@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/constants.h"
+
 #include <calotte/density.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace calotte::test {
 
 /// The paper's x8 bump (Jacobsen et al., 2013, Sect. 4.3): around 270 E 30 N.
 inline Density x8() {
-  constexpr double pi = std::numbers::pi;
   return tanh_bump({0, -std::cos(pi / 6), std::sin(pi / 6)}, pi / 6, 0.2, 1.0 / 4096);
 }
 

@@ -82,16 +82,16 @@ inline void require_canonical(const Mesh& mesh) {
 
 /// The sum of the triangles' areas in long doubles, by the sines of half angles.
 inline double total_area(const Mesh& mesh) {
-  using Vector = Eigen::Matrix<long double, 3, 1>;
-  const auto unit = [&](std::int32_t i) -> Vector {
-    const Vector p = mesh.points.col(i).cast<long double>();
+  using LongVector = Eigen::Matrix<long double, 3, 1>;
+  const auto unit = [&](std::int32_t i) -> LongVector {
+    const LongVector p = mesh.points.col(i).cast<long double>();
     return p / p.norm();
   };
   long double sum = 0;
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
-    const Vector a = unit(mesh.triangles(0, t)), b = unit(mesh.triangles(1, t)),
-                 c = unit(mesh.triangles(2, t));
-    const Vector p = b - a, q = c - a;
+    const LongVector a = unit(mesh.triangles(0, t)), b = unit(mesh.triangles(1, t)),
+                     c = unit(mesh.triangles(2, t));
+    const LongVector p = b - a, q = c - a;
     sum += 2 * std::atan2(std::max(a.dot(p.cross(q)), 0.0L), 1 + a.dot(b) + b.dot(c) + c.dot(a));
   }
   return static_cast<double>(sum);
