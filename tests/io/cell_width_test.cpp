@@ -6,7 +6,9 @@
 #include "base/spherical_angles.h"
 #include "cvt/cvt.h"
 #include "exact/predicates.h"
+#include "io/geojson_text.h"
 #include "io/netcdf/netcdf_writer.h"
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/planes.h"
 #include "support/random.h"
@@ -24,23 +26,21 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 using namespace calotte;
-using calotte::test::Random;
+using namespace calotte::test;
 
 namespace {
-
-constexpr double pi = std::numbers::pi, degree = pi / 180;
 
 using Field = std::function<double(double longitude, double latitude)>; ///< of degrees
 
 /// A field sampled on columns x rows boxes, from a longitude on; poles included.
-CellWidth sampled(const Field& field, Eigen::Index columns, Eigen::Index rows, double west = -180) {
+CellWidth sampled_field(const Field& field, Eigen::Index columns, Eigen::Index rows,
+                        double west = -180) {
   CellWidth width;
   width.longitudes = west + (Eigen::VectorXd::LinSpaced(columns + 1, 0, 360).head(columns).array());
   width.latitudes = Eigen::VectorXd::LinSpaced(rows + 1, -90, 90);
@@ -52,7 +52,7 @@ CellWidth sampled(const Field& field, Eigen::Index columns, Eigen::Index rows, d
 }
 
 CellWidth constant(double width) {
-  return sampled([=](double, double) { return width; }, 12, 6);
+  return sampled_field([=](double, double) { return width; }, 12, 6);
 }
 
 Points3 points_at(const std::vector<std::pair<double, double>>& places) {
@@ -75,17 +75,17 @@ double smooth(double longitude, double latitude) {
   return 100 + 30 * p.x * p.y + 20 * p.z * p.z * p.z - 15 * p.y;
 }
 
-/// A folder that goes when the test ends.
-class Folder {
+/// A folder of input files, removed at the end of the test.
+class InputFolder {
 public:
   std::string operator()(const std::string& name) const { return scratch_ / name; }
   std::string operator()(const std::string& name, const std::string& text) const {
-    test::write_text((*this)(name), text);
+    write_text((*this)(name), text);
     return (*this)(name);
   }
 
 private:
-  test::Scratch scratch_;
+  Scratch scratch_;
 };
 
 /// What a NetCDF raster holds.
@@ -97,7 +97,7 @@ struct Raster {
   io_detail::NetcdfAttributes attributes = {};
 };
 
-Raster raster_of(const CellWidth& width) {
+Raster raster_of_widths(const CellWidth& width) {
   Raster raster;
   raster.lon.assign(width.longitudes.begin(), width.longitudes.end());
   raster.lat.assign(width.latitudes.begin(), width.latitudes.end());
@@ -113,7 +113,7 @@ void put(io_detail::NetcdfWriter& file, int variable, const std::vector<double>&
   });
 }
 
-std::string written(const Folder& folder, const Raster& raster) {
+std::string raster_file(const InputFolder& folder, const Raster& raster) {
   const std::string path = folder("raster.nc");
   io_detail::NetcdfWriter file(path);
   const int lat = file.dimension("lat", static_cast<std::int64_t>(raster.lat.size())),
@@ -133,8 +133,8 @@ std::string written(const Folder& folder, const Raster& raster) {
 }
 
 /// The message of a refusal, without the path.
-std::string refusal(const std::string& path, const PolygonWidths& widths = {},
-                    ErrorCode code = ErrorCode::parse) {
+std::string refusal_of_widths(const std::string& path, const PolygonWidths& widths = {},
+                              ErrorCode code = ErrorCode::parse) {
   try {
     read_cell_width(path, widths);
   } catch (const Error& error) {
@@ -147,7 +147,7 @@ std::string refusal(const std::string& path, const PolygonWidths& widths = {},
   return "not refused";
 }
 
-void check_equal(const CellWidth& a, const CellWidth& b) {
+void check_same_widths(const CellWidth& a, const CellWidth& b) {
   CHECK(a.longitudes == b.longitudes);
   CHECK(a.latitudes == b.latitudes);
   CHECK(a.widths == b.widths);
@@ -196,7 +196,7 @@ TEST_CASE("a constant width is the uniform density and gives the hexagons that f
 }
 
 TEST_CASE("the density is (least width / width)^4, in blocks of any size") {
-  const CellWidth width = sampled(smooth, 36, 18);
+  const CellWidth width = sampled_field(smooth, 36, 18);
   const Points3 points = random_sphere(1000);
   const Eigen::VectorXd h = evaluate(width, points), rho = evaluate(density_of(width), points);
   const double least = width.widths.minCoeff();
@@ -213,7 +213,7 @@ TEST_CASE("nodes keep their widths; fields are continuous over the seam and at t
   const auto noise = [&](double, double) { return random.real(10, 100); };
   for (const double west : {-180.0, 0.0, 0.5, -179.5, 359.0, -725.0}) {
     CAPTURE(west);
-    const CellWidth width = sampled(noise, 24, 12, west);
+    const CellWidth width = sampled_field(noise, 24, 12, west);
     for (Eigen::Index j = 1; j < 12; ++j)
       for (Eigen::Index i = 0; i < 24; ++i)
         CHECK(width_at(width, width.longitudes[i], width.latitudes[j]) ==
@@ -233,7 +233,7 @@ TEST_CASE("nodes keep their widths; fields are continuous over the seam and at t
 
 TEST_CASE("rows that end short of the poles lead to their mean there") {
   Random random(3);
-  CellWidth width = sampled([&](double, double) { return random.real(10, 100); }, 24, 12);
+  CellWidth width = sampled_field([&](double, double) { return random.real(10, 100); }, 24, 12);
   width.latitudes = width.latitudes * (82.5 / 90);
   const double mean = width.widths.col(12).mean();
   CHECK(width_at(width, 30, 90) == doctest::Approx(mean).epsilon(1e-13));
@@ -279,7 +279,7 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
     exact[i] =
         100 + 30 * points(0, i) * points(1, i) + 20 * std::pow(points(2, i), 3) - 15 * points(1, i);
   const auto error = [&](Eigen::Index rows) {
-    return (evaluate(sampled(smooth, 2 * rows, rows), points) - exact).cwiseAbs().maxCoeff();
+    return (evaluate(sampled_field(smooth, 2 * rows, rows), points) - exact).cwiseAbs().maxCoeff();
   };
   CHECK(error(36) / error(72) > 3.4);
   CHECK(error(72) / error(144) > 3.4);
@@ -289,7 +289,7 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
     return 1 / std::sqrt(1 + 0.5 * p.z + p.x * p.y / 2);
   };
   const auto excess = [&](Eigen::Index rows) {
-    return implied_cells(sampled(hexagonal, 2 * rows, rows), 1) / (8 * pi / std::sqrt(3)) - 1;
+    return implied_cells(sampled_field(hexagonal, 2 * rows, rows), 1) / (8 * pi / std::sqrt(3)) - 1;
   };
   CHECK(std::abs(excess(72)) < 1e-3);
   CHECK(excess(36) / excess(72) == doctest::Approx(4).epsilon(0.02));
@@ -343,7 +343,7 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
   const Field ramp = [](double, double latitude) {
     return 100 + 3 * std::clamp(latitude, 0.0, 30.0);
   };
-  const Gradient up = largest_gradient(sampled(ramp, 36, 36));
+  const Gradient up = largest_gradient(sampled_field(ramp, 36, 36));
   CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius_km)).epsilon(1e-12));
   CHECK(up.latitude >= -1e-9);
   CHECK(up.latitude <= 30 + 1e-9);
@@ -351,7 +351,8 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
   Random random(5);
   for (const double scale : {1e-3, 500.0, 1200.0, 1e5}) {
     CAPTURE(scale);
-    CellWidth noise = sampled([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
+    CellWidth noise =
+        sampled_field([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
     for (const Eigen::Index row : {0, 1, 23, 24})
       noise.widths.col(row).setConstant(1.5 * scale);
     const Gradient most = largest_gradient(noise);
@@ -361,7 +362,8 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
     CHECK(std::abs(most.latitude) < 83); // of the last row but one
   }
   // From pole to pole without a row between.
-  CellWidth poles = sampled([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
+  CellWidth poles =
+      sampled_field([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
   CHECK(largest_gradient(poles, 1).slope == doctest::Approx(1 / pi));
 }
 
@@ -372,14 +374,14 @@ TEST_CASE("the gradient of sampled widths is theirs, not that of the tips of the
     const Eigen::Vector3d x = points_at({{longitude, latitude}}).col(0);
     return 60 + 0.05 * earth_radius_km * std::atan2(x.cross(tip).norm(), x.dot(tip));
   };
-  const Gradient fine = largest_gradient(sampled(cone, 720, 360));
+  const Gradient fine = largest_gradient(sampled_field(cone, 720, 360));
   CHECK(fine.slope > 0.0499);
   CHECK(fine.slope < 0.0535); // 1.08 at most: four sampled edges of a box allow no more
   // Nodes 20 cells apart: there the interpolated widths are steeper, over whole cells.
   const Field small = [&](double longitude, double latitude) {
     return cone(longitude, latitude) - 50;
   };
-  CHECK(largest_gradient(sampled(small, 180, 90)).slope > 0.065);
+  CHECK(largest_gradient(sampled_field(small, 180, 90)).slope > 0.065);
 }
 
 TEST_CASE("widths cover a region with half of a step to spare") {
@@ -455,33 +457,33 @@ TEST_CASE("invalid grids are refused") {
 // ---- NetCDF
 
 TEST_CASE("a NetCDF raster comes in whatever order of meridians and parallels") {
-  const Folder folder;
-  const CellWidth width = sampled(smooth, 24, 12, -180);
-  check_equal(read_cell_width(written(folder, raster_of(width))), width);
+  const InputFolder folder;
+  const CellWidth width = sampled_field(smooth, 24, 12, -180);
+  check_same_widths(read_cell_width(raster_file(folder, raster_of_widths(width))), width);
 
-  const CellWidth east = sampled(smooth, 24, 12, 0);
-  check_equal(read_cell_width(written(folder, raster_of(east))), east);
+  const CellWidth east = sampled_field(smooth, 24, 12, 0);
+  check_same_widths(read_cell_width(raster_file(folder, raster_of_widths(east))), east);
   const Points3 points = random_sphere(200);
   CHECK((evaluate(east, points) - evaluate(width, points)).cwiseAbs().maxCoeff() < 1e-10);
 
-  Raster repeated = raster_of(width);
+  Raster repeated = raster_of_widths(width);
   repeated.lon.push_back(180);
   for (std::size_t row = 13; row-- > 0;)
     repeated.values.insert(repeated.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24),
                            repeated.values[24 * row]);
-  check_equal(read_cell_width(written(folder, repeated)), width);
+  check_same_widths(read_cell_width(raster_file(folder, repeated)), width);
 
-  Raster descending = raster_of(width);
+  Raster descending = raster_of_widths(width);
   std::reverse(descending.lat.begin(), descending.lat.end());
   std::reverse(descending.values.begin(), descending.values.end());
   for (std::size_t row = 0; row < 13; ++row)
     std::reverse(descending.values.begin() + static_cast<std::ptrdiff_t>(24 * row),
                  descending.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24));
-  check_equal(read_cell_width(written(folder, descending)), width);
+  check_same_widths(read_cell_width(raster_file(folder, descending)), width);
 
-  Raster metres = raster_of(width);
+  Raster metres = raster_of_widths(width);
   metres.attributes = {{"units", std::string("m")}};
-  CHECK(read_cell_width(written(folder, metres)).widths.isApprox(width.widths / 1000, 1e-15));
+  CHECK(read_cell_width(raster_file(folder, metres)).widths.isApprox(width.widths / 1000, 1e-15));
 }
 
 TEST_CASE("units of widths: km and m by symbol and name, and no other") {
@@ -497,31 +499,32 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
         kilometres_in(unit),
         ("the unit \"" + unit + "\" is not one of cell widths; give km or m").c_str(), Error);
   }
-  const Folder folder;
-  const CellWidth width = sampled(smooth, 24, 12);
-  Raster raster = raster_of(width);
+  const InputFolder folder;
+  const CellWidth width = sampled_field(smooth, 24, 12);
+  Raster raster = raster_of_widths(width);
   for (const std::string unit : {"kilometers", "km"}) {
     raster.attributes = {{"units", unit}};
-    check_equal(read_cell_width(written(folder, raster)), width);
+    check_same_widths(read_cell_width(raster_file(folder, raster)), width);
   }
   raster.attributes = {{"units", std::string("degrees")}};
-  CHECK(refusal(written(folder, raster)) ==
+  CHECK(refusal_of_widths(raster_file(folder, raster)) ==
         ": cellWidth: the unit \"degrees\" is not one of cell widths; give km or m");
   raster.variable = "density"; // of which the unit does not matter
-  CHECK(read_density_raster(written(folder, raster)).widths.minCoeff() == 1);
+  CHECK(read_density_raster(raster_file(folder, raster)).widths.minCoeff() == 1);
 }
 
 TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
-  const Folder folder;
+  const InputFolder folder;
   Raster raster;
   for (int i = 0; i <= 40; ++i)
     raster.lon.push_back(100 + i);
   for (int j = 0; j <= 30; ++j)
     raster.lat.push_back(20 + j);
   raster.values.assign(41 * 31, 50);
-  const std::string path = written(folder, raster);
-  CHECK(refusal(path) == ": lon runs from 100 to 140 and leaves part of the sphere out; give a "
-                         "global raster in degrees");
+  const std::string path = raster_file(folder, raster);
+  CHECK(refusal_of_widths(path) ==
+        ": lon runs from 100 to 140 and leaves part of the sphere out; give a "
+        "global raster in degrees");
   const auto disc = [](double radius) {
     return circle(points_at({{120, 35}}).col(0), radius * degree);
   };
@@ -537,9 +540,9 @@ TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
 }
 
 TEST_CASE("widths of the plane: from a file, their density and their number of cells") {
-  const Folder folder;
+  const InputFolder folder;
   const Raster raster{{0, 1, 4}, {3, 0}, {0.4, 0.2, 0.1, 0.4, 0.2, 0.1}, "cellWidth", "y", "x"};
-  const PlanarCellWidth read = read_planar_cell_width(written(folder, raster));
+  const PlanarCellWidth read = read_planar_cell_width(raster_file(folder, raster));
   CHECK(read.x == Eigen::Vector3d(0, 1, 4));
   CHECK(read.widths(0, 1) == 0.4);
   CHECK(read.widths(2, 0) == 0.1);
@@ -558,15 +561,15 @@ TEST_CASE("widths of the plane: from a file, their density and their number of c
   Raster bad = raster;
   bad.values[4] = 0;
   CHECK_THROWS_WITH_AS(
-      read_planar_cell_width(written(folder, bad)),
+      read_planar_cell_width(raster_file(folder, bad)),
       doctest::Contains(": cellWidth[1][1] is not positive and finite; correct it"), Error);
 }
 
 TEST_CASE("a density raster gives widths whose density it is") {
-  const Folder folder;
-  Raster raster = raster_of(sampled(smooth, 24, 12));
+  const InputFolder folder;
+  Raster raster = raster_of_widths(sampled_field(smooth, 24, 12));
   raster.variable = "density";
-  const CellWidth width = read_density_raster(written(folder, raster));
+  const CellWidth width = read_density_raster(raster_file(folder, raster));
   CHECK(width.widths.minCoeff() == 1);
   const double most = *std::max_element(raster.values.begin(), raster.values.end());
   for (Eigen::Index k = 0; k < width.widths.size(); ++k)
@@ -575,9 +578,9 @@ TEST_CASE("a density raster gives widths whose density it is") {
 }
 
 TEST_CASE("a raster of the plane: axes of any direction, and invalid rasters") {
-  const Folder folder;
+  const InputFolder folder;
   Raster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
-  const PlanarRaster read = read_planar_raster(written(folder, raster));
+  const PlanarRaster read = read_planar_raster(raster_file(folder, raster));
   CHECK(read.x == Eigen::Vector3d(0, 1, 3));
   CHECK(read.y == Eigen::Vector2d(0, 2));
   CHECK(read.density(2, 0) == 3);
@@ -585,7 +588,7 @@ TEST_CASE("a raster of the plane: axes of any direction, and invalid rasters") {
   const auto refused = [&](const std::function<void(Raster&)>& spoil) -> std::string {
     Raster spoilt = raster;
     spoil(spoilt);
-    const std::string path = written(folder, spoilt);
+    const std::string path = raster_file(folder, spoilt);
     try {
       read_planar_raster(path);
     } catch (const Error& error) {
@@ -607,12 +610,12 @@ TEST_CASE("a raster of the plane: axes of any direction, and invalid rasters") {
 }
 
 TEST_CASE("invalid NetCDF rasters give an error of one line that names the defect") {
-  const Folder folder;
-  const CellWidth width = sampled(smooth, 24, 12);
+  const InputFolder folder;
+  const CellWidth width = sampled_field(smooth, 24, 12);
   const auto refused = [&](const std::function<void(Raster&)>& spoil) {
-    Raster raster = raster_of(width);
+    Raster raster = raster_of_widths(width);
     spoil(raster);
-    return refusal(written(folder, raster));
+    return refusal_of_widths(raster_file(folder, raster));
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string correct = " is not positive and finite; correct it";
@@ -653,22 +656,22 @@ TEST_CASE("invalid NetCDF rasters give an error of one line that names the defec
             longitude *= 2;
         }) == ": lon spans more than 360 degrees; remove the repeated longitudes");
   CHECK(refused([&](Raster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
-  CHECK(refusal(folder("text.nc", "cellWidth")) != "not refused");
-  CHECK(refusal(folder("widths.txt"), {}, ErrorCode::invalid_argument) ==
+  CHECK(refusal_of_widths(folder("text.nc", "cellWidth")) != "not refused");
+  CHECK(refusal_of_widths(folder("widths.txt"), {}, ErrorCode::invalid_argument) ==
         ": unknown suffix of a file of cell widths; give .nc, .msh or .geojson");
   CHECK_THROWS_AS(read_cell_width(folder("absent.nc")), Error);
   CHECK_THROWS_AS(read_cell_width(folder("absent.msh")), Error);
 
-  const std::string whole = written(folder, raster_of(width));
+  const std::string whole = raster_file(folder, raster_of_widths(width));
   std::filesystem::resize_file(whole, std::filesystem::file_size(whole) - 100);
-  CHECK(refusal(whole) != "not refused");
+  CHECK(refusal_of_widths(whole) != "not refused");
 }
 
 // ---- JIGSAW
 
 TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
-  const Folder folder;
-  const CellWidth width = sampled(smooth, 24, 12);
+  const InputFolder folder;
+  const CellWidth width = sampled_field(smooth, 24, 12);
   std::ostringstream text;
   text.precision(17);
   text << "# made by hand\nMSHID=3;ELLIPSOID-GRID\nRADII=6371;6371;6371\nNDIMS=2\nCOORD=1;25\n";
@@ -689,7 +692,7 @@ TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
   const auto spoiled = [&](const std::string& what, const std::string& by) {
     std::string copy = text.str();
     copy.replace(copy.find(what), what.size(), by);
-    return refusal(folder("bad.msh", copy));
+    return refusal_of_widths(folder("bad.msh", copy));
   };
   CHECK(spoiled("VALUE=325", "VALUE=324").find("more or fewer lines") != std::string::npos);
   CHECK(spoiled("VALUE=325", "VALUE=326").find("cut short") != std::string::npos);
@@ -698,11 +701,11 @@ TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
         std::string::npos);
   CHECK(spoiled("COORD=2", "COORD=1").find("comes twice") != std::string::npos);
   CHECK(spoiled("MSHID", "MESH").find("not a count of lines") == std::string::npos);
-  CHECK(refusal(folder("empty.msh", "")).find("no MSHID") != std::string::npos);
+  CHECK(refusal_of_widths(folder("empty.msh", "")).find("no MSHID") != std::string::npos);
 }
 
 TEST_CASE("a JIGSAW mesh is interpolated between its nodes") {
-  const Folder folder;
+  const InputFolder folder;
   const Points3 points = bisected_icosahedron(3);
   const auto exact = [](const Eigen::Vector3d& p) { return 100 + 20 * p.x() - 30 * p.y() * p.z(); };
   for (const bool angles : {false, true}) {
@@ -729,14 +732,16 @@ TEST_CASE("a JIGSAW mesh is interpolated between its nodes") {
                                  "0;1;0;0\n0;-1;0;0\n0;0;1;0\n0;0;-1;0\n";
   const std::string eight = "VALUE=6;1\n8\n8\n8\n8\n8\n8\n";
   CHECK(read_cell_width(folder("a.msh", octahedron + eight)).widths.isConstant(8, 1e-14));
-  CHECK(refusal(folder("b.msh", octahedron)).find("VALUE has 0 widths") != std::string::npos);
-  CHECK(refusal(folder("c.msh", octahedron + "VALUE=6;1\n8\n8\n-8\n8\n8\n8\n")) ==
+  CHECK(refusal_of_widths(folder("b.msh", octahedron)).find("VALUE has 0 widths") !=
+        std::string::npos);
+  CHECK(refusal_of_widths(folder("c.msh", octahedron + "VALUE=6;1\n8\n8\n-8\n8\n8\n8\n")) ==
         ": VALUE of point 2 is not positive; correct it");
-  CHECK(refusal(folder("d.msh", octahedron + eight + "TRIA3=1\n0;1;6;0\n"))
+  CHECK(refusal_of_widths(folder("d.msh", octahedron + eight + "TRIA3=1\n0;1;6;0\n"))
             .find("has vertex 6, but there are 6 points") != std::string::npos);
-  CHECK(refusal(folder("e.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=4\n1;0;1;0\n0;1;1;0\n"
-                                "-1;0;1;0\n0;-1;1;0\nVALUE=4;1\n1\n1\n1\n1\n"),
-                {}, ErrorCode::invalid_argument)
+  CHECK(refusal_of_widths(folder("e.msh",
+                                 "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=4\n1;0;1;0\n0;1;1;0\n"
+                                 "-1;0;1;0\n0;-1;1;0\nVALUE=4;1\n1\n1\n1\n1\n"),
+                          {}, ErrorCode::invalid_argument)
             .find("within a hemisphere") != std::string::npos);
 }
 
@@ -746,7 +751,7 @@ namespace {
 
 using Corners = std::vector<std::pair<double, double>>;
 
-std::string ring(const Corners& corners, bool backwards = false) {
+std::string ring_text(const Corners& corners, bool backwards = false) {
   std::ostringstream text;
   text.precision(17);
   Corners order = corners;
@@ -758,12 +763,8 @@ std::string ring(const Corners& corners, bool backwards = false) {
   return text.str() + "]";
 }
 
-std::string polygon(const std::string& rings) {
-  return R"({"type":"Polygon","coordinates":[)" + rings + "]}";
-}
-
 /// A circle on the sphere, degrees.
-Corners circle(double longitude, double latitude, double radius, int corners = 200) {
+Corners circle_corners(double longitude, double latitude, double radius, int corners = 200) {
   const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0),
                         a = centre.unitOrthogonal(), b = centre.cross(a);
   Corners places;
@@ -803,13 +804,14 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 } // namespace
 
 TEST_CASE("a round polygon has the widths of the cap, wherever it lies and however it runs") {
-  const Folder folder;
+  const InputFolder folder;
   for (const auto& [longitude, latitude] :
        Corners{{10, 20}, {175, -30}, {-60, 80}, {0, 90}, {33, -90}, {-179, 5}})
     for (const bool backwards : {false, true}) {
       CAPTURE(longitude);
       CAPTURE(latitude);
-      const std::string text = polygon(ring(circle(longitude, latitude, 20), backwards));
+      const std::string text =
+          polygon(ring_text(circle_corners(longitude, latitude, 20), backwards));
       const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0);
       check_widths(
           read_cell_width(folder("cap.geojson", text), coastal),
@@ -818,13 +820,14 @@ TEST_CASE("a round polygon has the widths of the cap, wherever it lies and howev
 }
 
 TEST_CASE("a place inside decides, for all rings of its feature") {
-  const Folder folder;
+  const InputFolder folder;
   const Eigen::Vector3d centre = points_at({{10, 20}}).col(0);
   const auto text = [&](const std::string& place, const std::string& rings) {
     return R"({"type":"Feature","properties":{"inside":)" + place + R"(},"geometry":)" +
            polygon(rings) + "}";
   };
-  const std::string outer = ring(circle(10, 20, 50)), hole = ring(circle(10, 20, 25), true);
+  const std::string outer = ring_text(circle_corners(10, 20, 50)),
+                    hole = ring_text(circle_corners(10, 20, 25), true);
   const auto angle = [&](const Eigen::Vector3d& p) { return angle_between(p, centre); };
   for (const std::string place : {"[10,20]", "[10,57]", "[190,-80]"}) // within, between, beyond
     for (const std::string& rings : {outer + "," + hole, hole + "," + outer}) {
@@ -836,60 +839,57 @@ TEST_CASE("a place inside decides, for all rings of its feature") {
           },
           0.03); // the widths have a ridge between the circles
     }
-  CHECK(refusal(folder("bad.geojson", text("7", outer)), coastal, ErrorCode::parse) ==
+  CHECK(refusal_of_widths(folder("bad.geojson", text("7", outer)), coastal, ErrorCode::parse) ==
         ": its property \"inside\" is not a position [longitude, latitude]; give degrees");
 }
 
 TEST_CASE("holes lie outside, also around a pole; narrow features win") {
-  const Folder folder;
+  const InputFolder folder;
   for (const auto& [longitude, latitude] : Corners{{170, 20}, {0, 90}}) {
     const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0);
-    const std::string text = polygon(ring(circle(longitude, latitude, 50)) + "," +
-                                     ring(circle(longitude, latitude, 25)));
+    const std::string text = polygon(ring_text(circle_corners(longitude, latitude, 50)) + "," +
+                                     ring_text(circle_corners(longitude, latitude, 25)));
     check_widths(read_cell_width(folder("ring.geojson", text), coastal),
                  [&](const Eigen::Vector3d& p) {
                    const double angle = angle_between(p, centre) / degree;
                    return std::max(25 - angle, angle - 50) * degree;
                  });
   }
-  const auto feature = [](const std::string& geometry, const std::string& properties) {
-    return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":)" + geometry + "}";
-  };
-  const CellWidth width = read_cell_width(
-      folder("two.geojson",
-             R"({"type":"FeatureCollection","outsideWidth":130,"transition":2000,"features":[)" +
-                 feature(polygon(ring(circle(0, 0, 40))), R"({"cellWidth":30})") + "," +
-                 feature(polygon(ring(circle(0, 0, 15))), R"({"cellWidth":10})") + "," +
-                 feature("null", "null") + "]}"));
+  const CellWidth width = read_cell_width(folder(
+      "two.geojson",
+      R"({"type":"FeatureCollection","outsideWidth":130,"transition":2000,"features":[)" +
+          feature(polygon(ring_text(circle_corners(0, 0, 40))), R"({"cellWidth":30})") + "," +
+          feature(polygon(ring_text(circle_corners(0, 0, 15))), R"({"cellWidth":10})") + "," +
+          feature("null", "null") + "]}"));
   CHECK(width_at(width, 0, 0) == doctest::Approx(10));
   CHECK(width_at(width, 27, 0) == doctest::Approx(30).epsilon(0.01));
   CHECK(width_at(width, 180, 0) == 130);
 }
 
 TEST_CASE("edges are straight in longitude and latitude; cuts are no boundary") {
-  const Folder folder;
+  const InputFolder folder;
   const auto latitude_of = [](const Eigen::Vector3d& p) { return std::asin(p.z()); };
   // Antarctica as maps have it: along 60 S, then the map's edge.
   for (const bool backwards : {false, true})
     check_widths(
-        read_cell_width(
-            folder("south.json",
-                   polygon(ring({{-180, -60}, {180, -60}, {180, -90}, {-180, -90}}, backwards))),
-            coastal),
+        read_cell_width(folder("south.json",
+                               polygon(ring_text({{-180, -60}, {180, -60}, {180, -90}, {-180, -90}},
+                                                 backwards))),
+                        coastal),
         [&](const Eigen::Vector3d& p) { return latitude_of(p) + 60 * degree; });
   // A band round the Earth, in two pieces that touch at 180 and 20 degrees.
   const std::string band =
       R"({"type":"GeometryCollection","geometries":[{"type":"MultiPolygon","coordinates":[[)" +
-      ring({{20, -30}, {100, -30}, {180, -30}, {180, 30}, {100, 30}, {20, 30}}) + "],[" +
-      ring({{-180, -30}, {-80, -30}, {20, -30}, {20, 30}, {-80, 30}, {-180, 30}}) + "]]}]}";
+      ring_text({{20, -30}, {100, -30}, {180, -30}, {180, 30}, {100, 30}, {20, 30}}) + "],[" +
+      ring_text({{-180, -30}, {-80, -30}, {20, -30}, {20, 30}, {-80, 30}, {-180, 30}}) + "]]}]}";
   check_widths(read_cell_width(folder("band.geojson", band), coastal),
                [&](const Eigen::Vector3d& p) { return std::abs(latitude_of(p)) - 30 * degree; });
   // Across the date line, by numbers beyond 180 or not.
   const CellWidth beyond = read_cell_width(
-      folder("beyond.json", polygon(ring({{160, -10}, {210, -10}, {210, 10}, {160, 10}}))),
+      folder("beyond.json", polygon(ring_text({{160, -10}, {210, -10}, {210, 10}, {160, 10}}))),
       coastal);
   const CellWidth within = read_cell_width(
-      folder("within.json", polygon(ring({{160, -10}, {-150, -10}, {-150, 10}, {160, 10}}))),
+      folder("within.json", polygon(ring_text({{160, -10}, {-150, -10}, {-150, 10}, {160, 10}}))),
       coastal);
   CHECK(beyond.widths == within.widths);
   CHECK(width_at(within, -175, 0) == doctest::Approx(30).epsilon(0.02));
@@ -897,8 +897,8 @@ TEST_CASE("edges are straight in longitude and latitude; cuts are no boundary") 
 }
 
 TEST_CASE("the raster resolves the transition and is the same for any number of threads") {
-  const Folder folder;
-  const std::string path = folder("cap.json", polygon(ring(circle(120, -40, 25))));
+  const InputFolder folder;
+  const std::string path = folder("cap.json", polygon(ring_text(circle_corners(120, -40, 25))));
   PolygonWidths widths = coastal;
   widths.transition = 400;
   const auto read_with = [&](int threads) {
@@ -908,23 +908,23 @@ TEST_CASE("the raster resolves the transition and is the same for any number of 
     return width;
   };
   const CellWidth one = read_with(1), two = read_with(2);
-  check_equal(one, two);
+  check_same_widths(one, two);
   CHECK((one.latitudes[1] - one.latitudes[0]) * degree * earth_radius_km <= 400.0 / 16);
   // A cubic's greatest slope is 3/2 of the mean one.
   CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
   widths.transition = 10;
-  CHECK(refusal(path, widths, ErrorCode::invalid_argument) ==
+  CHECK(refusal_of_widths(path, widths, ErrorCode::invalid_argument) ==
         ": a transition of 10 km is too narrow for the finest raster, of 0.05 degrees; give at "
         "least 22.4 km");
 }
 
 TEST_CASE("GeoJSON that gives no widths ends in one line that names the feature") {
-  const Folder folder;
+  const InputFolder folder;
   const auto refused = [&](const std::string& text, const PolygonWidths& widths = coastal,
                            ErrorCode code = ErrorCode::parse) {
-    return refusal(folder("bad.geojson", text), widths, code);
+    return refusal_of_widths(folder("bad.geojson", text), widths, code);
   };
-  const std::string square = ring({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+  const std::string square = ring_text({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
   CHECK(refused("{\"type\":") == ": no JSON from byte 9 on; the file was cut short or damaged");
   CHECK(refused("[1]") == ": no GeoJSON object; give features or a geometry");
   CHECK(refused(R"({"type":"FeatureCollection","features":[]})") ==
@@ -971,7 +971,7 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
     const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
     return 400 - 130 * p.x + 70 * p.z;
   };
-  const CellWidth width = sampled(field, 90, 45);
+  const CellWidth width = sampled_field(field, 90, 45);
   const double implied = implied_cells(width);
   const auto cells = static_cast<std::int64_t>(std::llround(implied));
   REQUIRE(cells > 1500);

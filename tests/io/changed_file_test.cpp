@@ -21,7 +21,7 @@ using namespace calotte::test;
 
 namespace {
 
-const Eigen::Vector3d centre = Eigen::Vector3d(0.3, -0.5, 0.6).normalized();
+const Eigen::Vector3d centre_of_refinement = Eigen::Vector3d(0.3, -0.5, 0.6).normalized();
 
 /// A global file with a linear field, one of whole numbers and one at vertices.
 MeshFile global_file() {
@@ -43,7 +43,7 @@ MeshFile global_file() {
 
 ChangedMesh finer(const Mesh& mesh) {
   WidthDemand demand;
-  demand.region = circle(centre, 0.2);
+  demand.region = circle(centre_of_refinement, 0.2);
   demand.factor = 1.8;
   return refine(mesh, demand);
 }
@@ -100,7 +100,7 @@ TEST_CASE("conservative fields are means over new cells, also without values som
   const auto sites = old.mesh->points.cols();
   DoubleVector gap = old.fields[0].values;
   for (Eigen::Index i = 0; i < sites; ++i)
-    if (old.mesh->points(0, i) > centre.x())
+    if (old.mesh->points(0, i) > centre_of_refinement.x())
       gap[i] = std::numeric_limits<double>::quiet_NaN();
   old.fields.push_back({.name = "gap", .values = gap});
   const ChangedMesh changed = finer(*old.mesh);
@@ -122,8 +122,8 @@ TEST_CASE("conservative fields are means over new cells, also without values som
       CHECK(field(out.file, "kind").values[i] == (share[i] > 0.5 ? 1 : 0));
     const double x = changed.mesh.points(0, i), filled = field(out.file, "gap").values[i];
     without += std::isnan(filled) ? 1 : 0;
-    if (x < centre.x() - 0.1 || x > centre.x() + 0.1)
-      CHECK(std::isnan(filled) == (x > centre.x()));
+    if (x < centre_of_refinement.x() - 0.1 || x > centre_of_refinement.x() + 0.1)
+      CHECK(std::isnan(filled) == (x > centre_of_refinement.x()));
   }
   CHECK(without > 0);
   const auto problem = [&](const FieldMethods& methods) {
@@ -147,7 +147,7 @@ TEST_CASE("cells at the boundary of a limited area keep their corners [slow]") {
   const std::string global = scratch / "global.nc", area = scratch / "area.nc",
                     result = scratch / "result.nc";
   write(global, *global_file().mesh);
-  cut(global, area, circle(centre, 0.55));
+  cut(global, area, circle(centre_of_refinement, 0.55));
   MeshFile old = read_mesh_file(area);
   REQUIRE(old.polygons);
   old.fields.push_back({.name = "one", .values = DoubleVector::Ones(old.polygons->size())});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/format_files.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -19,7 +21,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <string>
@@ -33,28 +34,15 @@ using namespace calotte::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // ---- Files of this library
 
-struct FileKind {
-  std::string name;
-  Format format;
-};
-const std::vector<FileKind> kinds{
+const std::vector<FormatFile> netcdf_files{
     {"mesh.nc", Format::mpas},         {"minimal.nc", Format::mpas_minimal},
     {"cells.ugrid.nc", Format::ugrid}, {"triangles.ugrid.nc", Format::ugrid_triangles},
     {"cells.scrip.nc", Format::scrip}, {"cells.esmf.nc", Format::esmf}};
 
-std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = test::closed_meshes();
-  all.push_back({"8:1", spherical_delaunay(test::eight_to_one(200, 5))});
-  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
-  return all;
-}
-
 /// A density that differs from cell to cell, and is that of the cells' areas, roughly.
-WriteOptions options_of(const Mesh& mesh, double radius, Format format) {
+WriteOptions options_with_density(const Mesh& mesh, double radius, Format format) {
   WriteOptions options{.format = format, .sphere_radius = radius};
   options.site_density = voronoi(mesh).cell_area.cwiseAbs().cwiseInverse().cwiseAbs2();
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
@@ -65,12 +53,12 @@ WriteOptions options_of(const Mesh& mesh, double radius, Format format) {
 void check_corruptions(int sites, std::size_t picks) {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(random_sphere(sites, 7));
-  for (const auto& [name, format] : kinds) {
+  for (const auto& [name, format] : netcdf_files) {
     if (format == Format::mpas_minimal)
       continue; // nothing else tells of the density there
     CAPTURE(name);
     const std::string path = scratch / name;
-    write(path, mesh, options_of(mesh, 6371229, format));
+    write(path, mesh, options_with_density(mesh, 6371229, format));
     CHECK(check_each_variable(path, format, picks) > 30);
   }
 }
@@ -129,15 +117,15 @@ void renumber(Mpas& file, std::size_t count, const std::set<std::string>& lists,
 
 TEST_CASE("files of this library have no deviation") {
   const Scratch scratch;
-  for (const auto& [name, mesh] : meshes())
+  for (const auto& [name, mesh] : uneven_meshes())
     for (const double radius : {1.0, 6371229.0})
       for (const Numbering numbering : {Numbering::input, Numbering::curve, Numbering::rcm})
-        for (const auto& [file, format] : kinds) {
+        for (const auto& [file, format] : netcdf_files) {
           CAPTURE(name);
           CAPTURE(radius);
           CAPTURE(file);
           CAPTURE(int(numbering));
-          WriteOptions options = options_of(mesh, radius, format);
+          WriteOptions options = options_with_density(mesh, radius, format);
           options.numbering = numbering;
           write(scratch / file, mesh, options);
           check_none(scratch / file);
@@ -149,7 +137,7 @@ TEST_CASE("numbers of edges and vertices, starts of lists and ways of edges are 
   const std::string path = scratch / "mesh.nc";
   for (const auto& [name, mesh] : test::closed_meshes()) {
     CAPTURE(name);
-    write(path, mesh, options_of(mesh, 6371229, Format::mpas));
+    write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
     Mpas file(path);
     reverse_edges(file);
     rotate_lists(file);
@@ -197,7 +185,7 @@ TEST_CASE("faults of MpasMeshConverter are known, where all values follow them")
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc";
   const Mesh mesh = spherical_delaunay(random_sphere(100, 3));
-  write(path, mesh, options_of(mesh, 6371229, Format::mpas));
+  write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
   Mpas file(path);
   file["gridSpacing"].values = file["cellQuality"].values;
   for (std::size_t e = 0; e < file.rows("angleEdge"); ++e) {
@@ -263,7 +251,7 @@ TEST_CASE("coordinates in single precision have no deviation") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc", rounded = scratch / "float.nc";
   const Mesh mesh = spherical_delaunay(fibonacci_sphere(500));
-  write(path, mesh, options_of(mesh, 6371229, Format::mpas));
+  write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
   Mpas(path).create(rounded, NC_FLOAT, [](int id) {
     const double radius = 6371229;
     require(nc_put_att_text(id, NC_GLOBAL, "on_a_sphere", 3, "YES"));

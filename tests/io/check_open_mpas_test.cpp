@@ -13,7 +13,9 @@
 
 using namespace calotte;
 using namespace calotte::test;
-using namespace calotte::test::open_mpas;
+using open_mpas::Cut;
+using open_mpas::open_file;
+using open_mpas::put_attributes;
 
 TEST_CASE("an open MPAS file has no deviation") {
   const Scratch scratch;

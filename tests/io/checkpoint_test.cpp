@@ -29,8 +29,8 @@ namespace {
 
 const std::string configuration = "start random\ncells 30\ntolerance 1e-06\n";
 
-/// A file name that goes when the test ends.
-struct Scratch : test::Scratch {
+/// A checkpoint in a folder that is removed at the end of the test.
+struct CheckpointFile : test::Scratch {
   std::string bytes() const { return test::read_file(path); }
   void put(const std::string& content) const { test::write_text(path, content); }
 
@@ -77,7 +77,7 @@ State some_state() {
 /// Of any number of columns; Eigen's operator asks that they be as many.
 bool equal(const Points3& a, const Points3& b) { return a.cols() == b.cols() && a == b; }
 
-void check_equal(const CvtIteration& a, const CvtIteration& b) {
+void check_restored(const CvtIteration& a, const CvtIteration& b) {
   CHECK(a.cells == b.cells);
   CHECK(a.rule == b.rule);
   CHECK(a.l2 == b.l2);
@@ -102,7 +102,7 @@ bool equal(const Fields& a, const Fields& b) {
   });
 }
 
-void check_equal(const Memory& a, const Memory& b) {
+void check_restored(const Memory& a, const Memory& b) {
   CHECK(equal(a.steps, b.steps));
   CHECK(equal(a.changes, b.changes));
   CHECK(a.curvatures == b.curvatures);
@@ -111,20 +111,20 @@ void check_equal(const Memory& a, const Memory& b) {
   CHECK(a.flipped == b.flipped);
 }
 
-void check_equal(const State& a, const State& b) {
+void check_restored(const State& a, const State& b) {
   CHECK(equal(a.points, b.points));
   CHECK(a.id == b.id);
   CHECK(a.site_of_input == b.site_of_input);
   CHECK(a.bisections_left == b.bisections_left);
   CHECK(a.iterations_of_level == b.iterations_of_level);
   CHECK(a.final_rule == b.final_rule);
-  check_equal(a.memory, b.memory);
+  check_restored(a.memory, b.memory);
   CHECK(a.report.converged == b.report.converged);
   CHECK(a.report.residual == b.report.residual);
   CHECK(a.report.seconds == b.report.seconds);
   REQUIRE(a.report.iterations.size() == b.report.iterations.size());
   for (std::size_t k = 0; k < a.report.iterations.size(); ++k)
-    check_equal(a.report.iterations[k], b.report.iterations[k]);
+    check_restored(a.report.iterations[k], b.report.iterations[k]);
   REQUIRE(a.report.regions.size() == b.report.regions.size());
   for (std::size_t k = 0; k < a.report.regions.size(); ++k) {
     CHECK(a.report.regions[k].sites == b.report.regions[k].sites);
@@ -141,7 +141,8 @@ std::vector<double> energies(const Cvt& run) {
 }
 
 /// The refusal's code and words; the code is internal where there was none.
-Error refusal(const Scratch& scratch, const std::string& words = configuration) {
+Error refusal_of_checkpoint(const CheckpointFile& scratch,
+                            const std::string& words = configuration) {
   try {
     read_checkpoint(scratch.path, words);
   } catch (const Error& error) {
@@ -158,21 +159,21 @@ bool says(const Error& error, const std::string& part) {
 } // namespace
 
 TEST_CASE("a state comes back with every field, bit for bit") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   State state = some_state();
   for (const bool converged : {false, true}) {
     state.report.converged = converged;
     write_checkpoint(scratch.path, State::wrapped(State(state)), configuration);
-    check_equal(State::of(read_checkpoint(scratch.path, configuration)), state);
+    check_restored(State::of(read_checkpoint(scratch.path, configuration)), state);
     CHECK(std::signbit(State::of(read_checkpoint(scratch.path, configuration)).points(0, 7)));
   }
   write_checkpoint(scratch.path, {}, "");
-  check_equal(State::of(read_checkpoint(scratch.path, "")), State{});
+  check_restored(State::of(read_checkpoint(scratch.path, "")), State{});
   CHECK(scratch.files() == 1);
 }
 
 TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   const Points3 start = random_sphere(200, 3);
   CvtOptions options;
   options.method = Method::lloyd; // whose steps are one iteration each
@@ -198,7 +199,7 @@ TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") 
 }
 
 TEST_CASE("with every method a run resumes from its checkpoint to the same bits") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   CvtOptions options;
   options.density = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 4096);
   options.tolerance = 2e-3; // so that the final rule takes over on the way
@@ -237,24 +238,24 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
 }
 
 TEST_CASE("a checkpoint that was cut short anywhere is refused, and so is one with more") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string whole = scratch.bytes();
   for (std::size_t size = 0; size < whole.size(); size += test::cut_step) {
     CAPTURE(size);
     scratch.put(whole.substr(0, size));
-    const Error error = refusal(scratch);
+    const Error error = refusal_of_checkpoint(scratch);
     CHECK(error.code() == ErrorCode::parse);
     CHECK(says(error, "run.checkpoint: the checkpoint is cut short"));
   }
   scratch.put(whole + '\0');
-  CHECK(says(refusal(scratch), "damaged"));
+  CHECK(says(refusal_of_checkpoint(scratch), "damaged"));
   scratch.put(whole);
-  CHECK(refusal(scratch).code() == ErrorCode::internal);
+  CHECK(refusal_of_checkpoint(scratch).code() == ErrorCode::internal);
 }
 
 TEST_CASE("damage to any byte is found") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string whole = scratch.bytes();
   for (std::size_t place = 0; place < whole.size(); place += test::cut_step) {
@@ -262,31 +263,31 @@ TEST_CASE("damage to any byte is found") {
     std::string damaged = whole;
     damaged[place] = static_cast<char>(damaged[place] ^ (1 << place % 8));
     scratch.put(damaged);
-    CHECK(refusal(scratch).code() == ErrorCode::parse);
+    CHECK(refusal_of_checkpoint(scratch).code() == ErrorCode::parse);
   }
 }
 
 TEST_CASE("a file that is no checkpoint of this version is refused") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   std::string other = scratch.bytes();
   other[other.find("checkpoint ") + 11] = '3'; // an older version
   scratch.put(other);
-  CHECK(says(refusal(scratch), "run.checkpoint: a checkpoint of another version"));
+  CHECK(says(refusal_of_checkpoint(scratch), "run.checkpoint: a checkpoint of another version"));
   scratch.put("1 0 0\n0 1 0\n");
-  CHECK(says(refusal(scratch), "run.checkpoint: not a checkpoint"));
+  CHECK(says(refusal_of_checkpoint(scratch), "run.checkpoint: not a checkpoint"));
   fs::remove(scratch.path);
-  CHECK(refusal(scratch).code() == ErrorCode::file);
+  CHECK(refusal_of_checkpoint(scratch).code() == ErrorCode::file);
   fs::create_directory(scratch.path);
-  CHECK(refusal(scratch).code() == ErrorCode::file);
+  CHECK(refusal_of_checkpoint(scratch).code() == ErrorCode::file);
 }
 
 TEST_CASE("another configuration is refused with the first line that differs") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const auto check_words = [&](const std::string& words, const std::string& part) {
     CAPTURE(words);
-    const Error error = refusal(scratch, words);
+    const Error error = refusal_of_checkpoint(scratch, words);
     CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(says(error, "run.checkpoint: a checkpoint of another configuration: it has " + part));
   };
@@ -299,7 +300,7 @@ TEST_CASE("another configuration is refused with the first line that differs") {
 }
 
 TEST_CASE("a checkpoint that cannot be written leaves the old one unchanged") {
-  const Scratch scratch;
+  const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string before = scratch.bytes();
   CHECK_THROWS_AS(write_checkpoint(scratch.folder / "absent" / "file", {}, ""), Error);

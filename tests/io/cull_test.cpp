@@ -60,10 +60,10 @@ Coast world() {
   return coast_of(regions);
 }
 
-Voronoi cells_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
+Voronoi tessellation_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
 
 /// The fraction of a cell by points in it, for a region that is one circle.
-double sampled(const Voronoi& cells, Eigen::Index i, const Region& region) {
+double sampled_fraction(const Voronoi& cells, Eigen::Index i, const Region& region) {
   const auto inside = containing(region);
   double all = 0, land = 0;
   const Eigen::Vector3d c = cells.cells.col(i);
@@ -92,7 +92,7 @@ TEST_CASE("fractions of land sum to its area, for coasts and cells of any size")
   for (const Points3& points :
        {bisected_icosahedron(0), bisected_icosahedron(2), cubed_sphere(8), fibonacci_sphere(1000),
         fibonacci_sphere(10000), random_sphere(500, 3)}) {
-    const Voronoi cells = cells_of(points);
+    const Voronoi cells = tessellation_of(points);
     const Eigen::VectorXd fractions = land_fractions(cells, coast);
     CHECK(fractions.minCoeff() >= 0);
     CHECK(fractions.maxCoeff() <= 1);
@@ -102,14 +102,15 @@ TEST_CASE("fractions of land sum to its area, for coasts and cells of any size")
 
 TEST_CASE("a fraction is that of points in the cell") {
   const Region region = circle({0.2, -0.4, 0.5}, 0.7);
-  const Voronoi cells = cells_of(fibonacci_sphere(60));
+  const Voronoi cells = tessellation_of(fibonacci_sphere(60));
   const Eigen::VectorXd fractions = land_fractions(cells, coast_of({region}));
   for (Eigen::Index i = 0; i < cells.cells.cols(); ++i)
-    CHECK(fractions[i] == doctest::Approx(sampled(cells, i, region)).epsilon(0.02).scale(1));
+    CHECK(fractions[i] ==
+          doctest::Approx(sampled_fraction(cells, i, region)).epsilon(0.02).scale(1));
 }
 
 TEST_CASE("fractions: complements, adjoining polygons, islands in a cell, threads") {
-  const Voronoi cells = cells_of(fibonacci_sphere(2000));
+  const Voronoi cells = tessellation_of(fibonacci_sphere(2000));
   const Region cap = circle({0, 0.1, 1}, 0.8);
   Region outside = cap;
   for (Points3& ring : outside.rings)
@@ -142,7 +143,7 @@ TEST_CASE("fractions: complements, adjoining polygons, islands in a cell, thread
 }
 
 TEST_CASE("lines cross cells that share edges, from one end to the other") {
-  const Voronoi cells = cells_of(fibonacci_sphere(2000));
+  const Voronoi cells = tessellation_of(fibonacci_sphere(2000));
   Points3 line(3, 3);
   line << 1, 0, -0.3, 0, 1, 0.2, 0.1, 0.3, -1;
   line = line.colwise().normalized().eval();
@@ -165,7 +166,7 @@ namespace {
 
 /// Two hemispheres of sea with land between, as wide as several cells.
 struct Divided {
-  Voronoi cells = cells_of(fibonacci_sphere(2000));
+  Voronoi cells = tessellation_of(fibonacci_sphere(2000));
   std::vector<std::uint8_t> land;
   Points3 line{3, 2}; ///< from pole to pole, almost
 
@@ -429,7 +430,7 @@ TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along th
       [[[-180,-5],[-170,-5],[-170,5],[-180,5],[-180,-5]]],
       [[[-180,-80],[-90,-80],[0,-80],[90,-80],[180,-80],[180,-90],[-180,-90],[-180,-80]]]]})");
   const Coast coast = read_coast(path);
-  const Voronoi cells = cells_of(bisected_icosahedron(3));
+  const Voronoi cells = tessellation_of(bisected_icosahedron(3));
   const Eigen::VectorXd fractions = land_fractions(cells, coast);
   CHECK(std::abs(fractions.dot(cells.cell_area) - coast.area) <= 1e-10);
   Eigen::Index south = 0, date_line = 0;

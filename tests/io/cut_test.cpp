@@ -28,11 +28,13 @@ using namespace calotte::test::cut_laws;
 
 namespace {
 
-const Eigen::Vector3d centre = Eigen::Vector3d(0.3, -0.5, 0.6).normalized();
+const Eigen::Vector3d centre_of_cut = Eigen::Vector3d(0.3, -0.5, 0.6).normalized();
 
 /// Places within an angle of the centre.
-std::function<bool(const Eigen::Vector3d&)> within(double angle) {
-  return [angle](const Eigen::Vector3d& p) { return p.normalized().dot(centre) > std::cos(angle); };
+std::function<bool(const Eigen::Vector3d&)> within_angle(double angle) {
+  return [angle](const Eigen::Vector3d& p) {
+    return p.normalized().dot(centre_of_cut) > std::cos(angle);
+  };
 }
 
 std::vector<bool> flags_of(const Contents& file,
@@ -43,10 +45,10 @@ std::vector<bool> flags_of(const Contents& file,
   return flags;
 }
 
-const std::set<std::string> lengths{"xCell",   "yCell",  "zCell",   "xEdge",
-                                    "yEdge",   "zEdge",  "xVertex", "yVertex",
-                                    "zVertex", "dcEdge", "dvEdge",  "gridSpacing"};
-const std::set<std::string> areas{"areaCell", "areaTriangle", "kiteAreasOnVertex"};
+const std::set<std::string> length_variables{"xCell",   "yCell",  "zCell",   "xEdge",
+                                             "yEdge",   "zEdge",  "xVertex", "yVertex",
+                                             "zVertex", "dcEdge", "dvEdge",  "gridSpacing"};
+const std::set<std::string> area_variables{"areaCell", "areaTriangle", "kiteAreasOnVertex"};
 
 /// Values are those of the source over a power of the ratio of the radii.
 void check_scaled(const Pair& pair, const std::set<std::string>& names, double divisor) {
@@ -87,7 +89,7 @@ void check_density(const Pair& pair, double ratio) {
 
 std::string text(const std::string& value) { return std::to_string(NC_CHAR) + ":" + value; }
 
-double number(const std::string& attribute) {
+double number_in(const std::string& attribute) {
   double value = 0;
   std::memcpy(&value, attribute.data() + attribute.find(':') + 1, sizeof value);
   return value;
@@ -98,7 +100,7 @@ void check_attributes(const Pair& pair, double radius) {
   CHECK(now.at("on_a_sphere") == text("YES"));
   CHECK(now.at("is_periodic") == text("NO"));
   CHECK(now.at("mesh_spec") == text("1.1"));
-  CHECK(number(now.at("sphere_radius")) == radius);
+  CHECK(number_in(now.at("sphere_radius")) == radius);
   CHECK(now.at("history") == text("cut by a test\nmade by a test"));
   CHECK(now.at("parent_id") == pair.before.attributes.at("file_id"));
   CHECK(now.at("file_id") != pair.before.attributes.at("file_id"));
@@ -113,8 +115,8 @@ void check_attributes(const Pair& pair, double radius) {
 void check_cut(const std::string& source, const std::string& target, double angle, int rings,
                double radius) {
   const Pair pair(source, target);
-  const double ratio = number(pair.before.attributes.at("sphere_radius")) / radius;
-  check_masks(pair, flags_of(pair.before, within(angle)), rings);
+  const double ratio = number_in(pair.before.attributes.at("sphere_radius")) / radius;
+  check_masks(pair, flags_of(pair.before, within_angle(angle)), rings);
   for (const Kind& kind : kinds) {
     const std::vector<int>& old = pair.old.at(kind.dimension);
     CHECK(std::is_sorted(old.begin(), old.end()));
@@ -122,12 +124,12 @@ void check_cut(const std::string& source, const std::string& target, double angl
   check_ids(pair);
   std::set<std::string> scaled{"meshDensity", "nominalMinDc"};
   if (ratio != 1) {
-    scaled.insert(lengths.begin(), lengths.end());
-    scaled.insert(areas.begin(), areas.end());
+    scaled.insert(length_variables.begin(), length_variables.end());
+    scaled.insert(area_variables.begin(), area_variables.end());
   }
   check_fields(pair, scaled);
-  check_scaled(pair, lengths, ratio);
-  check_scaled(pair, areas, ratio * ratio);
+  check_scaled(pair, length_variables, ratio);
+  check_scaled(pair, area_variables, ratio * ratio);
   check_weights(pair);
   check_boundary(pair.after);
   check_density(pair, ratio);
@@ -181,7 +183,7 @@ TEST_CASE("a cut file keeps all rules, whatever the source's radius, format and 
       CAPTURE(radius);
       CAPTURE(format);
       write_global(scratch, source, {.cells = 1500, .radius = radius, .format = format});
-      const CutReport report = cut(source, target, within(0.3), history());
+      const CutReport report = cut(source, target, within_angle(0.3), history());
       check_cut(source, target, 0.3, 7, 1);
       CHECK(report.left_out.empty());
       CHECK(std::ssize(report.cells_by_mask) == 8);
@@ -200,12 +202,12 @@ TEST_CASE("fewer rings, the source's radius, and a region in two parts") {
   options.sphere_radius.reset();
   for (const int rings : {1, 3}) {
     options.rings = rings;
-    cut(source, target, within(0.5), options);
+    cut(source, target, within_angle(0.5), options);
     check_cut(source, target, 0.5, rings, 6371229);
   }
   options.rings = 2;
   const auto two = [](const Eigen::Vector3d& p) {
-    return std::abs(p.normalized().dot(centre)) > 0.9;
+    return std::abs(p.normalized().dot(centre_of_cut)) > 0.9;
   };
   cut(source, target, two, options);
   const Pair pair(source, target);
@@ -221,7 +223,8 @@ TEST_CASE("without rings, cells with a single neighbour are left out") {
   CutOptions options;
   options.rings = 0;
   const auto ragged = [](const Eigen::Vector3d& p) {
-    return p.dot(centre) > 0.7 && (std::abs(p.z() - centre.z()) < 0.3 || std::abs(p.x()) < 0.02);
+    return p.dot(centre_of_cut) > 0.7 &&
+           (std::abs(p.z() - centre_of_cut.z()) < 0.3 || std::abs(p.x()) < 0.02);
   };
   cut(source, target, ragged, options);
   const Pair pair(source, target);
@@ -239,9 +242,9 @@ TEST_CASE("a file that was cut can be cut again") {
   write_global(scratch, source, {.cells = 3000});
   CutOptions options;
   options.rings = 3;
-  cut(source, middle, within(1.0), options);
-  cut(middle, target, within(0.3), options);
-  cut(source, direct, within(0.3), options);
+  cut(source, middle, within_angle(1.0), options);
+  cut(middle, target, within_angle(0.3), options);
+  cut(source, direct, within_angle(0.3), options);
   const Contents a = contents_of(target), b = contents_of(direct);
   for (const auto& [name, content] : b.variables) {
     CAPTURE(name);
@@ -257,8 +260,8 @@ TEST_CASE("all cells of an open file may be kept: it has its boundary") {
   write_global(scratch, source, {.cells = 3000});
   CutOptions options;
   options.rings = 2;
-  const CutReport part = cut(source, middle, within(0.4), options);
-  const CutReport all = cut(middle, target, within(1.0), options);
+  const CutReport part = cut(source, middle, within_angle(0.4), options);
+  const CutReport all = cut(middle, target, within_angle(1.0), options);
   CHECK(all.cells == part.cells);
   CHECK(all.cells_by_mask == std::vector<std::int64_t>{part.cells, 0, 0});
 }
@@ -270,7 +273,7 @@ TEST_CASE("the bits do not depend on the number of threads") {
   std::string first;
   for (const int threads : {1, 3}) {
     tbb::task_arena arena(threads);
-    arena.execute([&] { cut(source, scratch / "region.nc", within(0.5), {}); });
+    arena.execute([&] { cut(source, scratch / "region.nc", within_angle(0.5), {}); });
     const std::string bytes = test::read_file(scratch / "region.nc");
     CHECK((first.empty() || first == bytes));
     first = bytes;
@@ -283,7 +286,7 @@ TEST_CASE("regions that leave no grid are refused, and no file is left") {
   write_global(scratch, source, {.cells = 400});
   const std::ptrdiff_t files = scratch.files();
   const auto refusal = [&](double angle, const CutOptions& options) {
-    const Error error = error_of([&] { cut(source, target, within(angle), options); });
+    const Error error = error_of([&] { cut(source, target, within_angle(angle), options); });
     CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(scratch.files() == files);
     return std::string(error.what());
@@ -311,7 +314,7 @@ TEST_CASE("sources without a mesh of the sphere with connectivity are refused") 
   options.rings = 1;
   const auto refusal = [&] {
     const std::ptrdiff_t files = scratch.files();
-    const Error error = error_of([&] { cut(source, target, within(0.5), options); });
+    const Error error = error_of([&] { cut(source, target, within_angle(0.5), options); });
     CHECK(scratch.files() == files);
     return std::string(error.what());
   };
@@ -344,14 +347,14 @@ TEST_CASE("a cancelled run leaves no file") {
     return progress.fraction > 0.3 ? Next::cancel : Next::proceed;
   };
   options.rings = 3;
-  const Error error = error_of([&] { cut(source, target, within(0.5), options); });
+  const Error error = error_of([&] { cut(source, target, within_angle(0.5), options); });
   CHECK(error.code() == ErrorCode::cancelled);
   CHECK(scratch.files() == files);
 }
 
 TEST_CASE("a grid made in a region keeps all rules, and is that cut from a global mesh") {
   const Scratch scratch;
-  const Region region = circle(centre, 0.14), meshed = widened(region, 11 * 0.012);
+  const Region region = circle(centre_of_cut, 0.14), meshed = widened(region, 11 * 0.012);
   CvtOptions options;
   options.max_iterations = 60;
   const Points3 generators =

@@ -2,6 +2,7 @@
 #include "delaunay/delaunay.h"
 #include "mesh/adjacency.h"
 #include "support/files.h"
+#include "support/oracle.h"
 #include "support/planes.h"
 #include "support/random.h"
 
@@ -24,29 +25,28 @@
 
 using namespace calotte;
 using namespace calotte::test;
+using oracle::Triple;
 
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
-
-std::set<Corners> triangles_of(const Mesh& mesh) {
-  std::set<Corners> all;
+std::set<Triple> triangles_of(const Mesh& mesh) {
+  std::set<Triple> all;
   for (const auto& t : mesh.triangles.colwise())
     all.insert({t[0], t[1], t[2]});
   return all;
 }
 
 /// By the rule, sweep after sweep, from the triangles' corners alone.
-std::set<Corners> left_by_the_rule(std::set<Corners> all) {
+std::set<Triple> left_by_the_rule(std::set<Triple> all) {
   for (bool changed = true; changed;) {
     std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
-    const auto sides = [](const Corners& t) {
+    const auto sides = [](const Triple& t) {
       return std::array{std::minmax(t[0], t[1]), std::minmax(t[1], t[2]), std::minmax(t[2], t[0])};
     };
-    for (const Corners& t : all)
+    for (const Triple& t : all)
       for (const auto& [a, b] : sides(t))
         ++uses[{a, b}];
-    changed = std::erase_if(all, [&](const Corners& t) {
+    changed = std::erase_if(all, [&](const Triple& t) {
                 int neighbours = 0;
                 for (const auto& [a, b] : sides(t))
                   neighbours += uses.at({a, b}) - 1;
@@ -91,7 +91,7 @@ TEST_CASE("what is left is the largest part in which each triangle has two neigh
       std::map<double, std::int32_t> old; // by z, which differs from site to site
       for (std::int32_t i = 0; i < before.mesh->points.cols(); ++i)
         old[before.mesh->points(2, i)] = i;
-      std::set<Corners> left;
+      std::set<Triple> left;
       for (const auto& t : mesh.triangles.colwise())
         left.insert({old.at(mesh.points(2, t[0])), old.at(mesh.points(2, t[1])),
                      old.at(mesh.points(2, t[2]))});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/planes.h"
 
@@ -15,31 +16,30 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
 using namespace calotte;
+using namespace calotte::test;
 using calotte::io_detail::NetcdfType;
 using calotte::io_detail::NetcdfWriter;
-using calotte::test::error_of;
-using calotte::test::Scratch;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, none = std::numeric_limits<double>::quiet_NaN();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::string in_folder(const Scratch& scratch, const std::string& name) {
   return scratch.folder / name;
 }
 
-FieldGrid mesh_of(const std::string& path, const Mesh& mesh, const WriteOptions& options = {}) {
+FieldGrid written_grid(const std::string& path, const Mesh& mesh,
+                       const WriteOptions& options = {}) {
   write(path, mesh, options);
   return read_field_grid(path);
 }
 
 /// A raster file with a field f = 100 j + i.
-struct RasterFile {
+struct FieldRaster {
   std::vector<double> latitudes{-60, -20, 20, 60}, longitudes{0, 60, 120, 180, 240, 300};
   std::vector<double> latitude_bounds = {};
   std::string latitude = "lat", longitude = "lon";
@@ -95,11 +95,11 @@ struct RasterFile {
   }
 };
 
-std::string problem_of(const std::string& path) {
+std::string problem_with_grid(const std::string& path) {
   return error_of([&] { read_field_grid(path); }).what();
 }
 
-bool same(const Weights& a, const Weights& b) {
+bool same_weights(const Weights& a, const Weights& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && Eigen::MatrixXd(a) == Eigen::MatrixXd(b);
 }
 
@@ -108,7 +108,7 @@ bool same(const Weights& a, const Weights& b) {
 TEST_CASE("a raster is read with its boxes and fields") {
   const Scratch scratch;
   const std::string path = in_folder(scratch, "raster.nc");
-  RasterFile file;
+  FieldRaster file;
   file.write(path);
   FieldGrid grid = read_field_grid(path);
   REQUIRE(grid.boxes);
@@ -135,7 +135,7 @@ TEST_CASE("a raster is read with its boxes and fields") {
 TEST_CASE("what is wrong with a raster is said") {
   const Scratch scratch;
   const std::string path = in_folder(scratch, "raster.nc");
-  RasterFile file;
+  FieldRaster file;
   file.longitude_first = true;
   file.write(path);
   CHECK(read_field_grid(path).fields.empty());
@@ -143,22 +143,23 @@ TEST_CASE("what is wrong with a raster is said") {
   file = {};
   file.latitudes[2] = -30;
   file.write(path);
-  CHECK(problem_of(path) == path +
-                                ": latitude[2] = -30.000000 does not follow -20.000000; sort the "
-                                "raster along it");
+  CHECK(problem_with_grid(path) ==
+        path + ": latitude[2] = -30.000000 does not follow -20.000000; sort the "
+               "raster along it");
   file = {};
   file.latitudes[3] = 95;
   file.write(path);
-  CHECK(problem_of(path).find("latitude[3] = 95.000000 is outside -90 to 90") != std::string::npos);
+  CHECK(problem_with_grid(path).find("latitude[3] = 95.000000 is outside -90 to 90") !=
+        std::string::npos);
   file = {};
   file.latitude_bounds = {-90, -40, -40, 0, 10, 40, 40, 90};
   file.write(path);
-  CHECK(problem_of(path).find("lat_b[2] does not begin where the one before ends") !=
+  CHECK(problem_with_grid(path).find("lat_b[2] does not begin where the one before ends") !=
         std::string::npos);
   file = {};
   file.longitudes = {0, 100, 200, 300, 400, 500};
   file.write(path);
-  CHECK(problem_of(path).find("span") != std::string::npos);
+  CHECK(problem_with_grid(path).find("span") != std::string::npos);
   CHECK(!raster_of("720"));
   CHECK(!raster_of("720x"));
   CHECK(!raster_of("720x360.nc"));
@@ -205,7 +206,8 @@ TEST_CASE("fields come back from files of rasters, and keep their dimensions") {
 
 TEST_CASE("methods between meshes and rasters of the sphere") {
   const Scratch scratch;
-  const FieldGrid mesh = mesh_of(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(1000))),
+  const FieldGrid mesh =
+                      written_grid(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(1000))),
                   raster = *raster_of("36x18");
   const auto smooth = [](const Points3& at) {
     return DoubleVector((at.row(0).array() * at.row(1).array() + at.row(2).array()).transpose());
@@ -258,7 +260,7 @@ TEST_CASE("a part of the sphere: cells outside have no weights") {
 TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
   const Scratch scratch;
   const auto box = [&](const std::string& name, std::uint64_t seed) {
-    return mesh_of(
+    return written_grid(
         in_folder(scratch, name),
         delaunay(random_places(200, periodic_box({3, 2}), seed), Surface::periodic({3, 2})));
   };
@@ -270,9 +272,9 @@ TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
           1e-12);
   }
   const auto open = [&](const std::string& name, std::int64_t n, std::uint64_t seed) {
-    return mesh_of(in_folder(scratch, name),
-                   delaunay(random_places(n, PlanarDomain(rectangle({0, 0}, {1, 1})), seed),
-                            Surface::plane()));
+    return written_grid(in_folder(scratch, name),
+                        delaunay(random_places(n, PlanarDomain(rectangle({0, 0}, {1, 1})), seed),
+                                 Surface::plane()));
   };
   const FieldGrid from = open("from.vtp", 400, 3), to = open("to.vtp", 200, 4);
   const auto linear = [](const FieldGrid& grid) {
@@ -301,7 +303,8 @@ TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
 TEST_CASE("weights come back from files of both formats") {
   const Scratch scratch;
   const std::string path = in_folder(scratch, "weights.nc");
-  const FieldGrid mesh = mesh_of(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(300))),
+  const FieldGrid mesh =
+                      written_grid(in_folder(scratch, "mesh.nc"), delaunay(fibonacci_sphere(300))),
                   raster = *raster_of("12x6");
   for (const WeightsFormat format : {WeightsFormat::esmf, WeightsFormat::scrip})
     for (const Interpolation kind :
@@ -310,7 +313,7 @@ TEST_CASE("weights come back from files of both formats") {
         const GridWeights weights = interpolation_weights(source, target, kind);
         write_weights(path, weights, source, target, kind, format);
         const GridWeights found = read_weights(path);
-        CHECK(same(found.weights, weights.weights));
+        CHECK(same_weights(found.weights, weights.weights));
         CHECK(found.target_fraction == weights.target_fraction);
         CHECK(std::abs(found.source_area.sum() - 4 * pi) < 1e-12);
         CHECK(std::abs(found.target_area.sum() - 4 * pi) < 1e-12);
@@ -348,6 +351,6 @@ TEST_CASE("files that hold no weights, or wrong ones, are refused") {
                        Error);
   with_column(0);
   CHECK_THROWS_AS(read_weights(path), Error);
-  RasterFile().write(path);
+  FieldRaster().write(path);
   CHECK_THROWS_WITH_AS(read_weights(path), doctest::Contains("give a file of weights"), Error);
 }

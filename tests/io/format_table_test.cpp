@@ -18,8 +18,15 @@
 // The tables say all that there is, and each thing once.
 
 using namespace calotte;
-using namespace calotte::io_detail;
 using calotte::test::Scratch;
+using io_detail::format_of_name;
+using io_detail::format_table;
+using io_detail::FormatRow;
+using io_detail::mpas_variables;
+using io_detail::MpasDimension;
+using io_detail::MpasVariable;
+using io_detail::NetcdfReader;
+using io_detail::row_of;
 
 TEST_CASE("each format has one row") {
   std::set<Format> seen;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "io/command.h"
+#include "io/geojson_text.h"
+#include "io/read_text.h"
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -13,7 +16,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,27 +29,17 @@ using namespace calotte::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// All values after one another.
-template <class... Values> std::string text_of(const Values&... values) {
+template <class... Values> std::string concatenated(const Values&... values) {
   std::ostringstream text;
   text.precision(9);
   (text << ... << values);
   return text.str();
 }
 
-std::string collection(const std::vector<std::string>& features) {
-  std::string text = R"({"type":"FeatureCollection","features":[)";
-  for (const std::string& feature : features)
-    text += (&feature == &features[0] ? "" : ",") + feature;
-  return text + "]}";
-}
-
 std::string cell(const std::string& ring, const std::string& properties = "{}",
                  const std::string& type = "Polygon") {
-  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":{"type":")" + type +
-         R"(","coordinates":)" + ring + "}}";
+  return feature(R"({"type":")" + type + R"(","coordinates":)" + ring + "}", properties);
 }
 
 /// The eighths of the sphere, as boxes of longitude and latitude; those of the south clockwise.
@@ -56,21 +48,20 @@ std::vector<std::string> eighths() {
   for (const std::string north : {"90", "-90"})
     for (int k = 0; k < 4; ++k) {
       const int west = 90 * k - 180, east = west + 90;
-      const std::string ring = text_of("[[[", west, ",0],[", east, ",0],[", east, ",", north, "],[",
-                                       west, ",", north, "],[", west, ",0]]]");
-      const std::string depth = k == 2 ? "null" : text_of(k, ".5");
+      const std::string ring = concatenated("[[[", west, ",0],[", east, ",0],[", east, ",", north,
+                                            "],[", west, ",", north, "],[", west, ",0]]]");
+      const std::string depth = k == 2 ? "null" : concatenated(k, ".5");
       const std::string properties =
-          text_of(R"({"name":"k","height":)", k, R"(,"depth":)", depth, "}");
+          concatenated(R"({"name":"k","height":)", k, R"(,"depth":)", depth, "}");
       features.push_back(cell(ring, properties));
     }
   return features;
 }
 
-std::string problem_of(const std::string& path, const std::vector<std::string>& features) {
-  write_text(path, collection(features));
-  const calotte::Error error = error_of([&] { calotte::read_mesh_file(path); });
-  CHECK(error.code() == ErrorCode::parse);
-  return std::string(error.what()).substr(path.size() + 2);
+/// Without the path.
+std::string problem_with_features(const std::string& path,
+                                  const std::vector<std::string>& features) {
+  return problem_of(path, collection(features)).substr(path.size() + 2);
 }
 
 /// A regular polygon around the direction of a vector.
@@ -157,26 +148,28 @@ TEST_CASE("GeoJSON: cells with a place are compared with the Voronoi cells of th
       columns({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}));
   // The faces of a cube, of which two are cut by the meridian of 180 degrees, in whole rings.
   const double latitude = 180 / pi * std::asin(1 / std::sqrt(3.0));
-  const auto at = [&](int east, int side) { return text_of("[", east, ",", side * latitude, "]"); };
+  const auto at = [&](int east, int side) {
+    return concatenated("[", east, ",", side * latitude, "]");
+  };
   std::vector<std::string> faces;
   for (int k = 0; k < 4; ++k) {
     const int west = 90 * k - 45, east = west + 90;
-    const std::string ring = text_of("[[", at(west, -1), ",", at(east, -1), ",", at(east, 1), ",",
-                                     at(west, 1), ",", at(west, -1), "]]");
-    faces.push_back(cell(ring, text_of(R"({"x":)", mesh.points(0, k), R"(,"y":)", mesh.points(1, k),
-                                       R"(,"z":0,"density":2})")));
+    const std::string ring = concatenated("[[", at(west, -1), ",", at(east, -1), ",", at(east, 1),
+                                          ",", at(west, 1), ",", at(west, -1), "]]");
+    faces.push_back(cell(ring, concatenated(R"({"x":)", mesh.points(0, k), R"(,"y":)",
+                                            mesh.points(1, k), R"(,"z":0,"density":2})")));
   }
   for (const int side : {1, -1})
-    faces.push_back(cell(text_of("[[", at(45, side), ",", at(135, side), ",", at(225, side), ",",
-                                 at(315, side), ",", at(45, side), "]]"),
-                         text_of(R"({"x":0,"y":0,"z":)", side, R"(,"density":2})")));
+    faces.push_back(cell(concatenated("[[", at(45, side), ",", at(135, side), ",", at(225, side),
+                                      ",", at(315, side), ",", at(45, side), "]]"),
+                         concatenated(R"({"x":0,"y":0,"z":)", side, R"(,"density":2})")));
   write_text(scratch / "cube.geojson", collection(faces));
   const MeshFile cube = calotte::read_mesh_file(scratch / "cube.geojson");
   REQUIRE(cube.mesh);
   CHECK(!cube.polygons); // six digits of a degree are enough
   CHECK(cube.density == Eigen::VectorXd::Constant(6, 2));
   faces[0] =
-      cell(text_of("[[", at(-45, -1), ",", at(45, -1), ",", at(45, 1), ",", at(-45, 1), "]]"),
+      cell(concatenated("[[", at(-45, -1), ",", at(45, -1), ",", at(45, 1), ",", at(-45, 1), "]]"),
            R"({"x":1,"y":0.1,"z":0,"density":2})");
   write_text(scratch / "cube.geojson", collection(faces));
   CHECK(calotte::read_mesh_file(scratch / "cube.geojson").polygons);
@@ -201,24 +194,26 @@ TEST_CASE("GeoJSON: what is no cell of one ring is refused by its feature") {
   const std::string path = scratch / "cells.geojson", ring = "[[0,0],[9,0],[9,9],[0,0]]";
   const std::string good = cell("[" + ring + "]");
   const std::string apart = "[[20,0],[29,0],[29,9],[20,0]]";
-  CHECK(problem_of(path, {good, cell("[[" + apart + "],[" + ring + "]]", "{}", "MultiPolygon")}) ==
+  CHECK(problem_with_features(
+            path, {good, cell("[[" + apart + "],[" + ring + "]]", "{}", "MultiPolygon")}) ==
         "feature 1 is a MultiPolygon whose parts do not share one side; only cells of one ring are "
         "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
-  CHECK(problem_of(path, {cell("[" + ring + "," + ring + "]")}) ==
+  CHECK(problem_with_features(path, {cell("[" + ring + "," + ring + "]")}) ==
         "feature 0 has a hole; only cells of one ring are read");
-  CHECK(problem_of(path, {good, good, cell("[[[0,0],[9,0],[0,0]]]")}) ==
+  CHECK(problem_with_features(path, {good, good, cell("[[[0,0],[9,0],[0,0]]]")}) ==
         "feature 2 has a ring of fewer than 3 places; leave it out");
-  CHECK(problem_of(path, {cell("[[[0,0],[9,91],[9,9],[0,0]]]")}) ==
+  CHECK(problem_with_features(path, {cell("[[[0,0],[9,91],[9,9],[0,0]]]")}) ==
         "feature 0 has a position that is no longitude and latitude in degrees; correct it");
-  CHECK(problem_of(path, {cell("[]")}) ==
+  CHECK(problem_with_features(path, {cell("[]")}) ==
         "feature 0 has no ring of positions; give GeoJSON as RFC 7946 has it");
-  CHECK(problem_of(path, {good, cell("[0,0]", "{}", "Point")}) ==
+  CHECK(problem_with_features(path, {good, cell("[0,0]", "{}", "Point")}) ==
         "feature 1 is no polygon, unlike those before it");
-  CHECK(problem_of(path, {cell("[0,0]", "{}", "Point"), good}) ==
+  CHECK(problem_with_features(path, {cell("[0,0]", "{}", "Point"), good}) ==
         "feature 1 is a cell, unlike those before it");
-  CHECK(problem_of(path, {cell("[[0,0],[9,9]]", "{}", "LineString")})
+  CHECK(problem_with_features(path, {cell("[[0,0],[9,9]]", "{}", "LineString")})
             .starts_with("feature 0 is neither a polygon nor a point"));
-  CHECK(problem_of(path, {good, good}).find("cell 0 and cell 1 overlap") != std::string::npos);
+  CHECK(problem_with_features(path, {good, good}).find("cell 0 and cell 1 overlap") !=
+        std::string::npos);
 }
 
 TEST_CASE("shapes: convex cells, and how far centres are from centroids") {

@@ -27,7 +27,7 @@ bool is_empty(const Mesh& mesh) {
          mesh.site_of_input.empty();
 }
 
-WriteOptions options_of(Format format, Numbering numbering) {
+WriteOptions options_with_bump(Format format, Numbering numbering) {
   WriteOptions options;
   options.format = format;
   options.numbering = numbering;
@@ -47,7 +47,7 @@ TEST_CASE("a mesh that is handed over gives the same file, and is empty then") {
         std::pair{Format::vtp_cells, ".vtp"}, std::pair{Format::off, ".off"}})
     for (const Numbering numbering : {Numbering::input, Numbering::curve, Numbering::rcm}) {
       CAPTURE(suffix);
-      const WriteOptions options = options_of(format, numbering);
+      const WriteOptions options = options_with_bump(format, numbering);
       write(scratch / std::string("kept").append(suffix), mesh, options);
       Mesh given = mesh;
       write(scratch / std::string("given").append(suffix), std::move(given), options);
@@ -74,7 +74,7 @@ TEST_CASE("an MPAS file that is computed while it is written has the bits of the
   const Scratch scratch;
   std::vector<NamedMesh> meshes = closed_meshes();
   meshes.push_back({"many", spherical_delaunay(random_sphere(20'000, 2))});
-  const WriteOptions options = options_of(Format::mpas, Numbering::input);
+  const WriteOptions options = options_with_bump(Format::mpas, Numbering::input);
   for (auto& [name, mesh] : meshes) {
     CAPTURE(name);
     io_detail::write_mpas(scratch / "computed.nc", mesh, options);

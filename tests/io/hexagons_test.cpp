@@ -52,7 +52,8 @@ std::map<int, int> cells_at_corners(const Polygons& polygons, double spacing) {
   return out;
 }
 
-std::string refusal(std::int64_t columns, std::int64_t rows, double spacing, Walls walls = {}) {
+std::string refusal_of_hexagons(std::int64_t columns, std::int64_t rows, double spacing,
+                                Walls walls = {}) {
   try {
     planar_hexagons(columns, rows, spacing, walls);
   } catch (const Error& error) {
@@ -146,16 +147,18 @@ TEST_CASE("an MPAS file of a channel keeps its cells, and passes its check") {
 }
 
 TEST_CASE("hexagons out of range are refused") {
-  CHECK(refusal(6, 5, 1) == "hexagons of 6 columns and 5 rows: give at least 3 columns and 4 rows, "
-                            "an even number for the period in y");
-  CHECK(refusal(6, 5, 1, {.y = true}) == "");
-  CHECK(refusal(2, 4, 1) != "");
-  CHECK(refusal(2, 4, 1, {.x = true}) == "");
-  CHECK(refusal(6, 1, 1, {.y = true}) != "");
-  CHECK(refusal(1 << 20, 1 << 10, 1) ==
+  CHECK(refusal_of_hexagons(6, 5, 1) ==
+        "hexagons of 6 columns and 5 rows: give at least 3 columns and 4 rows, "
+        "an even number for the period in y");
+  CHECK(refusal_of_hexagons(6, 5, 1, {.y = true}) == "");
+  CHECK(refusal_of_hexagons(2, 4, 1) != "");
+  CHECK(refusal_of_hexagons(2, 4, 1, {.x = true}) == "");
+  CHECK(refusal_of_hexagons(6, 1, 1, {.y = true}) != "");
+  CHECK(refusal_of_hexagons(1 << 20, 1 << 10, 1) ==
         "hexagons of 1048576 columns and 1024 rows are more than 268435456; give fewer");
   for (const double spacing : {0.0, -1.0, 1e300, std::nan("")})
-    CHECK(refusal(6, 6, spacing) == "the distance of the hexagons must be from 1e-20 to 1e20");
+    CHECK(refusal_of_hexagons(6, 6, spacing) ==
+          "the distance of the hexagons must be from 1e-20 to 1e20");
 }
 
 TEST_CASE("between walls stay the cells whose sites are there, with corners beside them") {

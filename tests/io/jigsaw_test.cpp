@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command.h"
+#include "io/messages.h"
 #include "io/shapes/jigsaw.h"
+#include "support/constants.h"
 #include "support/files.h"
 
 #include <calotte/generators.h>
@@ -8,7 +10,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,21 +20,18 @@ using io_detail::JigsawFile;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// A square with a square hole, a line in it that touches neither, and a point alone.
-const std::string square = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=12\n"
-                           "0;0;0\n9;0;0\n9;9;0\n0;9;0\n4;4;0\n6;4;0\n6;6;0\n4;6;0\n"
-                           "1;1;0\n2;1;0\n2;2;0\n8;8;0\n"
-                           "EDGE2=10\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n4;5;0\n5;6;0\n6;7;0\n7;4;0\n"
-                           "8;9;0\n9;10;0\n";
+const std::string square_with_hole =
+    "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=12\n"
+    "0;0;0\n9;0;0\n9;9;0\n0;9;0\n4;4;0\n6;4;0\n6;6;0\n4;6;0\n"
+    "1;1;0\n2;1;0\n2;2;0\n8;8;0\n"
+    "EDGE2=10\n0;1;0\n1;2;0\n2;3;0\n3;0;0\n4;5;0\n5;6;0\n6;7;0\n7;4;0\n"
+    "8;9;0\n9;10;0\n";
 
-std::string written(const Scratch& scratch, const std::string& text) {
+std::string jigsaw_file(const Scratch& scratch, const std::string& text) {
   write_text(scratch / "file.msh", text);
   return scratch / "file.msh";
 }
-
-std::string refusal(const std::function<void()>& work) { return error_of(work).what(); }
 
 JigsawFile grid(const std::string& kind, int nx, int ny, double step,
                 const std::function<double(double, double)>& value) {
@@ -52,7 +50,7 @@ JigsawFile grid(const std::string& kind, int nx, int ny, double step,
 
 TEST_CASE("jigsaw: closed rings of edges bound a domain, others are lines") {
   const Scratch scratch;
-  const JigsawGeometry geometry = read_jigsaw_geometry(written(scratch, square));
+  const JigsawGeometry geometry = read_jigsaw_geometry(jigsaw_file(scratch, square_with_hole));
   CHECK(geometry.surface.area() == 81 - 4);
   REQUIRE(geometry.lines.size() == 2);
   CHECK(geometry.lines[0].cols() + geometry.lines[1].cols() == 4);
@@ -61,10 +59,10 @@ TEST_CASE("jigsaw: closed rings of edges bound a domain, others are lines") {
 
 TEST_CASE("jigsaw: a line that ends at a ring leaves it a ring") {
   const Scratch scratch;
-  std::string river = square; // from the outer ring to the hole, with a branch
+  std::string river = square_with_hole; // from the outer ring to the hole, with a branch
   river.replace(river.find("EDGE2=10"), 8, "EDGE2=13");
   const JigsawGeometry geometry =
-      read_jigsaw_geometry(written(scratch, river + "10;4;0\n8;0;0\n9;11;0\n"));
+      read_jigsaw_geometry(jigsaw_file(scratch, river + "10;4;0\n8;0;0\n9;11;0\n"));
   CHECK(geometry.surface.rings().size() == 2);
   CHECK(geometry.surface.area() == 81 - 4);
   Eigen::Index places = 0;
@@ -77,7 +75,7 @@ TEST_CASE("jigsaw: an ellipsoid with equal radii is a sphere, its edges lines") 
   const Scratch scratch;
   const std::string text = "MSHID=3;ELLIPSOID-MESH\nRADII=6371;6371;6371\nNDIMS=2\nPOINT=3\n"
                            "0;0;0\n0.5;0;0\n3.0;1.5;-1\nEDGE2=1\n0;1;0\n";
-  const JigsawGeometry geometry = read_jigsaw_geometry(written(scratch, text));
+  const JigsawGeometry geometry = read_jigsaw_geometry(jigsaw_file(scratch, text));
   CHECK(geometry.surface.is_whole_sphere());
   CHECK(geometry.radius == 6371);
   REQUIRE(geometry.lines.size() == 2);
@@ -86,18 +84,19 @@ TEST_CASE("jigsaw: an ellipsoid with equal radii is a sphere, its edges lines") 
   CHECK(geometry.lines[1].cols() == 1);
   const JigsawPoints points = read_jigsaw_points(scratch / "file.msh", false);
   CHECK(points.fixed == std::vector<bool>{false, false, true});
-  CHECK(refusal([&] { read_domain(scratch / "file.msh"); }).find("geometry of the sphere") !=
+  CHECK(message_of([&] { read_domain(scratch / "file.msh"); }).find("geometry of the sphere") !=
         std::string::npos);
-  CHECK(refusal([&] { read_jigsaw_points(scratch / "file.msh", true); }).find("give those of a") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          read_jigsaw_points(scratch / "file.msh", true);
+        }).find("give those of a") != std::string::npos);
 }
 
 TEST_CASE("jigsaw: geometries that cannot be meshed are refused") {
   const Scratch scratch;
   const auto refused = [&](const std::string& text, const std::string& words) {
     CAPTURE(words);
-    const std::string path = written(scratch, text);
-    CHECK(refusal([&] { read_jigsaw_geometry(path); }).find(words) != std::string::npos);
+    const std::string path = jigsaw_file(scratch, text);
+    CHECK(message_of([&] { read_jigsaw_geometry(path); }).find(words) != std::string::npos);
   };
   refused("MSHID=3;ELLIPSOID-MESH\nRADII=1;1;2\n", "the radii differ");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=1\n0;0;1;0\n", "only a sphere");
@@ -107,7 +106,7 @@ TEST_CASE("jigsaw: geometries that cannot be meshed are refused") {
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n" + corners +
               "EDGE2=6\n0;1;0\n1;2;0\n2;0;0\n0;3;0\n3;4;0\n4;0;0\n",
           "rings of edges touch at the point 0.000000 0.000000");
-  refused(square + "BOUND=8\n0;0;2\n0;1;2\n0;2;2\n0;3;2\n1;4;2\n1;5;2\n1;6;2\n1;7;2\n",
+  refused(square_with_hole + "BOUND=8\n0;0;2\n0;1;2\n0;2;2\n0;3;2\n1;4;2\n1;5;2\n1;6;2\n1;7;2\n",
           "a geometry of 2 parts (BOUND)");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=2\n0;0;0\n1;0;0\nEDGE2=1\n0;7;0\n",
           "edge 0 has the point 7");
@@ -131,15 +130,15 @@ TEST_CASE("jigsaw: widths of a plane on a grid and at points") {
   text << "VALUE=" << sites.cols() << ";1\n";
   for (const auto& p : sites.colwise())
     text << linear(p.x(), p.y()) << "\n";
-  const PlanarCellWidth at_points = read_planar_cell_width(written(scratch, text.str()));
+  const PlanarCellWidth at_points = read_planar_cell_width(jigsaw_file(scratch, text.str()));
   double worst = 0;
   for (Eigen::Index i = 1; i + 1 < at_points.x.size(); ++i)
     for (Eigen::Index j = 1; j + 1 < at_points.y.size(); ++j)
       worst = std::max(worst,
                        std::abs(at_points.widths(i, j) - linear(at_points.x[i], at_points.y[j])));
   CHECK(worst < 0.01); // beyond the hull of the points the nearest one's
-  CHECK(refusal([&] {
-          read_planar_cell_width(written(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"));
+  CHECK(message_of([&] {
+          read_planar_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"));
         }).find("no cell widths of a plane") != std::string::npos);
 }
 
@@ -182,11 +181,12 @@ TEST_CASE("jigsaw: slopes that are missing or differ are refused, and the file s
   JigsawFile file = grid("euclidean-grid", 3, 3, 1, [](double, double) { return 9; });
   io_detail::write_jigsaw_grid(path, file);
   const std::string before = calotte::test::read_file(path);
-  CHECK(refusal([&] { limit_jigsaw_values(path, 1); }).find("no SLOPE section") !=
+  CHECK(message_of([&] { limit_jigsaw_values(path, 1); }).find("no SLOPE section") !=
         std::string::npos);
   CHECK(calotte::test::read_file(path) == before);
   file.slopes.assign(9, 0.1);
   file.slopes[4] = 0.2;
   io_detail::write_jigsaw_grid(path, file);
-  CHECK(refusal([&] { limit_jigsaw_values(path, 1); }).find("SLOPE differs") != std::string::npos);
+  CHECK(message_of([&] { limit_jigsaw_values(path, 1); }).find("SLOPE differs") !=
+        std::string::npos);
 }

@@ -26,13 +26,14 @@ using namespace calotte::test;
 namespace {
 
 /// A format's name of a file, and whether its files hold cells.
-struct Kind {
+struct ExpectedFormat {
   Format format;
   std::string file;
   bool cells;
+  bool netcdf() const { return file == "mesh.nc"; }
 };
 
-const std::vector<Kind> kinds{
+const std::vector<ExpectedFormat> expected_formats{
     {Format::mpas, "mesh.nc", true},        {Format::mpas_minimal, "mesh.nc", true},
     {Format::ugrid, "mesh.nc", true},       {Format::ugrid_triangles, "mesh.nc", false},
     {Format::scrip, "mesh.nc", true},       {Format::esmf, "mesh.nc", true},
@@ -41,8 +42,6 @@ const std::vector<Kind> kinds{
     {Format::off, "mesh.off", false},       {Format::ply, "mesh.ply", false},
     {Format::triangles, "mesh.tri", false}, {Format::mpi_scvt, "SaveVertices", false},
     {Format::msh, "mesh.msh", false},       {Format::geojson, "mesh.geojson", true}};
-
-bool is_netcdf(const Kind& kind) { return kind.file == "mesh.nc"; }
 
 /// Whether the format holds the points as they are.
 bool holds_coordinates(Format format) { return format != Format::scrip && format != Format::esmf; }
@@ -70,12 +69,12 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
   CHECK(format_of("mesh.EXO") == Format::exodus);
   CHECK(format_of("a/nod2d.out") == Format::fesom);
 
-  for (const Kind& kind : kinds) {
+  for (const ExpectedFormat& kind : expected_formats) {
     CHECK(format_of(kind.file, kind.format) == kind.format);
     if (kind.format != Format::mpi_scvt)
       CHECK(format_of("grid.data", kind.format) == kind.format);
     CHECK(info_of(kind.format).cells == kind.cells);
-    for (const Kind& other : kinds)
+    for (const ExpectedFormat& other : expected_formats)
       if (kind.file != other.file)
         CHECK(error_of([&] { format_of(other.file, kind.format); }).code() ==
               ErrorCode::invalid_argument);
@@ -95,13 +94,13 @@ TEST_CASE("every format's file is read as the mesh that was written") {
   for (const auto& [name, mesh] :
        {NamedMesh{"random", calotte::spherical_delaunay(calotte::random_sphere(200, 1))},
         NamedMesh{"cubed sphere", calotte::spherical_delaunay(calotte::cubed_sphere(4))}})
-    for (const Kind& kind : kinds) {
+    for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(name);
       CAPTURE(int(kind.format));
       const std::string path = scratch / kind.file;
       calotte::write(path, mesh, {.format = kind.format});
       const Mesh expected =
-          calotte::renumbered(mesh, is_netcdf(kind) ? Numbering::curve : Numbering::input);
+          calotte::renumbered(mesh, kind.netcdf() ? Numbering::curve : Numbering::input);
       const Mesh read = calotte::read_mesh(path, &mesh.points);
       REQUIRE(read.points.cols() == mesh.points.cols());
       CHECK((read.points - expected.points).colwise().norm().maxCoeff() < 1e-14);
@@ -119,7 +118,7 @@ TEST_CASE("numbering: along the curve for NetCDF by default, as selected in ever
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(120, 2));
   for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})
-    for (const Kind& kind : kinds) {
+    for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(int(kind.format));
       CAPTURE(int(numbering));
       const std::string path = scratch / kind.file;
@@ -136,8 +135,8 @@ TEST_CASE("numbering: along the curve for NetCDF by default, as selected in ever
 TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(100, 3));
-  for (const Kind& kind : kinds)
-    if (is_netcdf(kind)) {
+  for (const ExpectedFormat& kind : expected_formats)
+    if (kind.netcdf()) {
       calotte::write(scratch / "grid.data", mesh, {.format = kind.format});
       CHECK(calotte::read_mesh(scratch / "grid.data").points.cols() == 100);
     }
@@ -153,13 +152,13 @@ TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
 TEST_CASE("options out of range are refused before any file is touched") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
-  const auto refused = [&](const Kind& kind, calotte::WriteOptions options) {
+  const auto refused = [&](const ExpectedFormat& kind, calotte::WriteOptions options) {
     options.format = kind.format;
     CHECK(error_of([&] { calotte::write(scratch / kind.file, mesh, options); }).code() ==
           ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
   };
-  for (const Kind& kind : kinds) {
+  for (const ExpectedFormat& kind : expected_formats) {
     for (const double radius : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
       refused(kind, {.sphere_radius = radius});
     refused(kind, {.density = calotte::tanh_bump({1, 0, 0}, 0.5, 0.2, 2)});
@@ -175,7 +174,7 @@ TEST_CASE("options out of range are refused before any file is touched") {
 TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
   const Scratch scratch;
   for (const auto& [name, mesh] : open_meshes())
-    for (const Kind& kind : kinds) {
+    for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(int(kind.format));
       const auto write = [&, &open = mesh] {
         calotte::write(scratch / kind.file, open, {.format = kind.format});
@@ -187,7 +186,7 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
     }
   const Mesh good = calotte::spherical_delaunay(octahedron());
   for (const std::int32_t id : {-1, 6, std::numeric_limits<std::int32_t>::max()})
-    for (const Kind& kind : kinds) {
+    for (const ExpectedFormat& kind : expected_formats) {
       Mesh bad = good;
       bad.triangles(2, 3) = id;
       const auto write = [&] {
@@ -271,7 +270,7 @@ TEST_CASE("triangles alone are no sites") {
 TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers") {
   const Scratch scratch;
   const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 8, 1000);
-  for (const Kind& kind : kinds) {
+  for (const ExpectedFormat& kind : expected_formats) {
     if (kind.format == Format::triangles)
       continue;
     CAPTURE(int(kind.format));
@@ -281,7 +280,7 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
     };
     if (kind.format != Format::mpas && kind.format != Format::mpas_minimal) {
       CHECK(error_of([&] { write(Numbering::by_format); }).code() == ErrorCode::invalid_argument);
-      CHECK((is_netcdf(kind) || !std::filesystem::exists(path)));
+      CHECK((kind.netcdf() || !std::filesystem::exists(path)));
       continue;
     }
     CHECK(error_of([&] { write(Numbering::curve); }).code() == ErrorCode::invalid_argument);
@@ -307,11 +306,11 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
   calotte::Points2 points(2, 5);
   points << 1, 3, 3, 1, 2, 1, 1, 2, 2, 1.5;
   const calotte::PlanarMesh plane = calotte::planar_delaunay(points);
-  for (const Kind& kind : kinds) {
+  for (const ExpectedFormat& kind : expected_formats) {
     CAPTURE(int(kind.format));
     const std::string path = scratch / kind.file;
     const auto write = [&] { calotte::write(path, plane, {.format = kind.format}); };
-    if (is_netcdf(kind) || info_of(kind.format).cells || kind.format == Format::mpi_scvt) {
+    if (kind.netcdf() || info_of(kind.format).cells || kind.format == Format::mpi_scvt) {
       CHECK(error_of(write).code() == ErrorCode::invalid_argument);
       continue;
     }

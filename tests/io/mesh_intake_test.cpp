@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/format_files.h"
+#include "io/polygon_file.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -119,20 +121,8 @@ Polygons cube_of_quads(int n) {
   return quads;
 }
 
-MeshFile file_of(const Polygons& polygons) {
-  MeshFile file;
-  file.polygons = polygons;
-  file.not_voronoi = "made of quadrilaterals";
-  return file;
-}
-
-struct PolygonFormat {
-  Format format;
-  std::string name;
-};
-
-const std::vector<PolygonFormat> polygon_formats{
-    {Format::ugrid, "cells.nc"}, {Format::scrip, "cells.nc"}, {Format::esmf, "cells.nc"}};
+const std::vector<FormatFile> polygon_files{
+    {"cells.nc", Format::ugrid}, {"cells.nc", Format::scrip}, {"cells.nc", Format::esmf}};
 
 } // namespace
 
@@ -194,7 +184,7 @@ TEST_CASE("cells that are no Voronoi cells keep their shapes from format to form
   const Eigen::VectorXd expected = calotte::areas(quads);
   CHECK(expected.minCoeff() > 0);
   CHECK(expected.sum() == doctest::Approx(4 * std::numbers::pi).epsilon(1e-12));
-  for (const PolygonFormat& from : polygon_formats) {
+  for (const FormatFile& from : polygon_files) {
     CAPTURE(int(from.format));
     const std::string path = scratch / from.name;
     calotte::write(path, file_of(quads), {.format = from.format});
@@ -206,7 +196,7 @@ TEST_CASE("cells that are no Voronoi cells keep their shapes from format to form
     CHECK(read.polygons->corners.cols() == quads.corners.cols());
     REQUIRE(read.polygons->size() == quads.size());
     CHECK((calotte::areas(*read.polygons) - expected).cwiseAbs().maxCoeff() < 1e-13);
-    for (const PolygonFormat& to : polygon_formats) {
+    for (const FormatFile& to : polygon_files) {
       calotte::write(scratch / "other.nc", read, {.format = to.format});
       const MeshFile again = calotte::read_mesh_file(scratch / "other.nc");
       CHECK((calotte::areas(*again.polygons) - expected).cwiseAbs().maxCoeff() < 1e-13);
@@ -262,7 +252,7 @@ TEST_CASE("polygons: all clockwise are turned, both orientations and overlaps ar
     const auto ids = quads.ids[cell];
     std::reverse(ids.begin(), ids.end());
   };
-  for (const PolygonFormat& format : polygon_formats) {
+  for (const FormatFile& format : polygon_files) {
     CAPTURE(int(format.format));
     const std::string path = scratch / format.name;
     Polygons quads = cube_of_quads(3);

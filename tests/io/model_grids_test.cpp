@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/laws.h"
 #include "support/meshes.h"
@@ -14,6 +15,7 @@
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "support/planes.h"
+#include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -26,7 +28,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -36,38 +37,31 @@
 
 namespace fs = std::filesystem;
 using namespace calotte;
+using namespace calotte::test;
 using calotte::base_detail::Vec3;
 using calotte::io_detail::NetcdfAttributes;
 using calotte::io_detail::NetcdfReader;
 using calotte::io_detail::NetcdfType;
 using calotte::io_detail::NetcdfWriter;
 using calotte::io_detail::RawMesh;
-using calotte::test::NamedMesh;
-using calotte::test::Scratch;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-/// Beside those of all formats, with pentagons, spacings that differ, and a cell of more corners
-/// than a byte counts.
-std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = test::closed_meshes();
-  all.push_back({"bisected", spherical_delaunay(bisected_icosahedron(2))});
-  all.push_back({"8:1", spherical_delaunay(test::eight_to_one(200, 5))});
-  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
+std::vector<NamedMesh> tessellated_meshes() {
+  std::vector<NamedMesh> all = uneven_meshes();
+  all.push_back({"bisected", spherical_delaunay(bisected_icosahedron(2))}); // with pentagons
   return all;
 }
 
 // ---- The laws of cells as polygons
 
-struct Polygons {
+struct CellPolygons {
   Points3 centres;
   std::vector<std::vector<Vec3>> corners; ///< of each cell, padding left out
   std::vector<double> areas;              ///< on the unit sphere; none where the file has none
 };
 
-Vec3 centre_of(const Polygons& cells, std::size_t cell) {
+Vec3 centre_of(const CellPolygons& cells, std::size_t cell) {
   return oracle::site(cells.centres, static_cast<std::int64_t>(cell));
 }
 
@@ -78,7 +72,7 @@ double signed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// Seen from its centre, a cell's corners run counter-clockwise: so the centre is inside. Returns
 /// the area. Corners err by some roundings of 360 degrees, 6e-14, as longitudes.
-double require_counter_clockwise(const Polygons& cells, std::size_t cell) {
+double require_counter_clockwise(const CellPolygons& cells, std::size_t cell) {
   const Vec3 centre = centre_of(cells, cell);
   const std::vector<Vec3>& corners = cells.corners[cell];
   double area = 0, turn = 0;
@@ -97,7 +91,7 @@ double require_counter_clockwise(const Polygons& cells, std::size_t cell) {
 
 /// The corners are the sites' circumcentres: three sites are as near as the cell's own, none is
 /// nearer. Those of obtuse triangles err by more than a rounding.
-void require_voronoi(const Polygons& cells) {
+void require_voronoi(const CellPolygons& cells) {
   for (std::size_t cell = 0; cell < cells.corners.size(); ++cell)
     for (const Vec3& corner : cells.corners[cell]) {
       const Eigen::Vector3d place(corner.x, corner.y, corner.z);
@@ -108,7 +102,7 @@ void require_voronoi(const Polygons& cells) {
     }
 }
 
-void require_tessellation(const Polygons& cells, const Mesh& mesh) {
+void require_tessellation(const CellPolygons& cells, const Mesh& mesh) {
   REQUIRE(cells.centres.cols() == mesh.points.cols());
   REQUIRE(std::ssize(cells.corners) == mesh.points.cols());
   double sum = 0;
@@ -219,26 +213,26 @@ std::vector<std::vector<Vec3>> polygons(const NetcdfReader& file, const std::str
   return result;
 }
 
-Polygons ugrid_polygons(const NetcdfReader& file) {
+CellPolygons ugrid_polygons(const NetcdfReader& file) {
   const Points3 nodes = places(file, "mesh_node_lon", "mesh_node_lat");
   return {
       places(file, "mesh_face_lon", "mesh_face_lat"), polygons(file, "mesh_face_nodes", nodes), {}};
 }
 
-Polygons esmf_polygons(const NetcdfReader& file) {
+CellPolygons esmf_polygons(const NetcdfReader& file) {
   const Points3 nodes = places_of_pairs(file, "nodeCoords");
-  Polygons cells{places_of_pairs(file, "centerCoords"), polygons(file, "elementConn", nodes),
-                 file.doubles("elementArea", {-1})};
+  CellPolygons cells{places_of_pairs(file, "centerCoords"), polygons(file, "elementConn", nodes),
+                     file.doubles("elementArea", {-1})};
   const std::vector<std::int32_t> counts = file.ints("numElementConn", {std::ssize(cells.corners)});
   for (std::size_t i = 0; i < counts.size(); ++i)
     REQUIRE(counts[i] == std::ssize(cells.corners[i]));
   return cells;
 }
 
-Polygons scrip_polygons(const NetcdfReader& file) {
-  Polygons cells{places(file, "grid_center_lon", "grid_center_lat"),
-                 {},
-                 file.doubles("grid_area", {file.dimension("grid_size")})};
+CellPolygons scrip_polygons(const NetcdfReader& file) {
+  CellPolygons cells{places(file, "grid_center_lon", "grid_center_lat"),
+                     {},
+                     file.doubles("grid_area", {file.dimension("grid_size")})};
   const std::int64_t size = file.dimension("grid_size"), most = file.dimension("grid_corners");
   const Points3 corners = places(file.doubles("grid_corner_lon", {size, most}),
                                  file.doubles("grid_corner_lat", {size, most}));
@@ -285,40 +279,31 @@ Points3 on_sphere(const Mesh& mesh, double radius) {
 // ---- Bad files
 
 /// The C library's own hand: what our writer would never write.
-struct Patch {
-  int id = -1;
-  explicit Patch(const std::string& path) { require(nc_open(path.c_str(), NC_WRITE, &id)); }
-  Patch(const Patch&) = delete;
-  Patch& operator=(const Patch&) = delete;
-  ~Patch() { require(nc_close(id)); }
-  static void require(int code) { REQUIRE(code == NC_NOERR); }
+struct EditedFile : Patch {
+  using Patch::attribute;
+  using Patch::Patch;
   int variable(const std::string& name) const {
     int found = -1;
-    require(nc_inq_varid(id, name.c_str(), &found));
+    require(nc_inq_varid(id(), name.c_str(), &found));
     return found;
   }
   void rename(const std::string& name, const std::string& to) const {
-    require(nc_redef(id));
-    require(nc_rename_var(id, variable(name), to.c_str()));
-    require(nc_enddef(id));
-  }
-  void attribute(const std::string& name, const std::string& key, const std::string& text) const {
-    require(nc_redef(id));
-    require(nc_put_att_text(id, variable(name), key.c_str(), text.size(), text.data()));
-    require(nc_enddef(id));
+    require(nc_redef(id()));
+    require(nc_rename_var(id(), variable(name), to.c_str()));
+    require(nc_enddef(id()));
   }
   void attribute(const std::string& name, const std::string& key, int number) const {
-    require(nc_put_att_int(id, variable(name), key.c_str(), NC_INT, 1, &number));
+    require(nc_put_att_int(id(), variable(name), key.c_str(), NC_INT, 1, &number));
   }
   void put(const std::string& name, std::vector<std::size_t> index, double value) const {
-    require(nc_put_var1_double(id, variable(name), index.data(), &value));
+    require(nc_put_var1_double(id(), variable(name), index.data(), &value));
   }
 };
 
 /// One line that starts with the path and holds these words.
-void check_bad(const std::string& path, Read read, const std::string& words) {
+void check_bad_file(const std::string& path, Read read, const std::string& words) {
   CAPTURE(words);
-  const Error error = test::error_of([&] { read(NetcdfReader(path), calotte::FieldChoice::all); });
+  const Error error = error_of([&] { read(NetcdfReader(path), calotte::FieldChoice::all); });
   const std::string message = error.what();
   CAPTURE(message);
   CHECK(error.code() == ErrorCode::parse);
@@ -376,7 +361,7 @@ struct Foreign {
 };
 
 /// The triangles of a mesh as another's faces.
-std::vector<std::vector<double>> faces_of(const Mesh& mesh, int start_index) {
+std::vector<std::vector<double>> foreign_faces(const Mesh& mesh, int start_index) {
   std::vector<std::vector<double>> faces;
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
     faces.emplace_back();
@@ -391,7 +376,7 @@ std::vector<std::vector<double>> faces_of(const Mesh& mesh, int start_index) {
 TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
   const Scratch scratch;
   const WriteOptions options{.sphere_radius = 6371220, .history = "made by a test\nfrom nothing"};
-  for (const NamedMesh& c : meshes()) {
+  for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     write_ugrid(scratch / "ugrid.nc", c.mesh, options);
     write_scrip(scratch / "scrip.nc", c.mesh, options);
@@ -431,7 +416,7 @@ TEST_CASE("UGRID says what its variables are") {
 
 TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
   const Scratch scratch;
-  for (const NamedMesh& c : meshes()) {
+  for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     io_detail::write_ugrid_triangles(scratch / "grid.nc", c.mesh, {.history = "a test"});
     const NetcdfReader file(scratch / "grid.nc");
@@ -474,7 +459,7 @@ TEST_CASE("SCRIP and ESMF describe their cells") {
 
 TEST_CASE("UGRID gives the mesh back to the bit") {
   const Scratch scratch;
-  for (const NamedMesh& c : meshes()) {
+  for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     for (const Write write : {write_ugrid, io_detail::write_ugrid_triangles}) {
       // Unit columns stay as they are, whatever their last bits; others come to the radius and
@@ -499,7 +484,7 @@ TEST_CASE("UGRID gives the mesh back to the bit") {
 
 TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
   const Scratch scratch;
-  for (const NamedMesh& c : meshes()) {
+  for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     for (const RawMesh& raw :
          {written_and_read(scratch / "a.nc", c.mesh, write_scrip, io_detail::read_scrip),
@@ -559,7 +544,7 @@ TEST_CASE("places computed together have the bits of single ones") {
 
 TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no other cells") {
   int found = 0;
-  for (const NamedMesh& c : meshes()) {
+  for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     const Points3 centres = c.mesh.points;
     const calotte::Polygons cells = io_detail::polygons_of(voronoi(c.mesh));
@@ -643,12 +628,13 @@ TEST_CASE("UGRID of others") {
     CHECK((raw.points - mesh.points).cwiseAbs().maxCoeff() < 2e-15);
     CHECK(test::same_bits(raw.triangles, triangles));
   };
-  check_read({.faces = faces_of(mesh, 0)}, mesh.triangles);
-  check_read({.faces = faces_of(mesh, 1), .start_index = 1}, mesh.triangles);
-  check_read({.faces = faces_of(mesh, 0), .faces_last = true}, mesh.triangles);
-  check_read({.faces = faces_of(mesh, 0), .latitude_first = true, .radians = true}, mesh.triangles);
+  check_read({.faces = foreign_faces(mesh, 0)}, mesh.triangles);
+  check_read({.faces = foreign_faces(mesh, 1), .start_index = 1}, mesh.triangles);
+  check_read({.faces = foreign_faces(mesh, 0), .faces_last = true}, mesh.triangles);
+  check_read({.faces = foreign_faces(mesh, 0), .latitude_first = true, .radians = true},
+             mesh.triangles);
 
-  auto padded = faces_of(mesh, 0);
+  auto padded = foreign_faces(mesh, 0);
   for (auto& face : padded)
     face.push_back(-0x1p63);
   check_read({.faces = padded, .fill = -0x1p63}, mesh.triangles);
@@ -665,7 +651,7 @@ TEST_CASE("UGRID of others") {
 
   SUBCASE("poles in radians") {
     mesh = spherical_delaunay(test::octahedron());
-    check_read({.faces = faces_of(mesh, 0), .radians = true}, mesh.triangles);
+    check_read({.faces = foreign_faces(mesh, 0), .radians = true}, mesh.triangles);
   }
 }
 
@@ -719,56 +705,57 @@ TEST_CASE("bad UGRID files end in one line") {
   const std::string path = scratch / "a.nc";
   const auto check_patched = [&](const auto& patch, const std::string& words) {
     write_ugrid(path, mesh, {});
-    patch(Patch(path));
-    check_bad(path, io_detail::read_ugrid, words);
+    patch(EditedFile(path));
+    check_bad_file(path, io_detail::read_ugrid, words);
   };
   const std::string ids = "mesh_face_nodes";
   check_patched(
-      [&](const Patch& p) {
+      [&](const EditedFile& p) {
         p.put(ids, {7, 1}, 56);
       },
       ids + " of face 7 (0-based) has 56, which is not one of the 56 nodes from 0 on");
-  check_patched([&](const Patch& p) { p.put(ids, {7, 1}, -2); }, "face 7 (0-based) has -2");
+  check_patched([&](const EditedFile& p) { p.put(ids, {7, 1}, -2); }, "face 7 (0-based) has -2");
   check_patched(
-      [&](const Patch& p) {
+      [&](const EditedFile& p) {
         p.put(ids, {7, 1}, -1);
       },
       ids + " of face 7 (0-based) does not start with three or more nodes");
   check_patched(
-      [&](const Patch& p) {
+      [&](const EditedFile& p) {
         p.put(ids, {7, 0}, (mesh.triangles(0, 0) == 7) ? 1 : 0);
       },
       "the faces around node ");
-  check_patched([&](const Patch& p) { p.rename(ids, "others"); }, "no variable " + ids);
-  check_patched([](const Patch& p) { p.rename("mesh_face_y", "others"); },
+  check_patched([&](const EditedFile& p) { p.rename(ids, "others"); }, "no variable " + ids);
+  check_patched([](const EditedFile& p) { p.rename("mesh_face_y", "others"); },
                 "no variable mesh_face_y");
-  check_patched([](const Patch& p) { p.rename("mesh_node_lon", "others"); },
+  check_patched([](const EditedFile& p) { p.rename("mesh_node_lon", "others"); },
                 "no variable mesh_node_lon");
-  check_patched([](const Patch& p) { p.attribute("mesh", "node_coordinates", "mesh_node_lon"); },
-                "node_coordinates of the mesh variable mesh are not the names of two variables");
-  check_patched([](const Patch& p) { p.attribute("mesh", "face_node_connectivity", ""); },
+  check_patched(
+      [](const EditedFile& p) { p.attribute("mesh", "node_coordinates", "mesh_node_lon"); },
+      "node_coordinates of the mesh variable mesh are not the names of two variables");
+  check_patched([](const EditedFile& p) { p.attribute("mesh", "face_node_connectivity", ""); },
                 "names no face_node_connectivity");
   check_patched(
-      [&](const Patch& p) { p.attribute("mesh", "face_node_connectivity", "mesh_face_x"); },
+      [&](const EditedFile& p) { p.attribute("mesh", "face_node_connectivity", "mesh_face_x"); },
       "mesh_face_x has the shape (30)");
-  check_patched([](const Patch& p) { p.attribute("mesh", "site_coordinates", "a b"); },
+  check_patched([](const EditedFile& p) { p.attribute("mesh", "site_coordinates", "a b"); },
                 "site_coordinates of the mesh variable mesh are not the names of three");
 
-  Foreign foreign{.faces = faces_of(mesh, 0)};
+  Foreign foreign{.faces = foreign_faces(mesh, 0)};
   foreign.start_index = 1;
   foreign.write(path, mesh.points);
-  check_bad(path, io_detail::read_ugrid, "which is not one of the 30 nodes from 1 on");
+  check_bad_file(path, io_detail::read_ugrid, "which is not one of the 30 nodes from 1 on");
   foreign.start_index = 0;
   foreign.write(path, mesh.points);
-  Patch(path).put("north", {4}, 90.001);
-  check_bad(path, io_detail::read_ugrid,
-            "east and north hold no place on the sphere at index 4 (0-based)");
+  EditedFile(path).put("north", {4}, 90.001);
+  check_bad_file(path, io_detail::read_ugrid,
+                 "east and north hold no place on the sphere at index 4 (0-based)");
   foreign.write(path, mesh.points);
-  Patch(path).put("east", {4}, std::numeric_limits<double>::infinity());
-  check_bad(path, io_detail::read_ugrid, "no place on the sphere at index 4");
+  EditedFile(path).put("east", {4}, std::numeric_limits<double>::infinity());
+  check_bad_file(path, io_detail::read_ugrid, "no place on the sphere at index 4");
   foreign.write(path, mesh.points);
-  Patch(path).attribute("east", "units", "km");
-  check_bad(path, io_detail::read_ugrid, "the units of east are \"km\"");
+  EditedFile(path).attribute("east", "units", "km");
+  check_bad_file(path, io_detail::read_ugrid, "the units of east are \"km\"");
 }
 
 TEST_CASE("bad SCRIP and ESMF files end in one line") {
@@ -776,28 +763,28 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
   const Mesh mesh = spherical_delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   write_scrip(path, mesh, {});
-  Patch(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
-  check_bad(path, io_detail::read_scrip, "grid_center_lon and grid_center_lat hold no place");
-  Patch(path).rename("grid_center_lat", "others");
+  EditedFile(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
+  check_bad_file(path, io_detail::read_scrip, "grid_center_lon and grid_center_lat hold no place");
+  EditedFile(path).rename("grid_center_lat", "others");
   CHECK(io_detail::is_scrip(NetcdfReader(path)));
-  check_bad(path, io_detail::read_scrip, "no variable grid_center_lat");
-  Patch(path).rename("grid_corner_lat", "grid_center_lat");
-  check_bad(path, io_detail::read_scrip, "grid_center_lat has the shape (30, ");
+  check_bad_file(path, io_detail::read_scrip, "no variable grid_center_lat");
+  EditedFile(path).rename("grid_corner_lat", "grid_center_lat");
+  check_bad_file(path, io_detail::read_scrip, "grid_center_lat has the shape (30, ");
 
   write_esmf(path, mesh, {});
-  Patch(path).put("centerCoords", {3, 1}, -91);
-  check_bad(path, io_detail::read_esmf, "centerCoords hold no place on the sphere at index 3");
-  Patch(path).rename("centerCoords", "others");
+  EditedFile(path).put("centerCoords", {3, 1}, -91);
+  check_bad_file(path, io_detail::read_esmf, "centerCoords hold no place on the sphere at index 3");
+  EditedFile(path).rename("centerCoords", "others");
   CHECK(io_detail::is_esmf(NetcdfReader(path)));
   CHECK(io_detail::read_esmf(NetcdfReader(path)).polygons.size() == 30);
-  Patch(path).put("elementConn", {3, 0}, 400);
-  check_bad(path, io_detail::read_esmf, "element 3 (0-based) has node 400 in elementConn");
-  Patch(path).put("elementConn", {3, 0}, std::numeric_limits<std::int32_t>::min());
-  check_bad(path, io_detail::read_esmf, "element 3 (0-based) has node -2147483648");
-  Patch(path).attribute("elementConn", "start_index", -2147483647);
-  check_bad(path, io_detail::read_esmf, "start_index of elementConn is neither 0 nor 1");
-  Patch(path).rename("elementConn", "centerCoords");
-  check_bad(path, io_detail::read_esmf, "centerCoords has the shape (30, ");
+  EditedFile(path).put("elementConn", {3, 0}, 400);
+  check_bad_file(path, io_detail::read_esmf, "element 3 (0-based) has node 400 in elementConn");
+  EditedFile(path).put("elementConn", {3, 0}, std::numeric_limits<std::int32_t>::min());
+  check_bad_file(path, io_detail::read_esmf, "element 3 (0-based) has node -2147483648");
+  EditedFile(path).attribute("elementConn", "start_index", -2147483647);
+  check_bad_file(path, io_detail::read_esmf, "start_index of elementConn is neither 0 nor 1");
+  EditedFile(path).rename("elementConn", "centerCoords");
+  check_bad_file(path, io_detail::read_esmf, "centerCoords has the shape (30, ");
 }
 
 TEST_CASE("truncated files end in one line") {
@@ -814,7 +801,7 @@ TEST_CASE("truncated files end in one line") {
     for (auto size = fs::file_size(path); size > 0;) {
       size -= std::min<std::uintmax_t>(size, 97);
       fs::resize_file(path, size);
-      check_bad(path, read, "cut short");
+      check_bad_file(path, read, "cut short");
     }
   }
 }

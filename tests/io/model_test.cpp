@@ -44,7 +44,7 @@ std::size_t dimension_of(const std::string& path, const std::string& name) {
   return size;
 }
 
-double number(const std::string& path, const std::string& variable) {
+double first_value(const std::string& path, const std::string& variable) {
   Mpas file(path);
   return file.at(variable, 0);
 }
@@ -136,9 +136,10 @@ TEST_CASE("cull converts lengths and areas to another radius") {
   options.sphere_radius = radius;
   CHECK(cull(whole, sea, options).sphere_radius == radius);
   check_none(sea);
-  CHECK(number(sea, "dcEdge") == doctest::Approx(radius * number(same, "dcEdge")).epsilon(1e-14));
-  CHECK(number(sea, "areaCell") ==
-        doctest::Approx(radius * radius * number(same, "areaCell")).epsilon(1e-14));
+  CHECK(first_value(sea, "dcEdge") ==
+        doctest::Approx(radius * first_value(same, "dcEdge")).epsilon(1e-14));
+  CHECK(first_value(sea, "areaCell") ==
+        doctest::Approx(radius * radius * first_value(same, "areaCell")).epsilon(1e-14));
   CHECK(read_mesh_file(sea).sphere_radius == radius);
   options.sphere_radius = -1;
   CHECK(error_of([&] { cull(whole, sea, options); }).code() == ErrorCode::invalid_argument);
@@ -160,10 +161,10 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
     CutOptions options;
     options.sphere_radius = radius;
     write_limited_area(path, grid.mesh, region, {}, options);
-    CHECK(number(path, "nominalMinDc") == doctest::Approx(median_of_dc(path)).epsilon(0.02));
+    CHECK(first_value(path, "nominalMinDc") == doctest::Approx(median_of_dc(path)).epsilon(0.02));
     // Hexagons of the disc's area: what the run was asked for.
     const double area = 2 * std::numbers::pi * (1 - std::cos(0.5)) / 3000;
-    CHECK(number(path, "nominalMinDc") ==
+    CHECK(first_value(path, "nominalMinDc") ==
           doctest::Approx(radius * std::sqrt(2 * area / std::numbers::sqrt3)).epsilon(0.02));
     check_none(path);
   }

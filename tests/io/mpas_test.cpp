@@ -6,7 +6,9 @@
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "mesh/adjacency.h"
+#include "support/constants.h"
 #include "support/files.h"
+#include "support/full_disk.h"
 #include "support/planes.h"
 
 #include <calotte/cvt.h>
@@ -21,12 +23,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -34,17 +34,18 @@
 
 namespace fs = std::filesystem;
 using namespace calotte;
+using namespace calotte::test;
 using base_detail::Vec3;
-using calotte::test::error_of;
-using calotte::test::Scratch;
 using io_detail::NetcdfReader;
 using io_detail::NetcdfType;
 using io_detail::NetcdfWriter;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double epsilon = 0x1p-52;
+
+/// The laws of a file as a model reads it.
+namespace mpas_laws {
 
 // ---- A file as a model reads it
 
@@ -558,16 +559,18 @@ void check_file(const std::string& path, const WriteOptions& options) {
   check_graph(grid, fs::path(path).replace_extension(".graph.info"));
 }
 
+} // namespace mpas_laws
+
 // ---- Meshes
 
-Density x8() { return tanh_bump({0.3, -0.5, 0.8}, pi / 6, 0.2, 1.0 / 4096); }
+Density oblique_x8() { return tanh_bump({0.3, -0.5, 0.8}, pi / 6, 0.2, 1.0 / 4096); }
 
 Mesh x8_mesh(std::int64_t cells, int bisections, int iterations) {
   CvtOptions options;
-  options.density = x8();
+  options.density = oblique_x8();
   options.max_iterations = iterations;
   options.bisections = bisections;
-  return spherical_cvt(random_sphere(cells, site_density(x8()), 5), options).mesh;
+  return spherical_cvt(random_sphere(cells, site_density(oblique_x8()), 5), options).mesh;
 }
 
 struct Case {
@@ -588,7 +591,7 @@ std::vector<Case> cases() {
            options(1, {}, "seed 1\ntwo lines")},
           {"icosahedral, of the Earth", spherical_delaunay(bisected_icosahedron(3)),
            options(6371229, {}, "Earth")},
-          {"x8", x8_mesh(2562, 0, 12), options(6371229, x8(), "x8")},
+          {"x8", x8_mesh(2562, 0, 12), options(6371229, oblique_x8(), "x8")},
           {"random", spherical_delaunay(random_sphere(1500, 7)), options(1, {}, "random")},
           {"longitudes and latitudes", spherical_delaunay(lat_lon_sphere(19, 40, true)),
            options(1, {}, "lat-lon")},
@@ -605,18 +608,6 @@ Mesh read_back(const std::string& path, const Mesh& like) {
   return mesh;
 }
 
-/// A limit on the size of files stands for a full disk.
-template <class Work> void on_a_full_disk(rlim_t bytes, Work work) {
-  rlimit before{};
-  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit tight{bytes, before.rlim_max};
-  REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-  work();
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, handler);
-}
-
 } // namespace
 
 TEST_CASE("the full file obeys every rule of an MPAS mesh") {
@@ -624,7 +615,7 @@ TEST_CASE("the full file obeys every rule of an MPAS mesh") {
   for (const Case& of : cases()) {
     CAPTURE(of.name);
     io_detail::write_mpas(scratch / "a.nc", of.mesh, of.options);
-    check_file(scratch / "a.nc", of.options);
+    mpas_laws::check_file(scratch / "a.nc", of.options);
   }
 }
 
@@ -634,17 +625,18 @@ TEST_CASE("so does that of a periodic plane") {
   options.history = "hexagons";
   const PlanarMesh mesh = periodic_hexagons(7, 10, 1000);
   io_detail::write_mpas(scratch / "a.nc", mesh, options);
-  check_file(scratch / "a.nc", options);
+  mpas_laws::check_file(scratch / "a.nc", options);
 
   // A uniform wind's tangential velocities come back from its normal ones.
-  const Grid grid(scratch / "a.nc");
+  const mpas_laws::Grid grid(scratch / "a.nc");
   const auto angle = grid.file.doubles("angleEdge"), weights = grid.file.doubles("weightsOnEdge");
   const auto count = grid.file.ints("nEdgesOnEdge"), edges = grid.file.ints("edgesOnEdge");
   for (std::int64_t e = 0; e < std::ssize(grid.edges); ++e) {
     double tangential = 0;
     for (std::int64_t k = 0; k < count(e); ++k)
       tangential += weights(e, k) * std::cos(angle(edges(e, k) - 1) - 0.7);
-    law(near(tangential, -std::sin(angle(e) - 0.7), 1e-12), "the tangential velocity", e);
+    mpas_laws::law(mpas_laws::near(tangential, -std::sin(angle(e) - 0.7), 1e-12),
+                   "the tangential velocity", e);
   }
 }
 
@@ -653,12 +645,12 @@ TEST_CASE("the full file of 40 962 cells, x8, obeys every rule [slow]") {
   const Scratch scratch;
   WriteOptions options;
   options.sphere_radius = 6371229;
-  options.density = x8();
+  options.density = oblique_x8();
   options.history = "x8";
   const Mesh mesh = x8_mesh(2562, 2, 10);
   REQUIRE(mesh.points.cols() == 40'962);
   io_detail::write_mpas(scratch / "a.nc", mesh, options);
-  check_file(scratch / "a.nc", options);
+  mpas_laws::check_file(scratch / "a.nc", options);
 }
 
 TEST_CASE("a minimal file holds the same cells and vertices") {
@@ -668,7 +660,7 @@ TEST_CASE("a minimal file holds the same cells and vertices") {
     io_detail::write_mpas(scratch / "full.nc", of.mesh, of.options);
     io_detail::write_mpas_minimal(scratch / "grid.nc", of.mesh, of.options);
     CHECK(!fs::exists(scratch / "grid.graph.info"));
-    const File full(scratch / "full.nc"), minimal(scratch / "grid.nc");
+    const mpas_laws::File full(scratch / "full.nc"), minimal(scratch / "grid.nc");
     const std::vector<std::string> expected{"xCell",   "yCell",   "zCell",         "xVertex",
                                             "yVertex", "zVertex", "cellsOnVertex", "meshDensity"};
     CHECK(minimal.reader.variable_names() == expected);
@@ -704,7 +696,7 @@ TEST_CASE("a mesh keeps its bits in a round trip, and so does its file") {
                   .cwiseAbs()
                   .maxCoeff() <= 4 * epsilon);
       write(scratch / "b.nc", back, of.options);
-      CHECK(read_file(scratch / "b.nc") == read_file(scratch / "a.nc"));
+      CHECK(test::read_file(scratch / "b.nc") == test::read_file(scratch / "a.nc"));
     }
 }
 
@@ -723,7 +715,7 @@ TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file
     CHECK(back.neighbours == mesh.neighbours);
     CHECK(back.period == mesh.period);
     write("b.nc", back);
-    CHECK(read_file(scratch / "b.nc") == read_file(scratch / "a.nc"));
+    CHECK(test::read_file(scratch / "b.nc") == test::read_file(scratch / "a.nc"));
   }
 }
 
@@ -734,7 +726,7 @@ TEST_CASE("the same bytes for any number of threads, another file_id for another
     tbb::task_arena(threads).execute(
         [&] { io_detail::write_mpas(scratch / (std::to_string(threads) + ".nc"), mesh, {}); });
   for (const std::string suffix : {".nc", ".graph.info"})
-    CHECK(read_file(scratch / ("3" + suffix)) == read_file(scratch / ("1" + suffix)));
+    CHECK(test::read_file(scratch / ("3" + suffix)) == test::read_file(scratch / ("1" + suffix)));
 
   std::set<std::string> ids;
   for (int seed = 0; seed < 4; ++seed) {
@@ -749,21 +741,22 @@ TEST_CASE("a full disk leaves the old mesh and its graph") {
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(bisected_icosahedron(3));
   io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
-  const std::string before = read_file(scratch / "a.nc"),
-                    graph = read_file(scratch / "a.graph.info");
+  const std::string before = test::read_file(scratch / "a.nc"),
+                    graph = test::read_file(scratch / "a.graph.info");
   for (const rlim_t bytes : {rlim_t{1'000}, rlim_t{30'000}, rlim_t{400'000}}) {
     std::string message;
-    on_a_full_disk(bytes, [&] {
+    {
+      const FullDisk disk(bytes);
       try {
         io_detail::write_mpas(scratch / "a.nc", mesh, {});
       } catch (const Error& error) {
         message = error.what();
       }
-    });
+    }
     CHECK(message.ends_with(": File too large; make room or write elsewhere"));
     CHECK(scratch.files() == 2);
-    CHECK(read_file(scratch / "a.nc") == before);
-    CHECK(read_file(scratch / "a.graph.info") == graph);
+    CHECK(test::read_file(scratch / "a.nc") == before);
+    CHECK(test::read_file(scratch / "a.graph.info") == graph);
   }
 }
 
@@ -771,8 +764,8 @@ TEST_CASE("an error while a file is written leaves the old mesh and its graph") 
   const Scratch scratch;
   const Mesh mesh = spherical_delaunay(bisected_icosahedron(5)); // of several blocks
   io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
-  const std::string before = read_file(scratch / "a.nc"),
-                    graph = read_file(scratch / "a.graph.info");
+  const std::string before = test::read_file(scratch / "a.nc"),
+                    graph = test::read_file(scratch / "a.graph.info");
   WriteOptions options;
   options.density.kind = Density::Kind::callable;
   options.density.callable = [](const auto&, Eigen::Ref<Eigen::VectorXd> rho) { rho.setZero(); };
@@ -781,8 +774,8 @@ TEST_CASE("an error while a file is written leaves the old mesh and its graph") 
     CHECK_THROWS_WITH_AS(write(scratch / "a.nc", mesh, options),
                          doctest::Contains("zero at every cell"), Error);
     CHECK(scratch.files() == 2);
-    CHECK(read_file(scratch / "a.nc") == before);
-    CHECK(read_file(scratch / "a.graph.info") == graph);
+    CHECK(test::read_file(scratch / "a.nc") == before);
+    CHECK(test::read_file(scratch / "a.graph.info") == graph);
   }
 }
 
@@ -866,7 +859,7 @@ TEST_CASE("files that are not as they should be end in one line") {
 TEST_CASE("a file cut short anywhere is refused") {
   const Scratch scratch;
   io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
-  const std::string whole = read_file(scratch / "a.nc");
+  const std::string whole = test::read_file(scratch / "a.nc");
   for (std::size_t length = 0; length < whole.size(); length += 197) {
     CAPTURE(length);
     std::ofstream(scratch / "cut.nc", std::ios::binary) << whole.substr(0, length);

@@ -35,19 +35,18 @@ using calotte::io_detail::NetcdfReader;
 using calotte::io_detail::NetcdfType;
 using calotte::io_detail::NetcdfWriter;
 using calotte::test::error_of;
-using calotte::test::read_file;
 using calotte::test::Scratch;
 
 namespace {
 
 double value_at(std::int64_t i) { return i % 7 == 0 ? -0.0 : 1.0 / static_cast<double>(i); }
 
-constexpr std::int64_t rows = 50'001;
+constexpr std::int64_t sample_rows = 50'001;
 
 /// Variables of all types and shapes, more rows than a block holds, odd lengths that need padding.
 void write_sample(const std::string& path) {
   NetcdfWriter file(path);
-  const int n = file.dimension("n", rows), three = file.dimension("three", 3);
+  const int n = file.dimension("n", sample_rows), three = file.dimension("three", 3);
   file.dimension("Time", 0);
   file.attribute({"title", std::string("a sample")});
   file.attribute({"radius", 6371229.0});
@@ -72,10 +71,10 @@ void write_sample(const std::string& path) {
            }));
   file.put(ids, NetcdfWriter::Fill<std::int32_t>([](auto begin, auto end, auto* out) {
              for (auto i = 3 * begin; i < 3 * end; ++i)
-               *out++ = static_cast<std::int32_t>(3 * i - rows);
+               *out++ = static_cast<std::int32_t>(3 * i - sample_rows);
            }));
   file.put(cube, NetcdfWriter::Fill<double>([](auto begin, auto end, auto* out) {
-             for (auto i = 3 * rows * begin; i < 3 * rows * end; ++i)
+             for (auto i = 3 * sample_rows * begin; i < 3 * sample_rows * end; ++i)
                *out++ = value_at(i);
            }));
   file.commit();
@@ -141,28 +140,28 @@ TEST_CASE("the C library reads what was written, bit for bit") {
   const Scratch scratch;
   write_sample(scratch / "a.nc");
   CHECK(scratch.files() == 1);
-  CHECK(read_file(scratch / "a.nc").substr(0, 4) == std::string("CDF\2"));
+  CHECK(calotte::test::read_file(scratch / "a.nc").substr(0, 4) == std::string("CDF\2"));
   const Opened file(scratch / "a.nc");
 
   int number = 0;
   CHECK(nc_get_var_int(file.id, file.variable("scalar"), &number) == NC_NOERR);
   CHECK(number == -77);
-  std::vector<signed char> bytes(rows);
+  std::vector<signed char> bytes(sample_rows);
   CHECK(nc_get_var_schar(file.id, file.variable("bytes"), bytes.data()) == NC_NOERR);
-  std::vector<double> doubles(rows), cube(9 * rows);
+  std::vector<double> doubles(sample_rows), cube(9 * sample_rows);
   CHECK(nc_get_var_double(file.id, file.variable("doubles"), doubles.data()) == NC_NOERR);
   CHECK(nc_get_var_double(file.id, file.variable("cube"), cube.data()) == NC_NOERR);
-  std::vector<int> ids(3 * rows);
+  std::vector<int> ids(3 * sample_rows);
   CHECK(nc_get_var_int(file.id, file.variable("ids"), ids.data()) == NC_NOERR);
   bool right = true;
   const auto same = [](double a, double b) { return a == b && std::signbit(a) == std::signbit(b); };
-  for (std::int64_t i = 0; i < 9 * rows; ++i) {
+  for (std::int64_t i = 0; i < 9 * sample_rows; ++i) {
     const auto k = static_cast<std::size_t>(i);
     right = right && same(cube[k], value_at(i));
-    if (i < rows)
+    if (i < sample_rows)
       right = right && bytes[k] == i % 100 - 50 && same(doubles[k], value_at(i));
-    if (i < 3 * rows)
-      right = right && ids[k] == 3 * i - rows;
+    if (i < 3 * sample_rows)
+      right = right && ids[k] == 3 * i - sample_rows;
   }
   CHECK(right);
 
@@ -182,9 +181,9 @@ TEST_CASE("the reader tells names, shapes, attributes and values") {
   CHECK(file.has_variable("ids"));
   CHECK(!file.has_variable("id"));
   CHECK(file.shape_of("scalar").empty());
-  CHECK(file.shape_of("ids") == std::vector<std::int64_t>{rows, 3});
+  CHECK(file.shape_of("ids") == std::vector<std::int64_t>{sample_rows, 3});
   CHECK(file.dimensions_of("ids") == std::vector<std::string>{"n", "three"});
-  CHECK(file.dimension("n") == rows);
+  CHECK(file.dimension("n") == sample_rows);
   CHECK(file.dimension("Time") == 0);
   CHECK(file.dimension("m") == -1);
   CHECK(file.text("", "title") == "a sample");
@@ -201,9 +200,9 @@ TEST_CASE("the reader tells names, shapes, attributes and values") {
   CHECK(file.number("doubles", "nothing", 5) == 5);
 
   CHECK(file.ints("scalar", {}) == std::vector<std::int32_t>{-77});
-  CHECK(file.ints("bytes", {rows})[99] == 49);
-  CHECK(file.ints("ids", {-1, 3})[1] == 3 - rows);
-  CHECK(file.doubles("ids", {rows, 3})[2] == 6 - rows);
+  CHECK(file.ints("bytes", {sample_rows})[99] == 49);
+  CHECK(file.ints("ids", {-1, 3})[1] == 3 - sample_rows);
+  CHECK(file.doubles("ids", {sample_rows, 3})[2] == 6 - sample_rows);
   CHECK(file.doubles("doubles", {-1})[3] == value_at(3));
 }
 
@@ -211,14 +210,14 @@ TEST_CASE("the same bytes for any number of threads") {
   const Scratch scratch;
   for (const int threads : {1, 2, 5})
     tbb::task_arena(threads).execute([&] { write_sample(scratch / std::to_string(threads)); });
-  CHECK(read_file(scratch / "1") == read_file(scratch / "2"));
-  CHECK(read_file(scratch / "1") == read_file(scratch / "5"));
+  CHECK(calotte::test::read_file(scratch / "1") == calotte::test::read_file(scratch / "2"));
+  CHECK(calotte::test::read_file(scratch / "1") == calotte::test::read_file(scratch / "5"));
 }
 
 TEST_CASE("files are written and read from several threads at a time") {
   const Scratch scratch;
   write_sample(scratch / "expected");
-  const std::string expected = read_file(scratch / "expected");
+  const std::string expected = calotte::test::read_file(scratch / "expected");
   std::atomic<int> right = 0;
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i)
@@ -226,8 +225,8 @@ TEST_CASE("files are written and read from several threads at a time") {
       const std::string path = scratch / std::to_string(i);
       for (int round = 0; round < 2; ++round) {
         write_sample(path);
-        const bool found = NetcdfReader(path).ints("ids", {-1, 3}).size() == 3 * rows;
-        right += found && read_file(path) == expected ? 1 : 0;
+        const bool found = NetcdfReader(path).ints("ids", {-1, 3}).size() == 3 * sample_rows;
+        right += found && calotte::test::read_file(path) == expected ? 1 : 0;
       }
     });
   for (std::thread& thread : threads)
@@ -286,7 +285,7 @@ TEST_CASE("a disk that fills up keeps the old file and removes the new one") {
     CHECK(message ==
           "cannot write " + (scratch / "a.nc") + ": File too large; make room or write elsewhere");
     CHECK(scratch.files() == 1);
-    CHECK(read_file(scratch / "a.nc") == "old");
+    CHECK(calotte::test::read_file(scratch / "a.nc") == "old");
   }
 }
 
@@ -365,7 +364,7 @@ TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
         std::string::npos);
 
   write_sample(scratch / "a.nc");
-  const std::string whole = read_file(scratch / "a.nc");
+  const std::string whole = calotte::test::read_file(scratch / "a.nc");
   calotte::write_file(scratch / "cut", whole.substr(0, whole.size() - 1));
   CHECK(message(scratch / "cut", ErrorCode::parse) ==
         (scratch / "cut") + ": it is cut short: cube is incomplete; make it again");
@@ -384,7 +383,7 @@ TEST_CASE("missing, invalid and truncated NetCDF files are refused") {
 TEST_CASE("damaged headers are read or refused; what is read, the C library reads, too") {
   const Scratch scratch;
   write_sample(scratch / "a.nc");
-  const std::string whole = read_file(scratch / "a.nc");
+  const std::string whole = calotte::test::read_file(scratch / "a.nc");
   const auto header = static_cast<int>(
       calotte::io_detail::classic_header(calotte::io_detail::FileReader(scratch / "a.nc")).bytes);
   calotte::test::Random random(7);
@@ -417,7 +416,7 @@ TEST_CASE("names that occur twice or are no UTF-8, and types that there are not,
     nc_def_dim(id, "bbbb", 4, &second);
     nc_def_var(id, "vvvv", NC_DOUBLE, 1, &first, &v);
   });
-  const std::string whole = read_file(path);
+  const std::string whole = calotte::test::read_file(path);
   const auto message = [&](const std::string& from, const std::string& to) {
     std::string damaged = whole;
     damaged.replace(damaged.find(from), from.size(), to);
@@ -481,7 +480,7 @@ TEST_CASE("files that others wrote: every classic format, padded headers, record
           CHECK(file.ints("w", file.shape_of("w")).back() == 2);
           CHECK(file.dimension("Time") == (records ? 3 : 0));
         }
-        const std::string whole = read_file(path);
+        const std::string whole = calotte::test::read_file(path);
         for (std::size_t cut = 1; cut < 70; cut += 3) {
           std::ofstream(scratch / "cut", std::ios::binary) << whole.substr(0, whole.size() - cut);
           error_of([&] { NetcdfReader reader(scratch / "cut"); });
@@ -532,10 +531,11 @@ TEST_CASE("values of every type, alone, in records and beside others, are the C 
         REQUIRE(nc_get_var_int(opened.id, v, ints.data()) == NC_NOERR);
         CHECK(file.doubles(name, shape) == doubles);
         CHECK(file.ints(name, shape) == ints);
-        std::vector<double> rows(doubles.end() - doubles.size() / 4, doubles.end()), read(rows);
+        std::vector<double> sample_rows(doubles.end() - doubles.size() / 4, doubles.end()),
+            read(sample_rows);
         std::fill(read.begin(), read.end(), -1);
         file.rows(name, shape[0] - shape[0] / 4, shape[0] / 4, read.data());
-        CHECK(read == rows);
+        CHECK(read == sample_rows);
         // From within a record to within another, as a subset takes them.
         const std::int64_t size =
             calotte::io_detail::size_of(*file.variables()[static_cast<std::size_t>(v)].type);
@@ -562,7 +562,7 @@ TEST_CASE("variables that overlap are damage") {
     const double values[] = {1, 2, 3};
     nc_put_var_double(id, v, values);
   });
-  std::string bytes = read_file(path);
+  std::string bytes = calotte::test::read_file(path);
   const auto header = static_cast<std::size_t>(
       calotte::io_detail::classic_header(calotte::io_detail::FileReader(path)).bytes);
   bytes[header - 1] = static_cast<char>(bytes[header - 1] - 8); // the offset of the second
@@ -641,21 +641,21 @@ TEST_CASE("a file is read on after its name is removed or given to another file"
   write_sample(path);
   const NetcdfReader file(path);
   fs::remove(path);
-  CHECK(file.doubles("doubles", {rows}).size() == rows);
+  CHECK(file.doubles("doubles", {sample_rows}).size() == sample_rows);
   calotte::write_file(path, "shorter");
-  CHECK(file.ints("ids", {rows, 3}).size() == 3 * rows);
+  CHECK(file.ints("ids", {sample_rows, 3}).size() == 3 * sample_rows);
 }
 
 TEST_CASE("a file that is cut while it is read is refused") {
   const Scratch scratch;
   const std::string path = scratch / "a.nc";
   write_sample(path);
-  const std::string whole = read_file(path);
+  const std::string whole = calotte::test::read_file(path);
   for (const std::size_t size : {whole.size() - 1, whole.size() / 2, std::size_t{0}}) {
     CAPTURE(size);
     calotte::write_file(path, whole);
     const NetcdfReader file(path);
-    REQUIRE(file.doubles("doubles", {rows}).size() == rows);
+    REQUIRE(file.doubles("doubles", {sample_rows}).size() == sample_rows);
     fs::resize_file(path, size);
     const auto check_refused = [&](const auto& read) {
       const Error error = error_of(read);
@@ -663,9 +663,9 @@ TEST_CASE("a file that is cut while it is read is refused") {
       CHECK(error.what() ==
             "cannot read " + path + ": it became shorter; check which program writes it");
     };
-    std::vector<double> values(3 * 3 * rows);
-    check_refused([&] { file.doubles("cube", {3, 3, rows}); });
-    check_refused([&] { file.ints("ids", {rows, 3}); });
+    std::vector<double> values(3 * 3 * sample_rows);
+    check_refused([&] { file.doubles("cube", {3, 3, sample_rows}); });
+    check_refused([&] { file.ints("ids", {sample_rows, 3}); });
     check_refused([&] { file.rows("cube", 2, 1, values.data()); });
   }
 }

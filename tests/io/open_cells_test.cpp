@@ -42,7 +42,7 @@ struct Plane {
   PlanarMesh mesh;
 };
 
-Eigen::MatrixXd ring(const std::vector<Eigen::Vector2d>& corners) {
+Eigen::MatrixXd ring_matrix(const std::vector<Eigen::Vector2d>& corners) {
   Eigen::MatrixXd matrix(2, std::ssize(corners));
   for (std::size_t k = 0; k < corners.size(); ++k)
     matrix.col(static_cast<Eigen::Index>(k)) = corners[k];
@@ -57,8 +57,8 @@ PlanarMesh relaxed(std::int64_t n, const PlanarDomain& domain) {
 
 std::vector<Plane> planes() {
   const PlanarDomain box = rectangle({-3, 10}, {2, 12}),
-                     bent{{ring({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}),
-                           ring({{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}})},
+                     bent{{ring_matrix({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}),
+                           ring_matrix({{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}})},
                           {0, 0}},
                      lake = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson");
   std::vector<Plane> planes{{"rectangle", box, relaxed(100, box)},
@@ -325,7 +325,7 @@ std::map<std::pair<double, double>, std::size_t> edges_of(Mpas& file) {
 }
 
 /// Two files of the same cells and vertices, with edges of any numbers and directions.
-void check_same(Cut& a, Cut& b) {
+void check_equivalent(Cut& a, Cut& b) {
   const auto edges = edges_of(b);
   REQUIRE(a.rows("dvEdge") == b.rows("dvEdge"));
   const auto close = [&](const std::string& name, double x, double y, double scale) {
@@ -385,7 +385,7 @@ TEST_CASE("an open MPAS file goes on as MPAS: cells, derived values and fields")
       CHECK(write(out, file, {.sphere_radius = radius}).dropped.empty());
       check_none(out);
       Cut copy(out);
-      check_same(copy, source);
+      check_equivalent(copy, source);
       CHECK(copy["depth"].values == depth.values);
       CHECK(same_cells(*read_mesh_file(out).polygons, *file.polygons, 1e-15));
     }

@@ -27,7 +27,6 @@ using calotte::ErrorCode;
 using calotte::io_detail::OutputBlock;
 using calotte::io_detail::OutputFile;
 using calotte::io_detail::OutputQueue;
-using calotte::test::read_file;
 using calotte::test::Scratch;
 
 namespace {
@@ -73,14 +72,10 @@ std::vector<std::int64_t> uneven_cuts() {
   return cuts;
 }
 
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::file);
-    return error.what();
-  }
-  return "";
+std::string message_of_file_error(const std::function<void()>& work) {
+  const Error error = calotte::test::error_of(work);
+  CHECK(error.code() == ErrorCode::file);
+  return error.what();
 }
 
 } // namespace
@@ -106,7 +101,7 @@ TEST_CASE("blocks of any size, put in any order from any thread, become one file
       CHECK(!fs::exists(scratch / "a"));
       file.commit();
       CHECK(scratch.files() == 1);
-      CHECK((read_file(scratch / "a") == expected));
+      CHECK((calotte::test::read_file(scratch / "a") == expected));
     }
 }
 
@@ -121,7 +116,7 @@ TEST_CASE("room that is reserved, and memory of blocks that are written, change 
       file.reserve(cuts.back());
       put_pieces(file, cuts, fresh);
       file.commit();
-      CHECK((read_file(scratch / "a") == expected));
+      CHECK((calotte::test::read_file(scratch / "a") == expected));
     }
   OutputFile device("/dev/null");
   device.reserve(1 << 20); // has no room to reserve
@@ -133,7 +128,7 @@ TEST_CASE("a reservation larger than the disk fails before anything is written")
     const Scratch scratch(parent);
     {
       OutputFile file(scratch / "a");
-      CHECK(message_of([&] { file.reserve(std::int64_t{1} << 60); }).find("make room") !=
+      CHECK(message_of_file_error([&] { file.reserve(std::int64_t{1} << 60); }).find("make room") !=
             std::string::npos);
     }
     CHECK(scratch.files() == 0);
@@ -149,7 +144,7 @@ TEST_CASE("pieces of any size are appended in order") {
       for (std::size_t i = 0; i < expected.size(); i += step)
         file.append(std::string_view(expected).substr(i, step));
       file.commit();
-      CHECK((read_file(scratch / "a") == expected));
+      CHECK((calotte::test::read_file(scratch / "a") == expected));
     }
 }
 
@@ -165,18 +160,18 @@ TEST_CASE("a disk that fills up at any block keeps the old file and removes the 
         "cannot write " + (scratch / "a") + ": File too large; make room or write elsewhere";
     for (const std::int64_t room : {std::int64_t{0}, cuts[2] - 5, cuts[10], cuts.back() - 1}) {
       const calotte::test::FullDisk full(static_cast<rlim_t>(room));
-      CHECK(message_of([&] {
+      CHECK(message_of_file_error([&] {
               OutputFile file(scratch / "a");
               put_pieces(file, cuts);
               file.commit();
             }) == expected);
-      CHECK(message_of([&] {
+      CHECK(message_of_file_error([&] {
               OutputFile file(scratch / "a");
               file.append(bytes);
               file.commit();
             }) == expected);
       CHECK(scratch.files() == 1);
-      CHECK(read_file(scratch / "a") == "old");
+      CHECK(calotte::test::read_file(scratch / "a") == "old");
     }
   }
 }
@@ -232,7 +227,7 @@ TEST_CASE("temporary files that killed processes left are removed, and no other 
     for (const std::string& name : left)
       CHECK(!fs::exists(scratch / name));
     for (const std::string& name : others)
-      CHECK(read_file(scratch / name) == "left");
+      CHECK(calotte::test::read_file(scratch / name) == "left");
     CHECK(scratch.files() == std::ssize(others) + 2);
   }
 }
@@ -248,9 +243,9 @@ TEST_CASE("two writers of one target do not disturb each other, even between fin
     first.finish();
     OutputFile(scratch / "a").commit();
     first.commit();
-    CHECK(read_file(scratch / "a") == "first");
+    CHECK(calotte::test::read_file(scratch / "a") == "first");
     second.commit();
-    CHECK(read_file(scratch / "a") == "second");
+    CHECK(calotte::test::read_file(scratch / "a") == "second");
     CHECK(scratch.files() == 1);
   }
 }

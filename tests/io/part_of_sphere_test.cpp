@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/format_files.h"
+#include "io/polygon_file.h"
+#include "support/constants.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
 #include "support/planes.h"
@@ -20,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,15 +38,9 @@ using open_mpas::open_file;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-struct Target {
-  std::string name;
-  Format format;
-};
-const std::vector<Target> targets{{"a.nc", Format::ugrid},      {"b.nc", Format::scrip},
-                                  {"c.nc", Format::esmf},       {"d.vtp", Format::vtp_cells},
-                                  {"e.vtu", Format::vtu_cells}, {"f.geojson", Format::geojson}};
+const std::vector<FormatFile> targets{{"a.nc", Format::ugrid},      {"b.nc", Format::scrip},
+                                      {"c.nc", Format::esmf},       {"d.vtp", Format::vtp_cells},
+                                      {"e.vtu", Format::vtu_cells}, {"f.geojson", Format::geojson}};
 
 /// rows x columns cells between parallels and meridians, in degrees. \param four_corners whether
 /// inner corners have four cells; otherwise rows are shifted by half a cell, and they have three.
@@ -92,13 +88,6 @@ Polygons patch(int rows, int columns, double west, double south, double step, bo
   return out;
 }
 
-MeshFile file_of(Polygons polygons) {
-  MeshFile file;
-  file.polygons = std::move(polygons);
-  file.not_voronoi = "made for a test";
-  return file;
-}
-
 /// By the definition of the excess, without differences: good to 1e-13.
 double area_of_quadrilateral(const Points3& p, const std::array<std::int32_t, 4>& id) {
   double sum = -2 * pi;
@@ -129,7 +118,7 @@ TEST_CASE("an open MPAS mesh has its triangles and cells in each format of cells
     const Eigen::VectorXd area = areas(*source.polygons);
     const double count = static_cast<double>(source.mesh->triangles.cols());
     CHECK(spherical_delaunay(source.mesh->points).triangles.cols() > count); // what it is not
-    for (const Target& target : targets) {
+    for (const FormatFile& target : targets) {
       CAPTURE(target.name);
       CHECK(write(scratch / target.name, source, {.format = target.format}).dropped.empty());
       const MeshFile copy = read_mesh_file(scratch / target.name);
@@ -199,7 +188,7 @@ TEST_CASE("cells of a region that make no triangles stay cells: measured and wri
             area_of_quadrilateral(cells.corners, {ids[0], ids[1], ids[2], ids[3]});
         CHECK(areas(cells)[i] == doctest::Approx(expected).epsilon(1e-6));
       }
-    for (const Target& target : targets) {
+    for (const FormatFile& target : targets) {
       CAPTURE(target.name);
       write(scratch / target.name, file_of(cells), {.format = target.format});
       const MeshFile read = read_mesh_file(scratch / target.name);
@@ -233,7 +222,7 @@ TEST_CASE("a field at corners goes where the format holds it, and is left out by
     file.fields = {{.name = "depth",
                     .location = Location::vertices,
                     .values = file.polygons->corners.row(2).transpose()}};
-    for (const Target& target : {targets[0], targets[2], targets[3], targets[4]}) {
+    for (const FormatFile& target : {targets[0], targets[2], targets[3], targets[4]}) {
       CAPTURE(target.name);
       CHECK(write(scratch / target.name, file, {.format = target.format}).dropped.empty());
       MeshFile read = read_mesh_file(scratch / target.name);
@@ -268,7 +257,7 @@ TEST_CASE("cells without area are counted, and no neighbour overlaps them") {
       moved.ids.items[4 * cell + 2 + k] = corner;
     }
     CHECK(shapes(moved).without_area == 1);
-    for (const Target& target : {targets[0], targets[1], targets[2]}) {
+    for (const FormatFile& target : {targets[0], targets[1], targets[2]}) {
       CAPTURE(target.name);
       write(scratch / target.name, file_of(target.format == Format::scrip ? cells : moved),
             {.format = target.format});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/read_text.h"
+#include "io/vtk_types.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -9,7 +11,6 @@
 #include <calotte/read.h>
 
 #include <array>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,53 +23,48 @@ using namespace calotte::test;
 namespace {
 
 /// How a .ply file is written.
-struct Style {
+struct PlyStyle {
   std::string format = "ascii";
   std::string coordinate = "double", count = "uchar", id = "int";
   std::string corners = "vertex_indices";
   bool extra = false; ///< properties and elements besides those of a mesh, the faces first
 };
 
-const std::map<std::string, std::string> vtk_types{
-    {"char", "Int8"},     {"int8", "Int8"},       {"uchar", "UInt8"},    {"uint8", "UInt8"},
-    {"short", "Int16"},   {"int16", "Int16"},     {"ushort", "UInt16"},  {"uint16", "UInt16"},
-    {"int", "Int32"},     {"int32", "Int32"},     {"uint", "UInt32"},    {"uint32", "UInt32"},
-    {"float", "Float32"}, {"float32", "Float32"}, {"double", "Float64"}, {"float64", "Float64"}};
-
-std::string number(const Style& style, const std::string& type, double value) {
+std::string number_text(const PlyStyle& style, const std::string& type, double value) {
   return style.format == "ascii"
              ? text_of({value})
              : bytes_of(vtk_types.at(type), {value}, style.format == "binary_big_endian");
 }
 
-std::string vertices(const Style& style, const Faces& faces) {
+std::string vertices(const PlyStyle& style, const Faces& faces) {
   std::string text;
   for (const auto& point : faces.points.colwise()) {
     if (style.extra)
-      text += number(style, "uchar", 200) + number(style, style.coordinate, point[2]) +
-              number(style, "short", 2) + number(style, "float", 0.5) + number(style, "float", 1.5);
+      text += number_text(style, "uchar", 200) + number_text(style, style.coordinate, point[2]) +
+              number_text(style, "short", 2) + number_text(style, "float", 0.5) +
+              number_text(style, "float", 1.5);
     for (int i = 0; i < (style.extra ? 2 : 3); ++i)
-      text += number(style, style.coordinate, point[i]);
+      text += number_text(style, style.coordinate, point[i]);
   }
   return text;
 }
 
-std::string rows(const Style& style, const Faces& faces) {
+std::string face_rows(const PlyStyle& style, const Faces& faces) {
   std::string text;
   std::size_t k = 0;
   for (const double end : faces.ends) {
     if (style.extra)
-      text += number(style, "double", 0.25);
-    text += number(style, style.count, end - double(k));
+      text += number_text(style, "double", 0.25);
+    text += number_text(style, style.count, end - double(k));
     for (; double(k) < end; ++k)
-      text += number(style, style.id, faces.ids[k]);
+      text += number_text(style, style.id, faces.ids[k]);
     if (style.extra)
-      text += number(style, "int", 0) + number(style, "uchar", 7);
+      text += number_text(style, "int", 0) + number_text(style, "uchar", 7);
   }
   return text;
 }
 
-std::string ply_text(const Faces& faces, const Style& style) {
+std::string ply_text(const Faces& faces, const PlyStyle& style) {
   const std::string type = "property " + style.coordinate + " ";
   const std::string vertex =
       "element vertex " + std::to_string(faces.points.cols()) + "\n" +
@@ -83,33 +79,20 @@ std::string ply_text(const Faces& faces, const Style& style) {
   const std::string edge = "element edge 2\nproperty int vertex1\nproperty float length\n";
   const std::string head = "ply\nformat " + style.format + " 1.0\ncomment made by a test\n";
   if (!style.extra)
-    return head + vertex + face + "end_header\n" + vertices(style, faces) + rows(style, faces);
+    return head + vertex + face + "end_header\n" + vertices(style, faces) + face_rows(style, faces);
   return head + "obj_info a b\n" + face + edge + vertex + "element none 5\nend_header\n" +
-         rows(style, faces) + number(style, "int", 3) + number(style, "float", 2) +
-         number(style, "int", 4) + number(style, "float", 1) + vertices(style, faces);
+         face_rows(style, faces) + number_text(style, "int", 3) + number_text(style, "float", 2) +
+         number_text(style, "int", 4) + number_text(style, "float", 1) + vertices(style, faces);
 }
 
-const std::vector<std::string> formats{"ascii", "binary_little_endian", "binary_big_endian"};
-
-MeshFile read_text(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  return calotte::read_mesh_file(path);
-}
-
-std::string problem_of(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  const calotte::Error error = error_of([&] { calotte::read_mesh_file(path); });
-  CHECK(error.code() == ErrorCode::parse);
-  CHECK(std::string(error.what()).starts_with(path + ": "));
-  return error.what();
-}
+const std::vector<std::string> ply_formats{"ascii", "binary_little_endian", "binary_big_endian"};
 
 } // namespace
 
 TEST_CASE("PLY: a mesh comes back bit for bit from every format and type") {
   const Scratch scratch;
   for (const NamedMesh& mesh : {closed_meshes()[0], closed_meshes()[4], open_meshes()[0]})
-    for (const std::string& format : formats)
+    for (const std::string& format : ply_formats)
       for (const bool extra : {false, true})
         for (const std::array<std::string, 4>& types :
              {std::array<std::string, 4>{"double", "uchar", "int", "vertex_indices"},
@@ -135,7 +118,7 @@ TEST_CASE("PLY: single precision, CRLF in the head, and points alone") {
   const Mesh mesh = closed_meshes()[0].mesh;
   Faces faces = faces_of(mesh);
   faces.points = faces.points.cast<float>().cast<double>();
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     const MeshFile file =
         read_text(scratch / "mesh.ply", ply_text(faces, {.format = format, .coordinate = "float"}));
     CHECK(equal_bits(file.mesh->points, faces.points));
@@ -149,7 +132,7 @@ TEST_CASE("PLY: single precision, CRLF in the head, and points alone") {
 TEST_CASE("PLY: polygons are cells with unit corners") {
   const Scratch scratch;
   const Faces faces = prism();
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     const MeshFile file =
         read_text(scratch / "mesh.ply", ply_text(faces, {.format = format, .extra = true}));
     REQUIRE(file.polygons);
@@ -187,7 +170,7 @@ TEST_CASE("PLY: what is not a mesh is refused by name") {
 
 TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face") {
   const Scratch scratch;
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     const auto error = [&](std::size_t place, double value) {
       Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
       faces.ids[place] = value;
@@ -204,8 +187,9 @@ TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face"
       Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
       std::string text = ply_text(faces, {.format = format, .count = count});
       const bool big = format == "binary_big_endian";
-      const std::string three = number({.format = format}, count, 3);
-      const std::size_t last = text.size() - rows({.format = format, .count = count}, faces).size();
+      const std::string three = number_text({.format = format}, count, 3);
+      const std::size_t last =
+          text.size() - face_rows({.format = format, .count = count}, faces).size();
       text.replace(last, three.size(),
                    format == "ascii" ? std::string("-3\n")
                                      : bytes_of(vtk_types.at(count), {-3}, big));
@@ -218,7 +202,7 @@ TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face"
 TEST_CASE("PLY: a file that is cut anywhere, or whose bytes change, is read or refused") {
   const Scratch scratch;
   std::mt19937 random(2);
-  for (const std::string& format : formats)
+  for (const std::string& format : ply_formats)
     for (const bool extra : {false, true}) {
       const std::string path = scratch / "mesh.ply",
                         text = ply_text(faces_of(calotte::spherical_delaunay(octahedron())),

@@ -2,7 +2,9 @@
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
+#include "io/messages.h"
 #include "support/files.h"
+#include "support/laws.h"
 #include "support/planes.h"
 
 #include <calotte/cell_width.h>
@@ -23,7 +25,7 @@
 #include <vector>
 
 using namespace calotte;
-using calotte::test::error_of;
+using namespace calotte::test;
 
 namespace {
 
@@ -93,16 +95,8 @@ void check_refused(const Call& call, Eigen::Index rows, Eigen::Index columns) {
   CHECK(what.find('\n') == what.npos);
 }
 
-std::string message_of(const std::function<void()>& call) { return error_of(call).what(); }
-
-bool same(const Mesh& a, const Mesh& b) {
-  return a.points == b.points && a.triangles == b.triangles && a.neighbours == b.neighbours &&
-         a.site_of_input == b.site_of_input;
-}
-
-bool same(const PlanarMesh& a, const PlanarMesh& b) {
-  return a.points == b.points && a.triangles == b.triangles && a.neighbours == b.neighbours &&
-         a.site_of_input == b.site_of_input && a.period == b.period;
+bool identical_planes(const PlanarMesh& a, const PlanarMesh& b) {
+  return identical(a, b) && a.period == b.period;
 }
 
 /// Calls `check` with the same points as matrices of all kinds.
@@ -231,7 +225,7 @@ TEST_CASE("any kind of matrix gives the same mesh of the sphere") {
                         widths = evaluate(wide_cells(), points);
   for_each_kind(points, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(same(spherical_delaunay(other), mesh));
+    CHECK(identical(spherical_delaunay(other), mesh));
     CHECK(evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), other) == rho);
     CHECK(evaluate(wide_cells(), other) == widths);
   });
@@ -246,8 +240,8 @@ TEST_CASE("any kind of matrix gives the same mesh of the plane") {
   const Eigen::VectorXd rho = evaluate(bump, places, box);
   for_each_kind(places, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(same(planar_delaunay(other), mesh));
-    CHECK(same(periodic_delaunay(other, Eigen::Vector2d(1, 1)), periodic));
+    CHECK(identical_planes(planar_delaunay(other), mesh));
+    CHECK(identical_planes(periodic_delaunay(other, Eigen::Vector2d(1, 1)), periodic));
     CHECK(evaluate(bump, other, box) == rho);
   });
 }
@@ -257,14 +251,14 @@ TEST_CASE("any kind of matrix starts the same CVT") {
   const Cvt grid = spherical_cvt(points, one_step());
   for_each_kind(points, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(same(spherical_cvt(other, one_step()).mesh, grid.mesh));
+    CHECK(identical(spherical_cvt(other, one_step()).mesh, grid.mesh));
   });
-  CHECK(same(spherical_cvt(Points3(points), one_step()).mesh, grid.mesh));
+  CHECK(identical(spherical_cvt(Points3(points), one_step()).mesh, grid.mesh));
   const Points2 places = random_places(300, unit_square(), 3);
   const PlanarCvt plane = planar_cvt(places, unit_square(), one_step());
   for_each_kind(places, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(same(planar_cvt(other, unit_square(), one_step()).mesh, plane.mesh));
+    CHECK(identical_planes(planar_cvt(other, unit_square(), one_step()).mesh, plane.mesh));
   });
 }
 
@@ -273,14 +267,14 @@ TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   DelaunayOptions options;
   DelaunayReport report;
   options.partition.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
-  CHECK(same(spherical_delaunay(points, options, &report), spherical_delaunay(points)));
+  CHECK(identical(spherical_delaunay(points, options, &report), spherical_delaunay(points)));
   CHECK(report.regions == 9);
   const Points2 places = random_places(2000, unit_square(), 3);
   for (const Eigen::Index rows : {2, 3}) {
     Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
     centres.topRows(2) = random_places(9, unit_square(), 4);
     options.partition.given_centres = centres;
-    CHECK(same(planar_delaunay(places, options, &report), planar_delaunay(places)));
+    CHECK(identical_planes(planar_delaunay(places, options, &report), planar_delaunay(places)));
     CHECK(report.regions == 9);
   }
 }

@@ -2,6 +2,7 @@
 // Progress and cancellation of triangulation, check and write.
 #include "delaunay/delaunay.h"
 #include "support/files.h"
+#include "support/laws.h"
 #include "support/planes.h"
 
 #include <calotte/check.h>
@@ -21,8 +22,7 @@
 #include <vector>
 
 using namespace calotte;
-using calotte::test::error_of;
-using calotte::test::Scratch;
+using namespace calotte::test;
 
 namespace {
 
@@ -89,11 +89,6 @@ void check_cancelled(const Work& work, const std::vector<std::string>& stages,
     }
 }
 
-bool same(const Mesh& a, const Mesh& b) {
-  return a.points == b.points && a.triangles == b.triangles && a.neighbours == b.neighbours &&
-         a.site_of_input == b.site_of_input;
-}
-
 DelaunayOptions with(const ProgressCallback& progress) {
   DelaunayOptions options;
   options.progress = progress;
@@ -114,7 +109,7 @@ TEST_CASE("a triangulation reports progress and gives the same bits") {
   const Points3 points = random_sphere(200'000, 4);
   const Mesh mesh = spherical_delaunay(points);
   const std::vector<std::string> stages = check_told([&](const ProgressCallback& progress) {
-    CHECK(same(spherical_delaunay(points, with(progress)), mesh));
+    CHECK(identical(spherical_delaunay(points, with(progress)), mesh));
   });
   CHECK(stages == stages_of_delaunay);
 }
@@ -125,7 +120,7 @@ TEST_CASE("a triangulation is cancelled in any stage, and the next one is whole"
   check_cancelled(
       [&](const ProgressCallback& progress) { spherical_delaunay(points, with(progress)); },
       stages_of_delaunay, [] {});
-  CHECK(same(spherical_delaunay(points), mesh));
+  CHECK(identical(spherical_delaunay(points), mesh));
 }
 
 TEST_CASE("triangulations of the plane, of a box and of few sites report progress") {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "io/geojson_text.h"
+#include "support/constants.h"
 #include "support/planes.h"
 
 #include "support/files.h"
@@ -11,51 +13,40 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+using namespace calotte;
+using namespace calotte::test;
+
 namespace {
 
-using namespace calotte;
-
-constexpr double pi = std::numbers::pi, degree = pi / 180, earth = 6371229;
+constexpr double earth = 6371229;
 
 Eigen::Vector3d lonlat(double longitude, double latitude) {
   const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
   return {p.x, p.y, p.z};
 }
 
-Region read(const std::string& name, const std::string& text) {
+Region region_from(const std::string& name, const std::string& text) {
   std::istringstream in(text);
   return read_region(in, name);
 }
 
-Region geojson(const std::string& text) { return read("R.geojson", text); }
+Region geojson(const std::string& text) { return region_from("R.geojson", text); }
 
 /// A polygon of positions "[0,0],[1,0],[1,1]" for each ring.
-std::string polygon(const std::vector<std::string>& rings) {
-  std::string text = R"({"type":"Polygon","coordinates":[)";
-  for (std::size_t r = 0; r < rings.size(); ++r)
-    text += (r > 0 ? ",[" : "[") + rings[r] + "]";
-  return text + "]}";
+std::string polygon_of(const std::vector<std::string>& rings) {
+  std::string text;
+  for (const std::string& ring : rings)
+    text += (text.empty() ? "[" : ",[") + ring + "]";
+  return polygon(text);
 }
 
-std::string feature(const std::string& geometry, const std::string& properties = "{}") {
-  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":)" + geometry + "}";
-}
-
-std::string collection(const std::vector<std::string>& features) {
-  std::string text = R"({"type":"FeatureCollection","features":[)";
-  for (std::size_t f = 0; f < features.size(); ++f)
-    text += (f > 0 ? "," : "") + features[f];
-  return text + "]}";
-}
-
-std::string refusal(const std::string& name, const std::string& text,
-                    ErrorCode code = ErrorCode::parse) {
-  const Error error = test::error_of([&] { read(name, text); });
+std::string refusal_of_region(const std::string& name, const std::string& text,
+                              ErrorCode code = ErrorCode::parse) {
+  const Error error = error_of([&] { region_from(name, text); });
   CHECK(error.code() == code);
   return error.what();
 }
@@ -69,9 +60,11 @@ const std::string square = "[0,0],[20,0],[20,20],[0,20],[0,0]",
                   inner = "[5,5],[10,5],[10,10],[5,10]",
                   inner_clockwise = "[5,10],[10,10],[10,5],[5,5]";
 
+} // namespace
+
 TEST_CASE("GeoJSON: a polygon with a hole, of any winding of the hole") {
   for (const std::string& hole : {inner, inner_clockwise}) {
-    const Region region = geojson(polygon({square, hole}));
+    const Region region = geojson(polygon_of({square, hole}));
     CHECK(region.rings.size() == 2);
     CHECK(region.rings[0].cols() == 4);
     CHECK(contains(region, lonlat(2, 3)));
@@ -79,51 +72,54 @@ TEST_CASE("GeoJSON: a polygon with a hole, of any winding of the hole") {
     CHECK(contains(region, lonlat(5, 5)));
     CHECK_FALSE(contains(region, lonlat(-100, 8)));
   }
-  const double whole = area(geojson(polygon({square}))), hole = area(geojson(polygon({inner})));
-  CHECK(area(geojson(polygon({square, inner}))) == doctest::Approx(whole - hole).epsilon(1e-14));
+  const double whole = area(geojson(polygon_of({square}))),
+               hole = area(geojson(polygon_of({inner})));
+  CHECK(area(geojson(polygon_of({square, inner}))) == doctest::Approx(whole - hole).epsilon(1e-14));
 }
 
 TEST_CASE("GeoJSON: over the date line in each style, and round a pole") {
   for (const std::string& text : {std::string("[170,-10],[-170,-10],[-170,10],[170,10]"),
                                   std::string("[170,-10],[190,-10],[190,10],[170,10]"),
                                   std::string("[-190,-10],[-170,-10],[-170,10],[-190,10]")}) {
-    const Region region = geojson(polygon({text}));
-    CHECK(region.rings == geojson(polygon({"[170,-10],[190,-10],[190,10],[170,10]"})).rings);
+    const Region region = geojson(polygon_of({text}));
+    CHECK(region.rings == geojson(polygon_of({"[170,-10],[190,-10],[190,10],[170,10]"})).rings);
     CHECK(contains(region, lonlat(180, 0)));
     CHECK_FALSE(contains(region, lonlat(0, 0)));
   }
   const std::string east = "[170,-10],[180,-11],[180,11],[170,10]",
                     west = "[-180,-11],[-170,-10],[-170,10],[-180,11]";
-  const Region cut = geojson(collection({feature(polygon({east})), feature(polygon({west}))}));
+  const Region cut =
+      geojson(collection({feature(polygon_of({east})), feature(polygon_of({west}))}));
   CHECK(cut.rings.size() == 1);
   CHECK(cut.rings[0].cols() == 6);
   CHECK(contains(cut, lonlat(180, 0)));
   CHECK(area(cut) ==
-        doctest::Approx(area(geojson(polygon({east}))) + area(geojson(polygon({west}))))
+        doctest::Approx(area(geojson(polygon_of({east}))) + area(geojson(polygon_of({west}))))
             .epsilon(1e-14));
 
   const Region pole =
-      geojson(polygon({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61],[-180,-60]"}));
+      geojson(polygon_of({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61],[-180,-60]"}));
   CHECK_FALSE(contains(pole, lonlat(0, 90)));
   CHECK(contains(pole, lonlat(0, -90)));
-  const Region spiked = geojson(polygon({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61]"
-                                         ",[-180,-60],[-180,-90],[180,-90]"}));
+  const Region spiked =
+      geojson(polygon_of({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61]"
+                          ",[-180,-60],[-180,-90],[180,-90]"}));
   CHECK(spiked.rings.size() == 1);
   CHECK(area(spiked) == doctest::Approx(area(pole)).epsilon(1e-14));
   CHECK(contains(spiked, lonlat(180, -80)));
 
   // A channel whose sides meet at 180 degrees.
   const Region tropics = geojson(
-      polygon({"[-180,-10],[-60,-10],[60,-10],[180,-10],[180,10],[60,10],[-60,10],[-180,10]"}));
+      polygon_of({"[-180,-10],[-60,-10],[60,-10],[180,-10],[180,10],[60,10],[-60,10],[-180,10]"}));
   CHECK(tropics.rings.size() == 2);
   CHECK(contains(tropics, lonlat(180, 0)));
   CHECK_FALSE(contains(tropics, lonlat(0, 90)));
 }
 
 TEST_CASE("GeoJSON: a hemisphere is to the left of its ring, whichever way it runs") {
-  CHECK(contains(geojson(polygon({"[0,0],[120,0],[-120,0]"})), lonlat(0, 90)));
-  CHECK(contains(geojson(polygon({"[0,0],[-120,0],[120,0]"})), lonlat(0, -90)));
-  CHECK(contains(geojson(polygon({"[10,-30],[10,50],[-170,40],[-170,-50]"})), lonlat(-80, 0)));
+  CHECK(contains(geojson(polygon_of({"[0,0],[120,0],[-120,0]"})), lonlat(0, 90)));
+  CHECK(contains(geojson(polygon_of({"[0,0],[-120,0],[120,0]"})), lonlat(0, -90)));
+  CHECK(contains(geojson(polygon_of({"[10,-30],[10,50],[-170,40],[-170,-50]"})), lonlat(-80, 0)));
 }
 
 TEST_CASE("GeoJSON: several polygons, and what is not one region") {
@@ -133,54 +129,57 @@ TEST_CASE("GeoJSON: several polygons, and what is not one region") {
   CHECK(two.rings.size() == 2);
   CHECK(contains(two, lonlat(35, 5)));
   // An island in a lake.
-  const Region island = geojson(
-      collection({feature(polygon({square, inner})), feature(polygon({"[6,6],[8,6],[8,8]"}))}));
+  const Region island = geojson(collection(
+      {feature(polygon_of({square, inner})), feature(polygon_of({"[6,6],[8,6],[8,8]"}))}));
   CHECK(contains(island, lonlat(7.5, 6.5)));
-  CHECK(refusal("R.geojson", collection({feature(polygon({square})), feature(polygon({inner}))}),
-                ErrorCode::invalid_argument) ==
+  CHECK(refusal_of_region("R.geojson",
+                          collection({feature(polygon_of({square})), feature(polygon_of({inner}))}),
+                          ErrorCode::invalid_argument) ==
         "R.geojson: the region: it is to the left of feature 0: ring 0 and to the right of feature "
         "1: ring 0; give rings that all have it to their left: an outer boundary "
         "counter-clockwise, a hole clockwise");
-  CHECK(holds(refusal("R.geojson",
-                      collection({feature(polygon({square})), feature(polygon({other})),
-                                  feature(polygon({"[35,5],[45,5],[45,15]"}))}),
-                      ErrorCode::invalid_argument),
-              "R.geojson: the region: the edges from feature 1: ring 0, corner 1 and from feature "
-              "2: ring 0, corner 0 meet; rings may neither cross nor touch"));
   CHECK(holds(
-      refusal("R.geojson", polygon({"[0,0],[10,10],[10,0],[0,10]"}), ErrorCode::invalid_argument),
+      refusal_of_region("R.geojson",
+                        collection({feature(polygon_of({square})), feature(polygon_of({other})),
+                                    feature(polygon_of({"[35,5],[45,5],[45,15]"}))}),
+                        ErrorCode::invalid_argument),
+      "R.geojson: the region: the edges from feature 1: ring 0, corner 1 and from feature "
+      "2: ring 0, corner 0 meet; rings may neither cross nor touch"));
+  CHECK(holds(
+      refusal_of_region("R.geojson", polygon_of({"[0,0],[10,10],[10,0],[0,10]"}),
+                        ErrorCode::invalid_argument),
       "R.geojson: the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
-  CHECK(holds(
-      refusal("R.geojson", polygon({square, "[30,0],[40,0],[40,10]"}), ErrorCode::invalid_argument),
-      "to the right of ring 1"));
-  CHECK(
-      holds(refusal("R.geojson", collection({feature(polygon({"[0,0],[90,0],[180,0],[-90,0]"})),
-                                             feature(polygon({"[-90,0],[180,0],[90,0],[0,0]"}))})),
-            "R.geojson: its polygons cover the sphere"));
+  CHECK(holds(refusal_of_region("R.geojson", polygon_of({square, "[30,0],[40,0],[40,10]"}),
+                                ErrorCode::invalid_argument),
+              "to the right of ring 1"));
+  CHECK(holds(refusal_of_region(
+                  "R.geojson", collection({feature(polygon_of({"[0,0],[90,0],[180,0],[-90,0]"})),
+                                           feature(polygon_of({"[-90,0],[180,0],[90,0],[0,0]"}))})),
+              "R.geojson: its polygons cover the sphere"));
 }
 
 TEST_CASE("GeoJSON: a place inside decides, otherwise rings of either orientation enclose") {
   const std::string clockwise = "[0,20],[20,20],[20,0],[0,0]";
-  CHECK(area(geojson(polygon({clockwise}))) == area(geojson(polygon({square}))));
-  CHECK(contains(geojson(polygon({clockwise, inner})), lonlat(2, 3)));
-  CHECK_FALSE(contains(geojson(polygon({clockwise, inner})), lonlat(7, 8)));
+  CHECK(area(geojson(polygon_of({clockwise}))) == area(geojson(polygon_of({square}))));
+  CHECK(contains(geojson(polygon_of({clockwise, inner})), lonlat(2, 3)));
+  CHECK_FALSE(contains(geojson(polygon_of({clockwise, inner})), lonlat(7, 8)));
   for (const std::string& outer : {square, clockwise})
     for (const std::string& hole : {inner, inner_clockwise}) {
-      const Region land = geojson(feature(polygon({outer, hole}), R"({"inside":[2,3]})"));
+      const Region land = geojson(feature(polygon_of({outer, hole}), R"({"inside":[2,3]})"));
       CHECK(contains(land, lonlat(2, 3)));
       CHECK_FALSE(contains(land, lonlat(7, 8)));
       CHECK_FALSE(contains(land, lonlat(90, 8)));
-      const Region water = geojson(feature(polygon({outer, hole}), R"({"inside":[90,8]})"));
+      const Region water = geojson(feature(polygon_of({outer, hole}), R"({"inside":[90,8]})"));
       CHECK_FALSE(contains(water, lonlat(2, 3)));
       CHECK(contains(water, lonlat(7, 8)));
       CHECK(area(land) + area(water) == doctest::Approx(4 * pi).epsilon(1e-15));
     }
-  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[0,5]})"),
-                      ErrorCode::invalid_argument),
+  CHECK(holds(refusal_of_region("R.geojson", feature(polygon_of({square}), R"({"inside":[0,5]})"),
+                                ErrorCode::invalid_argument),
               "R.geojson: the place that is to be inside the region is on its boundary"));
-  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":"here"})")),
+  CHECK(holds(refusal_of_region("R.geojson", feature(polygon_of({square}), R"({"inside":"here"})")),
               "its property \"inside\" is not a position [longitude, latitude]; give degrees"));
-  CHECK(holds(refusal("R.geojson", feature(polygon({square}), R"({"inside":[5,95]})")),
+  CHECK(holds(refusal_of_region("R.geojson", feature(polygon_of({square}), R"({"inside":[5,95]})")),
               "its property \"inside\" is [5.0, 95.0], no longitude"));
 }
 
@@ -190,7 +189,7 @@ TEST_CASE("GeoJSON: the whole band between two parallels, cut at 180 degrees") {
     south += "[" + std::to_string(longitude) + ",-60],";
     north += "[" + std::to_string(-longitude) + ",60.00000000000001],";
   }
-  const Region band = geojson(polygon({south + north + "[-180,-60]"}));
+  const Region band = geojson(polygon_of({south + north + "[-180,-60]"}));
   CHECK(band.rings.size() == 2);
   CHECK(contains(band, lonlat(180, 0)));
   CHECK_FALSE(contains(band, lonlat(0, 90)));
@@ -201,9 +200,9 @@ TEST_CASE("GeoJSON: the whole band between two parallels, cut at 180 degrees") {
 
 TEST_CASE("GeoJSON: an ocean around a pole whose cut differs by rounding") {
   const std::string around = "[-180,65.5],[-90,70],[0,72],[90,71],[180,";
-  const Region exact = geojson(polygon({around + "65.5],[180,90],[-180,90],[-180,65.5]"}));
+  const Region exact = geojson(polygon_of({around + "65.5],[180,90],[-180,90],[-180,65.5]"}));
   for (const std::string end : {"65.50000000000003", "65.49999999999997", "65.5000000001"}) {
-    const Region region = geojson(polygon({around + end + "],[180,90],[-180,90],[-180,65.5]"}));
+    const Region region = geojson(polygon_of({around + end + "],[180,90],[-180,90],[-180,65.5]"}));
     CHECK(region.rings.size() == 1);
     CHECK(area(region) == doctest::Approx(area(exact)).epsilon(1e-9));
     CHECK(contains(region, lonlat(180, 80)));
@@ -211,33 +210,36 @@ TEST_CASE("GeoJSON: an ocean around a pole whose cut differs by rounding") {
 }
 
 TEST_CASE("GeoJSON: positions") {
-  CHECK(holds(refusal("R.geojson", polygon({square, "[0,0],[0,91],[1,1]"})),
+  CHECK(holds(refusal_of_region("R.geojson", polygon_of({square, "[0,0],[0,91],[1,1]"})),
               "R.geojson: position 1 of ring 1 is [0.0, 91.0], no longitude and latitude in "
               "degrees; correct it"));
-  CHECK(holds(refusal("R.json", polygon({"[0,0],[0,1e999],[1,1]"})),
+  CHECK(holds(refusal_of_region("R.json", polygon_of({"[0,0],[0,1e999],[1,1]"})),
               "a number that no double can hold"));
-  CHECK(holds(refusal("R.geojson", polygon({"[-180,-20],[180,-20],[180,20],[-180,20]"})),
-              "ring 0 has fewer than 3 distinct places; an edge is the shorter arc of a great "
-              "circle, so give more places "
-              "along a parallel"));
-  CHECK(holds(refusal("R.geojson", polygon({"[0,0],[180,0],[90,10]"}), ErrorCode::invalid_argument),
+  CHECK(
+      holds(refusal_of_region("R.geojson", polygon_of({"[-180,-20],[180,-20],[180,20],[-180,20]"})),
+            "ring 0 has fewer than 3 distinct places; an edge is the shorter arc of a great "
+            "circle, so give more places "
+            "along a parallel"));
+  CHECK(holds(refusal_of_region("R.geojson", polygon_of({"[0,0],[180,0],[90,10]"}),
+                                ErrorCode::invalid_argument),
               "ring 0, corner 0 and the next are opposite"));
-  CHECK(geojson(polygon({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings[0].cols() == 3);
+  CHECK(geojson(polygon_of({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings[0].cols() ==
+        3);
 }
 
 // ---- MPAS-Limited-Area
 
 TEST_CASE(".pts: circles, ellipses and channels") {
-  const Region circular = read(
+  const Region circular = region_from(
       "india.pts", "Name: india\nType: circle\nPoint: 20.0, 80.0\nradius: 2000000.0   # Meters\n");
   CHECK(circular == circle(lonlat(80, 20), 2e6 / earth));
   const Region oval =
-      read("japan.PTS", "name: japan\nTYPE:Ellipse\r\n point : 38 , 138\nSemi-major-axis: "
-                        "1580000\nSemi-minor-axis: 1e6\nOrientation-angle: 45\n");
+      region_from("japan.PTS", "name: japan\nTYPE:Ellipse\r\n point : 38 , 138\nSemi-major-axis: "
+                               "1580000\nSemi-minor-axis: 1e6\nOrientation-angle: 45\n");
   CHECK(oval == ellipse(lonlat(138, 38), 1.58e6 / earth, 1e6 / earth, 45 * degree));
   for (const std::string& text :
        {std::string("ulat: 23.4\nllat: -10\n"), std::string("Upper-lat: 23.4\nLower-lat: -10\n")})
-    CHECK(read("tropics.pts", "Name: tropics\nType: channel\n" + text) ==
+    CHECK(region_from("tropics.pts", "Name: tropics\nType: channel\n" + text) ==
           channel(-10 * degree, 23.4 * degree));
 }
 
@@ -245,68 +247,70 @@ TEST_CASE(".pts: a polygon around its point, of any winding") {
   const std::string head = "Name: conus\nType: custom\nPoint: 40.0, -100.0\n",
                     corners = "50.0, -129.0\n50.0, -65.0\n20.0, -65.0\n20.0, -129.0\n",
                     reverse = "20.0, -129.0\n20.0 -65.0\n50.0, -65.0\n50.0, -129.0\n20,-129\n";
-  const Region region = read("conus.custom.pts", head + corners);
+  const Region region = region_from("conus.custom.pts", head + corners);
   CHECK(contains(region, lonlat(-100, 40)));
   CHECK(area(region) < 1);
-  CHECK(area(read("conus.pts", head + reverse)) == doctest::Approx(area(region)).epsilon(1e-14));
-  const Region rest = read("conus.pts", "Type: custom\nPoint: -40, 100\n" + corners);
+  CHECK(area(region_from("conus.pts", head + reverse)) ==
+        doctest::Approx(area(region)).epsilon(1e-14));
+  const Region rest = region_from("conus.pts", "Type: custom\nPoint: -40, 100\n" + corners);
   CHECK(area(rest) + area(region) == doctest::Approx(4 * pi).epsilon(1e-15));
 
-  CHECK(holds(refusal("a.pts", "Type: custom\n" + corners),
+  CHECK(holds(refusal_of_region("a.pts", "Type: custom\n" + corners),
               "a.pts: a region of the type custom has no line \"Point:\"; add a place inside it"));
-  CHECK(
-      holds(refusal("a.pts", head + "50, -129\n50 -65\n20\n"), "a.pts line 6: \"20\" is no place"));
-  CHECK(holds(refusal("a.pts", head + "50, -129\n50 -65\n", ErrorCode::invalid_argument),
+  CHECK(holds(refusal_of_region("a.pts", head + "50, -129\n50 -65\n20\n"),
+              "a.pts line 6: \"20\" is no place"));
+  CHECK(holds(refusal_of_region("a.pts", head + "50, -129\n50 -65\n", ErrorCode::invalid_argument),
               "a.pts: the region: ring 0 has 2 corners"));
-  CHECK(holds(refusal("a.pts", head + "50, -129\n20, -65\n50, -65\n20, -129\n",
-                      ErrorCode::invalid_argument),
+  CHECK(holds(refusal_of_region("a.pts", head + "50, -129\n20, -65\n50, -65\n20, -129\n",
+                                ErrorCode::invalid_argument),
               "meet; rings may neither"));
 }
 
 TEST_CASE(".pts: lines that are none") {
-  CHECK(holds(refusal("a.pts", "Typ: circle\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Typ: circle\n"),
               "a.pts line 1: \"typ\" is no keyword; write Name, Type"));
-  CHECK(holds(refusal("a.pts", "Name: x\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Name: x\n"),
               "a.pts: no line \"Type:\"; write Type: custom, circle, ellipse or channel"));
-  CHECK(holds(refusal("a.pts", "Type: square\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Type: square\n"),
               "a.pts: the type \"square\" is unknown; write Type: custom"));
-  CHECK(holds(refusal("a.pts", "Type: circle\nPoint: 1, 2\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Type: circle\nPoint: 1, 2\n"),
               "a.pts: a region of the type circle has no line \"radius:\"; add it"));
-  CHECK(holds(refusal("a.pts", "Type: circle\nRadius: 385.5 km\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Type: circle\nRadius: 385.5 km\n"),
               "a.pts line 2: \"385.5 km\" is no radius; write a number of metres from 10 to "
               "20000000, without the unit"));
-  CHECK(holds(refusal("a.pts", "Type: channel\nUpper-lat: 100\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Type: channel\nUpper-lat: 100\n"),
               "\"100\" is no upper-lat; write a number of degrees from -90 to 90"));
-  CHECK(holds(refusal("a.pts", "Type: channel\nUpper-lat: 10\nLower-lat: 20\n",
-                      ErrorCode::invalid_argument),
+  CHECK(holds(refusal_of_region("a.pts", "Type: channel\nUpper-lat: 10\nLower-lat: 20\n",
+                                ErrorCode::invalid_argument),
               "a.pts: the channel's latitudes are"));
-  CHECK(holds(refusal("a.pts", "Type: circle\nPoint: 1, 2\nRadius: 1000\n1, 2\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Type: circle\nPoint: 1, 2\nRadius: 1000\n1, 2\n"),
               "a.pts: it has corners, which only Type: custom takes"));
-  CHECK(holds(refusal("a.pts", "Point: 100, 2\n"),
+  CHECK(holds(refusal_of_region("a.pts", "Point: 100, 2\n"),
               "a.pts line 1: \"100, 2\" is no place; write latitude"));
 }
 
 // ---- MPI-SCVT
 
 TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the sphere") {
-  const test::Scratch folder;
+  const Scratch folder;
   const std::string loops = "0 0\n20 0\n20 20\n0 20\n  5.0  5.0 \n 10 5\n10 10\n5 10\n5 5\n";
-  test::write_text(folder / "SaveBoundaries.two", loops);
+  write_text(folder / "SaveBoundaries.two", loops);
   for (const std::string& counts : {std::string("  1  4\n 5 9\n"), std::string("4\n5\n")}) {
-    test::write_text(folder / "SaveLoopCounts.two", counts);
+    write_text(folder / "SaveLoopCounts.two", counts);
     const Region region = read_region(folder / "SaveBoundaries.two");
     CHECK(region.rings.size() == 2);
     CHECK(region.rings[1].cols() == 4);
     CHECK(contains(region, lonlat(2, 2)));
     CHECK_FALSE(contains(region, lonlat(7, 7)));
-    CHECK(area(region) == doctest::Approx(area(geojson(polygon({square, inner})))).epsilon(1e-14));
+    CHECK(area(region) ==
+          doctest::Approx(area(geojson(polygon_of({square, inner})))).epsilon(1e-14));
   }
-  test::write_text(folder / "SaveBoundaries", "1 0 0\n0 0 1\n0 1 0\n"); // clockwise, no counts
+  write_text(folder / "SaveBoundaries", "1 0 0\n0 0 1\n0 1 0\n"); // clockwise, no counts
   CHECK(read_region(folder / "SaveBoundaries").area() == doctest::Approx(pi / 2).epsilon(1e-15));
 
   const auto refused = [&](const std::string& counts) {
-    test::write_text(folder / "SaveLoopCounts.two", counts);
-    const Error error = test::error_of([&] { read_region(folder / "SaveBoundaries.two"); });
+    write_text(folder / "SaveLoopCounts.two", counts);
+    const Error error = error_of([&] { read_region(folder / "SaveBoundaries.two"); });
     CHECK(error.code() == ErrorCode::parse);
     return std::string(error.what());
   };
@@ -317,7 +321,7 @@ TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the s
   CHECK(holds(refused("1 4.5\n"),
               "is no loop; write the numbers of its first and last point, counted from 1"));
   CHECK(holds(refused("# none\n"), "no loops"));
-  test::write_text(folder / "SaveLoopCounts.two", "1 4\n5 7\n8 9\n");
+  write_text(folder / "SaveLoopCounts.two", "1 4\n5 7\n8 9\n");
   CHECK_THROWS_AS(read_region(folder / "SaveBoundaries.two"), Error);
 }
 
@@ -330,42 +334,40 @@ TEST_CASE("SaveBoundaries: MPI-SCVT's circle, points of a cap around a place on 
                   std::asin(p.z()) / degree);
     text += line;
   }
-  const Region region = read("SaveBoundaries.circle", text);
+  const Region region = region_from("SaveBoundaries.circle", text);
   CHECK(region.rings[0].cols() == 1999);
   CHECK(area(region) == doctest::Approx(2 * pi * (1 - std::cos(15 * degree))).epsilon(1e-5));
   CHECK(contains(region, lonlat(180, 0)));
 }
 
 TEST_CASE("SaveBoundaries: lines that are no points") {
-  CHECK(holds(refusal("SaveBoundaries", "1 2\n3\n"),
+  CHECK(holds(refusal_of_region("SaveBoundaries", "1 2\n3\n"),
               "SaveBoundaries line 2: \"3\" is no point; write longitude and latitude"));
-  CHECK(holds(refusal("SaveBoundaries", "1 2\n3 100\n"),
+  CHECK(holds(refusal_of_region("SaveBoundaries", "1 2\n3 100\n"),
               "line 2: \"3 100\" is no longitude and latitude"));
-  CHECK(holds(refusal("SaveBoundaries", "0 0 0\n"), "the zero vector has no direction"));
-  CHECK(
-      holds(refusal("SaveBoundaries", "1 2\n3 10\n"), "SaveBoundaries: 2 points enclose nothing"));
-  CHECK(
-      holds(refusal("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::invalid_argument),
-            "the edges from the loop that begins in line 1, corner 0 and from the loop that begins "
-            "in line 1, corner 2 meet; rings may neither cross nor touch themselves"));
+  CHECK(holds(refusal_of_region("SaveBoundaries", "0 0 0\n"), "the zero vector has no direction"));
+  CHECK(holds(refusal_of_region("SaveBoundaries", "1 2\n3 10\n"),
+              "SaveBoundaries: 2 points enclose nothing"));
+  CHECK(holds(
+      refusal_of_region("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::invalid_argument),
+      "the edges from the loop that begins in line 1, corner 0 and from the loop that begins "
+      "in line 1, corner 2 meet; rings may neither cross nor touch themselves"));
 }
 
 TEST_CASE("a file cut short is read or refused, with one line") {
-  const test::Scratch folder;
+  const Scratch folder;
   const auto cut = [&](const std::string& name, const std::string& text) {
-    test::write_text(folder / name, text);
-    return test::done_when_cut(folder / name, [&] { read_region(folder / name); });
+    write_text(folder / name, text);
+    return done_when_cut(folder / name, [&] { read_region(folder / name); });
   };
-  CHECK(cut("R.geojson", collection({feature(polygon({square, inner}))})) == 0);
+  CHECK(cut("R.geojson", collection({feature(polygon_of({square, inner}))})) == 0);
   CHECK(cut("R.pts", "Type: custom\nPoint: 1, 1\n0, 0\n0, 20\n20, 20.000000000000\n") > 0);
   CHECK(cut("SaveBoundaries", "0 0\n20 0\n20 20\n0 20.000000000000\n") > 0);
 }
 
 TEST_CASE("names and files") {
-  CHECK(holds(refusal("region.txt", "", ErrorCode::invalid_argument),
+  CHECK(holds(refusal_of_region("region.txt", "", ErrorCode::invalid_argument),
               "region.txt: the name determines no format of regions"));
-  CHECK(test::error_of([] { read_region("/nowhere/R.geojson"); }).code() == ErrorCode::file);
-  CHECK(holds(refusal("R.geojson", "{"), "R.geojson: no JSON"));
+  CHECK(error_of([] { read_region("/nowhere/R.geojson"); }).code() == ErrorCode::file);
+  CHECK(holds(refusal_of_region("R.geojson", "{"), "R.geojson: no JSON"));
 }
-
-} // namespace

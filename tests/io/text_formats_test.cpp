@@ -30,7 +30,7 @@ using namespace calotte::test;
 
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string all_replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
   return text;
@@ -82,7 +82,7 @@ TEST_CASE("JIGSAW: meshes come back bit for bit") {
 TEST_CASE("JIGSAW: the file is what its readers expect") {
   const Scratch scratch;
   calotte::write(scratch / "mesh.msh", calotte::spherical_delaunay(octahedron()));
-  const std::string text = read_file(scratch / "mesh.msh");
+  const std::string text = calotte::test::read_file(scratch / "mesh.msh");
   CHECK(text.find("\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n") != std::string::npos);
   CHECK(text.find("\nTRIA3=8\n0;1;2;0\n") != std::string::npos);
 }
@@ -92,16 +92,17 @@ TEST_CASE("JIGSAW: keywords in any case, comments, line ends and other sections 
   const std::string path = scratch / "mesh.msh";
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
   calotte::write(path, mesh);
-  const std::string text = read_file(path);
+  const std::string text = calotte::test::read_file(path);
   const auto reads_as = [&](const std::string& changed) {
     write_text(path, changed);
     check_equal(calotte::read_mesh(path), mesh);
   };
-  reads_as(replaced(text, "\n", "\r\n"));
-  reads_as(replaced(text, "\n", " # so\n\n"));
+  reads_as(all_replaced(text, "\n", "\r\n"));
+  reads_as(all_replaced(text, "\n", " # so\n\n"));
   reads_as(text.substr(0, text.size() - 1));
-  reads_as(replaced(replaced(text, "EUCLIDEAN-MESH", "euclidean-mesh"), "POINT", "point"));
-  reads_as(replaced(text, "TRIA3", "EDGE2=2\n0;1;0\n1;2;0\nWEIGHT=6;1\n0\n0\n0\n0\n0\n0\nTRIA3"));
+  reads_as(all_replaced(all_replaced(text, "EUCLIDEAN-MESH", "euclidean-mesh"), "POINT", "point"));
+  reads_as(
+      all_replaced(text, "TRIA3", "EDGE2=2\n0;1;0\n1;2;0\nWEIGHT=6;1\n0\n0\n0\n0\n0\n0\nTRIA3"));
   reads_as(text + "VALUE=6;1\n1\n2\n3\n4\n5\n6\n");
   reads_as(text.substr(0, text.find("TRIA3"))); // points alone are triangulated
 }
@@ -153,7 +154,7 @@ TEST_CASE("JIGSAW: errors name the defect") {
   CHECK(error(head + points + "TRIA3=x\n").index() == 7);
   CHECK(error(head + "POINT=4\n1;0;0;0\n0;1;x;0\n").index() == 5);
   CHECK(error(head + "POINT=99999999999\n1;0;0;0\n").code() == ErrorCode::parse);
-  CHECK(error(head + replaced(points, "1;0;0;0", "0;0;0;0")).index() == 0);
+  CHECK(error(head + all_replaced(points, "1;0;0;0", "0;0;0;0")).index() == 0);
   CHECK(error("MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;2\n0\n1\n").code() == ErrorCode::parse);
   CHECK(std::string(error(head + "POINT=2\n1;0;0;0\n0;1;0;0\n").what()).find("at least 3") !=
         std::string::npos);
@@ -172,7 +173,8 @@ TEST_CASE("MPI-SCVT: meshes come back bit for bit, and the density stands beside
       check_equal(calotte::read_mesh(path), mesh);
       CHECK(equal_bits(calotte::read_sites(path), mesh.points));
       CHECK(equal_bits(calotte::read_points(path), mesh.points));
-      std::istringstream lines(read_file(replaced(path, "SaveVertices", "SaveDensity")));
+      std::istringstream lines(
+          calotte::test::read_file(all_replaced(path, "SaveVertices", "SaveDensity")));
       Points3 units = mesh.points;
       for (Eigen::Index i = 0; i < units.cols(); ++i)
         units.col(i).stableNormalize();
@@ -184,8 +186,8 @@ TEST_CASE("MPI-SCVT: meshes come back bit for bit, and the density stands beside
       }
       CHECK_FALSE(bool(lines >> value));
       CHECK((calotte::read_mesh_file(path).density - expected).norm() < 1e-13 * expected.norm());
-      const std::string densities = replaced(path, "SaveVertices", "SaveDensity");
-      write_text(densities, read_file(densities) + "1\n");
+      const std::string densities = all_replaced(path, "SaveVertices", "SaveDensity");
+      write_text(densities, calotte::test::read_file(densities) + "1\n");
       CHECK(calotte::read_mesh_file(path).density.size() == 0);
       CHECK(calotte::read_mesh_file(path).ignored == std::vector<std::string>{"SaveDensity"});
     }
@@ -213,11 +215,11 @@ TEST_CASE("MPI-SCVT: triangles are taken where they close the sphere, in either 
   const Mesh read = calotte::read_mesh(path);
   CHECK(equal_bits(read.triangles, mesh.triangles));
 
-  const std::string whole = read_file(triangles);
+  const std::string whole = calotte::test::read_file(triangles);
   for (const std::string& other :
        {std::string(), std::string("0 1\n"), std::string("0 1 99\n"), whole + "0 1 2\n",
         whole.substr(0, whole.rfind('\n')), whole.substr(0, whole.rfind('\n')) + "\n0 0 1\n",
-        replaced(whole, "\n5 ", "\n6 ")}) {
+        all_replaced(whole, "\n5 ", "\n6 ")}) {
     write_text(triangles, other);
     check_equal(calotte::read_mesh(path), delaunay);
   }
@@ -288,7 +290,7 @@ double area_of(const Ring& ring) {
   return twice / 2;
 }
 
-bool holds(const Ring& ring, double x, double y) {
+bool is_inside(const Ring& ring, double x, double y) {
   bool inside = false;
   for (std::size_t i = 1; i < ring.size(); ++i) {
     const auto [ax, ay] = ring[i - 1];
@@ -302,7 +304,7 @@ bool holds(const Ring& ring, double x, double y) {
 json geojson_of(const Scratch& scratch, const Mesh& mesh,
                 const calotte::WriteOptions& options = {}) {
   calotte::write(scratch / "cells.geojson", mesh, options);
-  return json::parse(read_file(scratch / "cells.geojson"));
+  return json::parse(calotte::test::read_file(scratch / "cells.geojson"));
 }
 
 } // namespace
@@ -361,7 +363,7 @@ TEST_CASE("GeoJSON: a cell is around its site") {
                          [](const auto& place) { return std::abs(place.second) == 90; });
     if (const double latitude = std::asin(p.z()) * degrees; std::abs(latitude) < 80)
       CHECK(std::count_if(rings.begin(), rings.end(), [&](const Ring& ring) {
-              return holds(ring, std::atan2(p.y(), p.x()) * degrees, latitude);
+              return is_inside(ring, std::atan2(p.y(), p.x()) * degrees, latitude);
             }) == 1);
   }
   CHECK(cut > 10);
@@ -456,7 +458,7 @@ PlanarMesh planar_mesh() {
   return calotte::planar_delaunay(points);
 }
 
-void check_same(const PlanarMesh& a, const PlanarMesh& b) {
+void check_same_plane(const PlanarMesh& a, const PlanarMesh& b) {
   CHECK(equal_bits(a.points, b.points));
   CHECK(equal_bits(a.triangles, b.triangles));
   CHECK(equal_bits(a.neighbours, b.neighbours));
@@ -478,20 +480,20 @@ TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
   for (const std::string name : {"a.vtp", "a.vtu", "a.off", "a.ply", "a.msh"}) {
     CAPTURE(name);
     calotte::write(scratch / name, mesh);
-    check_same(calotte::test::read_planar_mesh(scratch / name), mesh);
+    check_same_plane(calotte::test::read_planar_mesh(scratch / name), mesh);
     const Error error = error_of([&] { calotte::read_sites(scratch / name); });
     CHECK(error.code() == ErrorCode::invalid_argument);
     names(error, "z is 0 at all points");
   }
   calotte::write(scratch / "a.tri", mesh);
-  check_same(calotte::test::read_planar_mesh(scratch / "a.tri", &mesh.points), mesh);
+  check_same_plane(calotte::test::read_planar_mesh(scratch / "a.tri", &mesh.points), mesh);
   names(error_of([&] { calotte::test::read_planar_mesh(scratch / "a.tri"); }),
         "give the points they refer to");
   // Triangles refer to the columns that were triangulated: one that is there twice is one site.
   calotte::Points2 twice(2, 6);
   twice << mesh.points, mesh.points.col(2);
   const PlanarMesh merged = calotte::test::read_planar_mesh(scratch / "a.tri", &twice);
-  check_same(merged, mesh);
+  check_same_plane(merged, mesh);
   CHECK(merged.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 2});
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/read_text.h"
+#include "io/vtk_types.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -9,7 +11,6 @@
 #include <calotte/mesh_file.h>
 
 #include <array>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,25 +25,17 @@ using namespace calotte::test;
 namespace {
 
 /// How a legacy file is written.
-struct Style {
+struct LegacyStyle {
   bool binary = false, grid = false;
   bool offsets = false; ///< as of version 5.1
   std::string points = "double", ids = "vtktypeint64";
 };
 
-const std::map<std::string, std::string> vtk_types{
-    {"char", "Int8"},           {"unsigned_char", "UInt8"},
-    {"short", "Int16"},         {"unsigned_short", "UInt16"},
-    {"int", "Int32"},           {"vtkIdType", "Int32"},
-    {"unsigned_int", "UInt32"}, {"long", "Int64"},
-    {"vtktypeint64", "Int64"},  {"float", "Float32"},
-    {"double", "Float64"}};
-
-std::string numbers(const Style& style, const std::string& type, const Values& values) {
+std::string numbers(const LegacyStyle& style, const std::string& type, const Values& values) {
   return (style.binary ? bytes_of(vtk_types.at(type), values, true) : text_of(values)) + "\n";
 }
 
-std::string cells(const Style& style, const std::string& section, const Faces& faces) {
+std::string cells(const LegacyStyle& style, const std::string& section, const Faces& faces) {
   if (!style.offsets)
     return section + " " + std::to_string(faces.ends.size()) + " " +
            std::to_string(faces.lists().size()) + "\n" + numbers(style, "int", faces.lists());
@@ -54,8 +47,8 @@ std::string cells(const Style& style, const std::string& section, const Faces& f
 }
 
 /// \param extra other cells, before the polygons. \param data what follows the cells.
-std::string vtk_text(const Faces& faces, const Style& style, const std::string& extra = "",
-                     const std::string& data = "") {
+std::string legacy_text(const Faces& faces, const LegacyStyle& style, const std::string& extra = "",
+                        const std::string& data = "") {
   const std::string count = std::to_string(faces.ends.size());
   return "# vtk DataFile Version " + std::string(style.offsets ? "5.1" : "3.0") +
          "\na title: DATASET\n" + (style.binary ? "BINARY" : "ASCII") + "\nDATASET " +
@@ -68,8 +61,8 @@ std::string vtk_text(const Faces& faces, const Style& style, const std::string& 
          data;
 }
 
-std::vector<Style> styles() {
-  std::vector<Style> all;
+std::vector<LegacyStyle> legacy_styles() {
+  std::vector<LegacyStyle> all;
   for (const bool binary : {false, true})
     for (const bool grid : {false, true}) {
       all.push_back({.binary = binary, .grid = grid});
@@ -77,19 +70,6 @@ std::vector<Style> styles() {
       all.push_back({.binary = binary, .grid = grid, .offsets = true, .ids = "int"});
     }
   return all;
-}
-
-MeshFile read_text(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  return calotte::read_mesh_file(path);
-}
-
-std::string problem_of(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  const calotte::Error error = error_of([&] { calotte::read_mesh_file(path); });
-  CHECK(error.code() == ErrorCode::parse);
-  CHECK(std::string(error.what()).starts_with(path + ": "));
-  return error.what();
 }
 
 Values counted(double from, std::size_t count) {
@@ -100,7 +80,7 @@ Values counted(double from, std::size_t count) {
 }
 
 /// Attributes of every kind. \param n points or cells.
-std::string attributes(const Style& style, double from, std::size_t n) {
+std::string attributes(const LegacyStyle& style, double from, std::size_t n) {
   const std::string count = std::to_string(n), strings = style.binary ? "\xc2hi" : "h%20i\n";
   std::string text =
       "SCALARS first" + std::to_string(int(from)) + " float\nLOOKUP_TABLE default\n" +
@@ -127,9 +107,9 @@ std::string attributes(const Style& style, double from, std::size_t n) {
 TEST_CASE("legacy VTK: a mesh comes back bit for bit from every version and encoding") {
   const Scratch scratch;
   for (const NamedMesh& mesh : {closed_meshes()[0], closed_meshes()[4], open_meshes()[0]})
-    for (const Style& style : styles()) {
+    for (const LegacyStyle& style : legacy_styles()) {
       CAPTURE(mesh.name);
-      write_text(scratch / "mesh.vtk", vtk_text(faces_of(mesh.mesh), style));
+      write_text(scratch / "mesh.vtk", legacy_text(faces_of(mesh.mesh), style));
       check_equal(calotte::read_mesh(scratch / "mesh.vtk"), mesh.mesh);
       CHECK(equal_bits(calotte::read_sites(scratch / "mesh.vtk"), mesh.mesh.points));
     }
@@ -138,17 +118,17 @@ TEST_CASE("legacy VTK: a mesh comes back bit for bit from every version and enco
 TEST_CASE("legacy VTK: polygons are cells; single precision; points alone") {
   const Scratch scratch;
   const Mesh mesh = closed_meshes()[0].mesh;
-  for (Style style : styles()) {
-    const MeshFile file = read_text(scratch / "mesh.vtk", vtk_text(prism(), style));
+  for (LegacyStyle style : legacy_styles()) {
+    const MeshFile file = read_text(scratch / "mesh.vtk", legacy_text(prism(), style));
     REQUIRE(file.polygons);
     CHECK(values_of(file.polygons->ids.items) == prism().ids);
     style.points = "float";
     Faces faces = faces_of(mesh);
     faces.points = faces.points.cast<float>().cast<double>();
-    CHECK(equal_bits(read_text(scratch / "mesh.vtk", vtk_text(faces, style)).mesh->points,
+    CHECK(equal_bits(read_text(scratch / "mesh.vtk", legacy_text(faces, style)).mesh->points,
                      faces.points));
     if (!style.offsets) {
-      const std::string text = vtk_text({mesh.points, {}, {}}, {.binary = style.binary});
+      const std::string text = legacy_text({mesh.points, {}, {}}, {.binary = style.binary});
       check_equal(*read_text(scratch / "mesh.vtk", text).mesh, mesh);
       check_equal(*read_text(scratch / "mesh.vtk", text.substr(0, text.find("POLYGONS"))).mesh,
                   mesh);
@@ -161,16 +141,16 @@ TEST_CASE("legacy VTK: attributes of one component are fields, all others are pa
   const Mesh mesh = closed_meshes()[0].mesh;
   const auto points = std::size_t(mesh.points.cols()),
              triangles = std::size_t(mesh.triangles.cols());
-  for (const Style& style : styles()) {
+  for (const LegacyStyle& style : legacy_styles()) {
     CAPTURE(style.binary);
     const std::string field =
         "FIELD FieldData 1\nTIME 1 1 double\n" + numbers(style, "double", {5});
     const MeshFile file =
-        read_text(scratch / "mesh.vtk",
-                  vtk_text(faces_of(mesh), style, field,
-                           "POINT_DATA " + std::to_string(points) + "\n" +
-                               attributes(style, 1, points) + "CELL_DATA " +
-                               std::to_string(triangles) + "\n" + attributes(style, 5, triangles)));
+        read_text(scratch / "mesh.vtk", legacy_text(faces_of(mesh), style, field,
+                                                    "POINT_DATA " + std::to_string(points) + "\n" +
+                                                        attributes(style, 1, points) +
+                                                        "CELL_DATA " + std::to_string(triangles) +
+                                                        "\n" + attributes(style, 5, triangles)));
     check_equal(*file.mesh, mesh);
     std::string names;
     for (const calotte::MeshField& f : file.fields)
@@ -188,15 +168,15 @@ TEST_CASE("legacy VTK: data of vertices and lines, which come first, are left ou
   const Scratch scratch;
   const Mesh mesh = closed_meshes()[0].mesh;
   const auto triangles = std::size_t(mesh.triangles.cols());
-  for (Style style : styles()) {
+  for (LegacyStyle style : legacy_styles()) {
     style.grid = false;
     const std::string others = cells(style, "VERTICES", {{}, {0, 1}, {1, 2}}) +
                                cells(style, "LINES", {{}, {0, 1, 2}, {3}});
     const MeshFile file =
         read_text(scratch / "mesh.vtk",
-                  vtk_text(faces_of(mesh), style, others,
-                           "CELL_DATA " + std::to_string(triangles + 3) + "\nSCALARS c int\n" +
-                               numbers(style, "int", counted(0, triangles + 3))));
+                  legacy_text(faces_of(mesh), style, others,
+                              "CELL_DATA " + std::to_string(triangles + 3) + "\nSCALARS c int\n" +
+                                  numbers(style, "int", counted(0, triangles + 3))));
     check_equal(*file.mesh, mesh);
     CHECK(values_of(file.fields.at(0).values) == counted(3, triangles));
   }
@@ -224,14 +204,14 @@ TEST_CASE("legacy VTK: a mesh of the plane") {
   square.points << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
   square.add({0, 1, 2});
   square.add({0, 2, 3});
-  for (const Style& style : styles()) {
-    write_text(scratch / "mesh.vtk", vtk_text(square, style));
+  for (const LegacyStyle& style : legacy_styles()) {
+    write_text(scratch / "mesh.vtk", legacy_text(square, style));
     CHECK(calotte::test::read_planar_mesh(scratch / "mesh.vtk").triangles.cols() == 2);
   }
   Faces quad = square;
   quad.ids = {0, 1, 2, 3};
   quad.ends = {4};
-  write_text(scratch / "mesh.vtk", vtk_text(quad, {}));
+  write_text(scratch / "mesh.vtk", legacy_text(quad, {}));
   CHECK(std::string(error_of([&] { calotte::read_mesh_file(scratch / "mesh.vtk"); }).what())
             .find("of a plane only triangles, and cells with an array site") != std::string::npos);
 }
@@ -239,9 +219,10 @@ TEST_CASE("legacy VTK: a mesh of the plane") {
 TEST_CASE("legacy VTK: what is not read, or contradicts itself, is refused by name") {
   const Scratch scratch;
   const Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
-  const std::string poly = vtk_text(faces, {}), grid = vtk_text(faces, {.grid = true}),
-                    fifth = vtk_text(faces, {.offsets = true}),
-                    scalars = vtk_text(faces, {}, "", "POINT_DATA 6\nSCALARS a int\n1 2 3 4 5 6\n");
+  const std::string poly = legacy_text(faces, {}), grid = legacy_text(faces, {.grid = true}),
+                    fifth = legacy_text(faces, {.offsets = true}),
+                    scalars =
+                        legacy_text(faces, {}, "", "POINT_DATA 6\nSCALARS a int\n1 2 3 4 5 6\n");
   const std::vector<std::array<std::string, 2>> cases{
       {"#" + poly, "does not start with"},
       {replaced(poly, "ASCII", "HEX"), "third line is \"HEX\""},
@@ -266,20 +247,20 @@ TEST_CASE("legacy VTK: what is not read, or contradicts itself, is refused by na
       {replaced(scalars, "POINT_DATA 6\n", ""), "POINT_DATA or CELL_DATA is missing"},
       {replaced(scalars, "POINT_DATA", "CELL_DATA"), "\"a\": it has 6 values for 8 cells"},
       {replaced(scalars, "3 4 5", "3 x 5"), "\"a\": \"x\" at place 3 of 6 is not a number"},
-      {vtk_text(faces, {.binary = true}, "FIELD f 1\na 2147483647 2147483647 double\n"),
+      {legacy_text(faces, {.binary = true}, "FIELD f 1\na 2147483647 2147483647 double\n"),
        "\"a\": the file ends before its data"},
-      {vtk_text(faces, {.binary = true}, "FIELD f 1\na 1 9 string\n"), "parse"}};
+      {legacy_text(faces, {.binary = true}, "FIELD f 1\na 1 9 string\n"), "parse"}};
   for (const auto& [text, part] : cases) {
     CAPTURE(part);
     const std::string problem = problem_of(scratch / "mesh.vtk", text);
     CAPTURE(problem);
     CHECK((part == "parse" || problem.find(part) != std::string::npos));
   }
-  for (const Style& style : styles())
+  for (const LegacyStyle& style : legacy_styles())
     for (const double bad : {6., -1., 2147483647.}) {
       Faces other = faces;
       other.ids[16] = bad;
-      write_text(scratch / "mesh.vtk", vtk_text(other, style));
+      write_text(scratch / "mesh.vtk", legacy_text(other, style));
       CHECK(error_of([&] { calotte::read_mesh_file(scratch / "mesh.vtk"); }).index() == 5);
     }
 }
@@ -288,10 +269,10 @@ TEST_CASE("legacy VTK: a file that is cut anywhere, or whose bytes change, is re
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
   std::mt19937 random(3);
-  for (const Style& style : styles()) {
+  for (const LegacyStyle& style : legacy_styles()) {
     const std::string path = scratch / "mesh.vtk",
-                      text = vtk_text(faces_of(mesh), style, "",
-                                      "POINT_DATA 6\n" + attributes(style, 1, 6));
+                      text = legacy_text(faces_of(mesh), style, "",
+                                         "POINT_DATA 6\n" + attributes(style, 1, 6));
     write_text(path, text);
     done_when_cut(path, [&] { calotte::read_mesh(path); });
     for (int k = 0; k < 100; ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/read_text.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -30,19 +31,6 @@ std::string path_of(const Scratch& scratch, const std::string& type) {
 }
 
 const std::vector<std::string> both_types{"PolyData", "UnstructuredGrid"};
-
-MeshFile read_text(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  return calotte::read_mesh_file(path);
-}
-
-std::string problem_of(const std::string& path, const std::string& text) {
-  write_text(path, text);
-  const calotte::Error error = error_of([&] { calotte::read_mesh_file(path); });
-  CHECK(error.code() == ErrorCode::parse);
-  CHECK(std::string(error.what()).starts_with(path + ": "));
-  return error.what();
-}
 
 } // namespace
 
@@ -294,7 +282,7 @@ TEST_CASE("VTK: cells that another program changed are not taken for Voronoi cel
   const Scratch scratch;
   const Mesh mesh = closed_meshes()[0].mesh;
   calotte::write(scratch / "a.vtp", mesh, {.format = calotte::Format::vtp_cells});
-  std::string text = read_file(scratch / "a.vtp");
+  std::string text = calotte::test::read_file(scratch / "a.vtp");
   std::swap(text[text.find("\n_") + 2 + 8], text[text.find("\n_") + 2 + 8 + 1200]);
   CHECK(problem_of(scratch / "a.vtp", text).find("array \"triangle\": ") != std::string::npos);
 }

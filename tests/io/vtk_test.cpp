@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
+#include "io/format_files.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/planes.h"
@@ -75,38 +76,33 @@ std::string_view block_of(const std::string& file, const std::string& name) {
   return std::string_view(file).substr(offset + 8, size);
 }
 
-template <class T> bool holds(std::string_view block, const T& values) {
+template <class T> bool has_values(std::string_view block, const T& values) {
   const std::size_t bytes = sizeof(*values.data()) * std::size_t(values.size());
   return block.size() == bytes && std::memcmp(block.data(), values.data(), bytes) == 0;
 }
 
 /// Whether the element stands before the other, and both are there.
-bool within(const std::string& file, const std::string& name, const std::string& element) {
+bool stands_in(const std::string& file, const std::string& name, const std::string& element) {
   const std::size_t begin = file.find("<" + element), place = file.find("Name=\"" + name + "\""),
                     end = file.find("</" + element + ">");
   return begin < place && place < end && end != std::string::npos;
 }
 
-void check_fields(const std::string& file, const std::string& element, const Mesh& mesh,
-                  const calotte::Density& density) {
+void check_cell_fields(const std::string& file, const std::string& element, const Mesh& mesh,
+                       const calotte::Density& density) {
   const calotte::CellFields fields = calotte::cell_fields(calotte::voronoi(mesh), density);
-  CHECK(holds(block_of(file, "area"), fields.area));
-  CHECK(holds(block_of(file, "density"), fields.density));
-  CHECK(holds(block_of(file, "spacing"), fields.spacing));
-  CHECK(holds(block_of(file, "quality"), fields.quality));
-  CHECK(holds(block_of(file, "degree"), fields.degree));
+  CHECK(has_values(block_of(file, "area"), fields.area));
+  CHECK(has_values(block_of(file, "density"), fields.density));
+  CHECK(has_values(block_of(file, "spacing"), fields.spacing));
+  CHECK(has_values(block_of(file, "quality"), fields.quality));
+  CHECK(has_values(block_of(file, "degree"), fields.degree));
   for (const char* name : {"area", "density", "spacing", "quality", "degree"})
-    CHECK(within(file, name, element));
+    CHECK(stands_in(file, name, element));
 }
 
-struct Kind {
-  std::string name;
-  Format format;
-};
-
-const std::vector<Kind> of_triangles{{"mesh.vtp", Format::vtp}, {"mesh.vtu", Format::vtu}};
-const std::vector<Kind> of_cells{{"cells.vtp", Format::vtp_cells},
-                                 {"cells.vtu", Format::vtu_cells}};
+const std::vector<FormatFile> of_triangles{{"mesh.vtp", Format::vtp}, {"mesh.vtu", Format::vtu}};
+const std::vector<FormatFile> of_cells{{"cells.vtp", Format::vtp_cells},
+                                       {"cells.vtu", Format::vtu_cells}};
 
 } // namespace
 
@@ -114,7 +110,7 @@ TEST_CASE("VTK: meshes come back bit for bit, of triangles and of cells") {
   const Scratch scratch;
   for (const auto& [name, mesh] : closed_meshes()) {
     CAPTURE(name);
-    for (const std::vector<Kind>& kinds : {of_triangles, of_cells})
+    for (const std::vector<FormatFile>& kinds : {of_triangles, of_cells})
       for (const auto& [file, format] : kinds) {
         CAPTURE(file);
         calotte::write(scratch / file, mesh, {.format = format});
@@ -141,7 +137,7 @@ TEST_CASE("VTK: files without fields, as earlier versions wrote them") {
       check_equal(calotte::read_mesh(path), mesh);
       if (!mesh.closed()) {
         calotte::write(path, mesh);
-        CHECK(read_file(path) == earlier);
+        CHECK(calotte::test::read_file(path) == earlier);
       }
     }
 }
@@ -153,11 +149,11 @@ TEST_CASE("VTK: triangles have the cells' fields at the points of a closed mesh"
     for (const auto& [file, format] : of_triangles) {
       CAPTURE(name);
       calotte::write(scratch / file, mesh, {.density = density});
-      check_fields(read_file(scratch / file), "PointData", mesh, density);
+      check_cell_fields(calotte::test::read_file(scratch / file), "PointData", mesh, density);
     }
   for (const auto& [name, mesh] : open_meshes()) {
     calotte::write(scratch / "mesh.vtp", mesh, {.density = density});
-    CHECK(read_file(scratch / "mesh.vtp").find("PointData") == std::string::npos);
+    CHECK(calotte::test::read_file(scratch / "mesh.vtp").find("PointData") == std::string::npos);
   }
 }
 
@@ -168,26 +164,27 @@ TEST_CASE("VTK: cells are counter-clockwise polygons with their fields and sites
     for (const auto& [file, format] : of_cells) {
       CAPTURE(name);
       calotte::write(scratch / file, mesh, {.format = format, .density = density});
-      const std::string text = read_file(scratch / file);
-      check_fields(text, "CellData", mesh, density);
+      const std::string text = calotte::test::read_file(scratch / file);
+      check_cell_fields(text, "CellData", mesh, density);
       const calotte::Voronoi cells = calotte::voronoi(mesh);
-      CHECK(within(text, "site", "CellData"));
-      CHECK(holds(block_of(text, "site"), mesh.points));
-      CHECK(within(text, "triangle", "PointData"));
-      CHECK(holds(block_of(text, "triangle"), mesh.triangles));
+      CHECK(stands_in(text, "site", "CellData"));
+      CHECK(has_values(block_of(text, "site"), mesh.points));
+      CHECK(stands_in(text, "triangle", "PointData"));
+      CHECK(has_values(block_of(text, "triangle"), mesh.triangles));
       // On the sites' sphere, where they have one.
       const double radius = name == "tetrahedron" || name == "cube" ? 1.73205080757 : 1;
-      CHECK(holds(block_of(text, "Points"), calotte::Points3(radius * cells.vertices)));
+      CHECK(has_values(block_of(text, "Points"), calotte::Points3(radius * cells.vertices)));
       std::vector<std::int64_t> corners, offsets;
       for (std::int64_t i = 0; i < mesh.points.cols(); ++i) {
         for (const std::int32_t vertex : cells.vertices_on_cell[i])
           corners.push_back(vertex);
         offsets.push_back(std::int64_t(corners.size()));
       }
-      CHECK(holds(block_of(text, "connectivity"), corners));
-      CHECK(holds(block_of(text, "offsets"), offsets));
+      CHECK(has_values(block_of(text, "connectivity"), corners));
+      CHECK(has_values(block_of(text, "offsets"), offsets));
       if (format == Format::vtu_cells)
-        CHECK(holds(block_of(text, "types"), std::string(std::size_t(mesh.points.cols()), '\7')));
+        CHECK(has_values(block_of(text, "types"),
+                         std::string(std::size_t(mesh.points.cols()), '\7')));
     }
 }
 
@@ -199,7 +196,7 @@ TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
     const std::string path = scratch / file;
     calotte::write(path, mesh, {.format = format});
     CHECK(done_when_cut(path, [&] { calotte::read_mesh(path); }) == 0);
-    write_text(path, read_file(path) + "more");
+    write_text(path, calotte::test::read_file(path) + "more");
     CHECK(error_of([&] { calotte::read_mesh(path); }).code() == ErrorCode::parse);
   }
 }
@@ -207,15 +204,15 @@ TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
 TEST_CASE("VTK: invalid counts, other cells and ids out of range are refused") {
   const Scratch scratch;
   const Mesh mesh = calotte::spherical_delaunay(octahedron());
-  const auto error = [&](const Kind& kind, const std::function<void(std::string&)>& spoil) {
+  const auto error = [&](const FormatFile& kind, const std::function<void(std::string&)>& spoil) {
     calotte::write(scratch / kind.name, mesh, {.format = kind.format});
-    std::string text = read_file(scratch / kind.name);
+    std::string text = calotte::test::read_file(scratch / kind.name);
     spoil(text);
     write_text(scratch / kind.name, text);
     return error_of([&] { calotte::read_mesh(scratch / kind.name); });
   };
-  for (const std::vector<Kind>& kinds : {of_triangles, of_cells})
-    for (const Kind& kind : kinds) {
+  for (const std::vector<FormatFile>& kinds : {of_triangles, of_cells})
+    for (const FormatFile& kind : kinds) {
       CAPTURE(kind.name);
       for (const char* count : {"7", "0", "-1", "x", "99999999999999999999", "2000000000"})
         CHECK(error(kind, [&](std::string& text) {
@@ -224,14 +221,14 @@ TEST_CASE("VTK: invalid counts, other cells and ids out of range are refused") {
               }).code() == ErrorCode::parse);
     }
   for (const std::int64_t bad : {std::int64_t{6}, std::int64_t{-1}, std::int64_t{1} << 32}) {
-    for (const Kind& kind : of_triangles)
+    for (const FormatFile& kind : of_triangles)
       CHECK(error(kind, [&](std::string& text) {
               const std::size_t place =
                   std::size_t(block_of(text, "connectivity").data() - text.data());
               std::memcpy(&text[place + 8 * 16], &bad, 8);
             }).index() == 5);
     if (const auto narrow = std::int32_t(bad); narrow == bad)
-      for (const Kind& kind : of_cells)
+      for (const FormatFile& kind : of_cells)
         CHECK(error(kind, [&](std::string& text) {
                 const std::size_t place =
                     std::size_t(block_of(text, "triangle").data() - text.data());

@@ -42,6 +42,8 @@ public:
 
   std::filesystem::path folder() const { return scratch_ / "work"; }
 
+  std::string path(const std::string& name) const { return folder() / name; }
+
   void file(const std::string& name, const std::string& text) const {
     std::ofstream(folder() / name, std::ios::binary) << text;
   }
@@ -88,8 +90,26 @@ private:
   std::filesystem::path scratch_;
 };
 
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 inline bool one_line(const std::string& text) {
   return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+/// The argument of --density for cells that are `contrast` times wider far from its bump.
+inline std::string bump_density(int contrast) {
+  return "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x" + std::to_string(contrast);
+}
+
+/// Runs the command and checks that it succeeds.
+inline Outcome check_success(const Bench& bench, const std::string& arguments) {
+  CAPTURE(arguments);
+  Outcome outcome = bench.run(arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  return outcome;
 }
 
 /// Checks that the command ends with this code and exactly this message, and leaves no file behind.

@@ -58,6 +58,15 @@ inline std::vector<NamedMesh> all_meshes() {
   return all;
 }
 
+/// closed_meshes(), and those with spacings that differ and with a cell of more corners than a byte
+/// counts.
+inline std::vector<NamedMesh> uneven_meshes() {
+  std::vector<NamedMesh> all = closed_meshes();
+  all.push_back({"8:1", spherical_delaunay(eight_to_one(200, 5))});
+  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
+  return all;
+}
+
 template <class A, class B> bool equal_bits(const A& a, const B& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() &&
          (a.size() == 0 ||

@@ -21,7 +21,7 @@ using namespace calotte::test;
 
 namespace {
 
-constexpr const char* octahedron = "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n";
+constexpr const char* octahedron_text = "1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n";
 
 } // namespace
 
@@ -35,7 +35,7 @@ TEST_CASE("invalid points: the message names the line, and nothing is written") 
                   message);
   };
   const std::string xyz = "; write three numbers x y z on each line";
-  const std::string start = octahedron; // lines 1 to 6
+  const std::string start = octahedron_text; // lines 1 to 6
   check_bad(start + "nan 0 1\n",
             "points.txt line 7: NaN gives no direction; remove the point or correct it");
   check_bad(start + "0 1 inf",
@@ -69,7 +69,7 @@ TEST_CASE("sets that span no mesh are refused, and nothing is written") {
   check_refusal_naming(bench, "delaunay two.txt -o mesh.vtp", 2, "3");
   bench.file("circle.txt", "1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n1 1 0\n");
   check_refusal_naming(bench, "delaunay circle.txt -o mesh.vtp", 2, "great circle");
-  bench.file("twice.txt", "# six and one again\n" + std::string(octahedron) + "0 7 0\n");
+  bench.file("twice.txt", "# six and one again\n" + std::string(octahedron_text) + "0 7 0\n");
   check_refusal_naming(bench, "delaunay twice.txt -o mesh.vtp --duplicates refuse", 2,
                        "twice.txt line 8: ");
   check_refusal_naming(bench, "delaunay - -o mesh.vtp --duplicates refuse <twice.txt", 2,
@@ -118,10 +118,10 @@ TEST_CASE("bad usage is refused before any work") {
               "--seed applies to random points only; leave it out");
   check_usage("points spiral 9 --poles -o points.txt",
               "--poles applies to latlon points only; leave it out");
-  bench.file("points.txt", octahedron);
+  bench.file("points.txt", octahedron_text);
   check_usage("delaunay points.txt -o points.txt",
               "points.txt is both input and output; give the output another name");
-  CHECK(contents(bench.folder() / "points.txt") == octahedron);
+  CHECK(contents(bench.folder() / "points.txt") == octahedron_text);
 }
 
 TEST_CASE("an output that cannot be written is refused before any work") {
@@ -181,7 +181,7 @@ TEST_CASE("from points to a mesh that passes its check, in every format") {
 
 TEST_CASE("standard input and output take the place of files") {
   const Bench bench;
-  bench.file("points.txt", octahedron);
+  bench.file("points.txt", octahedron_text);
   CHECK(bench.run("delaunay - -o mesh.tri <points.txt").code == 0);
   CHECK(bench.run("check mesh.tri --points - <points.txt").code == 0);
   const Outcome points = bench.run("points icosahedron 12 -o -");
@@ -227,7 +227,7 @@ TEST_CASE("in the plane the other diagonal of cocircular sites passes, as on the
 
 TEST_CASE("a file that deviates from its mesh fails its check with exit code 1") {
   const Bench bench;
-  bench.file("points.txt", octahedron);
+  bench.file("points.txt", octahedron_text);
   CHECK(bench.run("delaunay points.txt -o mesh.nc").code == 0);
   CHECK(bench.run("check mesh.nc").code == 0);
   std::string bytes = bench.file("mesh.nc");
@@ -242,7 +242,7 @@ TEST_CASE("a file that deviates from its mesh fails its check with exit code 1")
 
 TEST_CASE("triangles of both orientations are refused with the first of the rarer") {
   const Bench bench;
-  bench.file("points.txt", octahedron);
+  bench.file("points.txt", octahedron_text);
   bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
   for (const std::string command : {"check", "info"})
     check_refusal(bench, command + " mesh.tri --points points.txt", 2,

@@ -33,27 +33,25 @@ struct File {
 };
 
 /// Formats that hold their points as numbers x y z.
-const std::vector<File> exact{
+const std::vector<File> exact_formats{
     {"full.nc", ""}, {"mesh.vtp", ""}, {"mesh.ply", ""}, {"mesh.msh", ""}, {"SaveVertices", ""}};
-const std::vector<File> exact_too{
+const std::vector<File> more_exact_formats{
     {"minimal.nc", " --format mpas-minimal"}, {"mesh.vtu", ""}, {"mesh.off", ""}};
 
 /// Formats of angles, or of cells.
-const std::vector<File> others{{"cells.nc", " --format ugrid"},
-                               {"triangles.nc", " --format ugrid-triangles"},
-                               {"scrip.nc", " --format scrip"},
-                               {"esmf.nc", " --format esmf"},
-                               {"cells.vtp", " --format vtp-cells"},
-                               {"cells.vtu", " --format vtu-cells"},
-                               {"cells.geojson", ""}};
-
-std::string in_folder(const Bench& bench, const std::string& name) { return bench.folder() / name; }
+const std::vector<File> inexact_formats{{"cells.nc", " --format ugrid"},
+                                        {"triangles.nc", " --format ugrid-triangles"},
+                                        {"scrip.nc", " --format scrip"},
+                                        {"esmf.nc", " --format esmf"},
+                                        {"cells.vtp", " --format vtp-cells"},
+                                        {"cells.vtu", " --format vtu-cells"},
+                                        {"cells.geojson", ""}};
 
 /// A mesh that is no lattice, in the folder as start.vtp.
 calotte::Mesh make_start(const Bench& bench, int count) {
   REQUIRE(bench.run("points random " + std::to_string(count) + " -o points.txt").code == 0);
   REQUIRE(bench.run("delaunay points.txt -o start.vtp").code == 0);
-  return calotte::read_mesh(in_folder(bench, "start.vtp"));
+  return calotte::read_mesh(bench.path("start.vtp"));
 }
 
 /// Converts a file and checks the messages.
@@ -72,14 +70,14 @@ void convert(const Bench& bench, const std::string& in, const File& out, int cel
 TEST_CASE("from exact format to exact format: the points keep their bits, the mesh is the same") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 60);
-  for (const File& in : exact) {
+  for (const File& in : exact_formats) {
     CAPTURE(in.name);
     fs::create_directory(bench.folder() / "in");
     convert(bench, "start.vtp", {"in/" + in.name, in.option}, 60);
-    for (const File& out : exact) {
+    for (const File& out : exact_formats) {
       CAPTURE(out.name);
       convert(bench, "in/" + in.name, out, 60);
-      const calotte::Mesh mesh = calotte::read_mesh(in_folder(bench, out.name));
+      const calotte::Mesh mesh = calotte::read_mesh(bench.path(out.name));
       CHECK((mesh.points == start.points));
       CHECK((mesh.triangles == start.triangles));
     }
@@ -89,11 +87,11 @@ TEST_CASE("from exact format to exact format: the points keep their bits, the me
 TEST_CASE("formats of angles and cells give the same mesh, places as far as angles tell") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 60);
-  for (const File& file : others) {
+  for (const File& file : inexact_formats) {
     CAPTURE(file.name);
     convert(bench, "start.vtp", file, 60);
     convert(bench, file.name, {"back.vtp", ""}, 60);
-    const calotte::Mesh back = calotte::read_mesh(in_folder(bench, "back.vtp"));
+    const calotte::Mesh back = calotte::read_mesh(bench.path("back.vtp"));
     CHECK((back.triangles == start.triangles));
     CHECK((back.points - start.points).cwiseAbs().maxCoeff() < 1e-14);
   }
@@ -107,7 +105,7 @@ TEST_CASE("the selected order of the cells") {
     CAPTURE(options);
     convert(bench, "start.vtp", {out, ""}, 100, options);
     const calotte::Mesh expected = calotte::renumbered(start, numbering);
-    const calotte::Mesh mesh = calotte::read_mesh(in_folder(bench, out));
+    const calotte::Mesh mesh = calotte::read_mesh(bench.path(out));
     CHECK((mesh.points == expected.points));
     CHECK((mesh.triangles == expected.triangles));
   };
@@ -124,7 +122,7 @@ TEST_CASE("the sphere's radius: the selected one, or that of the points") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 50);
   const auto points = [&](const std::string& name) {
-    return calotte::read_mesh(in_folder(bench, name)).points;
+    return calotte::read_mesh(bench.path(name)).points;
   };
   convert(bench, "start.vtp", {"unit.nc", ""}, 50);
   CHECK((points("unit.nc") == start.points));
@@ -146,13 +144,13 @@ TEST_CASE("the sphere's radius: the selected one, or that of the points") {
 TEST_CASE("the density goes into the fields, and equal runs give equal files") {
   const Bench bench;
   make_start(bench, 60);
-  const std::string bump = " --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x3";
-  convert(bench, "start.vtp", {"first.nc", ""}, 60, bump);
-  convert(bench, "start.vtp", {"second.nc", ""}, 60, bump);
+  const std::string graded = " --density " + bump_density(3);
+  convert(bench, "start.vtp", {"first.nc", ""}, 60, graded);
+  convert(bench, "start.vtp", {"second.nc", ""}, 60, graded);
   convert(bench, "start.vtp", {"uniform.nc", ""}, 60, "");
   CHECK((bench.file("first.nc") == bench.file("second.nc")));
   const auto density = [&](const std::string& name) {
-    return calotte::read_cell_field(in_folder(bench, name), "meshDensity", 60).values;
+    return calotte::read_cell_field(bench.path(name), "meshDensity", 60).values;
   };
   CHECK(density("uniform.nc") == Eigen::VectorXd::Ones(60));
   CHECK(density("first.nc").maxCoeff() == 1);
@@ -165,7 +163,7 @@ TEST_CASE("triangles alone go with their points") {
   const calotte::Mesh start = make_start(bench, 40);
   convert(bench, "start.vtp", {"mesh.tri", ""}, 40, "");
   convert(bench, "mesh.tri --points points.txt", {"back.off", ""}, 40, "");
-  const calotte::Mesh back = calotte::read_mesh(in_folder(bench, "back.off"));
+  const calotte::Mesh back = calotte::read_mesh(bench.path("back.off"));
   CHECK((back.points == start.points));
   CHECK((back.triangles == start.triangles));
   const auto neither = [](const std::string& name) {
@@ -188,21 +186,21 @@ TEST_CASE("MPI-SCVT's files are a mesh, a start and points") {
   REQUIRE(bench.run("delaunay RegionList -o RegionTriangulation.tri").code == 0);
   fs::rename(bench.folder() / "RegionTriangulation.tri", bench.folder() / "RegionTriangulation");
   CHECK(bench.run("delaunay SaveVertices -o mesh.vtp").code == 0);
-  CHECK((calotte::read_mesh(in_folder(bench, "mesh.vtp")).triangles == start.triangles));
+  CHECK((calotte::read_mesh(bench.path("mesh.vtp")).triangles == start.triangles));
   CHECK(bench.run("cvt SaveVertices --iterations 1 -o mesh.vtp").code == 0);
-  CHECK(calotte::read_mesh(in_folder(bench, "mesh.vtp")).points.cols() == 60);
+  CHECK(calotte::read_mesh(bench.path("mesh.vtp")).points.cols() == 60);
   convert(bench, "RegionTriangulation", {"regions.vtp", ""}, 7);
 }
 
 TEST_CASE("every format's points can be triangulated and iterated from again") {
   const Bench bench;
   const calotte::Mesh start = make_start(bench, 60);
-  for (const std::vector<File>& files : {exact_too, others})
+  for (const std::vector<File>& files : {more_exact_formats, inexact_formats})
     for (const File& file : files) {
       CAPTURE(file.name);
       convert(bench, "start.vtp", file, 60);
       CHECK(bench.run("delaunay " + file.name + " -o again.vtp").code == 0);
-      CHECK((calotte::read_mesh(in_folder(bench, "again.vtp")).triangles == start.triangles));
+      CHECK((calotte::read_mesh(bench.path("again.vtp")).triangles == start.triangles));
     }
   CHECK(bench.run("cvt minimal.nc --iterations 1 -o again.nc").code == 0);
   CHECK(bench.run("check minimal.nc").code == 0);
@@ -212,12 +210,12 @@ TEST_CASE("every format's points can be triangulated and iterated from again") {
 TEST_CASE("a periodic plane goes from MPAS to MPAS") {
   const Bench bench;
   const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 4, 0.25);
-  calotte::write(in_folder(bench, "plane.nc"), plane);
+  calotte::write(bench.path("plane.nc"), plane);
   for (const std::string format : {"", " --format mpas-minimal"}) {
     const Outcome made = bench.run("convert plane.nc again.nc" + format);
     CHECK(made.code == 0);
     CHECK(made.out == "again.nc: 24 sites, 48 triangles, a periodic plane\n");
-    const calotte::PlanarMesh again = calotte::test::read_planar_mesh(in_folder(bench, "again.nc"));
+    const calotte::PlanarMesh again = calotte::test::read_planar_mesh(bench.path("again.nc"));
     CHECK((again.points == plane.points));
     CHECK((again.triangles == plane.triangles));
     CHECK(again.period == plane.period);
@@ -298,7 +296,7 @@ TEST_CASE("kill -9 in the midst of writing leaves the old file whole [slow]") {
         fs::remove(bench.folder() / name); // the remaining file has another name
   }
   CHECK(bench.run("convert mesh.vtp mesh.nc").code == 0);
-  CHECK(calotte::read_sites(in_folder(bench, "mesh.nc")).cols() == 100'000);
+  CHECK(calotte::read_sites(bench.path("mesh.nc")).cols() == 100'000);
 }
 
 TEST_CASE("the points of an open mesh are triangulated with a warning") {
@@ -348,8 +346,7 @@ TEST_CASE("cells that are no Voronoi cells: what info, check and convert say of 
   CHECK(info.out.find("not convex            1; the first is cell 5\n") != std::string::npos);
   CHECK(info.out.find("not centroidal        2; the farthest centre is ") != std::string::npos);
   CHECK(info.out.find("not Delaunay") == std::string::npos); // of no triangles
-  const auto report =
-      nlohmann::json::parse(calotte::test::read_file(in_folder(bench, "report.json")));
+  const auto report = nlohmann::json::parse(calotte::test::read_file(bench.path("report.json")));
   CHECK(report["not_convex"] == 1);
   CHECK(report["first_not_convex"] == 5);
   CHECK(report["not_centroidal"] == 2);

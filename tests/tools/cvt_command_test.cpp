@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x3";
-
 /// Waits for a condition that another process fulfils; fails after minutes.
 void wait_until(const std::function<bool()>& done) {
   for (int k = 0; k < 200'000 && !done(); ++k)
@@ -48,10 +46,6 @@ std::vector<std::string> course(const std::string& report) {
       if (line.find(quoted(key)) != std::string::npos)
         lines.push_back(line);
   return lines;
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// True if the command runs in that process and handles the signal. (After the fork the process is
@@ -83,7 +77,7 @@ const std::string long_run = "cvt --cells 162 --start random --seed 5 --iteratio
 const std::string long_levels =
     "cvt --cells 162 --start icosahedron --bisections 2 --method lbfgs --iterations 1500";
 const std::string long_bump =
-    "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump;
+    "cvt --cells 162 --method lloyd --start density --iterations 3000 --density " + bump_density(3);
 const std::string kept = " --checkpoint run.checkpoint --checkpoint-every 1";
 
 /// Interrupts a run before its end.
@@ -126,16 +120,16 @@ TEST_CASE("every start leads to the requested number of cells") {
   };
   check_start("--cells 12", 12, "");
   check_start("--cells 162", 162, "");
-  check_start("--cells 162 --density " + bump, 162, "");
+  check_start("--cells 162 --density " + bump_density(3), 162, "");
   check_start("--cells 150 --start continuation", 150, "");
   check_start("--cells 150 --start geodesic", 150, "");
   check_start("--cells 594 --start geodesic --bisections 1", 594, "");
-  check_start("--cells 100 --seed 4 --density " + bump, 100,
+  check_start("--cells 100 --seed 4 --density " + bump_density(3), 100,
               "calotte: 100 cells is not 10 x 4^k + 2: the start is 100 points drawn from the "
               "density\n");
   check_start("--cells 100 --start random", 100, "");
   check_start("--cells 100 --start random --seed 7", 100, "");
-  check_start("--cells 100 --start density --density " + bump, 100, "");
+  check_start("--cells 100 --start density --density " + bump_density(3), 100, "");
   check_start("--cells 100 --start fibonacci", 100, "");
   check_start("--cells 102 --start fibonacci --bisections 1", 102, "");
   check_start("--cells 100 --start spiral", 100, "");
@@ -225,8 +219,8 @@ TEST_CASE("seeds make a difference, and the same seed makes none") {
   };
   CHECK(made("--start random") == made("--start random --seed 1"));
   CHECK(made("--start random") != made("--start random --seed 2"));
-  CHECK(made("--start density --density " + bump) !=
-        made("--start density --seed 2 --density " + bump));
+  CHECK(made("--start density --density " + bump_density(3)) !=
+        made("--start density --seed 2 --density " + bump_density(3)));
 }
 
 TEST_CASE("bad usage is refused before any work") {
@@ -343,13 +337,14 @@ TEST_CASE(
   const Bench bench;
   bench.file("run.toml", "# a run\ncells = 42\nstart = \"random\"\niterations = 4\n"
                          "density = [\"" +
-                             bump + "\",\n  \"" + bump +
+                             bump_density(3) + "\",\n  \"" + bump_density(3) +
                              "\"]\njoin = \"sum\"\n"
                              "output = \"mesh.vtp\"\nreport = 'report.json'\n");
-  const std::string outright = "cvt --start random --iterations 4 --density " + bump +
-                               " --density " + bump + " --join sum -o mesh.off ";
+  const std::string outright = "cvt --start random --iterations 4 --density " + bump_density(3) +
+                               " --density " + bump_density(3) + " --join sum -o mesh.off ";
   CHECK(bench.run("cvt --config run.toml").code == 0);
-  CHECK(has(bench.file("report.json"), "\n \"density\": [\n  \"" + bump + "\",\n  \"" + bump));
+  CHECK(has(bench.file("report.json"),
+            "\n \"density\": [\n  \"" + bump_density(3) + "\",\n  \"" + bump_density(3)));
   CHECK(bench.run("cvt --config run.toml -o mesh.off").code == 0);
   const std::string from_file = bench.file("mesh.off");
   CHECK(bench.run(outright + "--cells 42").code == 0);
@@ -446,7 +441,7 @@ TEST_CASE("cell widths determine the number of cells, give warnings, and belong 
 
 TEST_CASE("a mesh file contains its provenance, and equal runs give equal bytes") {
   const Bench bench;
-  const std::string run = "cvt --cells 42 --seed 3 --iterations 4 --density " + bump;
+  const std::string run = "cvt --cells 42 --seed 3 --iterations 4 --density " + bump_density(3);
   const auto history = [&](const std::string& name) {
     const std::string bytes = bench.file(name);
     const std::size_t from = bytes.find("start continuation; "), to = bytes.find("merge-within 0");
@@ -458,7 +453,7 @@ TEST_CASE("a mesh file contains its provenance, and equal runs give equal bytes"
   CHECK(bench.run(run + " -o second.nc --threads 1 --regions 3").code == 0);
   CHECK((bench.file("first.nc") == bench.file("second.nc")));
   CHECK(has(bench.file("first.nc"), "calotte 1.0."));
-  CHECK(history("first.nc") == "start continuation; cells 42; seed 3; density " + bump +
+  CHECK(history("first.nc") == "start continuation; cells 42; seed 3; density " + bump_density(3) +
                                    "; method auto; duplicates merge; ");
   CHECK(has(bench.file("first.nc"), "merge-within 0; iterations 4"));
   CHECK(bench.run(run + " --method lloyd -o other.nc").code == 0);
@@ -549,7 +544,8 @@ TEST_CASE("the report has the documented content") {
 
 TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
   const Bench bench;
-  const std::string run = "cvt --cells 500 --start random --iterations 20 --density " + bump;
+  const std::string run =
+      "cvt --cells 500 --start random --iterations 20 --density " + bump_density(3);
   CHECK(bench.run(run + " -o first.vtp").code == 0);
   for (const std::string options :
        {"--threads 1", "--threads 3 --regions 7", "--regions 1", "--sort distance --regions 6",
@@ -582,7 +578,8 @@ TEST_CASE("SIGTERM and SIGINT end a run in order, and it resumes to the same bit
 
 TEST_CASE("a checkpoint knows its command: --resume alone continues to the same bits") {
   const Bench bench;
-  const std::string bumps = "cvt --cells 162 --method lloyd --start density --density " + bump;
+  const std::string bumps =
+      "cvt --cells 162 --method lloyd --start density --density " + bump_density(3);
   const std::string rest = " --density tanh:lon=10,lat=0,beta=0.3,alpha=0.2,gamma=x2 --join sum "
                            "--iterations 900 --duplicates refuse -o mesh.vtp";
   CHECK(bench.run(bumps + rest).code == 0);
@@ -691,7 +688,7 @@ TEST_CASE("a signal a second after another one ends the process at once") {
   // here.
   std::string bumps;
   for (int k = 0; k < 3000; ++k)
-    bumps += (k == 0 ? "\"" : ", \"") + bump + "\"";
+    bumps += (k == 0 ? "\"" : ", \"") + bump_density(3) + "\"";
   bench.file("bumps.toml", "density = [" + bumps + "]\n");
   const pid_t process =
       bench.start("cvt --cells 40000 --start random --threads 1 --config bumps.toml -o mesh.vtp "
@@ -777,7 +774,8 @@ TEST_CASE("a checkpoint of another configuration is refused with the option that
   check_other(base, "--cells 50 --start random --max-iterations 2", "cells 42", "cells 50");
   check_other(base, "--start continuation", "start random", "start continuation");
   check_other(base, base + "--seed 2", "seed 1", "seed 2");
-  check_other(base, base + "--density " + bump, "density uniform", "density " + bump);
+  check_other(base, base + "--density " + bump_density(3), "density uniform",
+              "density " + bump_density(3));
   check_other(base, base + "--method lloyd", "method auto", "method lloyd");
   check_other(base, base + "--duplicates refuse", "duplicates merge", "duplicates refuse");
   check_other(base, base + "--merge-within 1e-4", "merge-within 0", "merge-within 1e-04");
@@ -1019,7 +1017,7 @@ TEST_CASE("on a terminal a line shows the level and a range of the time left [sl
   const Outcome outcome =
       bench.run("", "exec script -qefc \"'" CALOTTE_COMMAND "' cvt --cells 20000 --start density "
                     "--density " +
-                        bump +
+                        bump_density(3) +
                         " --iterations 1500 --threads 1 -o mesh.vtp\" "
                         "/dev/null </dev/null;");
   CHECK(outcome.code == 0);

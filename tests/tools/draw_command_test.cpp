@@ -13,12 +13,11 @@ using namespace calotte::test;
 
 namespace {
 
-const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x2";
-
 /// A run's mesh and report.
 void make_run(const Bench& bench, const std::string& name) {
-  const Outcome outcome = bench.run("cvt --cells 162 --stop tolerance --tolerance 1e-2 --density " +
-                                    bump + " -o " + name + ".vtp --report " + name + ".json");
+  const Outcome outcome =
+      bench.run("cvt --cells 162 --stop tolerance --tolerance 1e-2 --density " + bump_density(2) +
+                " -o " + name + ".vtp --report " + name + ".json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
 }
@@ -42,7 +41,8 @@ TEST_CASE("the reports of calotte cvt become a picture of convergence") {
 TEST_CASE("a mesh and its density become a picture of the spacing law") {
   const Bench bench;
   make_run(bench, "a");
-  const Outcome outcome = bench.run("draw a.vtp --spacing-law --density " + bump + " -o law.pdf");
+  const Outcome outcome =
+      bench.run("draw a.vtp --spacing-law --density " + bump_density(2) + " -o law.pdf");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(outcome.out == "law.pdf: spacing law of 162 sites, 320 triangles\n");
@@ -95,7 +95,7 @@ TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are col
   const std::vector<std::string> looks = {
       "--projection plate-carree --view 180,0 --graticule --what both --colour area",
       "--projection globe --colour quality", "--colour degree --what cells",
-      "--colour density --what cells --density " + bump};
+      "--colour density --what cells --density " + bump_density(2)};
   for (const std::string& options : looks) {
     const Outcome outcome = bench.run("draw a.vtp -o a.png --size 200 " + options);
     CAPTURE(options);
@@ -122,7 +122,7 @@ TEST_CASE("range, palette and title of a picture") {
                               "--range 10,20", "--range 10,30", "--title 'My grid'"})
     CHECK(all.insert(drawn(options)).second);
   CHECK(bench
-            .run("draw --density " + bump +
+            .run("draw --density " + bump_density(2) +
                  " -o b.png --range 0,2 --palette magma --title x --size 200")
             .code == 0);
   for (const char* range : {"1", "2,1", "1,1", "a,b", "1,2,3", "nan,1", "0,inf"})
@@ -161,7 +161,7 @@ TEST_CASE("maps show the coastlines of the earth, unless they are turned off or 
       CHECK(with != without);
       CHECK(picture(mesh) == (earth ? with : without));
     }
-    const std::string field = "--density " + bump + look;
+    const std::string field = "--density " + bump_density(2) + look;
     CHECK(picture(field) == picture(field + " --coastlines"));
     CHECK(picture(field) != picture(field + " --no-coastlines"));
   }
@@ -188,10 +188,11 @@ TEST_CASE("a density alone gives a picture of it, or of the spacings that it imp
   const Bench bench;
   const std::vector<std::string> looks = {"", "--projection plate-carree --graticule",
                                           "--colour spacing --view 270,30",
-                                          "--join sum --density " + bump};
+                                          "--join sum --density " + bump_density(2)};
   for (const std::string& options : looks) {
     CAPTURE(options);
-    const Outcome outcome = bench.run("draw -o a.png --size 200 --density " + bump + " " + options);
+    const Outcome outcome =
+        bench.run("draw -o a.png --size 200 --density " + bump_density(2) + " " + options);
     CHECK(outcome.err.empty());
     CHECK(outcome.out == "a.png: picture of a density\n");
     CHECK(bench.file("a.png").starts_with("\x89PNG"));

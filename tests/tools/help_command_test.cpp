@@ -20,7 +20,7 @@ const std::vector<std::string> commands{"delaunay", "cvt",    "plan",    "points
                                         "jigsaw",   "marche"};
 
 /// The text of a help, checked to succeed.
-std::string shown(const Bench& bench, const std::string& arguments) {
+std::string help_text(const Bench& bench, const std::string& arguments) {
   CAPTURE(arguments);
   const Outcome help = bench.run(arguments);
   CHECK(help.code == 0);
@@ -36,10 +36,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 } // namespace
 
 TEST_CASE("help has at most 42 lines of 100 columns, and ends with examples") {
@@ -47,7 +43,7 @@ TEST_CASE("help has at most 42 lines of 100 columns, and ends with examples") {
   std::vector<std::string> all = commands;
   all.insert(all.end(), {"", "help"});
   for (const std::string& command : all) {
-    const std::string text = shown(bench, command + " --help");
+    const std::string text = help_text(bench, command + " --help");
     const std::vector<std::string> lines = lines_of(text);
     CHECK(lines.size() <= 42);
     for (const std::string& line : lines)
@@ -58,7 +54,7 @@ TEST_CASE("help has at most 42 lines of 100 columns, and ends with examples") {
 
 TEST_CASE("--help shows common options, --help-all the others and the exit codes, in groups") {
   const Bench bench;
-  const std::string some = shown(bench, "cvt --help"), all = shown(bench, "cvt --help-all");
+  const std::string some = help_text(bench, "cvt --help"), all = help_text(bench, "cvt --help-all");
   for (const char* group :
        {"\nStart:\n", "\nWidths and density:\n", "\nStop:\n", "\nOutput:\n", "\nParallel:\n"}) {
     CHECK(has(some, group));
@@ -74,17 +70,17 @@ TEST_CASE("--help shows common options, --help-all the others and the exit codes
   CHECK(has(some, "calotte cvt --help-all"));
   CHECK(has(all, "Requires --cell-width"));
   for (const std::string& command : commands)
-    CHECK(has(shown(bench, command + " --help-all"), "1  the mesh failed its check"));
-  CHECK(has(shown(bench, "--help"), "1  the mesh failed its check"));
+    CHECK(has(help_text(bench, command + " --help-all"), "1  the mesh failed its check"));
+  CHECK(has(help_text(bench, "--help"), "1  the mesh failed its check"));
   for (const std::string& line : lines_of(all))
     CHECK(line.size() <= 100);
 }
 
 TEST_CASE("calotte help shows the same as --help") {
   const Bench bench;
-  CHECK(shown(bench, "help") == shown(bench, "--help"));
+  CHECK(help_text(bench, "help") == help_text(bench, "--help"));
   for (const std::string& command : commands)
-    CHECK(shown(bench, "help " + command) == shown(bench, command + " --help"));
+    CHECK(help_text(bench, "help " + command) == help_text(bench, command + " --help"));
   check_refusal(bench, "help cvtt", 2, "no help on \"cvtt\"; did you mean cvt? See calotte --help");
   check_refusal(bench, "help densities", 2,
                 "no help on \"densities\"; did you mean density? See calotte --help");
@@ -92,22 +88,22 @@ TEST_CASE("calotte help shows the same as --help") {
 
 TEST_CASE("the syntax of a density stands in one place, to which the options refer") {
   const Bench bench;
-  const std::string topic = shown(bench, "help density");
+  const std::string topic = help_text(bench, "help density");
   CHECK(has(topic, "stretch"));
   for (const std::string& line : lines_of(topic))
     CHECK(line.size() <= 100);
   for (const char* command : {"cvt", "plan", "info", "draw", "convert"})
     for (const char* option : {" --help", " --help-all"}) {
-      const std::string help = shown(bench, std::string(command).append(option));
+      const std::string help = help_text(bench, std::string(command).append(option));
       CHECK(has(help, "calotte help density"));
       CHECK(!has(help, "stretch"));
     }
-  CHECK(has(shown(bench, "help exit-codes"), "1  the mesh failed its check"));
+  CHECK(has(help_text(bench, "help exit-codes"), "1  the mesh failed its check"));
 }
 
 TEST_CASE("help explains each word that info prints") {
   const Bench bench;
-  const std::string topic = shown(bench, "help measures");
+  const std::string topic = help_text(bench, "help measures");
   for (const std::string& line : lines_of(topic))
     CHECK(line.size() <= 100);
   for (const char* command :
@@ -119,7 +115,7 @@ TEST_CASE("help explains each word that info prints") {
                                     "cell", "longitude", "latitude"};
   const auto check_words = [&](const std::string& arguments, std::size_t width) {
     CAPTURE(arguments);
-    for (const std::string& line : lines_of(shown(bench, arguments))) {
+    for (const std::string& line : lines_of(help_text(bench, arguments))) {
       if (line.starts_with("- x") || line.starts_with("longest stable step ") ||
           line.find(": the ") != std::string::npos)
         continue; // the steps of other equations, whose rows are wider, or a remark
@@ -168,13 +164,13 @@ TEST_CASE("a misspelt option or command is answered with the nearest one") {
 
 TEST_CASE("a manual page has every option, and completions have its names") {
   const Bench bench;
-  const std::string bash = shown(bench, "help --completion bash");
-  const std::string zsh = shown(bench, "help --completion zsh");
+  const std::string bash = help_text(bench, "help --completion bash");
+  const std::string zsh = help_text(bench, "help --completion zsh");
   for (const std::string& command : commands) {
-    std::string page = shown(bench, "help " + command + " --man");
+    std::string page = help_text(bench, "help " + command + " --man");
     CHECK(has(page, "\n.SH NAME\ncalotte\\-" + command + " \\- "));
     page.erase(std::remove(page.begin(), page.end(), '\\'), page.end());
-    std::istringstream words(shown(bench, command + " --help-all"));
+    std::istringstream words(help_text(bench, command + " --help-all"));
     for (std::string word; words >> word;) {
       std::istringstream names(word);
       for (std::string name; std::getline(names, name, ',');)
@@ -186,7 +182,7 @@ TEST_CASE("a manual page has every option, and completions have its names") {
         }
     }
   }
-  const std::string main = shown(bench, "help --man");
+  const std::string main = help_text(bench, "help --man");
   for (const char* part : {".SH DENSITY\n", ".SH REGION\n", ".SH MEASURES\n",
                            ".SH \"EXIT STATUS\"\n", "calotte\\-cvt"})
     CHECK(has(main, part));
@@ -194,7 +190,7 @@ TEST_CASE("a manual page has every option, and completions have its names") {
 
 TEST_CASE("bash completes commands, options, their words and files") {
   const Bench bench;
-  bench.file("calotte.bash", shown(bench, "help --completion bash"));
+  bench.file("calotte.bash", help_text(bench, "help --completion bash"));
   bench.file("grid one.nc", "");
   bench.file("complete",
              "source ./calotte.bash; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _calotte; "

@@ -13,8 +13,6 @@ using namespace calotte::test;
 
 namespace {
 
-std::string in_folder(const Bench& bench, const std::string& name) { return bench.folder() / name; }
-
 /// A mesh, mesh.nc, and a raster of heights and land use, raster.nc.
 void make_grids(const Bench& bench) {
   REQUIRE(bench.run("points fibonacci 500 -o points.txt").code == 0);
@@ -25,10 +23,12 @@ void make_grids(const Bench& bench) {
   height.values = 1000 * nodes(*raster.boxes).row(2).transpose();
   use.values = DoubleVector::LinSpaced(288, 0, 287);
   steps.values = use.values;
-  write_fields(in_folder(bench, "raster.nc"), raster, {height, use, steps});
+  write_fields(bench.path("raster.nc"), raster, {height, use, steps});
 }
 
-void check(const Bench& bench, const std::string& arguments, int code, const std::string& part) {
+/// Runs interpolate and checks its exit code and a part of its message.
+void check_failure(const Bench& bench, const std::string& arguments, int code,
+                   const std::string& part) {
   CAPTURE(arguments);
   const Outcome outcome = bench.run("interpolate " + arguments);
   CHECK(outcome.code == code);
@@ -54,12 +54,12 @@ TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
   CHECK(
       bench.run("interpolate raster.nc mesh.nc -o mesh.vtp --method linear --fields height").out ==
       "mesh.vtp: height at 500 cells, linear\n");
-  const FieldGrid mesh = read_field_grid(in_folder(bench, "mesh.vtp"));
+  const FieldGrid mesh = read_field_grid(bench.path("mesh.vtp"));
   REQUIRE(mesh.fields.size() >= 1);
   const Outcome back = bench.run("interpolate mesh.vtp 12x6 -o back.nc --fields height "
                                  "--method nearest --threads 1");
   CHECK(back.out == "back.nc: height at 72 cells, nearest\n");
-  const FieldGrid raster = read_field_grid(in_folder(bench, "back.nc"));
+  const FieldGrid raster = read_field_grid(bench.path("back.nc"));
   const DoubleVector exact = 1000 * nodes(*raster.boxes).row(2).transpose();
   CHECK((raster.fields.at(0).values - exact).cwiseAbs().maxCoeff() < 150);
   const Outcome apart =
@@ -76,27 +76,31 @@ TEST_CASE("interpolate: bad input is one line, and leaves no file") {
   make_grids(bench);
   REQUIRE(bench.run("interpolate raster.nc mesh.nc --weights w.nc").code == 0);
   const std::set<std::string> before = bench.names();
-  check(bench, "raster.nc mesh.nc", 2, "nothing to write; give -o FILE");
-  check(bench, "raster.nc mesh.nc -o out.nc --fields hight", 2,
-        "raster.nc has no field hight at cells; did you mean height? It has height, use, steps");
-  check(bench, "mesh.nc raster.nc -o out.nc --fields height", 2, "mesh.nc has no field height");
-  check(bench, "raster.nc 36x18 -o out.nc --apply w.nc", 2,
-        "w.nc: the weights are for a target of 500 cells, and 36x18 has 648");
-  check(bench, "mesh.nc raster.nc -o out.nc --apply w.nc", 2, "give");
-  check(bench, "raster.nc mesh.nc -o out.nc --apply w.nc --method linear", 2,
-        "--method excludes --apply");
-  check(bench, "raster.nc mesh.nc -o out.nc --apply raster.nc", 2, "give a file of weights");
-  check(bench, "raster.nc mesh.nc -o out.nc --categories height", 2,
-        "--categories height: the field does not hold integers");
-  check(bench, "raster.nc mesh.nc -o out.nc --min-cover 2", 2, "--min-cover");
-  check(bench, "raster.nc mesh.nc -o out.nc --method cubic", 2, "--method");
-  check(bench, "raster.nc mesh.nc -o out.nc --method natural", 2, "nearest and linear only");
-  check(bench, "raster.nc 8x4 --mesh mesh.nc -o out.nc", 2,
-        "raster.nc: no dimension of 500, the number of cells of mesh.nc");
-  check(bench, "raster.nc 8x4 --mesh raster.nc -o out.nc", 2, "raster.nc is a raster");
-  check(bench, "raster.nc 2x2 -o out.nc", 2, "2 x 2");
-  check(bench, "raster.nc 8x4 -o out.vtp", 2, "give a name that ends in .nc");
-  check(bench, "raster.nc mesh.nc -o raster.nc", 2, "raster.nc");
-  check(bench, "never.nc mesh.nc -o out.nc", 3, "never.nc");
+  check_failure(bench, "raster.nc mesh.nc", 2, "nothing to write; give -o FILE");
+  check_failure(
+      bench, "raster.nc mesh.nc -o out.nc --fields hight", 2,
+      "raster.nc has no field hight at cells; did you mean height? It has height, use, steps");
+  check_failure(bench, "mesh.nc raster.nc -o out.nc --fields height", 2,
+                "mesh.nc has no field height");
+  check_failure(bench, "raster.nc 36x18 -o out.nc --apply w.nc", 2,
+                "w.nc: the weights are for a target of 500 cells, and 36x18 has 648");
+  check_failure(bench, "mesh.nc raster.nc -o out.nc --apply w.nc", 2, "give");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --apply w.nc --method linear", 2,
+                "--method excludes --apply");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --apply raster.nc", 2,
+                "give a file of weights");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --categories height", 2,
+                "--categories height: the field does not hold integers");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --min-cover 2", 2, "--min-cover");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --method cubic", 2, "--method");
+  check_failure(bench, "raster.nc mesh.nc -o out.nc --method natural", 2,
+                "nearest and linear only");
+  check_failure(bench, "raster.nc 8x4 --mesh mesh.nc -o out.nc", 2,
+                "raster.nc: no dimension of 500, the number of cells of mesh.nc");
+  check_failure(bench, "raster.nc 8x4 --mesh raster.nc -o out.nc", 2, "raster.nc is a raster");
+  check_failure(bench, "raster.nc 2x2 -o out.nc", 2, "2 x 2");
+  check_failure(bench, "raster.nc 8x4 -o out.vtp", 2, "give a name that ends in .nc");
+  check_failure(bench, "raster.nc mesh.nc -o raster.nc", 2, "raster.nc");
+  check_failure(bench, "never.nc mesh.nc -o out.nc", 3, "never.nc");
   CHECK(bench.names() == before);
 }

@@ -10,18 +10,6 @@ using namespace calotte::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-Outcome good(const Bench& bench, const std::string& arguments) {
-  CAPTURE(arguments);
-  Outcome outcome = bench.run(arguments);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  return outcome;
-}
-
 std::string small_radius(const std::string& origin, const std::string& radius) {
   return "calotte: warning: " + origin + ": a sphere with a radius of " + radius +
          " m is small; if these are km, give --sphere-radius " + radius +
@@ -45,33 +33,38 @@ std::string warnings(const Outcome& outcome) {
 TEST_CASE("a width in km makes a uniform grid of the Earth, with the number of cells it implies") {
   const Bench bench;
   const Outcome made =
-      good(bench, "cvt --cell-width 960km -o mesh.nc"); // 639 cells; 642 are symmetric
+      check_success(bench, "cvt --cell-width 960km -o mesh.nc"); // 639 cells; 642 are symmetric
   CHECK(made.out.starts_with("mesh.nc: 642 cells, converged, "));
   CHECK(made.err == "calotte: cells 960 km wide require 639 cells; a symmetric grid near that has "
                     "642, 957.8 km wide\n");
   const std::string mesh = bench.file("mesh.nc");
   for (const char* same : {"960", "'960 km'", "960.0km"}) {
-    good(bench, std::string("cvt -o mesh.nc --cell-width ") + same);
+    check_success(bench, std::string("cvt -o mesh.nc --cell-width ") + same);
     CHECK((bench.file("mesh.nc") == mesh));
   }
-  good(bench, "cvt --cells 642 -o mesh.vtp --cell-width 960km");
-  good(bench, "cvt --cells 642 -o plain.vtp");
+  check_success(bench, "cvt --cells 642 -o mesh.vtp --cell-width 960km");
+  check_success(bench, "cvt --cells 642 -o plain.vtp");
   CHECK(bench.file("mesh.vtp") == bench.file("plain.vtp"));
-  CHECK(has(good(bench, "cvt --cell-width 1000km -o other.vtp").out, " 589 cells, "));
-  CHECK(has(good(bench, "plan --cell-width 1000km").out, "\ncells                 589\n"));
-  CHECK(has(good(bench, "cvt --cell-width 400km -o finer.vtp").out, " 3672 cells, converged, "));
-  CHECK(has(good(bench, "plan --cell-width 400km").out, "\ncells                 3672\n"));
-  CHECK(has(good(bench, "info finer.vtp").out, "\ndegree: cells         5: 12, 6: 3660\n"));
-  CHECK(has(good(bench, "cvt --cell-width 300km --earth-radius 1000 -o small.vtp").out,
+  CHECK(has(check_success(bench, "cvt --cell-width 1000km -o other.vtp").out, " 589 cells, "));
+  CHECK(has(check_success(bench, "plan --cell-width 1000km").out, "\ncells                 589\n"));
+  CHECK(has(check_success(bench, "cvt --cell-width 400km -o finer.vtp").out,
+            " 3672 cells, converged, "));
+  CHECK(has(check_success(bench, "plan --cell-width 400km").out, "\ncells                 3672\n"));
+  CHECK(
+      has(check_success(bench, "info finer.vtp").out, "\ndegree: cells         5: 12, 6: 3660\n"));
+  CHECK(has(check_success(bench, "cvt --cell-width 300km --earth-radius 1000 -o small.vtp").out,
             " 161 cells, "));
 }
 
 TEST_CASE("60 km are 163 842 cells, and 120 km 40 962") {
   const Bench bench;
-  CHECK(has(good(bench, "plan --cell-width 60km").out, "\ncells                 163842\n"));
-  CHECK(has(good(bench, "plan --cell-width 60").out, "\ncell width, km        59.96 to 59.96\n"));
-  CHECK(has(good(bench, "plan --cell-width 120km").out, "\ncells                 40962\n"));
-  CHECK(has(good(bench, "plan --cell-width 60km --cells 40962").out,
+  CHECK(
+      has(check_success(bench, "plan --cell-width 60km").out, "\ncells                 163842\n"));
+  CHECK(has(check_success(bench, "plan --cell-width 60").out,
+            "\ncell width, km        59.96 to 59.96\n"));
+  CHECK(
+      has(check_success(bench, "plan --cell-width 120km").out, "\ncells                 40962\n"));
+  CHECK(has(check_success(bench, "plan --cell-width 60km --cells 40962").out,
             "\ncell width, km        119.9 to 119.9\n"));
 }
 
@@ -80,11 +73,11 @@ TEST_CASE("a file of options takes a width in km as a number or as text") {
   for (const char* width : {"960", "\"960km\"", "\"960 km\""}) {
     bench.file("grid.toml", "cell_width = " + std::string(width) +
                                 "\noutput = \"grid.vtp\"\nsphere_radius = 1\niterations = 3\n");
-    CHECK(good(bench, "cvt --config grid.toml").out.starts_with("grid.vtp: 642 cells, "));
+    CHECK(check_success(bench, "cvt --config grid.toml").out.starts_with("grid.vtp: 642 cells, "));
   }
   bench.file("grid.toml", "cells = 12\noutput = \"grid.nc\"\nsphere_radius = \"earth\"\n");
-  good(bench, "cvt --config grid.toml");
-  CHECK(has(good(bench, "info grid.nc").out, "spacing, km           7053"));
+  check_success(bench, "cvt --config grid.toml");
+  CHECK(has(check_success(bench, "info grid.nc").out, "spacing, km           7053"));
 }
 
 TEST_CASE("widths that are none are refused") {
@@ -104,8 +97,8 @@ TEST_CASE("widths that are none are refused") {
 TEST_CASE("files are on the unit sphere by default, also those of grids in km") {
   const Bench bench;
   const auto spacing = [&](const std::string& arguments) {
-    good(bench, "cvt --cell-width 7000km --iterations 1 -o mesh.nc " + arguments);
-    const std::string shown = good(bench, "info mesh.nc").out;
+    check_success(bench, "cvt --cell-width 7000km --iterations 1 -o mesh.nc " + arguments);
+    const std::string shown = check_success(bench, "info mesh.nc").out;
     const std::size_t from = shown.find("spacing, ");
     return shown.substr(from, shown.find(' ', from + 22) - from);
   };
@@ -115,17 +108,17 @@ TEST_CASE("files are on the unit sphere by default, also those of grids in km") 
   CHECK(spacing("--sphere-radius 1") == "spacing, degrees      63.4349");
   CHECK(spacing("--sphere-radius 2e6") == "spacing, km           2214.3");
   CHECK(spacing("--format ugrid") == "spacing, degrees      63.4349");
-  good(bench, "cvt --cells 12 -o unit.nc");
-  CHECK(has(good(bench, "info unit.nc").out, "spacing, degrees "));
-  good(bench, "convert unit.nc same.nc --cell-width 7000km");
-  CHECK(has(good(bench, "info same.nc").out, "spacing, degrees "));
+  check_success(bench, "cvt --cells 12 -o unit.nc");
+  CHECK(has(check_success(bench, "info unit.nc").out, "spacing, degrees "));
+  check_success(bench, "convert unit.nc same.nc --cell-width 7000km");
+  CHECK(has(check_success(bench, "info same.nc").out, "spacing, degrees "));
 }
 
 TEST_CASE("info speaks in km, degrees or radians") {
   const Bench bench;
-  good(bench, "cvt --cells 12 -o unit.vtp");
+  check_success(bench, "cvt --cells 12 -o unit.vtp");
   const auto shown = [&](const std::string& arguments) {
-    return good(bench, "info unit.vtp " + arguments + " --report report.json").out;
+    return check_success(bench, "info unit.vtp " + arguments + " --report report.json").out;
   };
   CHECK(has(shown(""), "\nspacing, degrees      63.4349 "));
   CHECK(!has(bench.file("report.json"), "spacing_km"));
@@ -150,13 +143,13 @@ TEST_CASE("info speaks in km, degrees or radians") {
 TEST_CASE("a radius that may be in km gives a warning, where it is given and where it is read") {
   const Bench bench;
   const std::string run = "cvt --cells 12 -o mesh.nc --sphere-radius ";
-  CHECK(good(bench, run + "6371").err == small_radius("--sphere-radius", "6371"));
-  CHECK(good(bench, "info mesh.nc").err == small_radius("mesh.nc", "6371"));
-  CHECK(good(bench, "draw mesh.nc -o mesh.png").err == small_radius("mesh.nc", "6371"));
-  CHECK(good(bench, run + "1000").err == small_radius("--sphere-radius", "1000"));
+  CHECK(check_success(bench, run + "6371").err == small_radius("--sphere-radius", "6371"));
+  CHECK(check_success(bench, "info mesh.nc").err == small_radius("mesh.nc", "6371"));
+  CHECK(check_success(bench, "draw mesh.nc -o mesh.png").err == small_radius("mesh.nc", "6371"));
+  CHECK(check_success(bench, run + "1000").err == small_radius("--sphere-radius", "1000"));
   for (const char* radius : {"1", "999", "10001", "6371000", "earth"}) {
-    CHECK(good(bench, run + radius).err.empty());
-    CHECK(good(bench, "info mesh.nc").err.empty());
+    CHECK(check_success(bench, run + radius).err.empty());
+    CHECK(check_success(bench, "info mesh.nc").err.empty());
   }
 }
 
@@ -170,16 +163,18 @@ TEST_CASE("a radius that is no number is refused") {
 TEST_CASE("widths that may be in metres give a warning") {
   const Bench bench;
   const std::string large = " km wide are large; if these are metres, give km\n";
-  CHECK(good(bench, "plan --cell-width 3000").err == "calotte: warning: cells 3000" + large);
-  CHECK(warnings(good(bench, "cvt --cell-width 60000 --cells 42 -o mesh.vtp")) ==
+  CHECK(check_success(bench, "plan --cell-width 3000").err ==
+        "calotte: warning: cells 3000" + large);
+  CHECK(warnings(check_success(bench, "cvt --cell-width 60000 --cells 42 -o mesh.vtp")) ==
         "calotte: warning: cells 60000" + large);
-  CHECK(good(bench, "plan --cell-width 2000").err.empty());
+  CHECK(check_success(bench, "plan --cell-width 2000").err.empty());
 }
 
 TEST_CASE("an angle of a density that may be in degrees gives a warning") {
   const Bench bench;
   const auto warned = [&](const std::string& angles) {
-    return warnings(good(bench, "plan --cells 100 --density tanh:lon=0,lat=0,gamma=x2," + angles));
+    return warnings(
+        check_success(bench, "plan --cells 100 --density tanh:lon=0,lat=0,gamma=x2," + angles));
   };
   const std::string start = "calotte: warning: --density \"tanh:lon=0,lat=0,gamma=x2,";
   CHECK(warned("beta=30,alpha=0.2") ==
@@ -191,7 +186,7 @@ TEST_CASE("an angle of a density that may be in degrees gives a warning") {
   CHECK(warned("beta=30deg,alpha=10deg").empty());
   CHECK(warned("beta=3.1,alpha=3.1").empty());
   const Outcome plane =
-      good(bench, "cvt --rectangle 0,0,100,100 --cells 50 --iterations 1 --density "
-                  "tanh:x=3,y=4,beta=30,alpha=10,gamma=x2 -o mesh.vtp");
+      check_success(bench, "cvt --rectangle 0,0,100,100 --cells 50 --iterations 1 --density "
+                           "tanh:x=3,y=4,beta=30,alpha=10,gamma=x2 -o mesh.vtp");
   CHECK(warnings(plane).empty()); // lengths
 }

@@ -20,35 +20,23 @@ using namespace calotte::test;
 
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string good(const Bench& bench, const std::string& arguments) {
-  CAPTURE(arguments);
-  const Outcome outcome = bench.run(arguments);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  return outcome.out;
-}
-
 double radius_of(const Bench& bench, const std::string& name) {
   return calotte::read_mesh_file(bench.folder() / name).sphere_radius;
 }
 
-const std::string others = "; for others see --for\n";
+const std::string other_models = "; for others see --for\n";
 
 } // namespace
 
 TEST_CASE("a model sets the radius, in every command that writes a mesh") {
   const Bench bench;
-  good(bench, "points fibonacci 600 -o points.txt");
+  check_success(bench, "points fibonacci 600 -o points.txt");
   const auto check = [&](const std::string& arguments, double radius, const std::string& names) {
     CAPTURE(arguments);
-    const std::string said = good(bench, arguments + " -o mesh.nc");
+    const std::string said = check_success(bench, arguments + " -o mesh.nc").out;
     CHECK(radius_of(bench, "mesh.nc") == radius);
     CHECK(has(said, "mesh.nc: " + std::string(radius == 1 ? "unit sphere" : "sphere of 6371220 m") +
-                        ", for " + names + others));
+                        ", for " + names + other_models));
   };
   const std::string sw = "MPAS-Atmosphere and MPAS' shallow-water core";
   for (const std::string command : {"cvt --cells 600 --iterations 2", "delaunay points.txt"}) {
@@ -59,7 +47,7 @@ TEST_CASE("a model sets the radius, in every command that writes a mesh") {
   }
   check("cvt --region circle=10,50,900km --cell-width 100km --limited-area --iterations 2", 1,
         "MPAS-Atmosphere");
-  good(bench, "delaunay points.txt -o earth.nc --for mpas-ocean");
+  check_success(bench, "delaunay points.txt -o earth.nc --for mpas-ocean");
   check("convert earth.nc", 6371220, "MPAS-Ocean");
   check("convert earth.nc --for mpas-atmosphere", 1, "MPAS-Atmosphere");
   const std::string cut = "cut earth.nc --region circle=10,50,3000km --rings 2";
@@ -68,21 +56,21 @@ TEST_CASE("a model sets the radius, in every command that writes a mesh") {
   check(cut + " --for mpas-ocean", 6371220, "MPAS-Ocean");
   const std::string cull = " --field latCell --sea-below 0";
   check("cull earth.nc" + cull, 6371220, "MPAS-Ocean");
-  good(bench, "delaunay points.txt -o unit.nc");
+  check_success(bench, "delaunay points.txt -o unit.nc");
   check("cull unit.nc" + cull, 1, "MPAS-Atmosphere");
   check("cull unit.nc --for mpas-ocean" + cull, 6371220, "MPAS-Ocean");
-  good(bench, "convert unit.nc nod2d.out --for fesom");
-  CHECK(good(bench, "convert unit.nc grid.nc --format scrip") ==
+  check_success(bench, "convert unit.nc nod2d.out --for fesom");
+  CHECK(check_success(bench, "convert unit.nc grid.nc --format scrip").out ==
         "grid.nc: 600 sites, 1196 triangles, closed\n");
 }
 
 TEST_CASE("a model does not replace what is given: a contradiction is an error") {
   const Bench bench;
   const std::string run = "cvt --cells 42 --iterations 1 ";
-  good(bench, run + "-o mesh.nc --for mpas-ocean --sphere-radius earth");
+  check_success(bench, run + "-o mesh.nc --for mpas-ocean --sphere-radius earth");
   CHECK(radius_of(bench, "mesh.nc") == 6371229);
-  CHECK(has(good(bench, run + "-o mesh.nc --sphere-radius 2"),
-            "mesh.nc: sphere of 2 m, for no model that is known" + others));
+  CHECK(has(check_success(bench, run + "-o mesh.nc --sphere-radius 2").out,
+            "mesh.nc: sphere of 2 m, for no model that is known" + other_models));
   check_refusal(bench, run + "-o a.nc --for mpas-atmosphere --sphere-radius earth", 2,
                 "--for mpas-atmosphere needs a sphere with a radius of 1, not --sphere-radius "
                 "6371229; leave one of them out");
@@ -111,17 +99,17 @@ TEST_CASE("a file of a plane keeps its order, and has no radius, for any model")
   for (const std::string run :
        {"cvt --cells 40 --periodic 1,1", "cvt --cells 40 --rectangle 0,0,2,1"}) {
     CAPTURE(run);
-    good(bench, run + " -o plain.nc");
+    check_success(bench, run + " -o plain.nc");
     const std::string plain = bench.file("plain.nc");
     for (const std::string model : {"mpas-atmosphere", "mpas-ocean"}) {
-      good(bench, run + " -o mesh.nc --for " + model);
+      check_success(bench, run + " -o mesh.nc --for " + model);
       CHECK((bench.file("mesh.nc") == plain));
     }
-    good(bench, run + " -o mesh.nc --for mpas-sw");
+    check_success(bench, run + " -o mesh.nc --for mpas-sw");
     CHECK(has(bench.file("mesh.nc"), "nTracers"));
     CHECK(!has(plain, "nTracers"));
-    good(bench, "convert plain.nc other.nc");
-    good(bench, "convert plain.nc mesh.nc --for mpas-ocean");
+    check_success(bench, "convert plain.nc other.nc");
+    check_success(bench, "convert plain.nc mesh.nc --for mpas-ocean");
     CHECK((bench.file("mesh.nc") == bench.file("other.nc")));
   }
 }
@@ -129,40 +117,42 @@ TEST_CASE("a file of a plane keeps its order, and has no radius, for any model")
 TEST_CASE("a mesh without a density gets that of its spacing, and says so") {
   const Bench bench;
   const std::string bump = " --density tanh:lon=0,lat=90,beta=40deg,alpha=0.3,gamma=x6";
-  good(bench, "cvt --cells 1500 -o mesh.msh" + bump);
+  check_success(bench, "cvt --cells 1500 -o mesh.msh" + bump);
   const auto density = [&](const std::string& name) {
     return calotte::read_mesh_file(bench.folder() / name).density;
   };
-  const std::string said = good(bench, "convert mesh.msh grid.nc");
+  const std::string said = check_success(bench, "convert mesh.msh grid.nc").out;
   CHECK(has(said, "grid.nc: no density is given; meshDensity follows from the smoothed spacing of "
                   "the cells, which varies by a factor of "));
   CHECK(density("grid.nc").maxCoeff() == 1);
   CHECK(density("grid.nc").minCoeff() < 1 / std::pow(4.0, 4));
-  good(bench, "check grid.nc");
-  const std::string given = good(bench, "convert mesh.msh grid.nc" + bump);
+  check_success(bench, "check grid.nc");
+  const std::string given = check_success(bench, "convert mesh.msh grid.nc" + bump).out;
   CHECK(!has(given, "no density is given"));
-  good(bench, "convert mesh.msh uniform.nc --density uniform");
+  check_success(bench, "convert mesh.msh uniform.nc --density uniform");
   CHECK(density("uniform.nc").minCoeff() == 1);
   const Outcome wrong = bench.run("check uniform.nc");
   CHECK(wrong.code == 1);
   CHECK(has(wrong.out, "meshDensity: the cells (dcEdge) are "));
   // What another program stored as 1 is as good as none.
-  CHECK(has(good(bench, "convert uniform.nc again.nc"), "no density is given"));
-  good(bench, "check again.nc");
-  good(bench, "cvt --cells 642 -o even.vtp");
-  CHECK(!has(good(bench, "convert even.vtp even.nc"), "no density is given"));
+  CHECK(has(check_success(bench, "convert uniform.nc again.nc").out, "no density is given"));
+  check_success(bench, "check again.nc");
+  check_success(bench, "cvt --cells 642 -o even.vtp");
+  CHECK(!has(check_success(bench, "convert even.vtp even.nc").out, "no density is given"));
   CHECK(density("even.nc").minCoeff() == 1);
 }
 
 TEST_CASE("FESOM: an ocean without ears, and its depths") {
   const Bench bench;
-  good(bench, "points random 1500 --seed 3 -o points.txt");
-  good(bench, "delaunay points.txt -o global.nc");
+  check_success(bench, "points random 1500 --seed 3 -o points.txt");
+  check_success(bench, "delaunay points.txt -o global.nc");
   bench.file("land.geojson", R"({"type":"Polygon","coordinates":[[[0,-60],[30,-60],[40,0],[30,60],)"
                              R"([0,60],[-10,0],[0,-60]]]})");
-  good(bench, "cull global.nc --land land.geojson -o ocean.nc");
+  check_success(bench, "cull global.nc --land land.geojson -o ocean.nc");
   const std::string said =
-      good(bench, "convert ocean.nc nod2d.out --for fesom --depth-levels 0,10,30,100 --depth 80");
+      check_success(bench,
+                    "convert ocean.nc nod2d.out --for fesom --depth-levels 0,10,30,100 --depth 80")
+          .out;
   CHECK(has(said, "nod2d.out: without "));
   CHECK(has(said, " triangles of fewer than two neighbours, and without the "));
   const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "nod2d.out");
@@ -174,7 +164,8 @@ TEST_CASE("FESOM: an ocean without ears, and its depths") {
     ++count;
   CHECK(count == 1 + 4 + mesh.points.cols());
   bench.file("levels.txt", "0\n-5\n-50\n");
-  good(bench, "convert ocean.nc nod2d.out --depth-levels levels.txt --depth mapCulledToBaseCell");
+  check_success(bench,
+                "convert ocean.nc nod2d.out --depth-levels levels.txt --depth mapCulledToBaseCell");
   CHECK(bench.file("aux3d.out").starts_with("3\n0\n-5\n-50\n"));
   check_refusal(bench, "convert ocean.nc nod2d.out --depth-levels 0,5,x --depth 3", 2,
                 "--depth-levels 0,5,x: \"x\" is not a number; give metres");
@@ -202,7 +193,7 @@ TEST_CASE("FESOM: the sum of a field tells heights from depths, and land has the
   };
   for (const std::string field : {"depths", "heights"}) {
     CAPTURE(field);
-    good(bench, "convert mesh.nc nod2d.out --depth-levels 0,10,30 --depth " + field);
+    check_success(bench, "convert mesh.nc nod2d.out --depth-levels 0,10,30 --depth " + field);
     CHECK(count("-4000") == 59);
     CHECK(count("0") == 2); // the first level, and the land
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
+#include "support/constants.h"
 
 #include <calotte/generators.h>
 
@@ -9,15 +10,13 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 #include <string>
 
 using namespace calotte::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, radius = 6371;
-const std::string bump = "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8";
+constexpr double radius = 6371; // km
 
 /// A raster in JIGSAW's format, of widths by latitude in degrees.
 std::string raster(const std::function<double(double)>& width) {
@@ -35,7 +34,7 @@ std::string raster(const std::function<double(double)>& width) {
   return text;
 }
 
-nlohmann::json plan(const Bench& bench, const std::string& arguments) {
+nlohmann::json plan_report(const Bench& bench, const std::string& arguments) {
   const Outcome outcome = bench.run("plan " + arguments + " --report plan.json");
   CAPTURE(outcome.err);
   CHECK(outcome.code == 0);
@@ -53,13 +52,13 @@ TEST_CASE("widths in km: the cells that they imply, or a factor on them") {
   const Bench bench;
   bench.file("even.msh", raster([](double) { return 240; }));
   const double cells = 4 * pi * radius * radius * 2 / (std::sqrt(3.0) * 240 * 240);
-  const nlohmann::json all = plan(bench, "--cell-width even.msh");
+  const nlohmann::json all = plan_report(bench, "--cell-width even.msh");
   CHECK(all["cells"] == calotte::geodesic_count(cells));
   CHECK(all["implied_cells"].get<double>() == doctest::Approx(cells));
   CHECK(number(all, "width_km", "min") == doctest::Approx(240).epsilon(1e-3));
   CHECK(number(all, "gradient", "slope") < 1e-12);
-  const nlohmann::json quarter =
-      plan(bench, "--cell-width even.msh --cells " + std::to_string(std::llround(cells / 4)));
+  const nlohmann::json quarter = plan_report(bench, "--cell-width even.msh --cells " +
+                                                        std::to_string(std::llround(cells / 4)));
   CHECK(quarter["width_factor"].get<double>() == doctest::Approx(2).epsilon(1e-3));
   CHECK(number(quarter, "width_km", "max") == doctest::Approx(480).epsilon(1e-3));
   CHECK(number(quarter, "width_degrees", "max") ==
@@ -71,7 +70,7 @@ TEST_CASE("of rules the plan tells where each gives the width") {
   bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[0, 90], [0, 89]]})");
   bench.file("w.toml", "[cell-width]\nmin = [400, {latitude = [[-0.001, 800], [0, 200]]}, "
                        "{lines = \"line.geojson\", width = 100, over = 1000}]");
-  const nlohmann::json json = plan(bench, "--cell-width w.toml");
+  const nlohmann::json json = plan_report(bench, "--cell-width w.toml");
   REQUIRE(json["rules"].size() == 3);
   CHECK(json["rules"][2]["name"] == "lines line.geojson");
   CHECK(json["rules"][0]["area"].get<double>() == doctest::Approx(0.5).epsilon(0.02));
@@ -90,7 +89,7 @@ TEST_CASE("the steepest gradient of widths grows with the factor on them") {
   // 5 km per degree, and 10 from 30 to 35 N
   bench.file("steps.msh",
              raster([](double latitude) { return 500 + 5 * latitude + (latitude > 30 ? 25 : 0); }));
-  const nlohmann::json json = plan(bench, "--cell-width steps.msh");
+  const nlohmann::json json = plan_report(bench, "--cell-width steps.msh");
   const double expected = 10 / (radius * pi / 180);
   const double factor = json["width_factor"].get<double>();
   CHECK(number(json, "gradient", "slope") == doctest::Approx(factor * expected).epsilon(1e-4));
@@ -114,7 +113,7 @@ TEST_CASE("a density: spacings and their gradient are those of a profile in clos
                                 (2 * step));
   }
   const double unit = std::sqrt(2 / std::sqrt(3.0) * root / 10242);
-  const nlohmann::json json = plan(bench, "--cells 10242 --density " + bump);
+  const nlohmann::json json = plan_report(bench, "--cells 10242 --density " + bump_density(8));
   CHECK_FALSE(json.contains("width_km"));
   const double degrees = 180 / pi;
   CHECK(number(json, "width_degrees", "min") ==
@@ -122,15 +121,16 @@ TEST_CASE("a density: spacings and their gradient are those of a profile in clos
   CHECK(number(json, "width_degrees", "max") ==
         doctest::Approx(unit * std::pow(rho(pi), -0.25) * degrees).epsilon(1e-4));
   CHECK(number(json, "gradient", "slope") == doctest::Approx(unit * slope).epsilon(1e-4));
-  const nlohmann::json in_km = plan(bench, "--cells 10242 --sphere-radius 1e6 --density " + bump);
+  const nlohmann::json in_km =
+      plan_report(bench, "--cells 10242 --sphere-radius 1e6 --density " + bump_density(8));
   CHECK(number(in_km, "width_km", "min") ==
         doctest::Approx(1000 * unit * std::pow(rho(0), -0.25)).epsilon(1e-4));
-  CHECK(number(plan(bench, "--cells 12 --density uniform"), "gradient", "slope") < 1e-9);
+  CHECK(number(plan_report(bench, "--cells 12 --density uniform"), "gradient", "slope") < 1e-9);
 }
 
 TEST_CASE("file sizes are those of the files that cvt writes") {
   const Bench bench;
-  const nlohmann::json json = plan(bench, "--cells 2562 --density uniform");
+  const nlohmann::json json = plan_report(bench, "--cells 2562 --density uniform");
   CHECK(bench.run("points icosahedron 2562 -o points.txt").code == 0);
   constexpr double head = 20000;
   for (const auto& [name, key] :
@@ -144,9 +144,9 @@ TEST_CASE("file sizes are those of the files that cvt writes") {
 
 TEST_CASE("the estimates are for the number of threads, and grow with the cells") {
   const Bench bench;
-  const nlohmann::json one = plan(bench, "--cells 40962 --density uniform --threads 1"),
-                       four = plan(bench, "--cells 40962 --density uniform --threads 4"),
-                       more = plan(bench, "--cells 163842 --density uniform --threads 1");
+  const nlohmann::json one = plan_report(bench, "--cells 40962 --density uniform --threads 1"),
+                       four = plan_report(bench, "--cells 40962 --density uniform --threads 4"),
+                       more = plan_report(bench, "--cells 163842 --density uniform --threads 1");
   CHECK(one["estimates"]["threads"] == 1);
   CHECK(four["estimates"]["threads"] == 4);
   CHECK(number(four, "estimates", "seconds") < number(one, "estimates", "seconds") / 2);
@@ -156,9 +156,10 @@ TEST_CASE("the estimates are for the number of threads, and grow with the cells"
 
 TEST_CASE("the widths are drawn on a map") {
   const Bench bench;
-  CHECK(bench.run("plan --cells 642 --density " + bump + " -o widths.png").code == 0);
+  CHECK(bench.run("plan --cells 642 --density " + bump_density(8) + " -o widths.png").code == 0);
   CHECK(bench.file("widths.png").starts_with("\x89PNG"));
-  CHECK(bench.run("plan --cells 642 --density " + bump + " --no-coastlines -o bare.png").code == 0);
+  CHECK(bench.run("plan --cells 642 --density " + bump_density(8) + " --no-coastlines -o bare.png")
+            .code == 0);
   CHECK(bench.file("bare.png") != bench.file("widths.png"));
   bench.file("even.msh", raster([](double latitude) { return 300 + latitude; }));
   CHECK(bench.run("plan --cell-width even.msh -o widths.svg").code == 0);

@@ -15,14 +15,6 @@
 using namespace calotte;
 using namespace calotte::test;
 
-namespace {
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-} // namespace
-
 TEST_CASE("refine and coarsen keep the cells beside the part that they change") {
   const Bench bench;
   REQUIRE(bench.run("cvt --cells 2562 -o base.nc").code == 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
+#include "support/constants.h"
 #include "support/planes.h"
 
 #include <calotte/io.h>
@@ -8,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -19,18 +19,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 Points3 points_of(const Bench& bench, const std::string& name) {
   return read_sites(bench.folder() / name);
 }
 
 /// The points of a text, as the command reads them.
-Points3 directions(const std::string& text, Columns columns) {
+Points3 directions_in(const std::string& text, Columns columns) {
   std::istringstream in(text);
   return read_points(in, "text", columns).colwise().normalized();
 }
@@ -42,7 +36,7 @@ const std::string three = "10 50\n12 51.5\n9 48.25\n";
 TEST_CASE("fixed points come first in the mesh, on the sphere and in a region") {
   const Bench bench;
   bench.file("fixed.txt", three);
-  const Points3 fixed = directions(three, Columns::lonlat);
+  const Points3 fixed = directions_in(three, Columns::lonlat);
   for (const std::string where : {"", "--region circle=10,50,900km "}) {
     const Outcome outcome =
         bench.run("cvt --cells 300 --fixed fixed.txt --lonlat --stop tolerance --tolerance 1e-4 " +
@@ -71,7 +65,7 @@ TEST_CASE("rings of a file run either way, and --inside tells another side of th
     CHECK(outcome.code == 0);
     return points_of(bench, "a.vtp");
   };
-  const Eigen::Vector3d middle = directions("10 10\n", Columns::lonlat).col(0);
+  const Eigen::Vector3d middle = directions_in("10 10\n", Columns::lonlat).col(0);
   const auto nearest = [](const Points3& points, const Eigen::Vector3d& place) {
     return (points.colwise() - place).colwise().norm().minCoeff();
   };
@@ -82,7 +76,7 @@ TEST_CASE("rings of a file run either way, and --inside tells another side of th
   CHECK(nearest(made("circle=10,10,1000km --inside 100,0"), middle) > 0.15);
   const Points3 arctic = made("arctic.geojson");
   CHECK(arctic.row(2).minCoeff() > std::sin(65 * degree));
-  CHECK(nearest(arctic, directions("180 80\n", Columns::lonlat).col(0)) < 6 * degree);
+  CHECK(nearest(arctic, directions_in("180 80\n", Columns::lonlat).col(0)) < 6 * degree);
   const std::string cvt = "cvt --cells 100 -o b.vtp ";
   check_command_refused(bench, cvt + "--inside 1,2", "--inside requires --region");
   check_command_refused(
@@ -103,7 +97,7 @@ TEST_CASE("fixed points beside a file of others, in the plane, and in a limited 
   CHECK(bench.run("cvt start.txt --fixed fixed.xyz -o a.vtp").code == 0);
   const Points3 made = points_of(bench, "a.vtp");
   CHECK(made.cols() == 202);
-  CHECK(made.leftCols(2) == directions("1 0 0\n0 0.6 0.8\n", Columns::xyz));
+  CHECK(made.leftCols(2) == directions_in("1 0 0\n0 0.6 0.8\n", Columns::xyz));
   bench.file("fixed.xy", "0.25 0.5\n0.75 0.125\n");
   CHECK(bench.run("cvt --rectangle 0,0,1,1 --cells 60 --fixed fixed.xy -o plane.vtp").code == 0);
   const Points2 places = test::read_planar_mesh(bench.folder() / "plane.vtp").points;
@@ -113,7 +107,7 @@ TEST_CASE("fixed points beside a file of others, in the plane, and in a limited 
             .run("cvt --region circle=10,50,500km --cell-width 60km --limited-area --fixed "
                  "fixed.txt --lonlat -o area.nc")
             .code == 0);
-  const Points3 cells = points_of(bench, "area.nc"), fixed = directions(three, Columns::lonlat);
+  const Points3 cells = points_of(bench, "area.nc"), fixed = directions_in(three, Columns::lonlat);
   for (const auto& x : fixed.colwise())
     CHECK((cells.colwise() - x).colwise().norm().minCoeff() < 1e-15);
 }
@@ -144,7 +138,7 @@ TEST_CASE("generators on the boundary: the mesh ends at them") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(bench.run("check a.vtp").code == 0);
-  const auto inside = containing(circle(directions("10 50\n", Columns::lonlat), 900 / 6371.0));
+  const auto inside = containing(circle(directions_in("10 50\n", Columns::lonlat), 900 / 6371.0));
   const Points3 made = points_of(bench, "a.vtp");
   for (const auto& x : made.colwise())
     CHECK(inside(x));
@@ -199,8 +193,8 @@ TEST_CASE("plan: the grid of a region") {
     return nlohmann::json::parse(bench.file("plan.json"));
   };
   const std::string where = "--region circle=10,50,500km --cell-width 60km";
-  const double cells = 2 * std::numbers::pi * (1 - std::cos(500 / 6371.0)) * 6371 * 6371 /
-                       (std::sqrt(3.0) / 2 * 60 * 60);
+  const double cells =
+      2 * pi * (1 - std::cos(500 / 6371.0)) * 6371 * 6371 / (std::sqrt(3.0) / 2 * 60 * 60);
   const nlohmann::json part = plan(where), area = plan(where + " --limited-area");
   CHECK(part["cells"].get<double>() == doctest::Approx(cells).epsilon(0.005));
   CHECK(part["width_km"]["min"].get<double>() == doctest::Approx(60).epsilon(1e-6));

@@ -49,9 +49,9 @@ std::string from_base64(const std::string& text) {
 }
 
 /// A page as the browser reads it.
-class Page {
+class HtmlPage {
 public:
-  explicit Page(std::string text) : text_(std::move(text)) {
+  explicit HtmlPage(std::string text) : text_(std::move(text)) {
     header = json::parse(between(text_, "id=\"header\">", "</script>"));
   }
 
@@ -101,12 +101,12 @@ private:
   std::string text_;
 };
 
-Page make_page(const Bench& bench, const std::string& arguments) {
+HtmlPage make_page(const Bench& bench, const std::string& arguments) {
   CAPTURE(arguments);
   const Outcome outcome = bench.run("view " + arguments + " -o page.html");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  return Page(bench.file("page.html"));
+  return HtmlPage(bench.file("page.html"));
 }
 
 void make(const Bench& bench, const std::string& arguments) {
@@ -117,7 +117,8 @@ void make(const Bench& bench, const std::string& arguments) {
 }
 
 /// The places of points, of three coordinates or two.
-std::vector<std::vector<double>> places(const Page& page, const json& mesh, const json& block) {
+std::vector<std::vector<double>> coordinates(const HtmlPage& page, const json& mesh,
+                                             const json& block) {
   const std::vector<std::int32_t> integers = page.integers(block);
   const std::size_t dimensions = mesh["low"].size();
   std::vector<std::vector<double>> points(integers.size() / dimensions);
@@ -134,13 +135,13 @@ TEST_CASE("a page has the mesh's points, triangles and numbers") {
   const Bench bench;
   make(bench, "cvt --cells 642 --density tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x2 "
               "--sphere-radius earth -o grid.nc");
-  const Page page = make_page(bench, "grid.nc");
+  const HtmlPage page = make_page(bench, "grid.nc");
   const json& mesh = page.mesh();
   CHECK(page.header["title"] == "grid.nc");
   CHECK(page.header["coastlines"].is_object());
   CHECK(mesh["cells"] == 642);
   CHECK(mesh["radius"] == doctest::Approx(6371.229));
-  for (const std::vector<double>& p : places(page, mesh, mesh["points"]))
+  for (const std::vector<double>& p : coordinates(page, mesh, mesh["points"]))
     CHECK(std::hypot(p[0], p[1], p[2]) == doctest::Approx(1).epsilon(1e-6));
   const std::vector<std::int32_t> ids = page.integers(mesh["triangles"]);
   CHECK(ids.size() == 3 * 1280);
@@ -158,7 +159,7 @@ TEST_CASE("the page's numbers are those of calotte info") {
   make(bench, "cvt --cells 642 --sphere-radius earth -o grid.nc");
   make(bench, "info grid.nc --report info.json");
   const json info = json::parse(bench.file("info.json"));
-  const Page page = make_page(bench, "grid.nc");
+  const HtmlPage page = make_page(bench, "grid.nc");
   const std::vector<std::pair<const char*, const char*>> same = {
       {"quality", "cell_quality"}, {"sigma", "sigma"}, {"triangle_quality", "triangle_quality"}};
   for (const auto& [name, key] : same) {
@@ -179,7 +180,7 @@ TEST_CASE("a page shows the errors of operators where they are asked for") {
   make(bench, "cvt --cells 642 -o grid.nc");
   make(bench, "info grid.nc --operators --report info.json");
   const json info = json::parse(bench.file("info.json"))["operators"];
-  const Page page = make_page(bench, "grid.nc --operators");
+  const HtmlPage page = make_page(bench, "grid.nc --operators");
   for (const std::string word :
        {"divergence", "gradient", "laplacian", "curl", "tangential", "kinetic_energy"})
     CHECK(page.measure("error_" + word)["greatest"].get<double>() ==
@@ -195,7 +196,7 @@ TEST_CASE("a page shows the errors of operators where they are asked for") {
 TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
   const Bench bench;
   make(bench, "cvt --region circle=-105,40,1000km --cell-width 120km --limited-area -o la.nc");
-  const Page open = make_page(bench, "la.nc");
+  const HtmlPage open = make_page(bench, "la.nc");
   const std::vector<std::int32_t> sides = open.integers(open.mesh()["sides"]);
   CHECK(sides.size() == open.mesh()["cells"]);
   CHECK(*std::min_element(sides.begin(), sides.end()) >= 3); // also at the boundary
@@ -208,11 +209,11 @@ TEST_CASE("open, planar and periodic meshes, and cells of any shape") {
   for (std::size_t i = 0; i < areas.size(); ++i)
     CHECK(areas[i] == doctest::Approx(of_file[static_cast<Eigen::Index>(i)]).epsilon(0x1p-15));
   make(bench, "cvt --cells 100 --periodic 2,1 -o box.nc");
-  const Page box = make_page(bench, "box.nc --plane");
-  const auto corners = places(box, box.mesh(), box.mesh()["corners"]);
+  const HtmlPage box = make_page(bench, "box.nc --plane");
+  const auto corners = coordinates(box, box.mesh(), box.mesh()["corners"]);
   const std::vector<std::int32_t> around = box.integers(box.mesh()["sides"]),
                                   ring = box.integers(box.mesh()["ring"]);
-  const auto sites = places(box, box.mesh(), box.mesh()["points"]);
+  const auto sites = coordinates(box, box.mesh(), box.mesh()["points"]);
   CHECK(sites.size() > 100); // copies
   std::size_t k = 0;
   for (std::size_t i = 0; i < around.size(); ++i) // corners are the copies near the site
@@ -232,8 +233,8 @@ TEST_CASE("a large mesh is thinned, and keeps its worst cells") {
   const Bench bench;
   make(bench, "points random 3000 -o points.txt");
   make(bench, "delaunay points.txt -o mesh.vtp");
-  const Page whole = make_page(bench, "mesh.vtp"),
-             part = make_page(bench, "mesh.vtp --most-cells 500");
+  const HtmlPage whole = make_page(bench, "mesh.vtp"),
+                 part = make_page(bench, "mesh.vtp --most-cells 500");
   CHECK(part.mesh()["total"] == 3000);
   CHECK(part.mesh()["cells"].get<int>() <= 500);
   CHECK(part.mesh()["cells"].get<int>() > 400);
@@ -253,14 +254,14 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
               "-o grid.vtp");
   make(bench, "cvt --cells 642 -o other.vtp");
   CHECK(bench.names().contains("grid.000010.vtp"));
-  const Page two = make_page(bench, "grid.vtp other.vtp --history run.json");
+  const HtmlPage two = make_page(bench, "grid.vtp other.vtp --history run.json");
   CHECK(two.header["views"] == json::array({0, 1}));
   CHECK(two.header["history"]["series"].size() == 3);
   const json& states = two.header["history"]["states"];
   REQUIRE(states.size() > 1);
   CHECK(states[0]["iteration"] == 10);
   CHECK(two.mesh(states[0]["mesh"])["name"] == "grid.000010.vtp");
-  const Page plan = make_page(bench, "--plan --cell-width 60km");
+  const HtmlPage plan = make_page(bench, "--plan --cell-width 60km");
   CHECK(plan.measure("prescribed")["mean"] == doctest::Approx(60));
   CHECK(plan.measure("gradient")["greatest"].get<double>() < 1e-9);
 }
@@ -268,7 +269,7 @@ TEST_CASE("two meshes, a plan, and the states of a run") {
 TEST_CASE("the states of a periodic run are kept in its box") {
   const Bench bench;
   make(bench, "cvt --cells 100 --periodic 2,1 --report run.json --keep-every 20 -o box.nc");
-  const Page page = make_page(bench, "box.nc --history run.json");
+  const HtmlPage page = make_page(bench, "box.nc --history run.json");
   REQUIRE(page.header["history"]["states"].size() > 1);
   CHECK(page.mesh(1)["name"] == "box.000020.nc");
   CHECK(page.measure("area", 1)["missing"] == 0);
@@ -289,7 +290,7 @@ TEST_CASE("two meshes have the same units") {
   make(bench, "cvt --cells 642 --sphere-radius earth -o grid.nc");
   make(bench, "cvt --cells 162 -o plain.vtp");
   for (const char* const meshes : {"grid.nc plain.vtp", "plain.vtp grid.nc"}) {
-    const Page page = make_page(bench, meshes);
+    const HtmlPage page = make_page(bench, meshes);
     for (std::size_t k = 0; k < 2; ++k) {
       CHECK(page.measure("spacing", k)["unit"] == "km");
       CHECK(page.measure("area", k)["mean"].get<double>() * page.mesh(k)["cells"].get<double>() ==
@@ -310,7 +311,7 @@ TEST_CASE("fields of great and tiny values, and of great codes") {
                 y + ",0],[" + y + ",8],[" + x + ",8],[" + x + ",0]]]}}";
   }
   bench.file("cells.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
-  const Page page = make_page(bench, "cells.geojson");
+  const HtmlPage page = make_page(bench, "cells.geojson");
   const json& block = page.measure("field:v")["values"];
   CHECK(block["type"] == "double");
   const std::vector<std::uint32_t> halves = page.words(block);
@@ -329,8 +330,8 @@ TEST_CASE("fields of great and tiny values, and of great codes") {
 TEST_CASE("a thinned open mesh does not reach beyond its sites") {
   const Bench bench;
   make(bench, "cvt --region circle=-105,40,1000km --cell-width 60km --limited-area -o area.nc");
-  const Page page = make_page(bench, "area.nc --most-cells 100");
-  const auto sites = places(page, page.mesh(), page.mesh()["points"]);
+  const HtmlPage page = make_page(bench, "area.nc --most-cells 100");
+  const auto sites = coordinates(page, page.mesh(), page.mesh()["points"]);
   const std::vector<std::int32_t> ids = page.integers(page.mesh()["triangles"]);
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> opposite; // of each directed side
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -358,7 +359,7 @@ TEST_CASE("names from files are data, never markup") {
   text.replace(text.find(name), name.size(),
                "Name=\"&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;\"");
   bench.file("<b>.vtu", text);
-  const Page page = make_page(bench, "'<b>.vtu'");
+  const HtmlPage page = make_page(bench, "'<b>.vtu'");
   const std::string html = bench.file("page.html");
   CHECK(html.find("alert(1)") != std::string::npos);
   CHECK(html.find("<script>alert") == std::string::npos);

@@ -29,7 +29,7 @@ using namespace calotte::tools;
 namespace {
 
 /// Number of values of each kind.
-std::map<double, std::int64_t> counts_of(const std::vector<double>& values) {
+std::map<double, std::int64_t> number_of_each(const std::vector<double>& values) {
   std::map<double, std::int64_t> counts;
   for (const double value : values) {
     ++counts[value];
@@ -60,7 +60,7 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
   for (const double turn : {0.0, 0.4}) {
     const Surface domain = ring(turn);
     const Mesh mesh = delaunay(random_points(600, domain, {}, 7), domain);
-    const auto counts = counts_of(degrees_of_cells(mesh));
+    const auto counts = number_of_each(degrees_of_cells(mesh));
     const std::vector<std::int64_t> degrees = quality(mesh).degrees;
     std::int64_t whole = 0;
     for (std::size_t degree = 1; degree < degrees.size(); ++degree) {
@@ -73,7 +73,7 @@ TEST_CASE("a planar map of degrees has the counts of quality(), and cells at the
   }
   const Surface periodic = Surface::periodic({2, 1});
   const Mesh box = delaunay(random_points(200, periodic, {}, 3), periodic);
-  const auto counts = counts_of(degrees_of_cells(box));
+  const auto counts = number_of_each(degrees_of_cells(box));
   CHECK(!counts.contains(boundary_valence));
   const std::vector<std::int64_t> degrees = quality(box).degrees;
   for (const auto& [degree, count] : counts) {
@@ -101,7 +101,7 @@ TEST_CASE("a lattice in a rectangle shows no defects, as cells or as triangles")
   const Folder folder;
   const Surface domain = rectangle({0, 0}, {3, 2});
   Mesh mesh = delaunay(lattice_places(300, domain), domain);
-  const auto counts = counts_of(degrees_of_cells(mesh));
+  const auto counts = number_of_each(degrees_of_cells(mesh));
   CHECK(counts.size() == 2);
   CHECK(counts.contains(6));
   CHECK(counts.contains(boundary_valence));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/history.h"
+#include "support/constants.h"
 #include "support/pictures.h"
 
 #include <doctest/doctest.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 using namespace calotte;
 using namespace calotte::test;
@@ -15,8 +15,6 @@ using namespace calotte::tools;
 using nlohmann::json;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 /// A run of two levels whose norms and energy excess fall by a tenth each iteration; every fourth
 /// one has flips, and the first of each level is a rebuild.
@@ -50,7 +48,7 @@ std::string written(const Folder& folder, const std::string& text,
   return folder.file(name);
 }
 
-History history_of(const Folder& folder, const json& report) {
+History history_of_report(const Folder& folder, const json& report) {
   return read_history(written(folder, report.dump(2)));
 }
 
@@ -83,7 +81,7 @@ std::uint32_t pixel_at(const Picture& picture, const PagePoint& point) {
 
 TEST_CASE("a report is read by its keys") {
   const Folder folder;
-  const History history = history_of(folder, sample_report());
+  const History history = history_of_report(folder, sample_report());
   CHECK(history.name == folder.file("report.json"));
   CHECK(history.norm == Norm::l2_scaled);
   CHECK(history.tolerance == 1e-3);
@@ -147,18 +145,18 @@ TEST_CASE(
     "keys of newer reports are read and checked; without them all evaluations count as accepted") {
   const Folder folder;
   json report = sample_report();
-  const History old = history_of(folder, report);
+  const History old = history_of_report(folder, report);
   CHECK(old.method.empty());
   CHECK(old.iterations[3].accepted);
   CHECK(old.iterations[3].seconds_solver == 0);
   json& iteration = report["iterations"][3];
   for (const char* method : {"auto", "lloyd", "lbfgs", "lbfgs-laplacian"}) {
     report["method"] = method;
-    CHECK(history_of(folder, report).method == method);
+    CHECK(history_of_report(folder, report).method == method);
   }
   iteration["accepted"] = false;
   iteration["seconds_solver"] = 0.25;
-  const History history = history_of(folder, report);
+  const History history = history_of_report(folder, report);
   CHECK(!history.iterations[3].accepted);
   CHECK(history.iterations[3].seconds_solver == 0.25);
   iteration["accepted"] = 1;
@@ -178,7 +176,7 @@ TEST_CASE("the clock sums the evaluations, rejected ones included, and the solve
   json report = sample_report();
   report["iterations"][2]["seconds_solver"] = 0.5;
   report["iterations"][4]["accepted"] = false;
-  const History history = history_of(folder, report);
+  const History history = history_of_report(folder, report);
   const std::vector<double> elapsed = elapsed_seconds(history);
   for (std::size_t i = 0; i < elapsed.size(); ++i) {
     const auto number = static_cast<double>(i + 1);
@@ -191,14 +189,14 @@ TEST_CASE(
     "rejected evaluations have no norms and no excess, and do not affect the excess of others") {
   const Folder folder;
   json report = sample_report();
-  const std::vector<double> before = excess_of(history_of(folder, report));
+  const std::vector<double> before = excess_of(history_of_report(folder, report));
   const json trial = {{"cells", 162},     {"rule", 3},       {"l2", 1},
                       {"linf", 1},        {"energy", 1e3},   {"flips", 9},
                       {"rebuilt", false}, {"seconds", 0.01}, {"accepted", false}};
   json& iterations = report["iterations"];
   iterations.insert(iterations.begin() + 20, trial); // the last of the first level
   iterations.insert(iterations.begin() + 5, trial);
-  const History history = history_of(folder, report);
+  const History history = history_of_report(folder, report);
   const std::vector<double> excess = excess_of(history);
   std::size_t next = 0;
   for (std::size_t i = 0; i < excess.size(); ++i) {
@@ -217,8 +215,8 @@ TEST_CASE("the excess is over the best of the runs with as many cells, that dens
   const Folder folder;
   json better = sample_report(30);
   better["method"] = "lbfgs";
-  const History best = history_of(folder, better);
-  const History other = history_of(folder, sample_report(10));
+  const History best = history_of_report(folder, better);
+  const History other = history_of_report(folder, sample_report(10));
   const auto both = energy_excess({other, best});
   for (std::size_t i = 0; i < 10; ++i) { // in any run, the same energy has the same excess
     CHECK(both[0][i] == doctest::Approx(both[1][i]));
@@ -238,7 +236,7 @@ TEST_CASE("the excess is over the best of the runs with as many cells, that dens
         iteration[difference] = iteration[difference].get<int>() + 1;
       }
     }
-    CHECK(energy_excess({other, history_of(folder, apart)})[0] == excess_of(other));
+    CHECK(energy_excess({other, history_of_report(folder, apart)})[0] == excess_of(other));
   }
 }
 
@@ -268,7 +266,7 @@ TEST_CASE(
   for (const char* norm : {"l2-scaled", "linf-scaled", "l2", "linf", "none"}) {
     CAPTURE(norm);
     report["norm"] = norm;
-    const std::vector<double> tolerance = scaled_tolerance(history_of(folder, report));
+    const std::vector<double> tolerance = scaled_tolerance(history_of_report(folder, report));
     const std::string word = norm;
     if (word == "none") {
       CHECK(std::isnan(tolerance[5]));
@@ -283,7 +281,7 @@ TEST_CASE(
 TEST_CASE("the energy's excess falls to 0 in each level, for any energies of the rules") {
   const Folder folder;
   json report = sample_report();
-  const std::vector<double> excess = excess_of(history_of(folder, report));
+  const std::vector<double> excess = excess_of(history_of_report(folder, report));
   for (std::size_t i = 0; i < excess.size(); ++i) {
     const double end = std::pow(0.9, 19);
     const double expected =
@@ -296,7 +294,7 @@ TEST_CASE("the energy's excess falls to 0 in each level, for any energies of the
     iteration["rule"] = 6;
     iteration["energy"] = iteration["energy"].get<double>() + 1e-5;
   }
-  const std::vector<double> joined = excess_of(history_of(folder, report));
+  const std::vector<double> joined = excess_of(history_of_report(folder, report));
   const double step = 1e-2 * (std::pow(0.9, 10) - std::pow(0.9, 11)); // of the descent before
   for (std::size_t i = 0; i < excess.size(); ++i) {
     CAPTURE(i);
@@ -338,7 +336,7 @@ void check_column(const HistoryPage& page, const HistoryColumn& column, const Hi
 
 TEST_CASE("the frames stand on the page apart from each other, and hold all data") {
   const Folder folder;
-  const History two_levels = history_of(folder, sample_report());
+  const History two_levels = history_of_report(folder, sample_report());
   for (const std::size_t runs : {1U, 3U, 8U}) {
     for (const int size : {64, 300, 1200}) {
       const HistoryPage page = history_page(std::vector(runs, two_levels), size);
@@ -355,9 +353,9 @@ TEST_CASE("the frames stand on the page apart from each other, and hold all data
 
 TEST_CASE("runs of very different length have logarithmic axes across, which hold all data") {
   const Folder folder;
-  const History brief = history_of(folder, sample_report(1));
+  const History brief = history_of_report(folder, sample_report(1));
   for (const int length : {20, 21}) {
-    const std::vector<History> both = {history_of(folder, sample_report(length)), brief};
+    const std::vector<History> both = {history_of_report(folder, sample_report(length)), brief};
     const HistoryPage page = history_page(both, 1200);
     for (const HistoryColumn& column : page.columns) {
       for (const Frame* frame : {&column.norms, &column.energy, &column.repairs}) {
@@ -416,7 +414,7 @@ void check_marks(const Picture& picture, const HistoryPage& page, const HistoryC
 
 TEST_CASE("the picture has its size, and its curves, steps and marks in their places") {
   const Folder folder;
-  const History history = history_of(folder, sample_report());
+  const History history = history_of_report(folder, sample_report());
   draw_history(folder.file("a.png"), {history}, 2400);
   const Picture picture(folder.file("a.png"));
   const HistoryPage page = history_page({history}, 2400);
@@ -431,7 +429,7 @@ TEST_CASE("the picture has its size, and its curves, steps and marks in their pl
 
 TEST_CASE("the tolerance is a dashed line, and a level ends in a full one") {
   const Folder folder;
-  const History history = history_of(folder, sample_report());
+  const History history = history_of_report(folder, sample_report());
   draw_history(folder.file("a.png"), {history}, 1800);
   const Picture picture(folder.file("a.png"));
   const HistoryPage page = history_page({history}, 1800);
@@ -468,7 +466,7 @@ TEST_CASE("a curve skips rejected evaluations") {
   }
   for (const bool accepted : {true, false}) {
     report["iterations"][9]["accepted"] = accepted;
-    const History history = history_of(folder, report);
+    const History history = history_of_report(folder, report);
     draw_history(folder.file("a.png"), {history}, 2400);
     const Picture picture(folder.file("a.png"));
     const HistoryPage page = history_page({history}, 2400);
@@ -489,7 +487,7 @@ TEST_CASE("several runs have different colours") {
   const Folder folder;
   std::vector<History> histories;
   for (const double scale : {1., 0.3, 0.1}) {
-    histories.push_back(history_of(folder, sample_report(20, scale)));
+    histories.push_back(history_of_report(folder, sample_report(20, scale)));
   }
   draw_history(folder.file("a.png"), histories, 1800);
   const Picture picture(folder.file("a.png"));
@@ -505,7 +503,7 @@ TEST_CASE("the oddest reports can be drawn in every format") {
   const Folder folder;
   std::vector<History> all;
   const auto add = [&](const json& report) {
-    all.push_back(history_of(folder, report));
+    all.push_back(history_of_report(folder, report));
     for (const char* picture : {"a.png", "a.svg", "a.pdf"}) {
       draw_history(folder.file(picture), {all.back()}, 100);
     }
@@ -548,7 +546,7 @@ TEST_CASE("the oddest reports can be drawn in every format") {
 
 TEST_CASE("no reports, too many, an invalid size or suffix: refused, and no file is left") {
   const Folder folder;
-  const History history = history_of(folder, sample_report());
+  const History history = history_of_report(folder, sample_report());
   const std::vector<History> one = {history};
   const auto code = [&](const std::string& name, const std::vector<History>& histories, int size) {
     return code_of([&] { draw_history(folder.file(name), histories, size); });

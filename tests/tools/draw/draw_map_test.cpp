@@ -8,7 +8,9 @@
 #include "draw/view.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "support/clouds.h"
+#include "support/constants.h"
 #include "support/pictures.h"
+#include "tools/draw/projections.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -21,7 +23,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -31,9 +32,6 @@ using namespace calotte::tools;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-constexpr std::array all_projections = {Projection::globe, Projection::plate_carree};
 
 using Image = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
@@ -50,14 +48,14 @@ Vector3d on_earth(double longitude, double latitude) {
 
 /// The place on the earth of the middle of a pixel, by the textbook's formulas; none outside the
 /// globe, or so near to its limb that a pixel is wide.
-std::optional<Vector3d> place_of(const MapSize& size, Projection projection, const LonLat& view,
-                                 double x, double y) {
+std::optional<Vector3d> place_of_pixel(const MapSize& size, Projection projection,
+                                       const LonLat& view, double x, double y) {
   const double u = (x + 0.5) / size.width * 2 - 1;
   const double v = 1 - (y + 0.5) / size.height * 2;
   const double lon = view.longitude * degree;
   const double lat = view.latitude * degree;
   if (projection == Projection::plate_carree) {
-    return on_earth(lon + u * std::numbers::pi, v * std::numbers::pi / 2);
+    return on_earth(lon + u * pi, v * pi / 2);
   }
   const double r = std::hypot(u, v);
   if (r > 0.95) {
@@ -102,7 +100,7 @@ private:
 };
 
 /// A painting in which neighbours differ in colour.
-Painting painting_of(const Mesh& mesh, Shapes shapes, const LonLat& view) {
+Painting painting_by_number(const Mesh& mesh, Shapes shapes, const LonLat& view) {
   Painting painting;
   painting.scene = make_scene(mesh, shapes, view);
   const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(
@@ -139,7 +137,7 @@ Eigen::ArrayXXi shapes_at(const Mesh& mesh, Shapes shapes, Projection projection
   Eigen::ArrayXXi result = Eigen::ArrayXXi::Constant(size.width, size.height + 2 * near, -1);
   for (int row = 0; row < result.cols(); ++row) {
     for (int x = 0; x < size.width; ++x) {
-      if (const auto place = place_of(size, projection, view, x, row - near)) {
+      if (const auto place = place_of_pixel(size, projection, view, x, row - near)) {
         result(x, row) = locator.at(*place);
       }
     }
@@ -171,7 +169,7 @@ int for_each_inner_pixel(const Mesh& mesh, Shapes shapes, Projection projection,
   return count;
 }
 
-Rgb colour_of(const Painting& painting, int shape) {
+Rgb colour_of_shape(const Painting& painting, int shape) {
   return painting.scale.colour(painting.values[static_cast<std::size_t>(shape)]);
 }
 
@@ -194,13 +192,13 @@ TEST_CASE("each pixel has the colour of the cell of the nearest site, or of its 
           CAPTURE(static_cast<int>(projection));
           CAPTURE(view.longitude);
           const MapSize size = map_size(projection, 100);
-          const Painting painting = painting_of(mesh, shapes, view);
+          const Painting painting = painting_by_number(mesh, shapes, view);
           const Image pixels = raster(painting, projection, size);
           const Image paths = vector(painting, projection, size);
           int wrong_pixels = 0;
           int wrong_paths = 0;
           const auto look = [&](int x, int y, int shape) {
-            const Rgb colour = colour_of(painting, shape);
+            const Rgb colour = colour_of_shape(painting, shape);
             wrong_pixels += has_colour(pixel(pixels, x, y), colour) ? 0 : 1;
             wrong_paths += has_colour(pixel(paths, x, y), colour) ? 0 : 1;
           };
@@ -217,11 +215,11 @@ TEST_CASE("a tilted globe shows the cells of the nearest sites") {
   const Mesh mesh = delaunay(random_sphere(60, 5));
   for (const LonLat& view : {LonLat{15, 25}, LonLat{-120, -60}, LonLat{40, 90}}) {
     const MapSize size = map_size(Projection::globe, 140);
-    const Painting painting = painting_of(mesh, Shapes::cells, view);
+    const Painting painting = painting_by_number(mesh, Shapes::cells, view);
     const Image pixels = raster(painting, Projection::globe, size);
     int wrong = 0;
     const auto look = [&](int x, int y, int shape) {
-      wrong += has_colour(pixel(pixels, x, y), colour_of(painting, shape)) ? 0 : 1;
+      wrong += has_colour(pixel(pixels, x, y), colour_of_shape(painting, shape)) ? 0 : 1;
     };
     CHECK(for_each_inner_pixel(mesh, Shapes::cells, Projection::globe, view, size, look) > 1000);
     CHECK(wrong == 0);
@@ -237,15 +235,15 @@ TEST_CASE("an enlarged map shows the cells of the nearest sites") {
     const Projection projection = window.projection;
     const LonLat view = {170, projection == Projection::globe ? 60. : 0.};
     const MapSize size = map_size(projection, 160);
-    const Painting painting = painting_of(mesh, Shapes::cells, view);
+    const Painting painting = painting_by_number(mesh, Shapes::cells, view);
     const Image pixels(raster_map(painting, window, size), cairo_surface_destroy);
     const Image paths = vector(painting, window, size);
     const auto shape_at = [&](double x, double y) {
-      const double up = window.middle / std::numbers::pi * size.height;
-      const auto place =
-          place_of(size, projection, view,
-                   (x + 0.5 - size.width / 2.0) / window.zoom + size.width / 2.0 - 0.5,
-                   (y + 0.5 - size.height / 2.0) / window.zoom + size.height / 2.0 - 0.5 - up);
+      const double up = window.middle / pi * size.height;
+      const auto place = place_of_pixel(
+          size, projection, view,
+          (x + 0.5 - size.width / 2.0) / window.zoom + size.width / 2.0 - 0.5,
+          (y + 0.5 - size.height / 2.0) / window.zoom + size.height / 2.0 - 0.5 - up);
       return place ? locator.at(*place) : -1;
     };
     int wrong = 0, inner = 0;
@@ -255,8 +253,8 @@ TEST_CASE("an enlarged map shows the cells of the nearest sites") {
         if (own >= 0 && shape_at(x - 3, y) == own && shape_at(x + 3, y) == own &&
             shape_at(x, y - 3) == own && shape_at(x, y + 3) == own) {
           ++inner;
-          wrong += has_colour(pixel(pixels, x, y), colour_of(painting, own)) ? 0 : 1;
-          wrong += has_colour(pixel(paths, x, y), colour_of(painting, own)) ? 0 : 1;
+          wrong += has_colour(pixel(pixels, x, y), colour_of_shape(painting, own)) ? 0 : 1;
+          wrong += has_colour(pixel(paths, x, y), colour_of_shape(painting, own)) ? 0 : 1;
         }
       }
     }
@@ -339,8 +337,8 @@ TEST_CASE("both: the picture of the cells, except for lines along the triangles'
   for (const Projection projection : all_projections) {
     const LonLat view = {33, 0};
     const MapSize size = map_size(projection, 200);
-    const Image cells = raster(painting_of(mesh, Shapes::cells, view), projection, size);
-    const Image both = raster(painting_of(mesh, Shapes::both, view), projection, size);
+    const Image cells = raster(painting_by_number(mesh, Shapes::cells, view), projection, size);
+    const Image both = raster(painting_by_number(mesh, Shapes::both, view), projection, size);
     const auto differs = [&](int x, int y) { return pixel(both, x, y) != pixel(cells, x, y); };
     int changed_inside = 0;
     for_each_inner_pixel(mesh, Shapes::triangles, projection, view, size,
@@ -369,7 +367,7 @@ TEST_CASE("a field of the sphere is evaluated at each pixel, on both maps") {
       for (int at = 0; at < size.width * size.height; at += 7) {
         const int x = at % size.width;
         const int y = at / size.width;
-        if (const auto place = place_of(size, projection, view, x, y)) {
+        if (const auto place = place_of_pixel(size, projection, view, x, y)) {
           const Rgb colour = painting.scale.colour(values(*place)[0]);
           wrong += has_colour(pixel(image, x, y), colour) ? 0 : 1;
         }
@@ -468,7 +466,7 @@ constexpr int cells = 42;
 
 /// A file with a field of each kind: values 10, 11, ...; -9, 2, 3 ..., where -9 is a fill value;
 /// and such that are none.
-void write_fields(const std::string& path) {
+void write_sample_fields(const std::string& path) {
   using namespace io_detail;
   NetcdfWriter file(path);
   const int n = file.dimension("nCells", cells);
@@ -502,7 +500,7 @@ void write_fields(const std::string& path) {
 
 TEST_CASE("a field of a file has its values, name and units; a fill value becomes NaN") {
   const Folder folder;
-  write_fields(folder.file("a.nc"));
+  write_sample_fields(folder.file("a.nc"));
   const CellField depth = read_cell_field(folder.file("a.nc"), "depth", cells);
   CHECK(depth.values == Eigen::VectorXd::LinSpaced(cells, 10, 10 + cells - 1));
   CHECK(depth.units == "m");
@@ -516,7 +514,7 @@ TEST_CASE("a field of a file has its values, name and units; a fill value become
 TEST_CASE("an unknown field is refused with the names of the fields in the file") {
   const Folder folder;
   const std::string path = folder.file("a.nc");
-  write_fields(path);
+  write_sample_fields(path);
   const auto message = [&](const std::string& name, std::int64_t count) {
     const Error error = error_of([&] { read_cell_field(path, name, count); });
     CHECK(error.code() == ErrorCode::invalid_argument);
@@ -535,7 +533,7 @@ TEST_CASE("an unknown field is refused with the names of the fields in the file"
 TEST_CASE("each cell shows its own value of a field, and every cell is painted") {
   const Folder folder;
   const Mesh mesh = delaunay(fibonacci_sphere(cells));
-  write_fields(folder.file("a.nc"));
+  write_sample_fields(folder.file("a.nc"));
   const CellField field = read_cell_field(folder.file("a.nc"), "index", cells);
   const Scene scene = make_scene(mesh, Shapes::cells, {});
   const std::vector<double> values = values_of(scene, Colouring::field, field.values);

@@ -16,14 +16,14 @@ using namespace calotte::tools;
 
 namespace {
 
-std::vector<double> spacings_of(const Mesh& mesh) {
+std::vector<double> cell_spacings(const Mesh& mesh) {
   return values_of(make_scene(mesh, Shapes::cells, {}), Colouring::spacing);
 }
 
 /// The density that a mesh obeys exactly: at each site h^-4, times a factor that may be other than
 /// 1 for some sites.
 Density obeyed_by(const Mesh& mesh, const std::function<double(std::size_t)>& factor) {
-  std::vector<double> values = spacings_of(mesh);
+  std::vector<double> values = cell_spacings(mesh);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = factor(i) * std::pow(values[i], -4);
   }
@@ -44,7 +44,7 @@ Density obeyed_by(const Mesh& mesh, const std::function<double(std::size_t)>& fa
 
 TEST_CASE("a mesh that obeys its density has every cell on the line") {
   const Mesh mesh = delaunay(random_sphere(400));
-  const std::vector<double> spacings = spacings_of(mesh);
+  const std::vector<double> spacings = cell_spacings(mesh);
   const auto [least, greatest] = std::minmax_element(spacings.begin(), spacings.end());
   for (const double factor : {1., 7e5, 1e-9}) { // the factor of the density does not matter
     const SpacingLaw law = spacing_law(mesh, obeyed_by(mesh, [&](std::size_t) { return factor; }));
@@ -63,7 +63,7 @@ TEST_CASE("a mesh that obeys its density has every cell on the line") {
 
 TEST_CASE("odd cells are off the line by their factor, and do not shift others") {
   const Mesh mesh = delaunay(random_sphere(400));
-  const std::vector<double> spacings = spacings_of(mesh);
+  const std::vector<double> spacings = cell_spacings(mesh);
   const auto odd = [&](std::size_t i) { // the smallest cells keep the largest density
     return i % 5 == 0 && spacings[i] > 0.1 ? std::pow(1.3, 4) : 1;
   };
@@ -126,7 +126,7 @@ TEST_CASE("a density of 0 at a site is refused by the site's number") {
 TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells are dots off it") {
   const Folder folder;
   const Mesh mesh = delaunay(random_sphere(200));
-  const std::vector<double> spacings = spacings_of(mesh);
+  const std::vector<double> spacings = cell_spacings(mesh);
   const auto middle = static_cast<std::size_t>(
       std::find_if(spacings.begin(), spacings.end(), [](double h) { return h > 0.25; }) -
       spacings.begin());

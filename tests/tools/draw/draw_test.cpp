@@ -4,7 +4,9 @@
 #include "draw/raster.h"
 #include "draw/values.h"
 #include "draw/vector.h"
+#include "support/constants.h"
 #include "support/pictures.h"
+#include "tools/draw/projections.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -16,7 +18,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 #include <numeric>
 
 using namespace calotte;
@@ -26,10 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::array both_shapes = {Shapes::triangles, Shapes::cells};
 constexpr std::array all_shapes = {Shapes::triangles, Shapes::cells, Shapes::both};
-constexpr std::array all_projections = {Projection::globe, Projection::plate_carree};
 constexpr std::array all_colourings = {Colouring::spacing, Colouring::angle,   Colouring::valence,
                                        Colouring::area,    Colouring::quality, Colouring::density,
                                        Colouring::none};
@@ -243,7 +242,7 @@ TEST_CASE("values: the icosahedron's are known, and 6 - valence sums to 12") {
     const Scene random_scene = make_scene(random, shapes, view);
     const std::vector<double> areas = values_of(random_scene, Colouring::area);
     CHECK(std::accumulate(areas.begin(), areas.end(), 0.0) ==
-          doctest::Approx(4 * std::numbers::pi).epsilon(1e-12));
+          doctest::Approx(4 * pi).epsilon(1e-12));
   }
   const auto valences = values_of(make_scene(random, Shapes::cells, view), Colouring::valence);
   double sum = 0;

@@ -67,7 +67,7 @@ private:
 };
 
 /// The message of a rejection without the file's name, with which every message starts.
-std::string refusal(const std::string& text, const std::string& arguments = "") {
+std::string refused_options(const std::string& text, const std::string& arguments = "") {
   Parser parser;
   try {
     parser.parse(text, arguments);
@@ -83,7 +83,7 @@ std::string refusal(const std::string& text, const std::string& arguments = "") 
 
 /// The same for values of which the message has the key, on line 2.
 std::string refused_value(const std::string& setting) {
-  const std::string message = refusal("# a run\n" + setting + "\n");
+  const std::string message = refused_options("# a run\n" + setting + "\n");
   const std::string start = "line 2: " + setting.substr(0, setting.find(' ')) + " ";
   CAPTURE(message);
   REQUIRE(message.starts_with(start));
@@ -137,7 +137,7 @@ TEST_CASE("hyphens and underscores are equivalent, and a table's name has no eff
     CHECK(parser.limit == 7);
     CHECK(parser.tolerance == 2);
   }
-  CHECK(refusal("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
+  CHECK(refused_options("[a]\ntolerance = 1\n[a.b]\nseed = 1\n") ==
         "line 3: table b is nested in table a; nested tables are not supported; remove the inner "
         "one");
 }
@@ -168,7 +168,8 @@ TEST_CASE("the command line takes precedence, also over options that it excludes
   Parser both;
   CHECK_THROWS_AS(both.parse("iterations = 9\ntolerance = 1\n"), CLI::ExcludesError);
   // A wrong value in the file is an error even if the command line has another.
-  CHECK(refusal("seed = true\n", "--seed 4") == "line 1: seed takes an integer, not true or false");
+  CHECK(refused_options("seed = true\n", "--seed 4") ==
+        "line 1: seed takes an integer, not true or false");
 }
 
 TEST_CASE("a flag that is false is not given") {
@@ -219,9 +220,9 @@ TEST_CASE("the names of MPI-SCVT") {
 TEST_CASE("an unknown name is refused with the nearest, and the line") {
   const auto unknown = [](const std::string& name, const std::string& near) {
     CAPTURE(name);
-    CHECK(refusal("seed = 1\n\n" + name + " = 1\n") == "line 3: unknown option \"" + name +
-                                                           "\"; did you mean " + near +
-                                                           "? See calotte test --help");
+    CHECK(refused_options("seed = 1\n\n" + name + " = 1\n") == "line 3: unknown option \"" + name +
+                                                                   "\"; did you mean " + near +
+                                                                   "? See calotte test --help");
   };
   unknown("tolerence", "tolerance");
   unknown("max_iteration", "max-iterations");
@@ -230,19 +231,19 @@ TEST_CASE("an unknown name is refused with the nearest, and the line") {
   unknown("sort_methods", "sort_method");
   unknown("see", "seed");
   unknown("Seed", "seed");
-  CHECK(refusal("speedometer = 1\n") ==
+  CHECK(refused_options("speedometer = 1\n") ==
         "line 1: unknown option \"speedometer\"; see calotte test --help");
   for (const std::string none : {"config", "help"}) // options that are not allowed in files
-    CHECK(refusal(none + " = \"other.toml\"\n") ==
+    CHECK(refused_options(none + " = \"other.toml\"\n") ==
           "line 1: unknown option \"" + none + "\"; see calotte test --help");
 }
 
 TEST_CASE("a name that is given twice is refused with both lines") {
-  CHECK(refusal("max-iterations = 1\nseed = 2\nmax_iterations = 1\n") ==
+  CHECK(refused_options("max-iterations = 1\nseed = 2\nmax_iterations = 1\n") ==
         "line 3: max-iterations is given twice, also on line 1; leave one out");
-  CHECK(refusal("[a]\nconvergence_criteria = 1\n[b]\ntolerance = 2\n") ==
+  CHECK(refused_options("[a]\nconvergence_criteria = 1\n[b]\ntolerance = 2\n") ==
         "line 4: tolerance is given twice, also on line 2; leave one out");
-  CHECK(refusal("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by a rule of TOML
+  CHECK(refused_options("seed = 1\nseed = 2\n").starts_with("line 2: ")); // by a rule of TOML
 }
 
 TEST_CASE("values of the wrong kind are refused with their key and line") {
@@ -263,10 +264,11 @@ TEST_CASE("values of the wrong kind are refused with their key and line") {
   CHECK(refused_value("density = [[\"one\"]]") == "holds an array" + other);
   CHECK(refused_value("density = [{ lon = 1 }]") == "holds a table" + other);
   // The message of an option for an invalid value.
-  CHECK(refusal("# a run\nstart = \"there\"\n") == "line 2: --start: there not in {random,spiral}");
-  CHECK(refusal("seed = 1.5\n").starts_with("line 1: "));
-  CHECK(refusal("tolerance = \"small\"\n").starts_with("line 1: "));
-  CHECK(refusal("max_iterations = 99999999999\n").starts_with("line 1: "));
+  CHECK(refused_options("# a run\nstart = \"there\"\n") ==
+        "line 2: --start: there not in {random,spiral}");
+  CHECK(refused_options("seed = 1.5\n").starts_with("line 1: "));
+  CHECK(refused_options("tolerance = \"small\"\n").starts_with("line 1: "));
+  CHECK(refused_options("max_iterations = 99999999999\n").starts_with("line 1: "));
 }
 
 TEST_CASE("a file that is no TOML is refused with its line") {
@@ -276,7 +278,7 @@ TEST_CASE("a file that is no TOML is refused with its line") {
         "seed = 1\nstart = \"\xff\"\n", "seed = 1\ntolerance = 1e\n",
         "seed = 1\nseed = 99999999999999999999\n"}) {
     CAPTURE(text);
-    const std::string message = refusal(text);
+    const std::string message = refused_options(text);
     CAPTURE(message);
     CHECK((message.starts_with("line 2: ") || message.starts_with("line 3: ") ||
            message.starts_with("line 4: ")));
@@ -285,7 +287,7 @@ TEST_CASE("a file that is no TOML is refused with its line") {
 }
 
 TEST_CASE("the message names the first wrong line") {
-  CHECK(refusal("seed = 1\nzebra = 1\n[table]\naardvark = 2\n")
+  CHECK(refused_options("seed = 1\nzebra = 1\n[table]\naardvark = 2\n")
             .starts_with("line 2: unknown option \"zebra\""));
 }
 

@@ -29,7 +29,7 @@ Bump bump(const std::string& words) {
 }
 
 /// The message of a rejection without the common prefix.
-std::string refusal(const std::string& words) {
+std::string refused_density(const std::string& words) {
   try {
     density_of(DensityWords{{words}});
   } catch (const Error& error) {
@@ -106,34 +106,36 @@ TEST_CASE("words that make no density are refused with the offending one") {
     const std::size_t place = words.find(key);
     return words.replace(place, words.find_first_of(",", place) - place, changed);
   };
-  CHECK(refusal("gauss") == "not a density; give uniform or, for instance, "
-                            "x8 or tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
-  CHECK(refusal("") == refusal("gauss"));
-  CHECK(refusal("x") == refusal("gauss"));
-  CHECK(refusal("x0").ends_with("such a number, or x8 for spacings of 8:1"));
-  CHECK(refusal("tanh:") == "lon is missing" + form);
-  CHECK(refusal("tanh:lon=0,lat=0,beta=1,alpha=1") == "gamma is missing" + form);
-  CHECK(refusal("tanh:lon=0,lon=1") == "lon is given twice; leave one out");
-  CHECK(refusal("tanh:lon") == "\"lon\" is not key=value" + form);
-  CHECK(refusal("tanh:lon=0,,lat=0") == "\"\" is not key=value" + form);
-  CHECK(refusal("tanh:width=2") == "unknown key \"width\"; the keys are lon, lat, beta, alpha, "
-                                   "gamma, stretch, azimuth");
-  CHECK(refusal(with("lon=east")) == "lon \"east\" is not a number; give degrees");
-  CHECK(refusal(with("lon=inf")) == "lon \"inf\" is not a number; give degrees");
-  CHECK(refusal(with("lat=90.5")) == "lat \"90.5\" is outside -90 to 90; give degrees north");
+  CHECK(refused_density("gauss") == "not a density; give uniform or, for instance, "
+                                    "x8 or tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
+  CHECK(refused_density("") == refused_density("gauss"));
+  CHECK(refused_density("x") == refused_density("gauss"));
+  CHECK(refused_density("x0").ends_with("such a number, or x8 for spacings of 8:1"));
+  CHECK(refused_density("tanh:") == "lon is missing" + form);
+  CHECK(refused_density("tanh:lon=0,lat=0,beta=1,alpha=1") == "gamma is missing" + form);
+  CHECK(refused_density("tanh:lon=0,lon=1") == "lon is given twice; leave one out");
+  CHECK(refused_density("tanh:lon") == "\"lon\" is not key=value" + form);
+  CHECK(refused_density("tanh:lon=0,,lat=0") == "\"\" is not key=value" + form);
+  CHECK(refused_density("tanh:width=2") ==
+        "unknown key \"width\"; the keys are lon, lat, beta, alpha, "
+        "gamma, stretch, azimuth");
+  CHECK(refused_density(with("lon=east")) == "lon \"east\" is not a number; give degrees");
+  CHECK(refused_density(with("lon=inf")) == "lon \"inf\" is not a number; give degrees");
+  CHECK(refused_density(with("lat=90.5")) ==
+        "lat \"90.5\" is outside -90 to 90; give degrees north");
   for (const std::string beta : {"0", "-1", "nan", "", "1rad", "deg", "0deg"})
-    CHECK(refusal(with("beta=" + beta)) ==
+    CHECK(refused_density(with("beta=" + beta)) ==
           "beta \"" + beta + "\" is not a positive angle; give radians, or degrees as 30deg");
-  CHECK(refusal(with("alpha=0")).starts_with("alpha \"0\" is not a positive angle"));
+  CHECK(refused_density(with("alpha=0")).starts_with("alpha \"0\" is not a positive angle"));
   for (const std::string gamma : {"0", "1", "-0.5", "x1", "x0", "x", "x-2x", "nan", "x1e200"})
-    CHECK(refusal(with("gamma=" + gamma)) ==
+    CHECK(refused_density(with("gamma=" + gamma)) ==
           "gamma \"" + gamma +
               "\" is not between 0 and 1; give such a number, or x8 for spacings of 8:1");
-  CHECK(refusal(with("gamma=x2,stretch=2")) ==
+  CHECK(refused_density(with("gamma=x2,stretch=2")) ==
         "stretch and azimuth define an ellipse together; give both or none");
-  CHECK(refusal(with("gamma=x2,stretch=0.5,azimuth=0")) ==
+  CHECK(refused_density(with("gamma=x2,stretch=0.5,azimuth=0")) ==
         "stretch \"0.5\" is not a number >= 1; give the ratio of the axes");
-  CHECK(refusal(with("gamma=x2,stretch=2,azimuth=n")) ==
+  CHECK(refused_density(with("gamma=x2,stretch=2,azimuth=n")) ==
         "azimuth \"n\" is not a number; give degrees");
   CHECK_THROWS_AS(density_of(DensityWords{{"uniform", "uniform"}}), Error);
 }

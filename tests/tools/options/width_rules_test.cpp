@@ -23,7 +23,7 @@ using calotte::test::Scratch;
 
 namespace {
 
-Points3 places() {
+Points3 sample_points() {
   Points3 points(3, 5);
   points << 1, 0, 0, 0.6, -0.36, 0, 1, 0, 0, 0.48, 0, 0, 1, 0.8, 0.8;
   return points;
@@ -50,7 +50,7 @@ public:
     return read_width_rules(path());
   }
   DoubleVector widths(const std::string& text) const {
-    return evaluate(read("[cell-width]\n" + text).widths, places());
+    return evaluate(read("[cell-width]\n" + text).widths, sample_points());
   }
   /// Without the name of the file.
   std::string refused(const std::string& text) const {
@@ -91,38 +91,38 @@ TEST_CASE("each rule of a file is that of the library") {
   const WidthProfile grows{{{0, 10}, {600, 60}}};
   CHECK(rules.widths("width = 60") == DoubleVector::Constant(5, 60));
   CHECK(rules.widths("latitude = [[-90, 35], [0, 60], [90, 20]]") ==
-        evaluate(Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), places()));
+        evaluate(Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), sample_points()));
   CHECK(rules.widths("distance-to = \"line.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
-        evaluate(Widths::by_distance({line}, grows), places()));
+        evaluate(Widths::by_distance({line}, grows), sample_points()));
   CHECK(rules.widths("distance-to = \"line.geojson\"\nprofile = [[0, 10], [600, 60]]\n"
                      "between = \"smooth\"") ==
         evaluate(Widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
-                 places()));
+                 sample_points()));
   CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
-                 places()));
+                 sample_points()));
   CHECK(rules.widths("min = [50, {channels = \"islands.geojson\", cells = 4, least = 10}]") ==
         evaluate(
             Widths::minimum({50.0, Widths::by_channel(read_coast(rules.beside("islands.geojson")),
                                                       {.cells = 4, .least = 10})}),
-            places()));
+            sample_points()));
   const Coast island = read_coast(rules.beside("island.geojson"));
   CHECK(rules.widths(
             "distance-to = \"island.geojson\"\nprofile = [[-200, 60], [0, 10], [600, 60]]") ==
-        evaluate(Widths::by_coast(island, {{{-200, 60}, {0, 10}, {600, 60}}}), places()));
+        evaluate(Widths::by_coast(island, {{{-200, 60}, {0, 10}, {600, 60}}}), sample_points()));
   CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600\n"
                      "side = \"land\"") ==
-        evaluate(Widths::by_coast(island, grows, CoastSide::land), places()));
+        evaluate(Widths::by_coast(island, grows, CoastSide::land), sample_points()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
   CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
-                 places()));
+                 sample_points()));
   CHECK(rules.widths("gradient = 0.03\nmin = [50, {latitude = [[0, 60], [90, 20]]}, "
                      "{distance-to = \"line.geojson\", near = 10, far = 60, over = 600}]") ==
         evaluate(Widths::minimum({50.0, Widths::by_latitude({{{0, 60}, {90, 20}}}),
                                   Widths::by_distance({line}, grows)})
                      .limit_gradient(0.03),
-                 places()));
+                 sample_points()));
   CHECK(rules.widths("sum = [30, 5]\ntimes = 2\nmost = 65") == DoubleVector::Constant(5, 65));
 }
 
@@ -138,12 +138,13 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
   CHECK(rules.widths("blend = [20, 30]\nshare = \"half.nc\"") == DoubleVector::Constant(5, 25));
   const Surface island = read_region(rules.beside("island.geojson"));
   CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"") ==
-        evaluate(Widths::where(island, 20.0, 60.0), places()));
+        evaluate(Widths::where(island, 20.0, 60.0), sample_points()));
   CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"\nover = 3000") ==
-        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{0, 1}, {3000, 0}}})), places()));
-  CHECK(rules.widths(
-            "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
-        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{-500, 1}, {0, 0.5}}})), places()));
+        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{0, 1}, {3000, 0}}})), sample_points()));
+  CHECK(
+      rules.widths(
+          "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
+      evaluate(Widths::blend(60.0, 20.0, Share(island, {{{-500, 1}, {0, 0.5}}})), sample_points()));
   CHECK(rules.refused("[cell-width]\nblend = [60, 20, 5]\nshare = \"half.nc\"") ==
         " line 2: blend holds 3 rules; give [A, B]");
   CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/constants.h"
 #include "view/quantities.h"
 #include "view/view_mesh.h"
 
@@ -9,16 +10,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 namespace {
 
 using namespace calotte;
+using namespace calotte::test;
 using namespace calotte::tools;
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct Hole {
   Eigen::Vector3d centre;
@@ -73,7 +72,7 @@ TEST_CASE("a thinned ocean has no cells on land") {
     const double area = area_of(mesh);
     thin(mesh, {}, most);
     CHECK(mesh.cells <= most);
-    const double spacing = std::sqrt(4 * std::numbers::pi / static_cast<double>(most)) / degree;
+    const double spacing = std::sqrt(4 * pi / static_cast<double>(most)) / degree;
     for (const auto& t : mesh.triangles.colwise()) {
       const Eigen::Vector3d middle =
           (mesh.points.col(t[0]) + mesh.points.col(t[1]) + mesh.points.col(t[2])).normalized();
@@ -83,7 +82,7 @@ TEST_CASE("a thinned ocean has no cells on land") {
     // At the coast it has at most a spacing less than before.
     double coast = 0;
     for (const Hole& land : lands)
-      coast += 2 * std::numbers::pi * std::sin(land.radius * degree);
+      coast += 2 * pi * std::sin(land.radius * degree);
     CHECK(area_of(mesh) < area);
     CHECK(area_of(mesh) > area - coast * 1.5 * spacing * degree);
   }
@@ -93,7 +92,7 @@ TEST_CASE("a thinned mesh of the whole sphere covers it") {
   ViewMesh mesh = sea(5000, {});
   thin(mesh, {}, 500);
   CHECK(mesh.triangles.cols() == 2 * mesh.cells - 4);
-  CHECK(area_of(mesh) == doctest::Approx(4 * std::numbers::pi));
+  CHECK(area_of(mesh) == doctest::Approx(4 * pi));
 }
 
 TEST_CASE("a field that is a ratio has no unit") {
