@@ -77,6 +77,8 @@ WriteOptions write_options(const ConvertRequest& request, const Density& density
     options.sphere_radius = is_in_kilometres(file.sphere_radius)
                                 ? metres_per_km * file.sphere_radius
                                 : file.sphere_radius;
+  if (!request.format->model)
+    options.vertex_order = file.vertex_order;
   options.density = density;
   if (is_mpas(options.format) && lacks_density(request, file))
     options.site_density = spacing_density(file);
@@ -127,8 +129,7 @@ std::string remarks(const ConvertRequest& request, const MeshFile& file,
   if (options.site_density.size() > 0)
     lines += derived_density(request.output, options.site_density);
   if (!file.plane())
-    lines +=
-        suited_models(request.output, options.format, options.sphere_radius, options.dimensions);
+    lines += suited_models(request.output, options);
   return lines;
 }
 

@@ -91,6 +91,12 @@ Points3 places_of(const std::vector<std::string>& words) {
   return read_points(in, "--seed", Columns::lonlat);
 }
 
+/// Those that the model needs besides the mesh's.
+std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
+  const Model* const model = model_of(request.model);
+  return model != nullptr ? model->dimensions : std::vector<FieldDimension>{};
+}
+
 CullOptions options_of(const CullRequest& request) {
   CullOptions options;
   options.coast = coast_of(request.land);
@@ -111,8 +117,9 @@ CullOptions options_of(const CullRequest& request) {
   options.cell_map_folder = request.cell_map;
   if (const Model* const model = model_of(request.model)) {
     options.sphere_radius = model->sphere_radius;
-    options.dimensions = model->dimensions;
+    options.vertex_order = model->vertex_order;
   }
+  options.dimensions = dimensions_of(request);
   options.history = "calotte " CALOTTE_VERSION " cull: " + request.source;
   for (const std::string& file : request.inputs())
     if (!file.empty() && file != request.source)
@@ -142,9 +149,10 @@ std::string describe_cull(const CullRequest& request, const CullReport& report) 
   return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
          std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
          " vertices\n" +
-         suited_models(request.output, Format::mpas, report.sphere_radius,
-                       model_of(request.model) != nullptr ? model_of(request.model)->dimensions
-                                                          : std::vector<FieldDimension>{});
+         suited_models(request.output, {.format = Format::mpas,
+                                        .sphere_radius = report.sphere_radius,
+                                        .vertex_order = report.vertex_order,
+                                        .dimensions = dimensions_of(request)});
 }
 
 void run(const CullRequest& request) {

@@ -42,12 +42,15 @@ void require_request(const CutRequest& request) {
 CutOptions options_of(const CutRequest& request) {
   CutOptions options;
   options.rings = request.rings;
-  if (request.keep_radius)
+  if (request.keep_radius) {
     options.sphere_radius.reset();
-  else
+    options.vertex_order.reset();
+  } else
     options.sphere_radius = radius_for(model_of(request.model), request.sphere_radius).value_or(1);
-  if (const Model* const model = model_of(request.model))
+  if (const Model* const model = model_of(request.model)) {
+    options.vertex_order = model->vertex_order;
     options.dimensions = model->dimensions;
+  }
   options.history = "calotte " CALOTTE_VERSION " cut: " + request.source + " --region " +
                     request.region + (request.inside.empty() ? "" : " --inside " + request.inside) +
                     " --rings " + std::to_string(request.rings);
@@ -70,10 +73,12 @@ std::string describe_cut(const CutRequest& request, const CutReport& report) {
            rings_in_words(request.rings, inside, report.cells - inside) + ", " +
            std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
            " vertices\n";
-  const CutOptions options = options_of(request);
-  return lines + (options.sphere_radius ? suited_models(request.output, Format::mpas,
-                                                        *options.sphere_radius, options.dimensions)
-                                        : "");
+  if (request.keep_radius)
+    return lines;
+  return lines + suited_models(request.output, {.format = Format::mpas,
+                                                .sphere_radius = report.sphere_radius,
+                                                .vertex_order = report.vertex_order,
+                                                .dimensions = options_of(request).dimensions});
 }
 
 void run(const CutRequest& request) {

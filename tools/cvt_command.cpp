@@ -322,9 +322,7 @@ CvtOutcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
 /// A line on the models that the mesh suits; "" in a plane.
 std::string models_of(const CvtRequest& request) {
   const WriteOptions options = write_options(request);
-  return planar(request) ? ""
-                         : suited_models(request.mesh, options.format, options.sphere_radius,
-                                         options.dimensions);
+  return planar(request) ? "" : suited_models(request.mesh, options);
 }
 
 /// Prints what the run's result lacks.

@@ -134,7 +134,7 @@ std::string remarks(const DelaunayRequest& request, const WriteOptions& output) 
   if (output.site_density.size() > 0)
     lines += derived_density(request.mesh, output.site_density);
   if (!request.plane)
-    lines += suited_models(request.mesh, output.format, output.sphere_radius, output.dimensions);
+    lines += suited_models(request.mesh, output);
   return lines;
 }
 

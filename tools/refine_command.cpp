@@ -134,6 +134,8 @@ WriteOptions write_options(const RefineRequest& request, const MeshFile& file) {
   WriteOptions options = options_of(*request.format, request.output);
   if (!request.format->sphere_radius && !request.format->model)
     options.sphere_radius = file.sphere_radius;
+  if (!request.format->model)
+    options.vertex_order = file.vertex_order;
   if (!request.format->order)
     options.numbering = Numbering::input;
   options.history = std::string("calotte " CALOTTE_VERSION " ") + request.verb->name + ": " +

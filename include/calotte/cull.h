@@ -5,6 +5,7 @@
 #include <calotte/mesh_field.h>
 #include <calotte/ocean.h>
 #include <calotte/progress.h>
+#include <calotte/write.h>
 
 #include <cstdint>
 #include <limits>
@@ -52,17 +53,19 @@ struct CullOptions {
   std::string cell_map_folder = {};
   /// Radius of the sphere of the new file, > 0. Default: none, that of the source.
   std::optional<double> sphere_radius = {};
-  std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
+  std::optional<VertexOrder> vertex_order = {}; ///< of the new file. Default: none, the source's.
+  std::vector<FieldDimension> dimensions = {};  ///< new ones, see models(). Default: none.
   std::string history = {};       ///< how the file was made; precedes that of the source
   ProgressCallback progress = {}; ///< stage: write. A cancelled run leaves no file.
 };
 
 /// What cull() made.
 struct CullReport {
-  std::int64_t cells = 0;            ///< of the new mesh
-  std::int64_t edges = 0;            ///< of the new mesh
-  std::int64_t vertices = 0;         ///< of the new mesh
-  double sphere_radius = 1;          ///< of the new file
+  std::int64_t cells = 0;                              ///< of the new mesh
+  std::int64_t edges = 0;                              ///< of the new mesh
+  std::int64_t vertices = 0;                           ///< of the new mesh
+  double sphere_radius = 1;                            ///< of the new file
+  VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
   std::int64_t land = 0;             ///< cells that coast, raster and field make land
   SeaReport sea;                     ///< what followed
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out

@@ -26,6 +26,8 @@ struct CutOptions {
   /// file of static or initial fields keeps the radius that these were made with. Default: 1; none
   /// keeps that of the source.
   std::optional<double> sphere_radius = 1;
+  /// That of the new file. Default: that of MPAS-Atmosphere, see models(); none keeps the source's.
+  std::optional<VertexOrder> vertex_order = VertexOrder::before_edges;
   std::vector<FieldDimension> dimensions = {}; ///< new ones, see models(). Default: none.
   /// How the file was made; precedes the source's attribute `history`. Default: empty.
   std::string history = {};
@@ -42,6 +44,8 @@ struct CutReport {
   /// Variables of the source that the new file does not have: strings, types of users, and lists
   /// that the model makes itself (advCells, advCellsForEdge).
   std::vector<std::string> left_out;
+  double sphere_radius = 1;                            ///< of the new file
+  VertexOrder vertex_order = VertexOrder::after_edges; ///< of the new file
 };
 
 /// Cuts a limited-area grid from an MPAS file of the sphere, as limited_area_mask() selects its
@@ -53,7 +57,8 @@ struct CutReport {
 /// - each variable with a dimension nCells, nEdges or nVertices, without the rows left out, of any
 ///   type and with any other dimensions; all others, all attributes and dimensions;
 /// - ids numbered anew from 1 on, 0 for a missing cell, edge or vertex at its place in the list;
-///   the weights of missing edges in weightsOnEdge are 0. Else all values keep their bits; measures
+///   the weights of missing edges in weightsOnEdge are 0; verticesOnCell has the order of
+///   CutOptions::vertex_order. Else all values keep their bits; measures
 ///   at the boundary, such as kiteAreasOnVertex, are those of the source;
 /// - boundaryVertex 1 where a vertex lacks a cell, if the source has the variable;
 /// - bdyMaskCell, bdyMaskEdge and bdyMaskVertex, see limited_area_mask() and least_mask();

@@ -75,6 +75,7 @@ struct MeshFile {
 
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
+  VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
   DoubleVector density;          ///< by site, as the file has it; empty if it has none
   std::vector<MeshField> fields; ///< the file's fields
 

@@ -65,6 +65,13 @@ enum class Format {
   cf,              ///< cells with bounds as in the CF conventions, or of OASIS, NetCDF, read only
 };
 
+/// How MPAS files pair the vertices around a cell, verticesOnCell, with its edges, edgesOnCell.
+/// Both lists run counter-clockwise. Models differ: see models().
+enum class VertexOrder {
+  after_edges,  ///< edge k lies between vertices k - 1 and k, as MPAS-Tools writes it
+  before_edges, ///< edge k lies between vertices k and k + 1
+};
+
 /// What a format is.
 struct FormatInfo {
   Format format = Format::by_name; ///< never by_name
@@ -87,6 +94,8 @@ struct WriteOptions {
   /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0 and
   /// finite; default 1. A plane and the other formats store the points unchanged.
   double sphere_radius = 1;
+  /// Of complete MPAS files. Default: none, after_edges, but before_edges for a limited area.
+  std::optional<VertexOrder> vertex_order = {};
   /// Density of the mesh, for fields such as meshDensity and nominalMinDc; in a plane its values at
   /// the sites. Default: uniform.
   Density density = {};

@@ -284,3 +284,28 @@ def test_a_map_covers_the_earth():
     inside = image[box[1] + 2:box[3] - 2, box[0] + 2:box[2] - 2]
     assert (inside < 128).mean() > 0.999
     plt.close("all")
+
+
+def test_a_model_sets_the_order_of_the_vertices_around_cells(tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    mesh = calotte.cvt(2562).mesh
+
+    def before_edges(name):
+        """Whether edge k of the first cell lies between vertices k and k + 1."""
+        with netcdf.Dataset(tmp_path / name) as file:
+            ends = set(file["verticesOnEdge"][file["edgesOnCell"][0, 0] - 1])
+            return ends == set(file["verticesOnCell"][0, :2])
+
+    mesh.to_mpas(tmp_path / "plain.nc")
+    mesh.to_mpas(tmp_path / "air.nc", model="mpas-atmosphere")
+    mesh.to_mpas(tmp_path / "sea.nc", model="mpas-ocean")
+    assert [before_edges(name + ".nc") for name in ("plain", "air", "sea")] == [False, True, False]
+    calotte.read(tmp_path / "air.nc").to_mpas(tmp_path / "again.nc")
+    calotte.cut(tmp_path / "plain.nc", tmp_path / "part.nc", "circle=10,20,3000km")
+    calotte.cut(tmp_path / "air.nc", tmp_path / "ocean.nc", "circle=10,20,3000km", model="mpas-ocean")
+    assert before_edges("again.nc") and before_edges("part.nc") and not before_edges("ocean.nc")
+    assert calotte.read(tmp_path / "ocean.nc").to_xarray().sphere_radius == 6371220
+    with pytest.raises(calotte.Error, match="mpas-atmosphere needs a sphere with another radius"):
+        mesh.to_mpas(tmp_path / "bad.nc", model="mpas-atmosphere", sphere_radius=6371220.0)
+    with pytest.raises(calotte.Error, match="no model wrf; give one of: mpas-atmosphere"):
+        mesh.to_mpas(tmp_path / "bad.nc", model="wrf")

@@ -16,6 +16,7 @@
 
 // --for: the files that models read.
 
+using calotte::VertexOrder;
 using namespace calotte::test;
 
 namespace {
@@ -24,7 +25,12 @@ double radius_of(const Bench& bench, const std::string& name) {
   return calotte::read_mesh_file(bench.folder() / name).sphere_radius;
 }
 
-const std::string other_models = "; for others see --for\n";
+calotte::VertexOrder order_of(const Bench& bench, const std::string& name) {
+  return calotte::read_mesh_file(bench.folder() / name).vertex_order;
+}
+
+const std::string other_models = "; for others see --for\n",
+                  no_model = ", for no model; name one with --for\n";
 
 } // namespace
 
@@ -35,12 +41,14 @@ TEST_CASE("a model sets the radius, in every command that writes a mesh") {
     CAPTURE(arguments);
     const std::string said = check_success(bench, arguments + " -o mesh.nc").out;
     CHECK(radius_of(bench, "mesh.nc") == radius);
+    CHECK(order_of(bench, "mesh.nc") ==
+          (names == "MPAS-Atmosphere" ? VertexOrder::before_edges : VertexOrder::after_edges));
     CHECK(has(said, "mesh.nc: " + std::string(radius == 1 ? "unit sphere" : "sphere of 6371220 m") +
-                        ", for " + names + other_models));
+                        (names.empty() ? no_model : ", for " + names + other_models)));
   };
-  const std::string sw = "MPAS-Atmosphere and MPAS' shallow-water core";
+  const std::string sw = "MPAS' shallow-water core";
   for (const std::string command : {"cvt --cells 600 --iterations 2", "delaunay points.txt"}) {
-    check(command, 1, "MPAS-Atmosphere");
+    check(command, 1, "");
     check(command + " --for mpas-atmosphere", 1, "MPAS-Atmosphere");
     check(command + " --for mpas-sw", 1, sw);
     check(command + " --for mpas-ocean", 6371220, "MPAS-Ocean");
@@ -50,6 +58,10 @@ TEST_CASE("a model sets the radius, in every command that writes a mesh") {
   check_success(bench, "delaunay points.txt -o earth.nc --for mpas-ocean");
   check("convert earth.nc", 6371220, "MPAS-Ocean");
   check("convert earth.nc --for mpas-atmosphere", 1, "MPAS-Atmosphere");
+  check_success(bench, "cvt --cells 2562 -o air.nc --for mpas-atmosphere");
+  check("convert air.nc", 1, "MPAS-Atmosphere");
+  check_success(bench, "refine air.nc --region circle=10,50,3000km --factor 1.5 -o finer.nc");
+  CHECK(order_of(bench, "finer.nc") == VertexOrder::before_edges);
   const std::string cut = "cut earth.nc --region circle=10,50,3000km --rings 2";
   check(cut, 1, "MPAS-Atmosphere");
   check(cut + " --for mpas-sw", 1, sw);
@@ -57,7 +69,8 @@ TEST_CASE("a model sets the radius, in every command that writes a mesh") {
   const std::string cull = " --field latCell --sea-below 0";
   check("cull earth.nc" + cull, 6371220, "MPAS-Ocean");
   check_success(bench, "delaunay points.txt -o unit.nc");
-  check("cull unit.nc" + cull, 1, "MPAS-Atmosphere");
+  check("cull unit.nc" + cull, 1, "");
+  check("cull air.nc" + cull, 1, "MPAS-Atmosphere");
   check("cull unit.nc --for mpas-ocean" + cull, 6371220, "MPAS-Ocean");
   check_success(bench, "convert unit.nc nod2d.out --for fesom");
   CHECK(check_success(bench, "convert unit.nc grid.nc --format scrip").out ==
@@ -70,7 +83,7 @@ TEST_CASE("a model does not replace what is given: a contradiction is an error")
   check_success(bench, run + "-o mesh.nc --for mpas-ocean --sphere-radius earth");
   CHECK(radius_of(bench, "mesh.nc") == 6371229);
   CHECK(has(check_success(bench, run + "-o mesh.nc --sphere-radius 2").out,
-            "mesh.nc: sphere of 2 m, for no model that is known" + other_models));
+            "mesh.nc: sphere of 2 m" + no_model));
   check_refusal(bench, run + "-o a.nc --for mpas-atmosphere --sphere-radius earth", 2,
                 "--for mpas-atmosphere needs a sphere with a radius of 1, not --sphere-radius "
                 "6371229; leave one of them out");
@@ -101,10 +114,10 @@ TEST_CASE("a file of a plane keeps its order, and has no radius, for any model")
     CAPTURE(run);
     check_success(bench, run + " -o plain.nc");
     const std::string plain = bench.file("plain.nc");
-    for (const std::string model : {"mpas-atmosphere", "mpas-ocean"}) {
-      check_success(bench, run + " -o mesh.nc --for " + model);
-      CHECK((bench.file("mesh.nc") == plain));
-    }
+    check_success(bench, run + " -o mesh.nc --for mpas-ocean");
+    CHECK((bench.file("mesh.nc") == plain));
+    check_success(bench, run + " -o mesh.nc --for mpas-atmosphere");
+    CHECK(order_of(bench, "mesh.nc") == VertexOrder::before_edges);
     check_success(bench, run + " -o mesh.nc --for mpas-sw");
     CHECK(has(bench.file("mesh.nc"), "nTracers"));
     CHECK(!has(plain, "nTracers"));

@@ -6,6 +6,7 @@
 #include "options/format_options.h"
 #include "options/numbers.h"
 
+#include <calotte/cut.h>
 #include <calotte/io.h>
 
 #include <CLI/App.hpp>
@@ -200,7 +201,10 @@ void add_saved(CLI::App& command, CvtRequest& request) {
 } // namespace
 
 WriteOptions write_options(const CvtRequest& request) {
-  return options_of(*request.format, request.mesh);
+  WriteOptions options = options_of(*request.format, request.mesh);
+  if (request.part.limited_area && !options.vertex_order)
+    options.vertex_order = CutOptions{}.vertex_order;
+  return options;
 }
 
 std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {

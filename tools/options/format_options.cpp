@@ -125,6 +125,7 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   if (model != nullptr) {
     options.sphere_radius = *radius_for(model, words.sphere_radius);
     options.numbering = model->numbering;
+    options.vertex_order = model->vertex_order;
     options.dimensions = model->dimensions;
   }
   if (words.order)

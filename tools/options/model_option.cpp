@@ -5,7 +5,6 @@
 
 #include <CLI/App.hpp>
 
-#include <algorithm>
 #include <vector>
 
 namespace calotte::tools {
@@ -17,43 +16,42 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
   return command
       .add_option("--for", word,
                   "Model that reads the file, such as mpas-atmosphere. It selects the format, the "
-                  "radius of the sphere, the order of the cells and dimensions: mpas-atmosphere "
-                  "(unit sphere), mpas-ocean (6371220 m), mpas-sw (unit sphere, with nVertLevels "
-                  "and nTracers) or fesom (nod2d.out). What other options give stays; a "
-                  "contradiction is an error. Default: none; an MPAS file on the unit sphere suits "
-                  "mpas-atmosphere")
+                  "radius of the sphere, the orders of the cells and of the vertices around them, "
+                  "and dimensions: mpas-atmosphere (unit sphere, vertex k of a cell before edge "
+                  "k), mpas-ocean (6371220 m), mpas-sw (unit sphere, with nVertLevels and "
+                  "nTracers) or fesom (nod2d.out). What other options give stays; a contradiction "
+                  "is an error. Default: none; vertices follow edges, as MPAS-Tools writes them")
       ->check(CLI::IsMember(known));
 }
 
 const Model* model_of(const std::optional<std::string>& word) {
-  const auto found = std::find_if(models().begin(), models().end(),
-                                  [&](const Model& model) { return word == model.word; });
-  return found == models().end() ? nullptr : &*found;
+  return word ? find_model(*word) : nullptr;
 }
 
 std::optional<double> radius_for(const Model* model, std::optional<double> given) {
   if (model == nullptr)
     return given;
-  if (given && !suits(*model, model->format, *given, model->dimensions))
+  if (given && !suits(*model, model->format, *given, model->vertex_order, model->dimensions))
     refuse("--for " + model->word + " needs a sphere with a radius of " +
            shortest(model->sphere_radius) + ", not --sphere-radius " + shortest(*given) +
            "; leave one of them out");
   return given.value_or(model->sphere_radius);
 }
 
-std::string suited_models(const std::string& path, Format format, double sphere_radius,
-                          const std::vector<FieldDimension>& dimensions) {
-  if (format != Format::mpas)
+std::string suited_models(const std::string& path, const WriteOptions& options) {
+  if (options.format != Format::mpas)
     return "";
+  const VertexOrder order = options.vertex_order.value_or(VertexOrder::after_edges);
   std::vector<std::string> names;
   for (const Model& model : models())
-    if (suits(model, format, sphere_radius, dimensions))
+    if (suits(model, options.format, options.sphere_radius, order, options.dimensions))
       names.push_back(model.name);
-  const std::string radius =
-      sphere_radius == 1 ? "unit sphere" : "sphere of " + shortest(sphere_radius) + " m";
-  return path + ": " + radius + ", for " +
-         (names.empty() ? "no model that is known" : joined(names, " and ")) +
-         "; for others see --for\n";
+  const std::string radius = options.sphere_radius == 1
+                                 ? "unit sphere"
+                                 : "sphere of " + shortest(options.sphere_radius) + " m";
+  return path + ": " + radius +
+         (names.empty() ? ", for no model; name one with --for\n"
+                        : ", for " + joined(names, " and ") + "; for others see --for\n");
 }
 
 } // namespace calotte::tools

@@ -24,8 +24,7 @@ const Model* model_of(const std::optional<std::string>& word);
 std::optional<double> radius_for(const Model* model, std::optional<double> given);
 
 /// A line on the models that an MPAS file of the sphere suits; "" for other formats.
-/// \param format not by_name.
-std::string suited_models(const std::string& path, Format format, double sphere_radius,
-                          const std::vector<FieldDimension>& dimensions);
+/// \param options with which it was written; their format is not by_name.
+std::string suited_models(const std::string& path, const WriteOptions& options);
 
 } // namespace calotte::tools

@@ -251,6 +251,7 @@ MeshFile rest_of(const std::string& format, RawMesh& raw) {
   MeshFile file;
   file.format = format;
   file.has_cells = raw.has_cells || raw.polygons.size() > 0;
+  file.vertex_order = raw.vertex_order;
   file.density = std::move(raw.density);
   file.fields = std::move(raw.fields);
   file.ignored = std::move(raw.ignored);

@@ -24,7 +24,8 @@ struct RawMesh {
   double corner_rounding = 0;
   bool planar = false;          ///< in a plane, where z is 0
   Eigen::Vector2d period{0, 0}; ///< of a plane whose triangles are joined across it
-  DoubleVector density = {};    ///< by site, or empty
+  VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
+  DoubleVector density = {};                           ///< by site, or empty
   std::vector<MeshField> fields = {};
   Pairs edges = {};                      ///< the sites of the edges that fields have; -1 for none
   std::vector<std::string> ignored = {}; ///< variables that are neither the mesh's nor fields

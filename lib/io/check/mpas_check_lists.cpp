@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/check/mpas_check.h"
 
+#include "io/mpas/vertex_order.h"
 #include "voronoi/tangential_weights.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ struct CellLists {
   std::string variable;
   const IdLists& ids;
   const Array<std::int32_t>* of_file; ///< null for cells, which keep their numbers
+  std::int32_t offset = 0;            ///< of the first entry, in lists that start with an edge
 
   std::int32_t stored(std::int32_t id) const { return of_file ? stored_id(*of_file, id) : id + 1; }
 };
@@ -38,7 +40,7 @@ void compare_row(const CellLists& lists, std::int64_t cell, std::int64_t start,
   const std::int64_t count = std::ssize(ids);
   for (std::int64_t k = 0; k < width; ++k) {
     const std::int32_t derived =
-        k < count ? lists.stored(ids[static_cast<std::size_t>((start + k) % count)]) : 0;
+        k < count ? lists.stored(ids[static_cast<std::size_t>((start + count + k) % count)]) : 0;
     if (k >= count || derived != 0) // others are reported with cellsOnEdge
       differences.compare(cell * width + k, row[k], derived);
   }
@@ -46,12 +48,13 @@ void compare_row(const CellLists& lists, std::int64_t cell, std::int64_t start,
     differences.note(cell * width, static_cast<double>(width), static_cast<double>(count), 1);
 }
 
-/// The index of a row's first id in the tessellation's list, or unknown.
-std::int32_t index_of(const CellLists& lists, std::int64_t cell, std::int32_t id) {
+/// Where in the tessellation's lists those of the file start, by a row's first id, or unknown.
+std::int32_t start_of(const CellLists& lists, std::int64_t cell, std::int32_t id) {
   const std::span<const std::int32_t> ids = lists.ids[cell];
-  for (std::size_t k = 0; k < ids.size(); ++k)
-    if (lists.stored(ids[k]) == id)
-      return static_cast<std::int32_t>(k);
+  const auto count = static_cast<std::int32_t>(ids.size());
+  for (std::int32_t k = 0; k < count; ++k)
+    if (lists.stored(ids[static_cast<std::size_t>(k)]) == id)
+      return (k + count - lists.offset) % count;
   return unknown;
 }
 
@@ -63,8 +66,8 @@ void check_cell_lists(const MpasCheck& check, const CellLists& lists, Array<std:
   const Differences differences = check.deviations.visit_rows<std::int32_t>(
       lists.variable, [&](std::int64_t cell, const std::int32_t* row, Differences& out) {
         if (starts[cell] == unknown && width > 0)
-          starts[cell] = index_of(lists, cell, row[0]);
-        compare_row(lists, cell, std::max(starts[cell], 0), row, width, out);
+          starts[cell] = start_of(lists, cell, row[0]);
+        compare_row(lists, cell, std::max(starts[cell], 0) + lists.offset, row, width, out);
       });
   check.add(lists.variable, differences);
 }
@@ -78,7 +81,9 @@ void check_around_cells(const MpasCheck& check) {
         check, {mpas::edges_on_cell, voronoi.edges_on_cell, &check.numbering.file_edge}, starts);
   if (check.has_vertices())
     check_cell_lists(
-        check, {mpas::vertices_on_cell, voronoi.vertices_on_cell, &check.numbering.file_vertex},
+        check,
+        {mpas::vertices_on_cell, voronoi.vertices_on_cell, &check.numbering.file_vertex,
+         vertex_order_of(check.deviations.file()) == VertexOrder::before_edges ? -1 : 0},
         starts);
   check_cell_lists(check, {mpas::cells_on_cell, voronoi.cells_on_cell, nullptr}, starts);
 }

@@ -7,20 +7,30 @@ namespace calotte {
 
 const std::vector<Model>& models() {
   static const std::vector<Model> all{
-      {"mpas-atmosphere", "MPAS-Atmosphere", Format::mpas, 1, false, Numbering::by_format, {}},
-      {"mpas-ocean", "MPAS-Ocean", Format::mpas, 6371220, true, Numbering::by_format, {}},
-      {"mpas-sw",
-       "MPAS' shallow-water core",
-       Format::mpas,
-       1,
-       false,
-       Numbering::by_format,
-       {{"nVertLevels", 1}, {"nTracers", 1}}},
-      {"fesom", "FESOM", Format::fesom, 1, false, Numbering::curve, {}}};
+      {.word = "mpas-atmosphere",
+       .name = "MPAS-Atmosphere",
+       .format = Format::mpas,
+       .vertex_order = VertexOrder::before_edges},
+      {.word = "mpas-ocean",
+       .name = "MPAS-Ocean",
+       .format = Format::mpas,
+       .sphere_radius = 6371220,
+       .any_planet = true},
+      {.word = "mpas-sw",
+       .name = "MPAS' shallow-water core",
+       .format = Format::mpas,
+       .dimensions = {{"nVertLevels", 1}, {"nTracers", 1}}},
+      {.word = "fesom", .name = "FESOM", .format = Format::fesom, .numbering = Numbering::curve}};
   return all;
 }
 
-bool suits(const Model& model, Format format, double sphere_radius,
+const Model* find_model(std::string_view word) {
+  const auto found = std::find_if(models().begin(), models().end(),
+                                  [&](const Model& model) { return model.word == word; });
+  return found == models().end() ? nullptr : &*found;
+}
+
+bool suits(const Model& model, Format format, double sphere_radius, VertexOrder vertex_order,
            const std::vector<FieldDimension>& dimensions) {
   constexpr double smallest_planet = 1e4; // metres
   const auto is_there = [&](const FieldDimension& wanted) {
@@ -28,7 +38,7 @@ bool suits(const Model& model, Format format, double sphere_radius,
       return dimension.name == wanted.name;
     });
   };
-  return format == model.format &&
+  return format == model.format && vertex_order == model.vertex_order &&
          (sphere_radius == model.sphere_radius ||
           (model.any_planet && sphere_radius >= smallest_planet)) &&
          std::all_of(model.dimensions.begin(), model.dimensions.end(), is_there);

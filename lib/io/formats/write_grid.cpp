@@ -33,6 +33,8 @@ GridFile write_with_rings(const std::string& path, const Mesh& mesh, const Recip
           path + ": a limited area is written as MPAS; give a name that ends in .nc");
   CutOptions cut;
   cut.sphere_radius = options.sphere_radius;
+  if (options.vertex_order)
+    cut.vertex_order = options.vertex_order;
   cut.dimensions = options.dimensions;
   cut.history = options.history;
   cut.progress = options.progress;

@@ -230,6 +230,8 @@ CullReport cull(const std::string& source_path, const std::string& target,
   add_kites(source, part, subset);
   add_maps(part, subset);
   add_radius(source, radius, subset);
+  report.vertex_order = options.vertex_order.value_or(source.vertex_order());
+  add_vertex_order(source, part, report.vertex_order, subset);
   set_sphere(radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);

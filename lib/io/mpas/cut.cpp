@@ -104,7 +104,11 @@ void add_attributes(double radius, NetcdfSubset& subset) {
 }
 
 CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
-  CutReport report{part.cells.count(), part.edges.count(), part.vertices.count(), {}, {}};
+  CutReport report{.cells = part.cells.count(),
+                   .edges = part.edges.count(),
+                   .vertices = part.vertices.count(),
+                   .cells_by_mask = {},
+                   .left_out = {}};
   report.cells_by_mask.resize(static_cast<std::size_t>(rings) + 1);
   for (const std::int32_t mask : masks.cells)
     ++report.cells_by_mask[static_cast<std::size_t>(mask)];
@@ -119,17 +123,21 @@ CutReport cut(const MpasSource& source, const std::string& target,
   const double radius = options.sphere_radius.value_or(source.radius());
   require(radius > 0 && std::isfinite(radius),
           "the radius of the sphere is not positive and finite; give another");
+  const VertexOrder order = options.vertex_order.value_or(source.vertex_order());
   const Ids mask = mask_of(source, inside, options.rings);
   const MpasPart part = part_of(source, mask);
   const Masks masks = masks_of(part, mask);
   NetcdfSubset subset = subset_of(source, part);
   add_masks(masks, options.rings, subset);
   add_radius(source, radius, subset);
+  add_vertex_order(source, part, order, subset);
   add_density(source, part, radius, nominal, subset);
   add_attributes(radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
   CutReport report = report_of(part, masks, options.rings);
+  report.sphere_radius = radius;
+  report.vertex_order = order;
   report.left_out = write_part(source, part, subset, target, options.progress);
   return report;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_open.h"
 #include "io/mpas/mpas_variables.h"
+#include "io/mpas/vertex_order.h"
 
 #include "io/bytes/broken.h"
 
 #include <algorithm>
+#include <span>
 
 namespace calotte::io_detail {
 namespace {
@@ -184,6 +186,16 @@ bool check_cells(const OpenLists& lists, Deviations& deviations) {
              [&](std::int64_t i) { return neighbours_verdict(lists, i); });
 }
 
+/// \pre they are before the edges.
+void put_vertices_after_edges(OpenLists& lists) {
+  IdTable& table = lists.vertices_on_cell;
+  for (std::int64_t i = 0; i < table.rows(); ++i)
+    if (const auto count = lists.edge_count[static_cast<std::size_t>(i)];
+        count >= 0 && count <= table.width)
+      put_after_edges(std::span(table.ids).subspan(static_cast<std::size_t>(i * table.width),
+                                                   static_cast<std::size_t>(count)));
+}
+
 } // namespace
 
 bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations) {
@@ -205,6 +217,8 @@ bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviation
       !deviations.has(mpas::n_edges_on_cell, {cells}))
     return false;
   lists.edge_count = file.ints(mpas::n_edges_on_cell, {cells});
+  if (vertex_order_of(file) == VertexOrder::before_edges)
+    put_vertices_after_edges(lists);
   return true;
 }
 

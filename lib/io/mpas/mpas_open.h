@@ -15,7 +15,8 @@
 /// Open MPAS meshes, of which cells are missing.
 namespace calotte::io_detail {
 
-/// The lists of an MPAS file.
+/// The lists of an MPAS file. Vertices of cells have the order of MPAS-Tools, also where the file
+/// has the other.
 struct OpenLists {
   std::int64_t cells = 0;
   IdTable cells_on_vertex, edges_on_vertex, cells_on_edge, vertices_on_edge, edges_on_cell,

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "io/bytes/big_endian.h"
 #include "io/mpas/mpas.h"
+#include "io/mpas/vertex_order.h"
 #include "voronoi/connectivity.h"
 
 #include <calotte/error.h>
@@ -74,8 +75,8 @@ void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& 
       auto known = ends.col(cells.edges_on_cell[i][k]);
       if (known[0] >= 0 && known != pair)
         file.fail("edgesOnCell and verticesOnCell of cell " + std::to_string(i + 1) +
-                  " (1-based) do not correspond: edge k lies between vertices k - 1 and k; make "
-                  "the file again");
+                  " (1-based) do not correspond: in all cells edge k lies between vertices k - 1 "
+                  "and k, or between k and k + 1; make the file again");
       known = pair;
     }
   }
@@ -126,6 +127,7 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
   edges_ = file.dimension(mpas_edge.dimension());
   vertices_ = file.dimension(mpas_vertex.dimension());
   radius_ = radius_of(file);
+  vertex_order_ = vertex_order_of(file);
   counts_ = file.ints(mpas::n_edges_on_cell, {cells_});
   const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   for (const std::int32_t count : counts_)
@@ -154,6 +156,8 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const
   const std::optional<NetcdfType> type = netcdf_.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::int32 && type != NetcdfType::int64)
     file.fail(variable + " does not hold integers of 4 or 8 bytes; make the file again");
+  const bool turned =
+      variable == mpas::vertices_on_cell && vertex_order_ == VertexOrder::before_edges;
   IdLists lists{Offsets(kept.count() + 1), {}};
   lists.begin[0] = 0;
   for (std::int64_t i = 0; i < kept.count(); ++i)
@@ -173,6 +177,8 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const
       else
         take_row(netcdf_, variable, kept.old[i], reinterpret_cast<const std::int64_t*>(row), bound,
                  lists[i]);
+      if (turned)
+        put_after_edges(lists[i]);
     }
   });
   return lists;

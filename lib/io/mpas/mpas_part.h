@@ -7,6 +7,7 @@
 #include <calotte/limited_area.h>
 #include <calotte/lists.h>
 #include <calotte/types.h>
+#include <calotte/write.h>
 
 #include <cstdint>
 #include <string>
@@ -27,12 +28,18 @@ public:
   std::int64_t edges() const { return edges_; }
   std::int64_t vertices() const { return vertices_; }
   double radius() const { return radius_; } ///< of its sphere
+  VertexOrder vertex_order() const { return vertex_order_; }
+  /// nEdgesOnCell of a cell.
+  std::int32_t edge_count(std::int64_t cell) const {
+    return counts_[static_cast<std::size_t>(cell)];
+  }
 
   Points3 places() const; ///< 3 x n, of the generators, as the file has them
   Points3 vertex_places() const;
 
   /// A variable with a list of ids for each cell, or for each of the given ones: 0-based, -1 for a
-  /// missing one. \param bound number of things that ids stand for.
+  /// missing one. Vertices have the order of MPAS-Tools.
+  /// \param bound number of things that ids stand for.
   IdLists lists(const std::string& variable, std::int64_t bound) const;
   IdLists lists(const std::string& variable, std::int64_t bound, const Kept& kept) const;
 
@@ -40,6 +47,7 @@ private:
   NetcdfReader netcdf_;
   std::int64_t cells_ = 0, edges_ = 0, vertices_ = 0;
   double radius_ = 1;
+  VertexOrder vertex_order_ = VertexOrder::after_edges;
   std::vector<std::int32_t> counts_; ///< nEdgesOnCell
 };
 

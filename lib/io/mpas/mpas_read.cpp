@@ -5,6 +5,7 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
 #include "io/mpas/mpas.h"
+#include "io/mpas/vertex_order.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include "base/parallel.h"
@@ -222,6 +223,24 @@ RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
   return raw;
 }
 
+RawMesh read_sphere(const NetcdfReader& file, FieldChoice choice) {
+  RawMesh raw{.points = read_mpas_sites(file), .has_cells = true};
+  require_directions(file.path(), raw.points);
+  const std::int64_t cells = raw.points.cols();
+  CompleteVertices complete = complete_vertices(file, cells);
+  read_density_and_fields(file, cells, choice, raw);
+  if (holds_cells(file)) {
+    const Points3 vertices = read_coordinates(file, mpas_vertex);
+    require_directions(file.path() + ": of the vertices", vertices);
+    if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
+      raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
+  }
+  if (!complete.all)
+    select_vertices(raw.fields, complete.vertex);
+  raw.triangles = std::move(complete.triangles);
+  return raw;
+}
+
 } // namespace
 
 bool is_mpas(const NetcdfReader& file) {
@@ -240,23 +259,11 @@ Points3 read_mpas_sites(const NetcdfReader& file) {
 }
 
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
-  if (is_planar_mpas(file))
-    return file.text("", "is_periodic").starts_with("NO") ? read_bounded_plane(file, choice)
-                                                          : read_periodic_plane(file, choice);
-  RawMesh raw{.points = read_mpas_sites(file), .has_cells = true};
-  require_directions(file.path(), raw.points);
-  const std::int64_t cells = raw.points.cols();
-  CompleteVertices complete = complete_vertices(file, cells);
-  read_density_and_fields(file, cells, choice, raw);
-  if (holds_cells(file)) {
-    const Points3 vertices = read_coordinates(file, mpas_vertex);
-    require_directions(file.path() + ": of the vertices", vertices);
-    if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
-      raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
-  }
-  if (!complete.all)
-    select_vertices(raw.fields, complete.vertex);
-  raw.triangles = std::move(complete.triangles);
+  RawMesh raw = !is_planar_mpas(file) ? read_sphere(file, choice)
+                : file.text("", "is_periodic").starts_with("NO")
+                    ? read_bounded_plane(file, choice)
+                    : read_periodic_plane(file, choice);
+  raw.vertex_order = vertex_order_of(file);
   return raw;
 }
 

@@ -5,6 +5,7 @@
 #include "io/bytes/big_endian.h"
 #include "io/bytes/file.h"
 #include "io/mpas/mpas.h"
+#include "io/mpas/vertex_order.h"
 
 #include <calotte/error.h>
 #include <calotte/version.h>
@@ -191,6 +192,28 @@ void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset) {
       add_scaling(source.netcdf(), variable.name,
                   std::pow(power > 0 ? radius : from, std::abs(power)),
                   std::pow(power > 0 ? from : radius, std::abs(power)), subset);
+}
+
+void add_vertex_order(const MpasSource& source, const MpasPart& part, VertexOrder order,
+                      NetcdfSubset& subset) {
+  if (order == source.vertex_order())
+    return;
+  const NetcdfReader& file = source.netcdf();
+  add_change(file, mpas::vertices_on_cell, subset, [&](int v) -> ChangeRows {
+    const std::int64_t size = size_of(*file.variables()[static_cast<std::size_t>(v)].type),
+                       width = row_values(file, subset, v) * size;
+    return [=, &source, &part](std::int64_t begin, std::int64_t end, char* bytes) {
+      for (std::int64_t i = begin; i < end; ++i, bytes += width) {
+        const std::int64_t used = source.edge_count(part.cells.old[i]) * size;
+        char* const middle =
+            order == VertexOrder::before_edges ? bytes + used - size : bytes + size;
+        if (used > 0)
+          std::rotate(bytes, middle, bytes + used);
+      }
+    };
+  });
+  subset.long_names[mpas::edges_on_cell] = mpas_variable(mpas::edges_on_cell).long_name;
+  subset.long_names[mpas::vertices_on_cell] = described(order);
 }
 
 void add_division(const MpasSource& source, const std::string& variable, double divisor,

@@ -27,6 +27,10 @@ void set_sphere(double radius, NetcdfSubset& subset);
 /// are to belong to another one.
 void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset);
 
+/// Adds the turn of the vertices around cells to another order, if the source has another.
+void add_vertex_order(const MpasSource& source, const MpasPart& part, VertexOrder order,
+                      NetcdfSubset& subset);
+
 /// Adds the division of a variable of floats or doubles by a number.
 /// \pre the file has the variable. \throws Error parse.
 void add_division(const MpasSource& source, const std::string& variable, double divisor,

@@ -2,6 +2,7 @@
 #include "io/mpas/mpas_variables.h"
 
 #include "io/cells/triangle_quality.h"
+#include "io/mpas/vertex_order.h"
 #include "voronoi/cell_fields.h"
 #include "voronoi/tangential_weights.h"
 
@@ -47,12 +48,14 @@ void add_places(const MpasKind& kind, std::vector<MpasVariable>& table) {
                    .units = "radians",
                    .long_name = "longitude of " + kind.place,
                    .standard_name = "longitude"});
+  constexpr const char* coordinates[] = {"x coordinate of ", "y coordinate of ",
+                                         "z coordinate of "};
   for (int k = 0; k < 3; ++k)
     table.push_back({.name = kind.axis(k),
                      .rows = kind.rows,
                      .numbers = N::length,
                      .units = "m",
-                     .long_name = std::string(1, "xyz"[k]) + " coordinate of " + kind.place});
+                     .long_name = coordinates[k] + kind.place});
   table.push_back({.name = kind.numbers(),
                    .rows = kind.rows,
                    .integer = true,
@@ -75,17 +78,16 @@ std::vector<MpasVariable> connectivity() {
        .columns = D::max_edges,
        .integer = true,
        .numbers = N::edges,
-       .long_name = "edges of each cell, counter-clockwise: edge k lies between vertices k - 1 and "
-                    "k of verticesOnCell",
+       .long_name = "edges of each cell, counter-clockwise",
        .rule = "the edges of each cell, counter-clockwise, then 0"},
       {.name = mpas::vertices_on_cell,
        .rows = D::cells,
        .columns = D::max_edges,
        .integer = true,
        .numbers = N::vertices,
-       .long_name = "vertices of each cell, counter-clockwise",
-       .rule = "the vertices of each cell, counter-clockwise from the end of its first edge on, "
-               "then 0"},
+       .long_name = described(VertexOrder::after_edges),
+       .rule = "the vertices of each cell, counter-clockwise from the start or, in all cells, from "
+               "the end of its first edge on, then 0"},
       {.name = mpas::cells_on_cell,
        .rows = D::cells,
        .columns = D::max_edges,

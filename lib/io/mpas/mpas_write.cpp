@@ -4,6 +4,7 @@
 #include "io/cells/written_fields.h"
 #include "io/mpas/mpas.h"
 #include "io/mpas/mpas_places.h"
+#include "io/mpas/vertex_order.h"
 
 #include "base/matrix_memory.h"
 #include "voronoi/geometry.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -57,10 +59,32 @@ template <class Matrix> NetcdfWriter::Fill<std::int32_t> id_columns(const Matrix
   };
 }
 
-void put_ids(MpasFile& file, const Voronoi& voronoi) {
+/// As cell_lists() of the vertices, in that order.
+NetcdfWriter::Fill<std::int32_t> vertex_lists(const IdLists& lists, std::int64_t width,
+                                              VertexOrder order) {
+  const NetcdfWriter::Fill<std::int32_t> after_edges = cell_lists(lists, width);
+  if (order == VertexOrder::after_edges)
+    return after_edges;
+  return [&lists, width, after_edges](std::int64_t begin, std::int64_t end, std::int32_t* out) {
+    after_edges(begin, end, out);
+    for (std::int64_t i = begin; i < end; ++i, out += width)
+      put_before_edges(std::span(out, static_cast<std::size_t>(lists.count(i))));
+  };
+}
+
+void put_vertices_on_cells(MpasFile& file, const Voronoi& voronoi, VertexOrder order) {
+  NetcdfGridFile::Announced row = file.announced(mpas::vertices_on_cell);
+  for (NetcdfAttribute& attribute : row.attributes)
+    if (attribute.name == "long_name")
+      attribute.value = std::string(described(order));
+  file.ints(row.name, row.dimensions, row.attributes,
+            vertex_lists(voronoi.vertices_on_cell, most_corners(voronoi), order));
+}
+
+void put_ids(MpasFile& file, const Voronoi& voronoi, VertexOrder order) {
   const std::int64_t width = most_corners(voronoi);
   file.put(mpas::edges_on_cell, cell_lists(voronoi.edges_on_cell, width));
-  file.put(mpas::vertices_on_cell, cell_lists(voronoi.vertices_on_cell, width));
+  put_vertices_on_cells(file, voronoi, order);
   file.put(mpas::cells_on_cell, cell_lists(voronoi.cells_on_cell, width));
   file.put(mpas::cells_on_edge, id_columns(voronoi.cells_on_edge));
   file.put(mpas::vertices_on_edge, id_columns(voronoi.vertices_on_edge));
@@ -135,9 +159,9 @@ void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& op
 
 // ---- Files
 
-void announce_lists(MpasFile& file, MpasMesh& mesh) {
+void announce_lists(MpasFile& file, MpasMesh& mesh, VertexOrder order) {
   file.then([&mesh] { release(mesh.places); });
-  put_ids(file, mesh.voronoi);
+  put_ids(file, mesh.voronoi, order);
   file.then([&mesh] { release(mesh.voronoi.vertices_on_edge); });
 }
 
@@ -166,7 +190,7 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
     if (!mesh.whole())
       mesh.connect();
   });
-  announce_lists(file, mesh);
+  announce_lists(file, mesh, options.vertex_order.value_or(VertexOrder::after_edges));
   file.after([&] {
     mesh.density = density_of(mesh.voronoi, options);
     put_graph([&](std::string_view text) { graph.append(text); }, mesh.voronoi);

@@ -162,6 +162,15 @@ bool is_left_out(const NetcdfSubset& subset, const std::string& name) {
 
 /// Defines the variables that the new file has of the source. \param refused receives the names of
 /// those that it cannot have.
+NetcdfAttributes attributes_of(const NetcdfSubset& subset, const NetcdfVariable& variable) {
+  NetcdfAttributes attributes = variable.attributes;
+  if (const auto name = subset.long_names.find(variable.name); name != subset.long_names.end()) {
+    std::erase_if(attributes, [](const NetcdfAttribute& of) { return of.name == "long_name"; });
+    attributes.push_back({"long_name", name->second});
+  }
+  return attributes;
+}
+
 std::vector<Passage> define_variables(const NetcdfReader& source, const NetcdfSubset& subset,
                                       const std::vector<int>& dimensions, NetcdfWriter& file,
                                       std::vector<std::string>& refused) {
@@ -179,7 +188,7 @@ std::vector<Passage> define_variables(const NetcdfReader& source, const NetcdfSu
     }
     const auto changes = subset.changes.find(variable.name);
     passages.push_back(
-        {v, file.variable(variable.name, *variable.type, ids, variable.attributes),
+        {v, file.variable(variable.name, *variable.type, ids, attributes_of(subset, variable)),
          axis_of(source, subset, variable),
          changes == subset.changes.end() ? std::vector<ChangeRows>{} : changes->second});
   }

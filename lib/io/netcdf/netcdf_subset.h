@@ -53,6 +53,7 @@ struct NetcdfSubset {
   std::map<std::string, const Kept*> kept;                ///< by name of the dimension
   std::map<std::string, std::vector<ChangeRows>> changes; ///< by variable, in their order
   std::map<std::string, NetcdfAttribute> attributes = {}; ///< of the file: replace those of before
+  std::map<std::string, std::string> long_names = {};     ///< by variable: replace those of before
   std::vector<std::string> left_out = {};                 ///< variables
 
   /// A new variable of integers, one by thing of a dimension.

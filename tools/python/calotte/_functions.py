@@ -1112,7 +1112,7 @@ def read_points(path: Path) -> Array:
     return _calotte.read_points(str(path))
 
 
-def write(path: Path, mesh: Grid, *, format: str = "by-name",
+def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None = None,
           sphere_radius: float | None = None, density: DensityLike | None = None,
           cell_width: WidthLike = None, surface: SurfaceLike | None = None,
           fields: Mapping[str, ArrayLike] | None = None, history: str = "",
@@ -1120,8 +1120,12 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
     """Writes a mesh in the format of the name (.nc: MPAS, .vtp, .geojson ...), or as `format`.
 
     mesh: of read(), with its cells and fields, or of another function.
+    model: that reads the file: "mpas-atmosphere", "mpas-ocean", "mpas-sw" or "fesom". It sets the
+        radius, dimensions, and the order of the vertices around cells: MPAS-Atmosphere has edge k of
+        a cell between vertices k and k + 1, others between k - 1 and k. Default: the order of a file
+        that was read, else that of the others.
     sphere_radius: of NetCDF files, metres. MPAS-Atmosphere needs 1, MPAS-Ocean 6371220. Default:
-        that of a file that was read, else 1.
+        the model's, else that of a file that was read, else 1.
     density, cell_width: as for cvt(); they set meshDensity and nominalMinDc. Without them the density
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     surface: as for voronoi().
@@ -1134,7 +1138,7 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name",
     output = _calotte.Output(str(path), format, sphere_radius,
                              _density_for(mesh, density, cell_width),
                              density is not None or cell_width is not None, values, history,
-                             vars(mesh).get("_order") if order is None else order)
+                             vars(mesh).get("_order") if order is None else order, model)
     content = content_of(mesh)
     mesh = within(mesh, surface)
     if content is not None:
@@ -1175,13 +1179,15 @@ def partition(mesh: Grid, parts: int, *, weights: ArrayLike | None = None) -> ND
 
 
 def cut(source: Path, target: Path, surface: SurfaceLike, *, rings: int = 7,
-        sphere_radius: float | None = 1.0) -> dict[str, Any]:
+        sphere_radius: float | None = 1.0, model: str | None = None) -> dict[str, Any]:
     """Cuts a limited-area grid out of an MPAS file; all fields go along. Returns a dict of counts.
 
     surface: as for cvt(). sphere_radius: of the new file; None keeps that of the source.
+    model: as for write(); its radius replaces sphere_radius. Default: MPAS-Atmosphere, or with
+        sphere_radius None the order of the source.
     """
     return _calotte.cut(str(source), str(target), _arguments.surface(surface, plane=False), rings,
-                        sphere_radius)
+                        sphere_radius if model is None else None, model)
 
 
 def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
@@ -1198,7 +1204,7 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
-                             True, {}, "", None)
+                             True, {}, "", None, None)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
 
@@ -1218,7 +1224,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
          sea_from: float | None = None, passages: Path | Sequence[Path] | None = None,
          barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
          mask: Path | None = None, cell_map: Path | None = None,
-         sphere_radius: float | None = None) -> dict[str, Any]:
+         sphere_radius: float | None = None, model: str | None = None) -> dict[str, Any]:
     """Leaves the cells of land out of an MPAS file; all fields go along. Returns a dict of counts.
 
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
@@ -1231,7 +1237,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     fill: cells with a single neighbour in the sea become land.
     seeds: points in the sea, longitude and latitude in degrees; default its largest part.
     mask: NetCDF file for masks by cell of the source. cell_map: folder for maps of cell numbers.
-    sphere_radius: of the new file, metres; default that of the source.
+    sphere_radius: of the new file, metres; default that of the source. model: as for write().
     """
     if raster is not None and not raster_variable:
         raise Error(f"{raster}: give the name of its variable as raster_variable")
@@ -1247,4 +1253,4 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     return _calotte.cull(str(source), str(target), words, fill,
                          _arguments.sphere_points(points, "seeds"),
                          "" if mask is None else str(mask),
-                         "" if cell_map is None else str(cell_map), sphere_radius)
+                         "" if cell_map is None else str(cell_map), sphere_radius, model)

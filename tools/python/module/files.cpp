@@ -10,6 +10,7 @@
 #include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
+#include <calotte/model.h>
 #include <calotte/partition.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>
@@ -75,7 +76,8 @@ py::tuple state_of(const MeshFile& content) {
                                  field.leading, field.integer, field.directed));
   }
   return py::make_tuple(content.format, polygons_of(std::make_shared<MeshFile>(content)),
-                        content.not_voronoi, content.sphere_radius, content.density, fields);
+                        content.not_voronoi, content.sphere_radius, content.density, fields,
+                        static_cast<int>(content.vertex_order));
 }
 
 MeshField field_of(const py::tuple& state) {
@@ -102,6 +104,7 @@ Content of_state(const py::tuple& state) {
   content->density = state[4].cast<Eigen::VectorXd>();
   for (const py::handle field : state[5])
     content->fields.push_back(field_of(py::reinterpret_borrow<py::tuple>(field)));
+  content->vertex_order = static_cast<VertexOrder>(state[6].cast<int>());
   return content;
 }
 
@@ -210,13 +213,37 @@ struct Output {
   bool known = true; ///< whether the mesh was made for that density
   py::dict fields;
   Numbering numbering = Numbering::by_format;
+  std::optional<std::string> model; ///< that reads the file
 };
+
+/// Sets what a model expects of its files. \param radius stays, if it is given.
+/// \throws Error invalid_argument for a word of no model, and for a radius that it cannot use.
+template <class Options>
+void set_model(const std::string& word, std::optional<double> radius, Options& options) {
+  const Model* const model = find_model(word);
+  if (model == nullptr) {
+    std::string words;
+    for (const Model& known : models())
+      words += (words.empty() ? "" : ", ") + known.word;
+    throw Error(ErrorCode::invalid_argument, "no model " + word + "; give one of: " + words);
+  }
+  options.sphere_radius = radius.value_or(model->sphere_radius);
+  options.vertex_order = model->vertex_order;
+  options.dimensions = model->dimensions;
+  if (radius && !suits(*model, model->format, *radius, model->vertex_order, model->dimensions))
+    throw Error(ErrorCode::invalid_argument,
+                "model " + word +
+                    " needs a sphere with another radius than sphere_radius; leave "
+                    "one of them out");
+}
 
 WriteOptions options_of(const Output& output) {
   WriteOptions options;
   options.format = output.format;
   options.numbering = output.numbering;
   options.sphere_radius = output.radius.value_or(1);
+  if (output.model)
+    set_model(*output.model, output.radius, options);
   options.density = output.density;
   options.history = output.history;
   for (const auto& [name, values] : output.fields) {
@@ -250,8 +277,10 @@ std::vector<std::string> write_content(const MeshFile& content, const py::object
                                        const Output& output) {
   const MeshFile file = whole(content, grid);
   WriteOptions options = options_of(output);
-  if (!output.radius)
+  if (!output.radius && !output.model)
     options.sphere_radius = radius_in_metres(file.sphere_radius);
+  if (!output.model)
+    options.vertex_order = file.vertex_order;
   return call([&] {
     const bool lacks_density =
         file.density.size() == 0 || file.density.minCoeff() == file.density.maxCoeff();
@@ -274,10 +303,15 @@ py::array partition_cells(const py::object& content, const py::object& grid, std
 }
 
 py::dict cut_mesh(const std::string& source, const std::string& target, const Surface& region,
-                  int rings, std::optional<double> radius) {
+                  int rings, std::optional<double> radius,
+                  const std::optional<std::string>& model) {
   CutOptions options;
   options.rings = rings;
   options.sphere_radius = radius;
+  if (model)
+    set_model(*model, radius, options);
+  else if (!radius)
+    options.vertex_order.reset(); // the source's, too
   const CutReport report = call([&] { return cut(source, target, region, options); });
   py::dict values;
   values["cells"] = report.cells;
@@ -376,7 +410,8 @@ void set_land(const Land& land, CullOptions& options) {
 
 py::dict cull_mesh(const std::string& source, const std::string& target, const py::dict& words,
                    bool fill, const Doubles& seeds, const std::string& mask,
-                   const std::string& cell_map, std::optional<double> radius) {
+                   const std::string& cell_map, std::optional<double> radius,
+                   const std::optional<std::string>& model) {
   const Land land = land_of(words);
   CullOptions options;
   options.fill = fill;
@@ -384,6 +419,8 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
   options.mask_path = mask;
   options.cell_map_folder = cell_map;
   options.sphere_radius = radius;
+  if (model)
+    set_model(*model, radius, options);
   const CullReport report = call([&] {
     set_land(land, options);
     return cull(source, target, options);
@@ -412,11 +449,12 @@ Format format_named(const std::string& name) {
 
 Output output_of(std::string path, const std::string& format, std::optional<double> radius,
                  Density density, bool known, py::dict fields, std::string history,
-                 const std::optional<std::string>& order) {
+                 const std::optional<std::string>& order, std::optional<std::string> model) {
   return {std::move(path),      std::move(history),
           format_named(format), radius,
           std::move(density),   known,
-          std::move(fields),    order ? numbering_named(*order) : Numbering::by_format};
+          std::move(fields),    order ? numbering_named(*order) : Numbering::by_format,
+          std::move(model)};
 }
 
 } // namespace
