@@ -57,7 +57,7 @@ def check_recipes(project):
 
 def check_workflows(project):
     presets = {preset["name"] for preset in json.loads((project / "CMakePresets.json").read_text())["configurePresets"]}
-    steps = re.search(r"^    ([\w |]+)\) ;;$", (project / "tools/test").read_text(), re.M)[1].split(" | ")
+    steps = re.search(r"^    ([\w |-]+)\) ;;$", (project / "tools/test").read_text(), re.M)[1].split(" | ")
     for file in sorted((project / ".github").glob("**/*.yml")):
         text = file.read_text()
         content = yaml.safe_load(text)
