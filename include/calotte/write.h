@@ -12,6 +12,7 @@
 #include <calotte/types.h>
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

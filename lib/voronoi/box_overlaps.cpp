@@ -79,26 +79,45 @@ MapPoint at_meridian(const MapPoint& from, const MapPoint& to, const Vec3& merid
   return {meridian.x, meridian.y, radius, {z, radius * radius / (1 + std::abs(z))}};
 }
 
-/// Where the great circle through an arc crosses a parallel upwards, or downwards: p cos x + w sin
-/// x with the tangent w at p has the height z cos x + w_z sin x, and the slope w_z cos x - z sin x,
-/// whose square is that of the parallel's radius less that of the height of the circle's normal.
-/// \param direction 1 upwards, -1 downwards.
+/// Where an arc along which the height grows or falls crosses a parallel: p cos x + w sin x with
+/// the tangent w at p has the height z cos x + w_z sin x, and the slope w_z cos x - z sin x, whose
+/// square is that of the circle's greatest height less that of the parallel's: as well that of the
+/// parallel's radius less that of the height of the circle's normal, which is exact near a pole.
+///
+/// An end of the arc may lie on the parallel to the last bit, or the arc touch it. Then rounding
+/// decides where the circles meet, or whether; the crossing stays on the arc. Where it lies hardly
+/// matters: between two such points arc and parallel have the same height up to rounding, and so
+/// the areas of the boxes on both sides of the parallel.
 MapPoint at_parallel(const MapPoint& from, const MapPoint& to, const Height& parallel,
-                     double radius, double direction) {
+                     double radius) {
+  const auto with_longitude_of = [&](const MapPoint& end) {
+    return MapPoint{end.east_x, end.east_y, radius, parallel};
+  };
   const Vec3 p = from.position(), q = to.position(), way = q - p;
   const double bend = 0.5 * dot(way, way);
   const Vec3 tangent{way.x + bend * p.x, way.y + bend * p.y,
                      rise(from.height, to.height) + bend * p.z};
-  const Vec3 w = (1 / norm(tangent)) * tangent;
-  const double normal = p.x * w.y - p.y * w.x,
-               slope = direction * std::sqrt(std::max((radius - normal) * (radius + normal), 0.0)),
-               size = p.z * p.z + w.z * w.z, cosine = (p.z * parallel.sine + w.z * slope) / size,
+  const double length = norm(tangent); // the sine of the arc
+  if (!(length > 0))
+    return with_longitude_of(from);
+  const Vec3 w = (1 / length) * tangent;
+  // 1 less the square of the height of the circle's normal: that of its greatest height
+  const double normal = p.x * w.y - p.y * w.x, size = p.z * p.z + w.z * w.z, top = std::sqrt(size),
+               square = size < 0.5
+                            ? (top - std::abs(parallel.sine)) * (top + std::abs(parallel.sine))
+                            : (radius - normal) * (radius + normal),
+               slope =
+                   std::copysign(std::sqrt(std::max(square, 0.0)), rise(from.height, to.height)),
+               cosine = (p.z * parallel.sine + w.z * slope) / size,
                sine = (w.z * parallel.sine - p.z * slope) / size;
+  if (!(sine > 0))
+    return with_longitude_of(from);
+  if (sine * (1 - bend) > cosine * length)
+    return with_longitude_of(to);
   const double x = cosine * p.x + sine * w.x, y = cosine * p.y + sine * w.y,
-               length = std::sqrt(x * x + y * y);
-  if (!(length > 0)) // also where the arc has no length
-    return {from.east_x, from.east_y, radius, parallel};
-  return {x / length, y / length, radius, parallel};
+               distance = std::sqrt(x * x + y * y);
+  return distance > 0 ? MapPoint{x / distance, y / distance, radius, parallel}
+                      : with_longitude_of(from);
 }
 
 /// An arc through a pole takes half a turn to one of both sides: the polygons beside it, along
@@ -180,18 +199,18 @@ void BoxOverlaps::add_piece(const MapPoint& from, const MapPoint& to) {
 ///        rounding does not add up.
 void BoxOverlaps::trace_in_column(const PathPoint& start, const PathPoint& end, MapPoint from,
                                   const MapPoint& to) {
-  const auto pass = [&](std::int64_t parallel, double direction) {
-    const MapPoint met = at_parallel(start.point, end.point, tiling_.height(parallel),
-                                     tiling_.radius(parallel), direction);
+  const auto pass = [&](std::int64_t parallel) {
+    const MapPoint met =
+        at_parallel(start.point, end.point, tiling_.height(parallel), tiling_.radius(parallel));
     add_piece(from, met);
     from = met;
   };
   while (row_ + 1 < tiling_.rows() && rise(tiling_.height(row_ + 1), to.height) > 0) {
-    pass(row_ + 1, 1);
+    pass(row_ + 1);
     ++row_;
   }
   while (row_ > 0 && rise(tiling_.height(row_), to.height) < 0) {
-    pass(row_, -1);
+    pass(row_);
     --row_;
   }
   add_piece(from, to);
@@ -252,10 +271,17 @@ void BoxOverlaps::trace(const PathPoint& from, const PathPoint& to) {
   if (!(length > 0))
     return trace_monotone(from, to);
   const MapPoint point = map_point_of((1 / length) * top);
+  if (point.at_pole()) {
+    const PathPoint up{{from.point.east_x, from.point.east_y, 0, point.height}, from.longitude},
+        down{{to.point.east_x, to.point.east_y, 0, point.height}, to.longitude};
+    trace_monotone(from, up);
+    trace_pole(up, down);
+    return trace_monotone(down, to);
+  }
   const double longitude = from.longitude + turn_between(from.point, point) * degrees_per_radian;
   const double west = std::min(from.longitude, to.longitude),
                east = std::max(from.longitude, to.longitude);
-  if (point.at_pole() || longitude < west || longitude > east)
+  if (longitude < west || longitude > east)
     return trace_monotone(from, to);
   trace_monotone(from, {point, longitude});
   trace_monotone({point, longitude}, to);

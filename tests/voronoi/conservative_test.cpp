@@ -4,18 +4,24 @@
 #include <calotte/generators.h>
 #include <calotte/voronoi.h>
 
+#include "base/lonlat.h"
 #include "delaunay/delaunay.h"
 #include "support/planes.h"
+#include "support/random.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 using namespace calotte;
@@ -135,7 +141,123 @@ Polygons fine_polygons(const LonLatBoxes& boxes, int parts) {
 
 Eigen::MatrixXd dense(const Weights& weights) { return weights; }
 
+/// Where corners of a partition lie in relation to the lines of a raster.
+enum class Nudge { none, ulps, tiny };
+
+/// A unit vector near another.
+Eigen::Vector3d nudged(const Eigen::Vector3d& x, Nudge nudge, test::Random& random) {
+  Eigen::Vector3d out = x;
+  for (double& value : out) {
+    if (nudge == Nudge::none || random.integer(0, 1) == 0)
+      continue;
+    value = nudge == Nudge::ulps
+                ? std::nextafter(value, random.integer(0, 1) == 0 ? -2.0 : 2.0)
+                : value + random.real(-1, 1) * std::pow(10, -random.integer(8, 15));
+  }
+  return nudge == Nudge::tiny ? out.normalized() : out;
+}
+
+/// Quadrilaterals, and triangles at the poles, between whole multiples of steps of longitude and
+/// latitude, with great circles as sides; corners are off these by as little as rounding. Their
+/// corners are shared, so they are a partition of the sphere.
+Polygons graticule_cells(int columns, int rows, Nudge nudge, std::uint64_t seed) {
+  test::Random random(seed);
+  Polygons cells;
+  const auto corner_id = [&](int i, int j) {
+    return j == 0 ? 0 : j == rows ? 1 : 2 + (j - 1) * columns + (i % columns + columns) % columns;
+  };
+  cells.corners.resize(3, 2 + columns * (rows - 1));
+  cells.corners.col(0) = Eigen::Vector3d(0, 0, -1);
+  cells.corners.col(1) = Eigen::Vector3d(0, 0, 1);
+  for (int j = 1; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const auto x = base_detail::from_lonlat(360.0 * i / columns, 180.0 * j / rows - 90);
+      cells.corners.col(corner_id(i, j)) = nudged({x.x, x.y, x.z}, nudge, random);
+    }
+  std::vector<std::int32_t> ids;
+  std::vector<std::int64_t> begin{0};
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      for (const int id :
+           {corner_id(i, j), corner_id(i + 1, j), corner_id(i + 1, j + 1), corner_id(i, j + 1)})
+        if (static_cast<std::int64_t>(ids.size()) == begin.back() || ids.back() != id)
+          ids.push_back(id);
+      begin.push_back(static_cast<std::int64_t>(ids.size()));
+    }
+  cells.ids.begin = Eigen::Map<const Offsets>(begin.data(), std::ssize(begin));
+  cells.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  return cells;
+}
+
+/// A cubed sphere of n x n cells a face, of equal angles, with its corners on a parallel or a
+/// meridian in many cells.
+Polygons cubed_cells(int n, Nudge nudge, std::uint64_t seed) {
+  test::Random random(seed);
+  Polygons cells;
+  std::map<std::array<std::int64_t, 3>, std::int32_t> known;
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<std::int32_t> ids;
+  const auto corner = [&](int face, int i, int j) {
+    const double a = std::tan((static_cast<double>(2 * i) / n - 1) * std::numbers::pi / 4),
+                 b = std::tan((static_cast<double>(2 * j) / n - 1) * std::numbers::pi / 4);
+    const Eigen::Vector3d faces[] = {{1, a, b},  {-a, 1, b}, {-1, -a, b},
+                                     {a, -1, b}, {-b, a, 1}, {b, a, -1}};
+    const Eigen::Vector3d x = faces[face].normalized();
+    const std::array<std::int64_t, 3> key{std::llround(x.x() * 1e9), std::llround(x.y() * 1e9),
+                                          std::llround(x.z() * 1e9)};
+    const auto [at, is_new] = known.emplace(key, static_cast<std::int32_t>(corners.size()));
+    if (is_new)
+      corners.push_back(nudged(x, nudge, random));
+    return at->second;
+  };
+  for (int face = 0; face < 6; ++face)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        ids.insert(ids.end(), {corner(face, i, j), corner(face, i + 1, j),
+                               corner(face, i + 1, j + 1), corner(face, i, j + 1)});
+  cells.corners.resize(3, std::ssize(corners));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    cells.corners.col(static_cast<Eigen::Index>(k)) = corners[k];
+  cells.ids.items = Eigen::Map<const Ids>(ids.data(), std::ssize(ids));
+  cells.ids.begin = Offsets::LinSpaced(6 * n * n + 1, 0, 4 * 6 * n * n);
+  return cells;
+}
+
 } // namespace
+
+TEST_CASE("shares of a partition sum to the areas where corners lie on parallels and meridians") {
+  for (const Nudge nudge : {Nudge::none, Nudge::ulps, Nudge::tiny})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      std::vector<Polygons> all;
+      for (const auto& [columns, rows] : {std::pair(36, 18), {30, 15}, {60, 30}, {24, 6}})
+        all.push_back(graticule_cells(columns, rows, nudge, seed));
+      for (const int n : {3, 10, 18})
+        all.push_back(cubed_cells(n, nudge, seed));
+      for (const Polygons& cells : all)
+        for (const LonLatBoxes& boxes :
+             {lon_lat_boxes(36, 18), lon_lat_boxes(60, 30), lon_lat_boxes(80, 45),
+              lon_lat_boxes(steps(-180, 5, 72), steps(90, -5, 37))}) {
+          CAPTURE(static_cast<int>(nudge));
+          CAPTURE(seed);
+          CAPTURE(cells.size());
+          CAPTURE(boxes.size());
+          check_laws(conservative_weights(boxes, cells), 4 * std::numbers::pi);
+          check_laws(conservative_weights(cells, boxes), 4 * std::numbers::pi);
+        }
+    }
+}
+
+TEST_CASE("a cell between the lines of a raster shares its area with that box but for its bulges") {
+  for (const Nudge nudge : {Nudge::none, Nudge::ulps, Nudge::tiny})
+    for (const auto& [columns, rows] : {std::pair(180, 90), {90, 45}, {72, 36}}) {
+      const Polygons cells = graticule_cells(columns, rows, nudge, 4);
+      const Weights weights = conservative_weights(lon_lat_boxes(columns, rows), cells).weights;
+      double least = 1;
+      for (Eigen::Index k = 0; k < weights.rows(); ++k)
+        least = std::min(least, weights.coeff(k, k));
+      CHECK(least > 0.98);
+    }
+}
 
 TEST_CASE("cells and boxes share all of the sphere, in both directions") {
   for (const Polygons& cells : closed_cells())
