@@ -20,7 +20,7 @@ struct Locations {
   /// sum is 1; exactly 0 on the edge across. NaN outside.
   Triples weights;
   /// The nearest site, the lowest of those that are equally near. Exact in a Delaunay triangulation
-  /// and in a part of one.
+  /// and in a part of one, also where sites have no triangle.
   Ids nearest;
 };
 
@@ -29,7 +29,7 @@ struct Locations {
 ///
 /// The positions are sorted along a space-filling curve; from the triangle of each, a walk leads to
 /// that of the next across edges that separate them (Lawson, in: Mathematical Software III, 1977),
-/// in parallel. Sites without triangles are not found.
+/// in parallel.
 /// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest site
 ///        may be another one; the triangle is exact.
 /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0, in

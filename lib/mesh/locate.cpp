@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/locate.h>
+#include "mesh/locate.h"
 
 #include "base/parallel.h"
 #include "base/points.h"
@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <mutex>
@@ -26,12 +27,14 @@ namespace {
 
 using base_detail::require;
 
+enum class Rim { exact, within_rounding };
+
 template <Space S> class Locator {
 public:
   using Position = typename S::Position;
 
-  explicit Locator(const SeenMesh<S>& mesh)
-      : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)) {
+  Locator(const SeenMesh<S>& mesh, Rim rim)
+      : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)), rim_(rim) {
     set_starts();
   }
 
@@ -46,9 +49,11 @@ public:
   /// Sets the location of a position. Returns a triangle near it.
   std::int32_t locate(const Position& p, std::int32_t from, std::int64_t i, Locations& out) const {
     const std::int32_t end = walk(p, from);
-    const std::int32_t holder = end >= 0                     ? lowest_at(end, p)
-                                : end == outside && convex() ? outside
-                                                             : search(p);
+    std::int32_t holder = end >= 0                     ? lowest_at(end, p)
+                          : end == outside && convex() ? outside
+                                                       : search(p);
+    if (holder < 0 && rim_ == Rim::within_rounding)
+      holder = search_rim(p);
     out.triangle[i] = holder;
     set_weights(holder, p, i, out);
     const std::int32_t near = holder >= 0 ? holder : from;
@@ -112,6 +117,22 @@ private:
     return lowest;
   }
 
+  /// Of the triangles that p is outside of by rounding alone, the lowest, or `outside`.
+  std::int32_t search_rim(const Position& p) const {
+    std::int32_t lowest = outside;
+    for (int k = 0; k < S::copies; ++k) {
+      const Position copy = seen_.copy(p, k);
+      const Vec3 at = seen_.coordinates(copy);
+      const double rounding = 1e-15 * std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+      tree().visit([&](const Box3& box) { return square_from(box, at) <= rounding * rounding; },
+                   [&](std::int32_t t) {
+                     if ((lowest < 0 || t < lowest) && seen_.distance_outside(t, copy) <= rounding)
+                       lowest = t;
+                   });
+    }
+    return lowest;
+  }
+
   /// Of the triangles that meet where p is, the lowest.
   std::int32_t lowest_at(std::int32_t t, const Position& p) const {
     std::array<bool, 3> on{};
@@ -160,7 +181,7 @@ private:
     });
     if (exists(last))
       body(preceding_site(faces_, last), Corner{last.triangle, previous_vertex(last.vertex)});
-    return !exists(last) || convex();
+    return !exists(last) || has_all_sites();
   }
 
   /// From site to site, each nearer than the last. A site of a Delaunay triangulation is nearest if
@@ -201,7 +222,7 @@ private:
     return lowest;
   }
 
-  /// Of all sites with triangles. \param t one whose sites may be near.
+  /// Of all sites, also those without triangles. \param t a triangle whose sites may be near.
   std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
     std::int32_t best = mesh_.triangles(0, t);
     const auto square_to = [&](std::int32_t site) {
@@ -209,19 +230,19 @@ private:
       return dot(apart, apart);
     };
     double reach = square_to(best);
-    const auto consider = [&](std::int32_t triangle) {
-      for (const std::int32_t site : mesh_.triangles.col(triangle))
-        if (const int order = seen_.compare(p, site, best);
-            order < 0 || (order == 0 && site < best)) {
-          best = site;
-          reach = square_to(site);
-        }
+    const auto consider = [&](std::int32_t site) {
+      if (const int order = seen_.compare(p, site, best);
+          order < 0 || (order == 0 && site < best)) {
+        best = site;
+        reach = square_to(site);
+      }
     };
-    consider(t);
+    for (const std::int32_t site : mesh_.triangles.col(t))
+      consider(site);
     constexpr double rounding = 1 + 1e-9;
     for (int k = 0; k < S::copies; ++k) {
       const Vec3 at = seen_.coordinates(seen_.copy(p, k));
-      tree().visit(
+      site_tree().visit(
           [&](const Box3& box) { return square_from(box, at) <= reach * rounding + 1e-30; },
           consider);
     }
@@ -239,8 +260,22 @@ private:
   }
 
   bool convex() const {
-    std::call_once(asked_, [&] { convex_ = seen_.has_convex_boundary(); });
+    look_at_boundary();
     return convex_;
+  }
+  /// Whether sites at the boundary have all neighbours that they have anywhere.
+  bool has_all_sites() const {
+    look_at_boundary();
+    return has_all_sites_;
+  }
+  void look_at_boundary() const {
+    std::call_once(asked_, [&] {
+      convex_ = seen_.has_convex_boundary();
+      std::vector<std::uint8_t> seen(static_cast<std::size_t>(mesh_.points.cols()));
+      for (const std::int32_t site : mesh_.triangles.reshaped())
+        seen[static_cast<std::size_t>(site)] = 1;
+      has_all_sites_ = convex_ && std::find(seen.begin(), seen.end(), 0) == seen.end();
+    });
   }
 
   const BoxTree& tree() const {
@@ -257,20 +292,39 @@ private:
     return tree_;
   }
 
+  const BoxTree& site_tree() const {
+    std::call_once(sites_made_, [&] {
+      const auto count = static_cast<std::size_t>(mesh_.points.cols());
+      std::vector<Box3> boxes(count);
+      std::vector<std::uint64_t> keys(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 x = seen_.vertex(static_cast<std::int32_t>(i));
+        boxes[i] = {x, x};
+        keys[i] = curve_key(seen_.square(x));
+      }
+      site_tree_ = BoxTree(boxes, keys);
+    });
+    return site_tree_;
+  }
+
   const SeenMesh<S>& seen_;
   const Mesh& mesh_;
   Faces faces_;
+  Rim rim_;
   std::vector<KeyedItem> starts_; ///< some triangles, by key
   mutable std::once_flag asked_;
-  mutable bool convex_ = false; ///< of the boundary, once a position is near it
+  mutable bool convex_ = false, has_all_sites_ = false; ///< once a position is near the boundary
   mutable std::once_flag made_;
   mutable BoxTree tree_; ///< of all triangles, once a position needs them
+  mutable std::once_flag sites_made_;
+  mutable BoxTree site_tree_; ///< of all sites, once a position is nearest to one at a boundary
 };
 
-template <Space S> Locations locate_all(const SeenMesh<S>& mesh, const PointsRef& positions) {
+template <Space S>
+Locations locate_all(const SeenMesh<S>& mesh, const PointsRef& positions, Rim rim) {
   const std::int64_t count = positions.cols();
   Locations out{Ids(count), Triples(3, count), Ids(count)};
-  const Locator<S> locator(mesh);
+  const Locator<S> locator(mesh, rim);
   Array<std::uint64_t> keys(count);
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
@@ -315,17 +369,25 @@ void require_queries(const Plane& plane, const PointsRef& given) {
   require_positions(plane, given, "position");
 }
 
-} // namespace
-} // namespace mesh_detail
-
-Locations locate(const Mesh& mesh, const PointsRef& positions) {
-  using namespace mesh_detail;
+Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
   require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
   return in_space_of(mesh.surface, [&](const Space auto& space) {
     require_queries(space, positions);
     require_positions(space, mesh.points, "site");
-    return locate_all(SeenMesh(mesh, space), positions);
+    return locate_all(SeenMesh(mesh, space), positions, rim);
   });
+}
+
+} // namespace
+
+Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions) {
+  return locate(mesh, positions, Rim::within_rounding);
+}
+
+} // namespace mesh_detail
+
+Locations locate(const Mesh& mesh, const PointsRef& positions) {
+  return mesh_detail::locate(mesh, positions, mesh_detail::Rim::exact);
 }
 
 } // namespace calotte

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace calotte::mesh_detail {
 
@@ -71,6 +72,17 @@ public:
     const Corners corner = corners(t, p);
     return S::area_term(coordinates(p), coordinates(following(corner, v)),
                         coordinates(preceding(corner, v)));
+  }
+
+  /// How far a position is beyond the edges of a triangle, roughly; <= 0 inside.
+  double distance_outside(std::int64_t t, const Position& p) const {
+    const Corners corner = corners(t, p);
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (int v = 0; v < 3; ++v) {
+      const Vec3 from = coordinates(following(corner, v)), to = coordinates(preceding(corner, v));
+      farthest = std::max(farthest, -area(t, v, p) / norm(to - from));
+    }
+    return farthest;
   }
 
   Box3 box(std::int64_t t) const {

@@ -6,11 +6,10 @@
 #include "base/require.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
+#include "mesh/locate.h"
 #include "mesh/seen_mesh.h"
 #include "voronoi/room.h"
 #include "voronoi/weight_rows.h"
-
-#include <calotte/locate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +33,13 @@ struct CavityEdge {
   std::int32_t triangle;
   int across;
 };
+
+/// b - a, as if both were on the unit sphere to the last bit. \pre they are in one hemisphere.
+Vec3 offset_on_sphere(const Vec3& a, const Vec3& b) {
+  const Vec3 way = b - a, along = way - dot(way, a) * a;
+  const double square = std::min(dot(along, along), 1.0);
+  return along - square / (1 + std::sqrt(1 - square)) * a;
+}
 
 template <Space S> class NaturalNeighbours {
 public:
@@ -79,9 +85,17 @@ private:
     add_sides(p, {beyond, previous_vertex(back)}, out);
   }
 
+  /// On the sphere from the parts of the offsets along the tangent plane at p: what the norms of
+  /// unit vectors lack to 1 by rounding must not count, as p may be as near to a site.
   Vec3 centre_with(const Position& p, const CavityEdge& side) const {
-    return frame_.circumcentre(seen_.seen(p), seen_.seen(start_of(side), p),
-                               seen_.seen(end_of(side), p));
+    const Vec3 x = seen_.seen(p), start = seen_.seen(start_of(side), p),
+               end = seen_.seen(end_of(side), p);
+    if constexpr (S::on_sphere)
+      if (dot(x, start) > 0 && dot(x, end) > 0) {
+        const Vec3 normal = cross(offset_on_sphere(x, start), offset_on_sphere(x, end));
+        return (1 / norm(normal)) * normal;
+      }
+    return frame_.circumcentre(x, start, end);
   }
   Vec3 centre_of(std::int32_t t, const Position& p) const {
     return frame_.circumcentre(seen_.seen(mesh_.triangles(0, t), p),
@@ -123,33 +137,45 @@ void set_linear(const Triangles& triangles, const Locations& at, std::int64_t i,
       out.push_back({triangles(v, at.triangle[i]), at.weights(v, i)});
 }
 
-/// Whether a position is on an open edge, or is a site: its weights are those of the edge's ends.
+/// Whether a position is on an open edge, or is a site, up to rounding: its weights are those of
+/// the edge's ends. There the circumcentres with the position have no digits, and the linear
+/// weights differ from the natural ones by as little as the position from the edge or the site.
 bool on_boundary(const Triangles& neighbours, const Locations& at, std::int64_t i) {
+  constexpr double rounding = 1e-12;
   int zeros = 0;
   bool open = false;
   for (int v = 0; v < 3; ++v)
-    if (at.weights(v, i) == 0) {
+    if (at.weights(v, i) <= rounding) {
       ++zeros;
       open = open || neighbours(v, at.triangle[i]) < 0;
     }
   return zeros > 1 || open;
 }
 
+/// Whether a position is a site, which may have no triangle, up to rounding.
+template <Space S>
+bool is_site(const SeenMesh<S>& seen, std::int32_t site, const typename S::Position& p) {
+  const Vec3 x = seen.seen(p), apart = seen.seen(site, p) - x;
+  return norm(apart) <= 1e-15 * std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+}
+
 template <Space S>
 Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Locations& at,
                    Interpolation kind) {
   const Mesh& mesh = seen.mesh();
+  using Position = typename S::Position;
   const std::int64_t count = at.triangle.size();
   const NaturalNeighbours<S> natural(seen);
   return matrix_of(count, mesh.points.cols(), [&](std::int64_t i, WeightRow& row) {
-    if (kind == Interpolation::nearest)
+    const Position p = seen.position(point(positions, i));
+    if (kind == Interpolation::nearest || (at.triangle[i] < 0 && is_site(seen, at.nearest[i], p)))
       row.push_back({at.nearest[i], 1});
     else if (at.triangle[i] < 0)
       return;
     else if (kind == Interpolation::linear || on_boundary(mesh.neighbours, at, i))
       set_linear(mesh.triangles, at, i, row);
     else
-      natural.set(seen.position(point(positions, i)), at.triangle[i], row);
+      natural.set(p, at.triangle[i], row);
     sort_by_column(row);
   });
 }
@@ -161,7 +187,7 @@ Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Inte
   using namespace voronoi_detail;
   require(kind != Interpolation::conservative,
           "conservative weights are those of cells, not of positions; use conservative_weights()");
-  const Locations at = locate(mesh, positions);
+  const Locations at = mesh_detail::locate_within_rounding(mesh, positions);
   return in_space_of(mesh.surface, [&](const Space auto& space) {
     return weights_of(SeenMesh(mesh, space), positions, at, kind);
   });

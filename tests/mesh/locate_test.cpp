@@ -10,6 +10,7 @@
 #include "exact/predicates.h"
 #include "mesh/convex_boundary.h"
 #include "support/clouds.h"
+#include "support/parts.h"
 #include "support/planes.h"
 
 #include <Eigen/Geometry>
@@ -44,7 +45,7 @@ Found by_all(const Mesh& mesh, const Eigen::Vector3d& position) {
         exact_detail::orientation(at(x[2]), at(x[0]), column(p, 0)) >= 0)
       out.triangle = t;
   }
-  for (const std::int32_t site : mesh.triangles.reshaped())
+  for (std::int32_t site = 0; site < mesh.points.cols(); ++site)
     if (out.nearest < 0 ||
         exact_detail::compare_distances(column(p, 0), at(site), at(out.nearest)) < 0 ||
         (site < out.nearest &&
@@ -85,7 +86,7 @@ Found by_all(const PlanarMesh& mesh, const Eigen::Vector2d& p) {
             exact_detail::orientation(period, c, a, at) >= 0)
           out.triangle = t;
       }
-  for (const std::int32_t site : mesh.triangles.reshaped()) {
+  for (std::int32_t site = 0; site < mesh.points.cols(); ++site) {
     const int order = out.nearest < 0
                           ? -1
                           : exact_detail::compare_distances(period, home, near(site, home),
@@ -125,22 +126,6 @@ Points3 from_weights(const Mesh& mesh, const Locations& at) {
           at.weights(v, i) * mesh.points.col(mesh.triangles(v, at.triangle[i])).normalized();
   }
   return out.colwise().normalized();
-}
-
-/// The triangles that keep(t) keeps.
-template <class AnyMesh, class Keep> AnyMesh part_of(AnyMesh mesh, const Keep& keep) {
-  std::vector<Eigen::Index> kept;
-  std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    if (keep(t)) {
-      name[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(t);
-    }
-  mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
-  mesh.neighbours = Triangles(mesh.neighbours(Eigen::all, kept)).unaryExpr([&](std::int32_t t) {
-    return t < 0 ? t : name[static_cast<std::size_t>(t)];
-  });
-  return mesh;
 }
 
 /// Positions with ties: sites, midpoints of edges, centroids and circumcentres.

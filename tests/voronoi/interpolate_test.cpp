@@ -7,11 +7,15 @@
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/joined.h"
+#include "support/parts.h"
 #include "support/planes.h"
+#include "support/random.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -132,6 +136,76 @@ TEST_CASE("errors of a smooth function fall with the square of the spacing") {
   };
   for (const Interpolation kind : {Interpolation::linear, natural})
     CHECK(error(2000, kind) > 6 * error(16000, kind)); // 8, but for chance
+}
+
+TEST_CASE("weights near a site are near that of the site, down to the last bit") {
+  Random random(5);
+  for (const Points3& points :
+       {random_sphere(400, 3), bisected_icosahedron(3), fibonacci_sphere(5000)}) {
+    const Mesh mesh = spherical_delaunay(points);
+    Eigen::VectorXd gap = Eigen::VectorXd::Constant(mesh.points.cols(), 2); // to the nearest site
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+      for (int v = 0; v < 3; ++v) {
+        const std::int32_t a = mesh.triangles(v, t), b = mesh.triangles((v + 1) % 3, t);
+        gap[a] = std::min(gap[a], (mesh.points.col(a) - mesh.points.col(b)).norm());
+      }
+    for (int exponent = -17; exponent <= -5; ++exponent) {
+      Points3 at = mesh.points;
+      for (Eigen::Index i = 0; i < at.cols(); ++i) {
+        const auto way = random.direction();
+        at.col(i) += std::pow(10, exponent) * Eigen::Vector3d(way.x, way.y, way.z);
+        if (i % 2 == 0)
+          at.col(i).normalize();
+      }
+      CAPTURE(exponent);
+      const double away = std::pow(10, exponent) + 3e-16;
+      for (const Interpolation kind : {Interpolation::linear, natural}) {
+        const Weights weights = interpolation_weights(mesh, at, kind);
+        double worst = 0;
+        for (Eigen::Index i = 0; i < at.cols(); ++i)
+          worst = std::max(worst, (1 - weights.coeff(i, i)) * gap[i] / away);
+        CHECK(worst < 30);
+      }
+    }
+  }
+}
+
+TEST_CASE("positions that are outside of an open mesh by rounding alone have its values") {
+  const Mesh whole = spherical_delaunay(fibonacci_sphere(3000));
+  const Mesh part = part_of(whole, [&](Eigen::Index t) {
+    return std::sin(9 * whole.points(0, whole.triangles(0, t))) < 0.3;
+  });
+  std::vector<bool> has_triangle(static_cast<std::size_t>(part.points.cols()));
+  for (const std::int32_t site : part.triangles.reshaped())
+    has_triangle[static_cast<std::size_t>(site)] = true;
+  CHECK(std::count(has_triangle.begin(), has_triangle.end(), false) > 10);
+  for (const double radius : {1.0, 6371220.0, 6371229.0, 0.3}) {
+    const Points3 scaled = radius * part.points;
+    for (const Interpolation kind : {Interpolation::linear, natural, Interpolation::nearest}) {
+      const Weights at_sites = interpolation_weights(part, scaled, kind);
+      for (Eigen::Index i = 0; i < at_sites.rows(); ++i)
+        REQUIRE(at_sites.coeff(i, i) == doctest::Approx(1).epsilon(1e-11));
+    }
+  }
+  // In the middle of open edges.
+  std::vector<Eigen::Vector3d> middles;
+  std::vector<std::array<std::int32_t, 2>> ends;
+  for (Eigen::Index t = 0; t < part.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v)
+      if (part.neighbours(v, t) < 0) {
+        ends.push_back({part.triangles((v + 1) % 3, t), part.triangles((v + 2) % 3, t)});
+        middles.emplace_back(
+            (part.points.col(ends.back()[0]) + part.points.col(ends.back()[1])).normalized());
+      }
+  Points3 at(3, std::ssize(middles));
+  for (Eigen::Index i = 0; i < at.cols(); ++i)
+    at.col(i) = middles[static_cast<std::size_t>(i)];
+  for (const Interpolation kind : {Interpolation::linear, natural}) {
+    const Weights weights = interpolation_weights(part, at, kind);
+    for (Eigen::Index i = 0; i < at.cols(); ++i)
+      for (const std::int32_t end : ends[static_cast<std::size_t>(i)])
+        REQUIRE(weights.coeff(i, end) == doctest::Approx(0.5).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("weights are the same for any number of threads") {
