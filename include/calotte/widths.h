@@ -188,9 +188,12 @@ public:
   static Widths blend(const Widths& a, const Widths& b, const Share& t);
 
   /// The largest widths below these that change by at most g km per km, over the poles and the date
-  /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly;
-  /// others at the nodes of a raster, see limit_gradient(const CellWidth&). In a plane these are
-  /// refused: limit their raster in its domain, see limit_gradient(const PlanarCellWidth&).
+  /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly.
+  /// Others are limited at the nodes of a raster whose step is their least width, from 0.05 to 1
+  /// degree, see limit_gradient(const CellWidth&); the result is the lesser of that and these
+  /// widths. What lies between the nodes lowers them: each node of a rule's own raster, and for
+  /// other rules places up to four times as dense. In a plane such rules are refused: limit their
+  /// raster in its domain, see limit_gradient(const PlanarCellWidth&).
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;

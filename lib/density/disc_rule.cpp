@@ -51,12 +51,14 @@ void DiscRule::evaluate(std::span<const Vec3> places, std::span<double> widths) 
     };
     if (last >= 0)
       take(last);
+    // Rounding of a bound must not leave out a disc: else the last bit depends on where one begins.
+    constexpr double rounding = 1e-12;
     const auto may_demand_less = [&](const DiscBounds& bounds) {
       if (!(bounds.width < least))
         return false;
       const double square = square_from(bounds.centres, p), // the arc of its root c is longer than
           away = earth_radius_km * std::sqrt(square) * (1 + square / 24); // c + c^3 / 24
-      return grown(bounds.width, away - bounds.radius) < least;
+      return grown(bounds.width, away - bounds.radius) * (1 - rounding) < least;
     };
     discs_->tree.visit(may_demand_less, take);
     widths[k] = least;

@@ -14,7 +14,9 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/planar_raster.h>
+#include <calotte/widths.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -362,6 +364,11 @@ CellWidth limit_gradient(const CellWidth& widths, double gradient, double radius
   for (std::int64_t j = 0; j < rows; ++j)
     for (std::int64_t i = 0; i < columns; ++i)
       values[static_cast<std::size_t>(1 + j * columns + i)] = field.width(i, j + 1);
+  for (double& value : values)
+    value = value < 0.5 * Widths::no_demand ? value : none;
+  if (std::find_if(values.begin(), values.end(),
+                   [](double value) { return std::isfinite(value); }) == values.end())
+    return widths;
   const std::vector<double> limited =
       GradientLimit<SphereNodes>(nodes, std::move(values), gradient).result();
   CellWidth result = widths;

@@ -171,17 +171,22 @@ private:
     add(lowered, level);
   }
 
+  State offer(std::int32_t source, std::int32_t to) const {
+    return state_of(values_[at(source)] + gradient_ * nodes_.distance(source, to),
+                    static_cast<std::uint32_t>(source) + 1);
+  }
+
+  /// What is known of a neighbour depends on the threads. So it decides only whether an offer is in
+  /// vain: the straight one is, up to rounding, the least of both.
   void hand_on(const Settled& from, std::vector<std::int32_t>& lowered) {
-    const auto least = static_cast<float>(from.value / least_); // of what it hands on
+    constexpr float rounding = 1e-6F;
     nodes_.for_each_neighbour(from.node, [&](std::int32_t to) {
       std::atomic_ref state(states_[at(to)]);
-      State known = state.load(std::memory_order_relaxed);
-      if (size_of(known) < least)
+      State known = state.load(std::memory_order_relaxed), offered = offer(from.source, to);
+      if (size_of(known) < size_of(offered) * (1 - rounding))
         return;
-      const bool seen = from.source == from.node || nodes_.sees(from.source, to);
-      const std::int32_t source = seen ? from.source : from.node;
-      const State offered = state_of(values_[at(source)] + gradient_ * nodes_.distance(source, to),
-                                     static_cast<std::uint32_t>(source) + 1);
+      if (from.source != from.node && !nodes_.sees(from.source, to))
+        offered = offer(from.node, to);
       while (offered < known)
         if (state.compare_exchange_weak(known, offered, std::memory_order_relaxed)) {
           lowered.push_back(to);

@@ -90,13 +90,18 @@ void LineDistance::operator()(std::span<const Vec3> places, std::span<double> di
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Vec3& p = places[k];
     double least = nearest < 0 ? std::numeric_limits<double>::infinity() : square_from(nearest, p);
-    tree_.visit([&](const Box3& box) { return curve_detail::square_from(box, p) < least; },
-                [&](std::int32_t item) {
-                  if (const double square = square_from(item, p); square < least) {
-                    least = square;
-                    nearest = item;
-                  }
-                });
+    // Rounding must not leave out a line: else the last bit depends on the place before.
+    constexpr double rounding = 1e-9;
+    tree_.visit(
+        [&](const Box3& box) {
+          return curve_detail::square_from(box, p) * (1 - rounding) <= least + 1e-28;
+        },
+        [&](std::int32_t item) {
+          if (const double square = square_from(item, p); square < least) {
+            least = square;
+            nearest = item;
+          }
+        });
     const double chord = std::sqrt(least);
     distances[k] = sphere_ ? 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord)) : chord;
   }

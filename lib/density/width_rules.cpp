@@ -11,6 +11,7 @@
 #include "density/gradient_limit.h"
 #include "density/line_distance.h"
 #include "density/planar_raster.h"
+#include "density/width_cones.h"
 #include "density/width_profile.h"
 #include "domain/surface.h"
 
@@ -63,6 +64,7 @@ public:
     }
   }
   double least() const override { return field_.least(); }
+  const WidthField* raster() const override { return &field_; }
 
 private:
   WidthField field_;
@@ -336,7 +338,9 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
   require(
       rule->space() != RuleSpace::plane,
       "the gradient of such widths of a plane depends on the domain; limit that of their raster");
-  return std::make_shared<RasterRule>(limit_gradient(sample(*rule, step_for(*rule)), gradient));
+  const Rule raster = std::make_shared<RasterRule>(
+      limit_gradient(with_cones(*rule, sample(*rule, step_for(*rule)), gradient), gradient));
+  return std::make_shared<CombinedRule>(std::vector<Rule>{rule, raster}, least_of);
 }
 
 double step_for(const WidthRule& rule) {

@@ -14,6 +14,8 @@
 
 namespace calotte::density_detail {
 
+class WidthField;
+
 /// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
 
@@ -37,6 +39,9 @@ public:
   /// A bound from below of all widths, km, > 0.
   virtual double least() const = 0;
 
+  /// The raster whose values the rule gives; null for other rules.
+  virtual const WidthField* raster() const { return nullptr; }
+
   /// The rule with a limited gradient if no raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient) const;
 
@@ -56,7 +61,8 @@ std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines
                                                const WidthProfile& profile,
                                                const Surface& surface = {});
 
-/// Any rule with a limited gradient.
+/// Any rule with a limited gradient: nowhere above the rule. \throws Error invalid_argument for a
+/// rule of a plane that needs a raster.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient);
 

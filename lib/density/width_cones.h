@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "density/room.h"
+
+#include <calotte/cell_width.h>
+
+namespace calotte::density_detail {
+
+class WidthRule;
+
+/// Lowers the widths at the nodes of a raster to the cones of what lies between them, so that a
+/// limit of the gradient misses no minimum: a place y of width h lowers a node x within a step to
+/// h + g d(x, y). The places are the nodes of the rule's own raster, or a finer one for other
+/// rules.
+/// \param raster regular_grid() with the widths of the rule at its nodes.
+CellWidth with_cones(const WidthRule& rule, CellWidth raster, double gradient);
+
+} // namespace calotte::density_detail

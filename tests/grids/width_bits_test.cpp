@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/directions.h"
+#include "support/gshhg.h"
+#include "support/random.h"
+
+#include <calotte/generators.h>
+#include <calotte/ocean.h>
+#include <calotte/widths.h>
+
+#include <doctest/doctest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Each width depends on its place alone, and on no thread.
+
+using namespace calotte;
+using calotte::test::directions;
+using calotte::test::Random;
+
+namespace {
+
+/// With land in the north, deep basins and a ridge, as rough as real ones.
+HeightRaster heights() {
+  HeightRaster sea{DoubleVector::LinSpaced(180, -180, 178), DoubleVector::LinSpaced(91, -90, 90),
+                   DoubleMatrix(180, 91)};
+  Random random(11);
+  for (Eigen::Index j = 0; j < 91; ++j)
+    for (Eigen::Index i = 0; i < 180; ++i)
+      sea.heights(i, j) = -5000 + 3500 * std::exp(-std::pow((sea.longitudes[i] + 30) / 20, 2)) +
+                          random.real(0, 500) + (sea.latitudes[j] > 70 ? 6000 : 0);
+  return sea;
+}
+
+CellWidth rough() {
+  CellWidth raster{DoubleVector::LinSpaced(60, -180, 174), DoubleVector::LinSpaced(31, -90, 90),
+                   DoubleMatrix(60, 31)};
+  Random random(12);
+  for (double& width : raster.widths.reshaped())
+    width = random.real(110, 900);
+  raster.widths.col(0).setConstant(100);
+  raster.widths.col(30).setConstant(300);
+  return raster;
+}
+
+std::vector<Points3> walks() {
+  Random random(13);
+  std::vector<Points3> all;
+  for (int line = 0; line < 20; ++line) {
+    std::vector<std::array<double, 2>> walk{{random.real(-180, 180), random.real(-70, 70)}};
+    for (int k = 0; k < 40; ++k)
+      walk.push_back({walk.back()[0] + random.real(-2, 2), walk.back()[1] + random.real(-1, 1)});
+    all.push_back(directions(walk));
+  }
+  return all;
+}
+
+/// Rules of all kinds, by name.
+std::vector<std::pair<std::string, Widths>> rules() {
+  const Coast coast = test::gshhg('c');
+  const Surface region = circle({0.2, 0.3, 0.9}, 0.4);
+  const Widths lines = Widths::by_distance(walks(), {{{0, 120}, {500, 150}, {2000, 800}}}),
+               zones = Widths::by_latitude({{{-90, 180}, {0, 600}, {90, 120}}}),
+               depths = Widths::by_depth(heights(), {.cells = 50, .period = 44712, .least = 120}),
+               channels = Widths::by_channel(coast, {.cells = 2, .least = 120});
+  return {{"number", 200.0},
+          {"raster", rough()},
+          {"lines", lines},
+          {"zones", zones},
+          {"around", Widths::around(walks(), 120, 300)},
+          {"coast", Widths::by_coast(coast, {{{-500, 500}, {0, 120}, {1000, 400}}})},
+          {"depths", depths},
+          {"channels", channels},
+          {"minimum", Widths::minimum({400.0, depths, lines})},
+          {"maximum", Widths::maximum({zones, lines})},
+          {"times", Widths::product(channels, 1.7)},
+          {"sum", Widths::sum({zones, lines})},
+          {"where", Widths::where(region, 115.0, zones)},
+          {"blend", Widths::blend(zones, lines, Share(region, {{{-300, 1}, {300, 0}}}))}};
+}
+
+DoubleVector in_arena(int threads, const Widths& widths, const Points3& places) {
+  return tbb::task_arena(threads).execute([&] { return evaluate(widths, places); });
+}
+
+} // namespace
+
+TEST_CASE("each width depends on its place alone, whatever is asked before it") {
+  const Points3 places = random_sphere(3000, 4);
+  std::vector<Eigen::Index> order(3000);
+  std::iota(order.begin(), order.end(), 0);
+  Random random(5);
+  random.shuffle(order);
+  const Points3 mixed = places(Eigen::all, order);
+  for (const auto& [name, rule] : rules()) {
+    CAPTURE(name);
+    const DoubleVector together = evaluate(rule, places), otherwise = evaluate(rule, mixed);
+    int differ = 0;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      differ += together[order[k]] != otherwise[static_cast<Eigen::Index>(k)];
+    for (Eigen::Index k = 0; k < 300; ++k)
+      differ += evaluate(rule, Points3(places.col(k)))[0] != together[k];
+    CHECK(differ == 0);
+  }
+}
+
+// Slow: each rule is limited many times.
+TEST_CASE("a rule and its limit have the same bits in each run, for any number of threads [slow]") {
+  const Points3 places = random_sphere(3000, 4);
+  for (const auto& [name, rule] : rules()) {
+    CAPTURE(name);
+    for (const double gradient : {0.0, 0.03}) {
+      const auto widths = [&] { return gradient > 0 ? rule.limit_gradient(gradient) : rule; };
+      const DoubleVector first = in_arena(1, widths(), places);
+      int differ = 0;
+      for (const int threads : {1, 2, 7})
+        for (int run = 0; run < 2; ++run)
+          differ +=
+              tbb::task_arena(threads).execute([&] { return evaluate(widths(), places) != first; })
+                  ? 1
+                  : 0;
+      CHECK(differ == 0);
+    }
+  }
+}
+
+TEST_CASE("a limited rule is nowhere above the rule, and hardly anywhere steeper") {
+  const Points3 places = random_sphere(20000, 6);
+  for (const auto& [name, rule] : rules()) {
+    CAPTURE(name);
+    const DoubleVector given = evaluate(rule, places);
+    for (const double gradient : {0.03}) {
+      const DoubleVector limited = evaluate(rule.limit_gradient(gradient), places);
+      CHECK((limited - given).maxCoeff() <= 0);
+      // From each place to the next ones: by no more than the gradient, but for a raster's step.
+      double worst = 0;
+      for (Eigen::Index i = 0; i < 300; ++i)
+        for (Eigen::Index k = 0; k < places.cols(); ++k) {
+          const double way = earth_radius_km * test::angle(places.col(i), places.col(k));
+          worst = std::max(worst, std::abs(limited[i] - limited[k]) - gradient * way);
+        }
+      CHECK(worst < gradient * 120);
+    }
+  }
+}
