@@ -32,6 +32,7 @@ using base_detail::require;
 struct CavityEdge {
   std::int32_t triangle;
   int across;
+  Vec3 centre = {}; ///< of the circle through the edge and the position
 };
 
 /// b - a, as if both were on the unit sphere to the last bit. \pre they are in one hemisphere.
@@ -53,6 +54,8 @@ public:
     std::vector<CavityEdge> sides; // counter-clockwise
     for (int v = 0; v < 3; ++v)
       add_sides(p, {t, v}, sides);
+    for (CavityEdge& side : sides)
+      side.centre = centre_with(p, side);
     out.clear();
     double sum = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -106,8 +109,8 @@ private:
   /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
   /// vertices on either side, and the old ones between them, which p removes.
   double area_between(const Position& p, const CavityEdge& before, const CavityEdge& after) const {
-    const Vec3 first = centre_with(p, before);
-    Vec3 last = centre_with(p, after);
+    const Vec3& first = before.centre;
+    Vec3 last = after.centre;
     double sum = 0;
     const auto add = [&](const Vec3& corner) {
       sum += frame_.area(first, last, corner);

@@ -86,7 +86,8 @@ void add_meshes(py::module_& module) {
                        ? all
                        : py::array(all[py::make_tuple(py::ellipsis(), py::slice(0, 2, 1))]);
           },
-          "(n, 3) sites: directions, of a CVT or a file unit vectors; in a plane (n, 2) in any "
+          "(n, 3) sites: directions, of a CVT unit vectors, of a file as long as the file has "
+          "them; in a plane (n, 2) in any "
           "unit of length.")
       .def_property_readonly(
           "surface", [](const Mesh& mesh) { return mesh.surface; },
