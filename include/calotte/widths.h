@@ -226,12 +226,17 @@ Ids active_rules(const Widths& minimum, const PointsRef& places);
 /// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
 CellWidth sampled(const Widths& widths, double step = 0);
 
+/// The same for a grid on a surface of the sphere, of which the rules must give widths everywhere.
+/// Nodes outside it without a demand have the largest width of the others.
+/// \throws Error invalid_argument as sampled(), and naming a node inside where no rule gives a width.
+CellWidth sampled_on(const Widths& widths, const Surface& surface, double step = 0);
+
 /// The same of a plane, over the box around its boundary or over its periods.
 /// \param plane of finite area.
 /// \param step largest distance of rows and of columns, > 0, for at most 20 million nodes. Default
 ///        0: half of the least width, or what gives 4 million nodes.
-/// \throws Error invalid_argument for the sphere, a plane that has no end, a step out of range, and
-///         widths of the sphere.
+/// \throws Error invalid_argument for the sphere, a plane that has no end, a step out of range,
+///         widths of the sphere, and naming a node inside where no rule gives a width.
 PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step = 0);
 
 } // namespace calotte

@@ -308,6 +308,23 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
   });
 }
 
+/// Gives nodes outside a surface without a demand the largest width of the others.
+/// \param is_inside(i, j) whether a node is in it. \param position(i, j) in words.
+/// \throws Error invalid_argument for one in it without a demand.
+template <class IsInside, class Position>
+void require_demand(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
+  const auto is_silent = [](double width) { return width >= 0.5 * Widths::no_demand; };
+  double widest = 0;
+  for (Eigen::Index j = 0; j < widths.cols(); ++j)
+    for (Eigen::Index i = 0; i < widths.rows(); ++i)
+      if (!is_silent(widths(i, j)))
+        widest = std::max(widest, widths(i, j));
+      else
+        require(!is_inside(i, j), "no rule gives a width at " + position(i, j) +
+                                      "; add one that holds everywhere, such as a number");
+  widths = widths.unaryExpr([&](double width) { return is_silent(width) ? widest : width; });
+}
+
 constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
 constexpr double farthest_in_plane = 1e30;
 
@@ -406,6 +423,20 @@ CellWidth sampled(const Widths& widths, double step) {
   return sample(*widths.rule(), step == 0 ? step_for(*widths.rule()) : step);
 }
 
+CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) {
+  CellWidth raster = sampled(widths, step);
+  const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
+    const Vec3 at = base_detail::from_lonlat(raster.longitudes[column], raster.latitudes[row]);
+    return !surface.is_bounded() || surface.contains({at.x, at.y, at.z});
+  };
+  const auto position = [&](Eigen::Index column, Eigen::Index row) {
+    return "longitude " + shortly(raster.longitudes[column]) + ", latitude " +
+           shortly(raster.latitudes[row]);
+  };
+  require_demand(raster.widths, is_inside, position);
+  return raster;
+}
+
 PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
   domain_detail::require_plane(plane, "a raster of x and y is");
   domain_detail::require_finite_plane(plane);
@@ -426,6 +457,13 @@ PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step)
       row.push_back({x, raster.y[j], 0});
     rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
   });
+  const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
+    return !plane.is_bounded() || plane.contains({raster.x[column], raster.y[row], 0});
+  };
+  const auto position = [&](Eigen::Index column, Eigen::Index row) {
+    return "x " + shortly(raster.x[column]) + ", y " + shortly(raster.y[row]);
+  };
+  require_demand(raster.widths, is_inside, position);
   return raster;
 }
 

@@ -272,11 +272,11 @@ void BoxOverlaps::trace(const PathPoint& from, const PathPoint& to) {
     return trace_monotone(from, to);
   const MapPoint point = map_point_of((1 / length) * top);
   if (point.at_pole()) {
-    const PathPoint up{{from.point.east_x, from.point.east_y, 0, point.height}, from.longitude},
-        down{{to.point.east_x, to.point.east_y, 0, point.height}, to.longitude};
-    trace_monotone(from, up);
-    trace_pole(up, down);
-    return trace_monotone(down, to);
+    const PathPoint before{{from.point.east_x, from.point.east_y, 0, point.height}, from.longitude},
+        after{{to.point.east_x, to.point.east_y, 0, point.height}, to.longitude};
+    trace_monotone(from, before);
+    trace_pole(before, after);
+    return trace_monotone(after, to);
   }
   const double longitude = from.longitude + turn_between(from.point, point) * degrees_per_radian;
   const double west = std::min(from.longitude, to.longitude),

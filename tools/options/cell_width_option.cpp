@@ -75,49 +75,20 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
 
 bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
-/// Gives nodes outside a surface, of which rules may say nothing, the largest width in it.
-/// \param contains(i, j) whether a node is in it. \param where(i, j) its place in words.
-/// \throws Error invalid_argument for one in it of which the rules say nothing.
-template <class Contains, class Where>
-void settle(DoubleMatrix& widths, const std::string& path, const Contains& contains,
-            const Where& where) {
-  const auto is_silent = [](double width) { return width >= 0.5 * Widths::no_demand; };
-  double widest = 0;
-  for (Eigen::Index j = 0; j < widths.cols(); ++j)
-    for (Eigen::Index i = 0; i < widths.rows(); ++i)
-      if (!is_silent(widths(i, j)))
-        widest = std::max(widest, widths(i, j));
-      else if (contains(i, j))
-        refuse(path + ": no rule gives a width at " + where(i, j) +
-               "; add one that holds everywhere, such as { width = 60 }");
-  widths = widths.unaryExpr([&](double width) { return is_silent(width) ? widest : width; });
-}
-
-/// \throws Error invalid_argument for rules that say nothing of a place.
-CellWidth sampled_rules(const WidthRules& rules, const std::string& path, const Surface& region) {
-  CellWidth widths = sampled(rules.widths, rules.step);
-  const auto contains = [&](Eigen::Index column, Eigen::Index row) {
-    return !region.is_bounded() || region.contains(from_lonlat(Points2{{widths.longitudes[column]},
-                                                                       {widths.latitudes[row]}}));
-  };
-  const auto where = [&](Eigen::Index column, Eigen::Index row) {
-    return lonlat_words(widths.longitudes[column], widths.latitudes[row]);
-  };
-  settle(widths.widths, path, contains, where);
-  return widths;
+/// \throws Error invalid_argument for rules that say nothing of a place, naming the file.
+template <class Sample> auto of_file(const std::string& path, const Sample& sample) {
+  try {
+    return sample();
+  } catch (const Error& error) {
+    throw Error(error.code(), path + ": " + error.what(), error.index());
+  }
 }
 
 /// The same of a plane, with the limit of their gradient in it.
 PlanarCellWidth sampled_rules_of_plane(const std::string& path, const Surface& plane) {
   const WidthRules rules = read_width_rules(path, plane);
-  PlanarCellWidth widths = sampled(rules.widths, plane, rules.step);
-  const auto contains = [&](Eigen::Index i, Eigen::Index j) {
-    return !plane.is_bounded() || plane.contains({widths.x[i], widths.y[j], 0});
-  };
-  const auto where = [&](Eigen::Index i, Eigen::Index j) {
-    return "x " + shortest(widths.x[i]) + ", y " + shortest(widths.y[j]);
-  };
-  settle(widths.widths, path, contains, where);
+  const PlanarCellWidth widths =
+      of_file(path, [&] { return sampled(rules.widths, plane, rules.step); });
   return rules.gradient ? limit_gradient(widths, *rules.gradient, plane) : widths;
 }
 
@@ -135,7 +106,8 @@ ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
     return {uniform_widths(*words.uniform), {}};
   if (is_toml(words.file)) {
     WidthRules rules = read_width_rules(words.file);
-    CellWidth raster = sampled_rules(rules, words.file, region);
+    CellWidth raster =
+        of_file(words.file, [&] { return sampled_on(rules.widths, region, rules.step); });
     return {std::move(raster), std::move(rules)};
   }
   return {read_cell_width(words.file,

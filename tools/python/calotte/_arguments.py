@@ -204,7 +204,7 @@ def _widths(widths, earth_radius, surface):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, _calotte.Widths):
-        return widths.sampled()
+        return widths.sampled_on(surface)
     if isinstance(widths, str) and (parts := measure(widths)):
         return _widths(kilometres(*parts, "the cell width"), earth_radius, surface)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):

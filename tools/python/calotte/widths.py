@@ -163,17 +163,25 @@ def blend(a, b, t):
 
 
 def _at(self, longitudes, latitudes):
-    """The widths in km at longitudes and latitudes in degrees, of a plane at x and y; broadcast."""
+    """The widths in km at longitudes and latitudes in degrees, of a plane at x and y; broadcast.
+
+    NaN where no rule gives one.
+    """
     lon, lat = np.broadcast_arrays(np.asarray(longitudes, float), np.asarray(latitudes, float))
     places = np.stack([lon.ravel(), lat.ravel()], axis=1)
-    return self.at(places if self.of_plane else _calotte.from_lonlat(places)).reshape(lon.shape)[()]
+    widths = self.at(places if self.of_plane else _calotte.from_lonlat(places))
+    return _demanded(widths).reshape(lon.shape)[()]
+
+
+def _demanded(widths):
+    return np.where(widths < 0.5e9, widths, np.nan)  # Widths::no_demand
 
 
 def _to_xarray(self, step=0):
-    """An xarray.DataArray over lat and lon, as sampled() makes it."""
+    """An xarray.DataArray over lat and lon, as sampled() makes it; NaN where no rule gives a width."""
     import xarray
     raster = self.sampled(step)
-    return xarray.DataArray(np.array(raster.widths), dims=("lat", "lon"), name="cellWidth",
+    return xarray.DataArray(_demanded(np.array(raster.widths)), dims=("lat", "lon"), name="cellWidth",
                             coords={"lat": np.array(raster.latitudes), "lon": np.array(raster.longitudes)},
                             attrs={"units": "km"})
 

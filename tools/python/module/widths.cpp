@@ -113,6 +113,13 @@ void add_widths(py::module_& module) {
           py::arg("step") = 0,
           "A CellWidth with nodes so many degrees apart; 0: by its least width.")
       .def(
+          "sampled_on",
+          [](const Widths& widths, const Surface& surface, double step) {
+            return call([&] { return sampled_on(widths, surface, step); });
+          },
+          py::arg("surface"), py::arg("step") = 0,
+          "The same for a grid on a surface, where the rules must give a width everywhere.")
+      .def(
           "sampled_in",
           [](const Widths& widths, const Surface& plane, double step) {
             return call([&] { return sampled(widths, plane, step); });
