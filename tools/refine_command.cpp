@@ -145,13 +145,11 @@ WriteOptions write_options(const RefineRequest& request, const MeshFile& file) {
 
 /// The sums over all patches.
 struct Totals {
-  std::int64_t removed = 0, added = 0, beyond = 0;
+  std::int64_t beyond = 0;
   bool converged = true, well_centred = true;
 
   explicit Totals(const std::vector<ChangedPatch>& patches) {
     for (const ChangedPatch& patch : patches) {
-      removed += patch.removed;
-      added += patch.added;
       beyond += patch.report.cells_beyond_limits;
       converged = converged && patch.report.converged;
       well_centred = well_centred && patch.report.well_centred;
@@ -164,6 +162,7 @@ std::string to_json(const ChangedMesh& changed, double read, double change, doub
   json["cells"] = changed.mesh.points.cols();
   json["kept"] = (changed.new_of_old.array() >= 0).count();
   json["held"] = changed.held;
+  json["missed"] = changed.missed;
   json["patches"] = nlohmann::ordered_json::array();
   for (const ChangedPatch& patch : changed.patches)
     json["patches"].push_back({{"removed", patch.removed},
@@ -190,13 +189,13 @@ std::string describe_change(const RefineRequest& request, const std::vector<std:
   list("fields that do not follow the cells", file.left_out);
   list("variables that were not read", ignored);
   list("the format does not hold", written.dropped);
-  const Totals totals(changed.patches);
-  const std::int64_t cells = changed.new_of_old.size();
+  const std::int64_t cells = changed.new_of_old.size(),
+                     kept = (changed.new_of_old.array() >= 0).count(),
+                     added = (changed.old_of_new.array() < 0).count();
   return lines + request.output + ": " + std::to_string(changed.mesh.points.cols()) + " cells, " +
-         std::to_string(cells - totals.removed) + " of " + std::to_string(cells) + " kept (" +
-         formatted("%.2f", 100.0 * static_cast<double>(cells - totals.removed) /
-                               static_cast<double>(cells)) +
-         "%), " + std::to_string(totals.added) + " new in " +
+         std::to_string(kept) + " of " + std::to_string(cells) + " kept (" +
+         formatted("%.2f", 100.0 * static_cast<double>(kept) / static_cast<double>(cells)) +
+         "%), " + std::to_string(added) + " new in " +
          std::to_string(changed.patches.size()) +
          (changed.patches.size() == 1 ? " patch\n" : " patches\n");
 }
@@ -208,13 +207,17 @@ void judge(const RefineRequest& request, const ChangedMesh& changed) {
     std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.held) +
                      " cells stay " + request.verb->left +
                      " than demanded, because they are at the boundary or next to it\n";
+  if (changed.missed > 0)
+    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.missed) +
+                     " cells are wider than demanded by more than 0.3; refine the result again, or "
+                     "give a larger --gradient\n";
   if (!totals.converged)
     std::cerr << "calotte: " + request.output + ": not converged\n";
   if (!totals.well_centred)
     std::cerr << "calotte: " + request.output +
                      ": not well-centred: " + std::to_string(totals.beyond) +
                      " cells are beyond the limits of shapes\n";
-  if (changed.held > 0 || !totals.converged)
+  if (changed.held > 0 || changed.missed > 0 || !totals.converged)
     finish(not_converged);
   if (!totals.well_centred)
     finish(not_well_centred);
@@ -281,7 +284,7 @@ void add(CLI::App& app, const Verb& verb) {
   region->needs(factor);
   add_gradient(*command, request->gradient,
                "Largest change of the widths in the transition beside the part, in km per km, "
-               "0.001 to 1; default: 0.1");
+               "0.001 to 1; default: 0.05");
   command
       ->add_option("--tolerance", request->tolerance,
                    "Share of its width within which a cell meets the demand, 0.01 to 0.5")

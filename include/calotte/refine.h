@@ -36,8 +36,9 @@ struct RefineOptions {
   /// they are beyond the transition. 0.01 to 0.5.
   double tolerance = 0.1;
   /// Greatest change of the width by distance in the transition around finer cells, and around
-  /// those that stay beside coarser ones; 0.001 to 1.
-  double gradient = 0.1;
+  /// those that stay beside coarser ones; 0.001 to 1. Models take up to 0.12 of a cell's width from
+  /// one cell to the next.
+  double gradient = 0.05;
   Partition partition = {};       ///< affects time and memory, not the result
   ProgressCallback progress = {}; ///< stage: descend
 };
@@ -59,14 +60,21 @@ struct ChangedMesh {
   /// By site of the new mesh: the width that its cell is to have over that of the old mesh there; 1
   /// for those that stayed.
   DoubleVector width_ratio = {};
-  std::vector<ChangedPatch> patches = {}; ///< which do not touch; none if the demand is met
+  /// By step; those of a step do not touch. None if the demand is met.
+  std::vector<ChangedPatch> patches = {};
   /// Sites of the old mesh where the demand is not met because sites at the mesh's boundary, and
   /// those next to them, stay: these, and finer ones beside them, whose widths change at the
   /// gradient.
   std::int64_t held = 0;
+  /// Sites of the new mesh that are wider than a finer demand on their cells by more than 0.3, apart
+  /// from those that `held` counts.
+  std::int64_t missed = 0;
 };
 
-/// Makes cells finer where they are wider than demanded. The cells around grow from there at the
+/// Makes cells finer where they are wider than demanded. A demand counts anywhere in a cell, not at
+/// its site alone: it is looked for at places as dense as its least width, up to sixteen times as
+/// dense as the sites, and along a region's boundary. Where it lies between the sites there are up
+/// to four steps, each with patches of its own. The cells around grow from there at the
 /// gradient up to their own widths; with three rows of cells more, up to seven where shapes need
 /// them, these form the patches that change. Each patch is a centroidal Voronoi tessellation of its
 /// own, by the rules of make_grid() for fixed generators, in which two rows of sites around it

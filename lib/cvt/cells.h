@@ -92,6 +92,10 @@ public:
       return {centroid, -2 * tangent, std::copysign(norm(cell.first), along)};
     } else {
       const double mass = cell.first.z;
+      // A jump of the density may leave the signed kites of an obtuse triangle more than the others
+      // have: the generator waits until its neighbours have moved.
+      if (mass < 0)
+        return {x, {0, 0, 0}, -mass};
       return {centroid, {-2 * cell.first.x, -2 * cell.first.y, 0}, mass > 0 ? mass : std::nan("")};
     }
   }

@@ -5,6 +5,8 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "density/width_rules.h"
+#include "domain/arcs.h"
 #include "exact/space.h"
 #include "grids/patch_run.h"
 #include "mesh/adjacency.h"
@@ -13,12 +15,18 @@
 #include "mesh/faces.h"
 #include "mesh/renumber.h"
 
+#include <calotte/delaunay.h>
 #include <calotte/error.h>
+#include <calotte/locate.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace calotte {
 namespace grids_detail {
@@ -33,7 +41,8 @@ void require_range(double value, double least, double most, const std::string& n
                                                shortly(least) + " to " + shortly(most));
 }
 
-void require_demand(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options) {
+void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
+                    const RefineOptions& options) {
   require(demand.widths.has_value() != demand.region.has_value(),
           demand.widths ? "the demand has widths and a region; give one of them"
                         : "the demand has neither widths nor a region; give one of them");
@@ -49,6 +58,11 @@ void require_demand(const Mesh& mesh, const WidthDemand& demand, const RefineOpt
   require(demand.radius_km > 0 && std::isfinite(demand.radius_km),
           "the radius is " + shortly(demand.radius_km) + "; give a positive number of km");
   require_range(options.tolerance, 0.01, 0.5, "tolerance");
+  const double met = way == Way::finer ? 1 / (1 - options.tolerance) : 1 + options.tolerance;
+  require(!demand.region || demand.factor > met,
+          "the factor " + shortly(demand.factor) + " is met by all cells within the tolerance " +
+              shortly(options.tolerance) + "; give a factor above " + shortly(met) +
+              ", or a smaller tolerance");
   require_range(options.gradient, 0.001, 1, "gradient");
   require(mesh.triangles.cols() > 0 && mesh.neighbours.cols() == mesh.triangles.cols(),
           "the mesh lacks triangles or neighbours; give one of delaunay() or read_mesh()");
@@ -57,39 +71,151 @@ void require_demand(const Mesh& mesh, const WidthDemand& demand, const RefineOpt
 /// A demand as widths at places, in the unit of the mesh.
 class Demand {
 public:
-  Demand(const WidthDemand& demand, Way way, const Surface& surface)
-      : demand_(demand), way_(way), unit_(surface.is_sphere() ? 1 / demand.radius_km : 1),
+  /// \param own widths of the mesh, of which those of a region are a part.
+  Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own)
+      : demand_(demand), way_(way), mesh_(mesh), own_(own),
+        unit_(mesh.surface.is_sphere() ? 1 / demand.radius_km : 1),
         factor_(way == Way::finer ? 1 / demand.factor : demand.factor),
         fine_(demand.widths && way == Way::finer ? std::optional(FineWidths{*demand.widths, unit_})
                                                  : std::nullopt) {}
 
-  /// At sites with their own widths.
-  DoubleVector at_sites(const Points3& points, const DoubleVector& own) const {
-    if (demand_.widths) {
-      DoubleVector widths = unit_ * evaluate(*demand_.widths, points);
-      const double silent = 0.5 * unit_ * Widths::no_demand;
-      return way_ == Way::coarser ? DoubleVector((widths.array() < silent).select(widths, 0))
-                                  : widths;
-    }
-    DoubleVector widths(own.size());
-    base_detail::for_each_block(
-        own.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-          for (std::int64_t i = begin; i != end; ++i)
-            widths[i] = own[i] * (demand_.region->contains(points.col(i)) ? factor_ : 1);
-        });
-    return widths;
+  /// Infinite where nothing finer is demanded, 0 where nothing coarser is.
+  DoubleVector at(const Points3& points) const {
+    const double nothing = way_ == Way::finer ? std::numeric_limits<double>::infinity() : 0;
+    if (demand_.region)
+      return of_region(points, nothing);
+    const DoubleVector widths = unit_ * evaluate(*demand_.widths, points);
+    const double silent = 0.5 * unit_ * Widths::no_demand;
+    return (widths.array() < silent).select(widths, nothing);
   }
+
+  /// A bound from below of all finer widths; 0 where it is not known.
+  double least() const { return demand_.widths ? unit_ * demand_.widths->rule()->least() : 0; }
+  const std::optional<Surface>& region() const { return demand_.region; }
 
   /// Of finer cells, widths anywhere; null where they are known at sites only.
   const FineWidths* fine() const { return fine_ ? &*fine_ : nullptr; }
 
 private:
+  DoubleVector of_region(const Points3& points, double nothing) const {
+    std::vector<Eigen::Index> inside;
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      if (demand_.region->contains(points.col(i)))
+        inside.push_back(i);
+    DoubleVector widths = DoubleVector::Constant(points.cols(), nothing);
+    if (inside.empty())
+      return widths;
+    const Ids nearest = locate(mesh_, Points3(points(Eigen::all, inside))).nearest;
+    for (std::size_t k = 0; k < inside.size(); ++k)
+      widths[inside[k]] = factor_ * own_[nearest[static_cast<Eigen::Index>(k)]];
+    return widths;
+  }
+
   const WidthDemand& demand_;
   Way way_;
+  const Mesh& mesh_; ///< as it was given
+  const DoubleVector& own_;
   double unit_; ///< of a width, in that of the mesh
   double factor_;
   std::optional<FineWidths> fine_;
 };
+
+// ---- Demands between sites
+
+/// On the sphere a unit vector: files may give other norms.
+template <Space S> Vec3 place_of(const S&, const Vec3& x) {
+  if constexpr (S::on_sphere)
+    return domain_detail::as_unit(x);
+  else
+    return x;
+}
+
+/// Places of triangles, and the sites that they are for.
+struct Samples {
+  std::vector<Vec3> places;
+  std::vector<std::array<std::int32_t, 3>> sites; ///< around each
+
+  Points3 points() const {
+    Points3 out(3, std::ssize(places));
+    for (std::size_t k = 0; k < places.size(); ++k)
+      set_column(out, static_cast<std::int64_t>(k), places[k]);
+    return out;
+  }
+};
+
+/// A lattice in each triangle, as dense as the least demand, up to sixteen times as dense as the
+/// sites, and some millions in all.
+template <Space S>
+Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, double least) {
+  constexpr int densest = 16;
+  constexpr double most = 4e6;
+  const double bound = std::sqrt(2 * most / static_cast<double>(mesh.triangles.cols()));
+  Samples samples;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const std::array<std::int32_t, 3> id{mesh.triangles(0, t), mesh.triangles(1, t),
+                                         mesh.triangles(2, t)};
+    const double widest = std::max({own[id[0]], own[id[1]], own[id[2]]});
+    const int parts = static_cast<int>(std::min(
+        {static_cast<double>(densest), bound, std::ceil(widest / std::max(least, 1e-300))}));
+    const Vec3 a = place_of(space, column(mesh.points, id[0]));
+    const Vec3 u = space.offset(a, place_of(space, column(mesh.points, id[1]))),
+               v = space.offset(a, place_of(space, column(mesh.points, id[2])));
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j) {
+        const bool is_corner = i + j == 0 || i == parts || j == parts;
+        if (parts < 2 || is_corner)
+          continue;
+        samples.places.push_back(space.wrapped(a + static_cast<double>(i) / parts * u +
+                                               static_cast<double>(j) / parts * v));
+        samples.sites.push_back(id);
+      }
+  }
+  return samples;
+}
+
+/// Along the boundary of a region, a quarter of the width of the cells there apart, each for the
+/// nearest site.
+Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface& region) {
+  constexpr std::int64_t most = 1 << 20;
+  Samples samples;
+  const auto add = [&](const Vec3& place) { samples.places.push_back(place); };
+  for (const DoubleMatrix& ring : region.rings()) {
+    Points3 corners = Points3::Zero(3, ring.cols());
+    corners.topRows(ring.rows()) = ring;
+    const Ids nearest = locate(mesh, corners).nearest;
+    for (Eigen::Index k = 0; k < corners.cols(); ++k) {
+      const Vec3 from = column(corners, k), way = column(corners, (k + 1) % corners.cols()) - from;
+      const double step = std::max(0.25 * own[nearest[k]], 1e-12);
+      const auto parts = std::clamp<std::int64_t>(std::llround(norm(way) / step), 1, most);
+      for (std::int64_t p = 0; p < parts && std::ssize(samples.places) < most; ++p)
+        add(from + static_cast<double>(p) / static_cast<double>(parts) * way);
+    }
+  }
+  const Ids nearest = locate(mesh, samples.points()).nearest;
+  for (const std::int32_t site : nearest)
+    samples.sites.push_back({site, site, site});
+  return samples;
+}
+
+/// By site the finest demand on its cell: at the site, or, wider by the gradient times the distance
+/// from it, at a place in the triangles around it.
+DoubleVector on_cells(const Demand& demand, const Mesh& mesh, const DoubleVector& own,
+                      double gradient) {
+  DoubleVector widths = demand.at(mesh.points);
+  in_space_of(mesh.surface, [&](const Space auto& space) {
+    const Samples samples = demand.region() ? along_boundary(mesh, own, *demand.region())
+                                            : lattice(mesh, space, own, demand.least());
+    const DoubleVector there = demand.at(samples.points());
+    for (std::size_t k = 0; k < samples.places.size(); ++k)
+      for (const std::int32_t site : samples.sites[k]) {
+        const Vec3 way = space.offset(place_of(space, column(mesh.points, site)),
+                                      place_of(space, samples.places[k]));
+        double& width = widths[site];
+        width = std::min(width, there[static_cast<Eigen::Index>(k)] + gradient * norm(way));
+      }
+  });
+  return widths;
+}
 
 /// The sites of the new mesh.
 struct NewSites {
@@ -222,19 +348,25 @@ bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_
   });
 }
 
-/// A patch of a Delaunay triangulation fits.
+/// The triangles of all sites, where a patch does not fit: around irregular cells the circles of
+/// triangles reach farther than the rows that stay, so that these get other triangles, too.
+/// \throws Error invalid_argument, for a mesh that is not Delaunay where it changes, and for an
+/// open
+///         one, whose boundary the sites do not tell.
 template <Space S>
-[[noreturn]] void refuse_misfit(const Mesh& mesh, const S& space,
-                                const std::vector<PatchRegion>& patches) {
-  std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(mesh.points.cols()), 0);
+void triangulate_anew(const Mesh& old, const S& space, const std::vector<PatchRegion>& patches,
+                      Mesh& mesh) {
+  std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(old.points.cols()), 0);
   for (const PatchRegion& patch : patches)
     for (const auto* sites : {&patch.fixed, &patch.free})
       for (const std::int32_t site : *sites)
         of_patch[static_cast<std::size_t>(site)] = 1;
-  require(is_delaunay(mesh, space, of_patch),
+  require(is_delaunay(old, space, of_patch),
           "the mesh is no Delaunay triangulation where it is to change; triangulate its sites");
-  throw Error(ErrorCode::internal,
-              "a patch does not fit into the mesh; please report this input as a bug");
+  require(old.closed(),
+          "the cells beside the part that is to change are too irregular for it, in a mesh with a "
+          "boundary; give another part, or a mesh that was made more regular");
+  mesh = delaunay(std::move(mesh.points), mesh.surface);
 }
 
 /// Puts the patches' replacements in their places.
@@ -264,7 +396,7 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   };
   if (open_edges(out.mesh.neighbours) != open_edges(mesh.neighbours) ||
       !is_delaunay(out.mesh, space, of_patch))
-    refuse_misfit(mesh, space, patches);
+    triangulate_anew(mesh, space, patches, out.mesh);
   out.width_ratio = DoubleVector::Ones(out.mesh.points.cols());
   for (std::size_t p = 0; p < replacements.size(); ++p)
     for (std::size_t k = 0; k < sites.added[p].size(); ++k)
@@ -275,24 +407,35 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   return out;
 }
 
-ChangedMesh changed(const Mesh& mesh, const WidthDemand& demand, Way way,
-                    const RefineOptions& options) {
-  require_demand(mesh, demand, options);
-  const RingStarts rings = mesh_detail::make_ring_starts(faces_of(mesh));
-  const Marks at_boundary = sites_at_boundary(mesh);
-  const DoubleVector own = own_widths(mesh, rings, at_boundary);
-  const Demand widths(demand, way, mesh.surface);
-  const WantedWidths wanted =
-      wanted_widths(mesh, rings, at_boundary, own, widths.at_sites(mesh.points, own), way,
-                    options.tolerance, options.gradient);
+/// What is known of a mesh.
+struct Given {
+  explicit Given(const Mesh& of)
+      : mesh(of), rings(mesh_detail::make_ring_starts(faces_of(mesh))),
+        at_boundary(sites_at_boundary(mesh)), own(own_widths(mesh, rings, at_boundary)) {}
+
+  const Mesh& mesh;
+  RingStarts rings;
+  Marks at_boundary;
+  DoubleVector own;
+};
+
+WantedWidths wanted_of(const Given& given, const DoubleVector& demanded, Way way,
+                       const RefineOptions& options) {
+  return wanted_widths(given.mesh, given.rings, given.at_boundary, given.own, demanded, way,
+                       options.tolerance, options.gradient);
+}
+
+ChangedMesh changed_once(const Given& given, const Demand& demand, const WantedWidths& wanted,
+                         const RefineOptions& options) {
+  const Mesh& mesh = given.mesh;
   // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
-    const std::vector<PatchRegion> patches = patches_of(mesh, own, wanted, rows);
+    const std::vector<PatchRegion> patches = patches_of(mesh, given.own, wanted, rows);
     std::vector<Replacement> replacements;
     for (const PatchRegion& patch : patches)
       replacements.push_back(
-          replacement_of(mesh, patch, own, wanted.width, widths.fine(), options));
+          replacement_of(mesh, patch, given.own, wanted.width, demand.fine(), options));
     if (rows < last_rows && !std::ranges::all_of(replacements, [](const Replacement& made) {
           return made.change.report.well_centred;
         }))
@@ -303,6 +446,111 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& demand, Way way,
     out.held = wanted.held;
     return out;
   }
+}
+
+/// The cells that are wider than wanted by more than the irregularity of cells explains.
+std::int64_t missed(const DoubleVector& own, const WantedWidths& wanted) {
+  constexpr double irregular = 1.3;
+  return (own.array() > irregular * wanted.width.array()).count();
+}
+
+/// Whether a triangle with a new site is obtuse.
+template <Space S> bool has_obtuse(const ChangedMesh& changed, const S& space) {
+  const Mesh& mesh = changed.mesh;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t at = mesh.triangles(i, t);
+      if (changed.old_of_new[at] >= 0)
+        continue;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 x = place_of(space, column(mesh.points, mesh.triangles(k, t)));
+        const auto way = [&](int corner) {
+          return space.offset(x, place_of(space, column(mesh.points, mesh.triangles(corner, t))));
+        };
+        if (dot(way((k + 1) % 3), way((k + 2) % 3)) < 0)
+          return true;
+      }
+      break;
+    }
+  return false;
+}
+
+/// One change after another as one change of the first mesh: the sites that stayed, then the new
+/// ones along the curve.
+ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
+  ChangedMesh out;
+  out.held = first.held;
+  const Eigen::Index count = second.old_of_new.size();
+  DoubleVector ratio = second.width_ratio;
+  Ids old_of_new(count);
+  const Ids nearest = locate(first.mesh, second.mesh.points).nearest;
+  std::vector<Eigen::Index> added;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::int32_t between = second.old_of_new[k];
+    old_of_new[k] = between < 0 ? -1 : first.old_of_new[between];
+    ratio[k] *= first.width_ratio[between < 0 ? nearest[k] : between];
+    if (old_of_new[k] < 0)
+      added.push_back(k);
+  }
+  Array<std::int32_t> order(count);
+  std::int32_t next = 0;
+  for (std::int32_t k = 0; k < count; ++k)
+    if (old_of_new[k] >= 0)
+      order[next++] = k;
+  const Array<std::int32_t> along =
+      mesh_detail::curve_order(Points3(second.mesh.points(Eigen::all, added)), second.mesh.surface);
+  for (std::int64_t k = 0; k < along.size(); ++k)
+    order[next++] = static_cast<std::int32_t>(added[static_cast<std::size_t>(along[k])]);
+  out.mesh = mesh_detail::in_order(second.mesh, order);
+  out.mesh.site_of_input = base_detail::themselves(count);
+  out.old_of_new.resize(count);
+  out.width_ratio.resize(count);
+  out.new_of_old = Ids::Constant(first.new_of_old.size(), -1);
+  for (std::int32_t k = 0; k < count; ++k) {
+    out.old_of_new[k] = old_of_new[order[k]];
+    out.width_ratio[k] = ratio[order[k]];
+    if (out.old_of_new[k] >= 0)
+      out.new_of_old[out.old_of_new[k]] = k;
+  }
+  // What the later run made better does not count against the whole.
+  const bool obtuse = in_space_of(out.mesh.surface,
+                                  [&](const Space auto& space) { return has_obtuse(out, space); });
+  for (ChangedPatch& patch : first.patches) {
+    patch.report.well_centred = patch.report.well_centred || !obtuse;
+    out.patches.push_back(std::move(patch));
+  }
+  for (ChangedPatch& patch : second.patches)
+    out.patches.push_back(std::move(patch));
+  return out;
+}
+
+/// Finer cells where the demand lies between sites are made in steps: those of a step are the sites
+/// that see the demand of the next.
+ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
+                    const RefineOptions& options) {
+  require_demand(mesh, wanted, way, options);
+  const Given given(mesh);
+  const Demand demand(wanted, way, mesh, given.own);
+  if (way == Way::coarser)
+    return changed_once(given, demand, wanted_of(given, demand.at(mesh.points), way, options),
+                        options);
+  const auto finer = [&](const Given& now) {
+    return wanted_of(now, on_cells(demand, now.mesh, now.own, options.gradient), way, options);
+  };
+  ChangedMesh out = changed_once(given, demand, finer(given), options);
+  constexpr int most_steps = 4;
+  for (int step = 1; !out.patches.empty(); ++step) {
+    const Given now(out.mesh);
+    const WantedWidths widths = finer(now);
+    out.missed = missed(now.own, widths);
+    if (out.missed == 0 || step == most_steps)
+      break;
+    ChangedMesh next = changed_once(now, demand, widths, options);
+    if (next.patches.empty())
+      break;
+    out = joined(std::move(out), std::move(next));
+  }
+  return out;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
+#include <calotte/locate.h>
 #include <calotte/quality.h>
 #include <calotte/refine.h>
 
@@ -54,9 +55,23 @@ void expect_changed(const Mesh& old, const ChangedMesh& changed) {
     removed += patch.removed;
     added += patch.added;
   }
-  CHECK(kept == n - removed);
-  CHECK(m - kept == added);
+  CHECK(kept >= n - removed); // those of a step may go in the next
+  CHECK(m - n == added - removed);
   CHECK(changed.mesh.site_of_input.size() == static_cast<std::size_t>(m));
+}
+
+/// The mean distance of the site nearest to a place from its neighbours.
+double spacing_near(const Mesh& mesh, const Eigen::Vector3d& place) {
+  const std::int32_t site = locate(mesh, Points3(place)).nearest[0];
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.triangles(i, t) == site) {
+        sum += (mesh.points.col(mesh.triangles((i + 1) % 3, t)) - mesh.points.col(site)).norm();
+        ++count;
+      }
+  return sum / count;
 }
 
 void expect_delaunay(const Mesh& mesh) {
@@ -163,7 +178,7 @@ TEST_CASE("a patch that is refined and coarsened again leaves the rest untouched
     else
       ++touched;
   }
-  CHECK(touched < 700);
+  CHECK(touched < 800);
 }
 
 TEST_CASE("a patch inside another one [slow]") {
@@ -243,6 +258,38 @@ TEST_CASE("widths along a line, finer than the cells of the mesh [slow]") {
   CHECK(shortest * earth_radius_km > 45);
 }
 
+TEST_CASE("a demand between the sites is met: circles smaller than a cell, and narrow lines") {
+  const Mesh& base = uniform_sphere(); // 240 km
+  const std::vector<double> radii = {20, 90, 150};
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    const Eigen::Index t = 1000 + 4000 * static_cast<Eigen::Index>(k);
+    const Eigen::Vector3d at =
+        (base.points.col(base.triangles(0, t)) + base.points.col(base.triangles(1, t)) +
+         base.points.col(base.triangles(2, t)))
+            .normalized();
+    CAPTURE(radii[k]);
+    const double radius = radii[k] / earth_radius_km;
+    const ChangedMesh finer = refine(base, in_circle(at, radius, 4));
+    expect_changed(base, finer);
+    expect_delaunay(finer.mesh);
+    CHECK(finer.missed == 0);
+    CHECK(spacing_near(finer.mesh, at) < 1.3 * 60 / earth_radius_km);
+  }
+  const Points3 ends = Points3{{0.5, -0.2}, {0.1, 0.8}, {0.3, 0.4}}.colwise().normalized();
+  for (const double width : {30.0, 100.0}) {
+    WidthDemand demand;
+    demand.widths = Widths::around({ends}, width, 1.5 * width);
+    const ChangedMesh finer = refine(base, demand);
+    expect_changed(base, finer);
+    CHECK(finer.missed == 0);
+    expect_good_shapes(finer);
+    for (const double part : {0.0, 0.21, 0.5, 0.83}) {
+      const Eigen::Vector3d at = ((1 - part) * ends.col(0) + part * ends.col(1)).normalized();
+      CHECK(spacing_near(finer.mesh, at) < 1.3 * width / earth_radius_km);
+    }
+  }
+}
+
 TEST_CASE("a demand that is met changes nothing") {
   const Mesh& base = uniform_sphere();
   WidthDemand demand;
@@ -283,7 +330,7 @@ TEST_CASE("sites at a boundary stay, and are counted where they do not meet the 
   expect_changed(base, finer);
   expect_delaunay(finer.mesh);
   CHECK(finer.held > 20);
-  CHECK(finer.held < 100);
+  CHECK(finer.held < 200);
   for (std::int32_t i = 0; i < 60; ++i) // the first row
     CHECK(finer.new_of_old[i] >= 0);
 }
@@ -410,6 +457,20 @@ TEST_CASE("a patch does not reach both sides of a site where the boundary meets 
   CHECK(std::string(error.what()).find("meets itself") != std::string::npos);
 }
 
+TEST_CASE("meshes of irregular cells change, too [slow]") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CAPTURE(seed);
+    const Mesh base = delaunay(random_sphere(seed % 2 == 0 ? 400 : 2000, seed));
+    const Eigen::Vector3d at = base.points.col(static_cast<Eigen::Index>(seed * 17));
+    for (const bool finer : {true, false}) {
+      const WidthDemand demand = in_circle(at, 0.3, 2);
+      const ChangedMesh made = finer ? refine(base, demand) : coarsen(base, demand);
+      expect_changed(base, made);
+      expect_delaunay(made.mesh);
+    }
+  }
+}
+
 TEST_CASE("demands that cannot be") {
   const Mesh& base = uniform_sphere();
   const auto refused = [&](const WidthDemand& demand, const std::string& what,
@@ -423,6 +484,7 @@ TEST_CASE("demands that cannot be") {
   refused(both, "widths and a region");
   refused(in_circle({0, 0, 1}, 0.1, 1), "factor is 1");
   refused(in_circle({0, 0, 1}, 0.1, 1000), "factor is 1000");
+  refused(in_circle({0, 0, 1}, 0.1, 1.05), "factor 1.05 is met by all cells");
   WidthDemand planar;
   planar.region = square(0, 0, 1);
   planar.factor = 2;

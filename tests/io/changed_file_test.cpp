@@ -45,7 +45,7 @@ ChangedMesh finer(const Mesh& mesh) {
   WidthDemand demand;
   demand.region = circle(centre_of_refinement, 0.2);
   demand.factor = 1.8;
-  return refine(mesh, demand);
+  return refine(mesh, demand, {.gradient = 0.1}); // so that it ends before the boundary
 }
 
 const MeshField& field(const MeshFile& file, const std::string& name) {

@@ -740,9 +740,11 @@ class ChangedMesh:
     old_of_new: (m,) by site of the new mesh its site in the old one; -1 for none.
     width_ratio: (m,) by site of the new mesh the width that its cell is to have over that of the old
         mesh there; 1 for those that stayed.
-    patches: the parts that changed, which do not touch; none if the demand is met. See ChangedPatch.
+    patches: the parts that changed, by step; those of a step do not touch. None if the demand is met.
+        See ChangedPatch.
     held: number of sites of the old mesh where the demand is not met because sites at the mesh's
         boundary, and those next to them, stay.
+    missed: number of sites of the new mesh that are wider than a finer demand by more than 0.3.
     nearest: names of the file's fields whose new cells have the value of the nearest old one.
     left_out: names of the file's fields at edges and vertices, which do not follow.
     converged: whether all patches are.
@@ -755,6 +757,7 @@ class ChangedMesh:
     width_ratio: Array
     patches: tuple[ChangedPatch, ...]
     held: int
+    missed: int
     nearest: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 
@@ -767,9 +770,10 @@ class ChangedMesh:
         return all(patch.well_centred for patch in self.patches)
 
     def __repr__(self) -> str:
-        added = sum(patch.added for patch in self.patches)
+        added = int((self.old_of_new < 0).sum())
         parts = f"{len(self.patches)} patch{'' if len(self.patches) == 1 else 'es'}"
         short = [f"{self.held} held"] if self.held else []
+        short += [f"{self.missed} missed"] if self.missed else []
         short += [] if self.converged else ["not converged"]
         short += [] if self.well_centred else ["not well-centred"]
         return (f"<calotte.ChangedMesh: {_display.counted(len(self.mesh), 'cell')}, "

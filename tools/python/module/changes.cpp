@@ -68,6 +68,7 @@ py::tuple run(Change* change, const py::object& mesh, const py::object& content,
   py::dict values;
   values["patches"] = patches_of(changed);
   values["held"] = changed.held;
+  values["missed"] = changed.missed;
   values["new_of_old"] = handed_over(std::move(changed.new_of_old));
   values["old_of_new"] = handed_over(std::move(changed.old_of_new));
   values["width_ratio"] = handed_over(std::move(changed.width_ratio));
