@@ -22,6 +22,9 @@ struct FieldGrid {
   MeshFile mesh = {};                    ///< where there are no boxes; without its fields
   std::vector<MeshField> fields = {};    ///< at cells
   std::vector<std::string> ignored = {}; ///< variables that are no such field
+  /// By cell whether it counts: the masks of SCRIP and ESMF. Fields are NaN where it does not.
+  /// Empty where all do.
+  Ids mask = {};
 
   /// The number of cells.
   std::int64_t size() const;
@@ -30,11 +33,10 @@ struct FieldGrid {
 /// Reads a mesh file of any format, see read_mesh_file(), or a raster: a NetCDF file with the
 /// coordinate variables lat(lat) and lon(lon), latitude and longitude, or others whose
 /// standard_name or units say so. Where these have bounds, the boxes are those; else see
-/// lon_lat_boxes(). Fields of a raster have both dimensions one after the other, latitude first,
-/// and any others before and after them. Values are NaN where they are _FillValue or
-/// missing_value.
-/// \param choice of the fields.
-/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
+/// lon_lat_boxes(). Fields of a raster have both dimensions, and any others, in any order. Values
+/// are what their attributes say: unpacked, unsigned, and NaN where they are missing or out of
+/// range. \param choice of the fields. \throws Error as read_mesh_file() and lon_lat_boxes(), with
+/// the file's name.
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
 
 /// The same of a file of fields without their mesh, such as a model's history, and of the file of

@@ -631,8 +631,6 @@ TEST_CASE("invalid NetCDF rasters give an error of one line that names the defec
         ": no variable cellWidth; give cellWidth(lat, lon)");
   CHECK(refused([&](Raster& r) { r.lat_name = std::string("y"); }) ==
         ": no coordinate variable lat; give lat(lat) in degrees");
-  CHECK(refused([&](Raster& r) { r.transposed = true; }) ==
-        ": cellWidth is not cellWidth(lat, lon); give it these dimensions, in this order");
   CHECK(refused([&](Raster& r) {
           r.lon = {0};
           r.values.resize(13);

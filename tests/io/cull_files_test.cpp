@@ -44,7 +44,6 @@ struct RasterFile {
   std::vector<double> latitudes, longitudes;
   std::vector<double> values; ///< latitudes x longitudes
   NetcdfAttributes attributes = {};
-  bool swapped = false; ///< variable(lon, lat)
 };
 
 void write_raster(const std::string& path, const RasterFile& raster) {
@@ -53,9 +52,8 @@ void write_raster(const std::string& path, const RasterFile& raster) {
             columns = file.dimension(raster.lon, std::ssize(raster.longitudes));
   const int lat = file.variable(raster.lat, NetcdfType::float64, {rows}),
             lon = file.variable(raster.lon, NetcdfType::float64, {columns});
-  const int z = file.variable(
-      raster.variable, NetcdfType::float64,
-      raster.swapped ? std::vector{columns, rows} : std::vector{rows, columns}, raster.attributes);
+  const int z =
+      file.variable(raster.variable, NetcdfType::float64, {rows, columns}, raster.attributes);
   file.begin();
   const auto put = [&](int variable, const std::vector<double>& values, std::int64_t width) {
     file.put(variable,
@@ -65,7 +63,7 @@ void write_raster(const std::string& path, const RasterFile& raster) {
   };
   put(lat, raster.latitudes, 1);
   put(lon, raster.longitudes, 1);
-  put(z, raster.values, std::ssize(raster.swapped ? raster.latitudes : raster.longitudes));
+  put(z, raster.values, std::ssize(raster.longitudes));
   file.commit();
 }
 
@@ -166,8 +164,6 @@ TEST_CASE("rasters of land that are refused, in one line each") {
         }) == "z[0][0] = nan is not finite; correct it");
   CHECK(refusal([](RasterFile&) {}, RasterValues::sea_fraction) ==
         "z[0][0] = -4000 is not a fraction from 0 to 1; correct it");
-  CHECK(refusal([](RasterFile& r) { r.swapped = true; }) ==
-        "z is not z(lat, lon); give it these dimensions, in this order");
   CHECK(refusal([](RasterFile& r) { r.lat = std::string("y"); }) ==
         "no coordinate variable lat; give lat(lat) in degrees");
   CHECK(refusal([](RasterFile& r) { r.lon = std::string("x"); }) ==

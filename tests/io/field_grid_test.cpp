@@ -43,7 +43,6 @@ struct FieldRaster {
   std::vector<double> latitudes{-60, -20, 20, 60}, longitudes{0, 60, 120, 180, 240, 300};
   std::vector<double> latitude_bounds = {};
   std::string latitude = "lat", longitude = "lon";
-  bool longitude_first = false;
 
   void write(const std::string& path) const {
     NetcdfWriter file(path);
@@ -72,10 +71,7 @@ struct FieldRaster {
       yb = file.variable(latitude + "_b", NetcdfType::float64, {lat, pair});
       xb = file.variable(longitude + "_b", NetcdfType::float64, {lon, pair});
     }
-    std::vector<int> dimensions{lat, lon};
-    if (longitude_first)
-      std::swap(dimensions[0], dimensions[1]);
-    const int f = file.variable("f", NetcdfType::float64, dimensions,
+    const int f = file.variable("f", NetcdfType::float64, {lat, lon},
                                 {{"units", std::string("m")}, {"missing_value", 203.0}});
     file.begin();
     file.put(x, copy(longitudes, 1));
@@ -88,8 +84,7 @@ struct FieldRaster {
     for (std::size_t j = 0; j < latitudes.size(); ++j)
       for (std::size_t i = 0; i < longitudes.size(); ++i)
         values.push_back(100.0 * static_cast<double>(j) + static_cast<double>(i));
-    file.put(f, copy(values, static_cast<std::int64_t>(longitude_first ? latitudes.size()
-                                                                       : longitudes.size())));
+    file.put(f, copy(values, std::ssize(longitudes)));
     file.finish();
     file.commit();
   }
@@ -136,11 +131,6 @@ TEST_CASE("what is wrong with a raster is said") {
   const Scratch scratch;
   const std::string path = in_folder(scratch, "raster.nc");
   FieldRaster file;
-  file.longitude_first = true;
-  file.write(path);
-  CHECK(read_field_grid(path).fields.empty());
-  CHECK(read_field_grid(path).ignored == std::vector<std::string>{"f"});
-  file = {};
   file.latitudes[2] = -30;
   file.write(path);
   CHECK(problem_with_grid(path) ==

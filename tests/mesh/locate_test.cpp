@@ -24,6 +24,7 @@
 
 using namespace calotte;
 using base_detail::column;
+using calotte::test::part_of;
 using exact_detail::Image;
 using exact_detail::Vec2;
 

@@ -103,3 +103,18 @@ def test_options():
     refuses("", calotte.polygon, [(0, 0), (10, 0), (0, 10), (10, 10)])
     refuses("no format", calotte.write, "x.nc", calotte.delaunay(calotte.random_points(9)),
             format="shp")
+
+
+def test_masked_values_are_missing():
+    mesh = calotte.cvt(642).mesh
+    north = mesh.points[:, 2] > 0
+    masked = np.ma.masked_where(north, np.where(north, 1e20, 1.0))
+    south = calotte.interpolate(mesh, masked, [(10.0, -60.0), (20.0, -50.0), (10.0, 60.0)])
+    assert south[:2] == pytest.approx([1, 1]) and np.isnan(south[2])
+    boxes = calotte.raster(36, 18)
+    field = np.ma.masked_greater(np.repeat([1.0, 1e20], 324), 1e19)
+    assert np.nanmax(calotte.interpolation_weights(boxes, mesh).apply(field)) == pytest.approx(1)
+    with pytest.raises(calotte.Error, match="weight"):
+        calotte.partition(mesh, 2, weights=np.ma.masked_where(north, np.ones(642)))
+    with pytest.raises(calotte.Error):
+        calotte.delaunay(np.ma.masked_where(np.arange(12).reshape(4, 3) == 5, np.ones((4, 3))))

@@ -243,9 +243,9 @@ inline Points3 weather_stations(const std::string& fixtures) {
     char comma;
     if (!(text >> longitude >> comma >> latitude))
       continue;
-    const double degree = std::numbers::pi / 180, r = std::cos(latitude * degree);
-    points.push_back({r * std::cos(longitude * degree), r * std::sin(longitude * degree),
-                      std::sin(latitude * degree)});
+    const double radians = std::numbers::pi / 180, r = std::cos(latitude * radians);
+    points.push_back({r * std::cos(longitude * radians), r * std::sin(longitude * radians),
+                      std::sin(latitude * radians)});
   }
   return columns(points);
 }

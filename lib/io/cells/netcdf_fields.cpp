@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/netcdf_fields.h"
+#include "io/netcdf/cf_values.h"
 
 #include <algorithm>
 #include <array>
@@ -97,22 +98,14 @@ void read_values(const NetcdfReader& file, MeshField& field) {
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
   field.values = by_place(field, values_with_fill(file, field.name));
-  const bool packed = file.number(field.name, "scale_factor", 1) != 1 ||
-                      file.number(field.name, "add_offset", 0) != 0;
-  field.integer = file.is_integer(field.name) && !packed && fit_int(field.values);
+  field.integer =
+      file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
   field.directed = field.location == Location::edges && is_directed(file, field.name);
 }
 
 DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double> read = file.doubles(name, file.shape_of(name));
-  const double fill = file.number(name, "_FillValue", none),
-               factor = file.number(name, "scale_factor", 1),
-               offset = file.number(name, "add_offset", 0);
-  const Eigen::Map<const DoubleVector> values(read.data(), std::ssize(read));
-  if (factor == 1 && offset == 0)
-    return (values.array() == fill).select(none, values);
-  return (values.array() == fill).select(none, offset + factor * values.array());
+  const std::vector<double> values = cf_values(file, name, file.shape_of(name));
+  return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,

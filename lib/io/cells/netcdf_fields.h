@@ -32,8 +32,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
 /// set. \throws Error parse, file.
 void read_values(const NetcdfReader& file, MeshField& field);
 
-/// The values of a variable, NaN where it has its _FillValue, unpacked by its scale_factor and
-/// add_offset. \throws Error parse, file.
+/// The values of a variable, see cf_values().
 DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name);
 
 } // namespace calotte::io_detail

@@ -3,6 +3,7 @@
 
 #include "base/require.h"
 #include "io/cells/centroids.h"
+#include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
 #include "io/command.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -137,6 +139,20 @@ bool is_coordinate(const NetcdfReader& file, const std::string& name) {
   return standard == "latitude" || standard == "longitude" || name == "x" || name == "y";
 }
 
+/// Takes a mask among the fields as what it says: values of masked cells mean nothing.
+void take_mask(FieldGrid& grid) {
+  const auto found = std::find_if(grid.fields.begin(), grid.fields.end(), is_mask);
+  if (found == grid.fields.end())
+    return;
+  grid.mask = (found->values.array() == 0).select(Ids::Zero(found->values.size()), 1);
+  grid.fields.erase(found);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (MeshField& field : grid.fields)
+    for (Eigen::Index i = 0; i < grid.mask.size(); ++i)
+      if (grid.mask[i] == 0)
+        field.values.segment(i * field.count(), field.count()).setConstant(none);
+}
+
 } // namespace
 } // namespace io_detail
 
@@ -164,6 +180,7 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
     return true;
   });
   grid.mesh.fields.clear();
+  take_mask(grid);
   return grid;
 }
 

@@ -3,6 +3,7 @@
 
 #include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
+#include "io/netcdf/cf_values.h"
 
 #include <calotte/error.h>
 
@@ -35,7 +36,7 @@ std::string axis_of(const NetcdfReader& file, const std::string& standard,
 }
 
 DoubleVector degrees_of(const NetcdfReader& file, const std::string& variable) {
-  std::vector<double> values = file.doubles(variable, {-1});
+  std::vector<double> values = cf_values(file, variable, {-1});
   scale(values, degrees_per_unit(file, variable));
   return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
@@ -47,7 +48,7 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
   const std::string name = file.text(axis, "bounds");
   if (name.empty() || !file.has_variable(name))
     return {};
-  std::vector<double> bounds = file.doubles(name, {nodes.size(), 2});
+  std::vector<double> bounds = cf_values(file, name, {nodes.size(), 2});
   scale(bounds, degrees_per_unit(file, file.text(name, "units").empty() ? axis : name));
   const Eigen::Index n = nodes.size();
   const double sign = n > 1 && nodes[1] < nodes[0] ? -1 : 1;
@@ -86,30 +87,60 @@ LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
   }
 }
 
-/// A field without values; none for a variable that is not on the raster.
+/// A field without values; none for a variable that is not on the raster. Its dimensions besides
+/// those of the raster may stand anywhere.
 std::optional<MeshField> field_of(const NetcdfReader& file, const RasterAxes& axes,
                                   const std::string& name) {
   const std::vector<std::string> dimensions = file.dimensions_of(name);
-  const auto latitude = std::find(dimensions.begin(), dimensions.end(), axes.latitude);
-  if (latitude == dimensions.end() || latitude + 1 == dimensions.end() ||
-      *(latitude + 1) != axes.longitude || !file.is_numeric(name))
+  if (std::count(dimensions.begin(), dimensions.end(), axes.latitude) != 1 ||
+      std::count(dimensions.begin(), dimensions.end(), axes.longitude) != 1 ||
+      !file.is_numeric(name))
     return std::nullopt;
   MeshField field{.name = name};
-  field.leading = static_cast<int>(latitude - dimensions.begin());
-  for (auto at = dimensions.begin(); at != dimensions.end(); ++at)
-    if (at != latitude && at != latitude + 1)
-      field.dimensions.push_back({*at, file.dimension(*at)});
+  for (const std::string& dimension : dimensions)
+    if (dimension != axes.latitude && dimension != axes.longitude)
+      field.dimensions.push_back({dimension, file.dimension(dimension)});
+  const auto latitude = std::find(dimensions.begin(), dimensions.end(), axes.latitude);
+  field.leading =
+      static_cast<int>(latitude + 1 != dimensions.end() && *(latitude + 1) == axes.longitude
+                           ? latitude - dimensions.begin()
+                           : std::ssize(field.dimensions));
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
       return std::nullopt;
   return field;
 }
 
-void drop_missing(const NetcdfReader& file, MeshField& field) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const double missing = file.number(field.name, "missing_value", none);
-  if (!std::isnan(missing))
-    field.values = (field.values.array() == missing).select(none, field.values);
+/// Brings values from the order of the file, in which longitude need not follow latitude, to that
+/// of a field: box by box, latitude first.
+void order_boxes(const NetcdfReader& file, const RasterAxes& axes, MeshField& field) {
+  const std::vector<std::string> dimensions = file.dimensions_of(field.name);
+  const auto latitude = std::find(dimensions.begin(), dimensions.end(), axes.latitude);
+  if (latitude + 1 != dimensions.end() && *(latitude + 1) == axes.longitude)
+    return;
+  const std::vector<double> values = cf_values(file, field.name, file.shape_of(field.name));
+  std::vector<std::int64_t> stride(dimensions.size(), 1);
+  for (std::size_t d = dimensions.size() - 1; d > 0; --d)
+    stride[d - 1] = stride[d] * file.dimension(dimensions[d]);
+  std::int64_t of_latitude = 0, of_longitude = 0;
+  std::vector<std::int64_t> others;
+  for (std::size_t d = 0; d < dimensions.size(); ++d)
+    (dimensions[d] == axes.latitude    ? of_latitude
+     : dimensions[d] == axes.longitude ? of_longitude
+                                       : others.emplace_back()) = stride[d];
+  const std::int64_t rows = file.dimension(axes.latitude), columns = file.dimension(axes.longitude),
+                     count = field.count();
+  field.values.resize(rows * columns * count);
+  for (std::int64_t box = 0; box < rows * columns; ++box)
+    for (std::int64_t k = 0; k < count; ++k) {
+      std::int64_t at = box / columns * of_latitude + box % columns * of_longitude, rest = k;
+      for (std::size_t d = others.size(); d-- > 0;) {
+        const std::int64_t size = field.dimensions[d].size;
+        at += rest % size * others[d];
+        rest /= size;
+      }
+      field.values[box * count + k] = values[static_cast<std::size_t>(at)];
+    }
 }
 
 } // namespace
@@ -136,7 +167,7 @@ FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, Fie
       continue;
     }
     read_values(file, *field);
-    drop_missing(file, *field);
+    order_boxes(file, axes, *field);
     grid.fields.push_back(*std::move(field));
   }
   return grid;

@@ -39,6 +39,7 @@ struct DescribedGrid {
   std::optional<LonLatBoxes> boxes;     ///< or the cells:
   Polygons cells;                       ///< none where they are unknown
   DoubleVector area, fraction;
+  Ids mask; ///< empty for all 1
 
   std::int64_t corners() const { return boxes ? 4 : most_corners(cells); }
 };
@@ -50,7 +51,8 @@ DescribedGrid described(const FieldGrid& grid, const DoubleVector& area, DoubleV
                     .boxes = grid.boxes,
                     .cells = {},
                     .area = area,
-                    .fraction = std::move(fraction)};
+                    .fraction = std::move(fraction),
+                    .mask = grid.mask};
   if (grid.boxes) {
     out.dimensions = {static_cast<std::int32_t>(grid.boxes->longitudes.size()),
                       static_cast<std::int32_t>(grid.boxes->latitudes.size())};
@@ -127,7 +129,11 @@ int add_grid(NetcdfGridFile& file, const DescribedGrid& grid, const GridNames& n
   };
   put(names.corner_lat, &base_detail::LonLat::latitude);
   put(names.corner_lon, &base_detail::LonLat::longitude);
-  file.ints(names.mask, {size}, units("unitless"), constant(1));
+  file.ints(names.mask, {size}, units("unitless"),
+            grid.mask.size() == 0 ? constant(1)
+                                  : table<std::int32_t>(1, [&grid](std::int64_t i, std::int64_t) {
+                                      return grid.mask[i];
+                                    }));
   file.doubles(names.area, {size}, units("square radians"), values_of(grid.area));
   file.doubles(names.fraction, {size}, units("unitless"), values_of(grid.fraction));
   return size;

@@ -247,15 +247,22 @@ std::string NetcdfReader::text(const std::string& variable, const std::string& a
   return text != nullptr ? text->substr(0, text->find('\0')) : "";
 }
 
-double NetcdfReader::number(const std::string& variable, const std::string& attribute,
-                            double fallback) const {
+std::vector<double> NetcdfReader::numbers(const std::string& variable,
+                                          const std::string& attribute) const {
   const NetcdfAttribute* const found = find_attribute(variable, attribute);
   const auto* const values = found != nullptr ? std::get_if<NetcdfValues>(&found->value) : nullptr;
-  if (values == nullptr || std::ssize(values->bytes) != size_of(values->type))
-    return fallback;
-  double number = 0;
-  convert(values->type, values->bytes.data(), 1, &number);
-  return number;
+  if (values == nullptr)
+    return {};
+  std::vector<double> numbers(values->bytes.size() /
+                              static_cast<std::size_t>(size_of(values->type)));
+  convert(values->type, values->bytes.data(), std::ssize(numbers), numbers.data());
+  return numbers;
+}
+
+double NetcdfReader::number(const std::string& variable, const std::string& attribute,
+                            double fallback) const {
+  const std::vector<double> all = numbers(variable, attribute);
+  return all.size() == 1 ? all.front() : fallback;
 }
 
 std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t fallback) const {

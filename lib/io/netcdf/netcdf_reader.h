@@ -53,7 +53,9 @@ public:
   bool is_float(const std::string& variable) const;
   /// A text attribute of a variable, or with "" of the file; "" where there is none.
   std::string text(const std::string& variable, const std::string& attribute) const;
-  /// A number attribute of the same, else the fallback.
+  /// All numbers of an attribute of the same; none where it has none.
+  std::vector<double> numbers(const std::string& variable, const std::string& attribute) const;
+  /// The number of an attribute that has one, else the fallback.
   double number(const std::string& variable, const std::string& attribute, double fallback) const;
   /// The attribute start_index of a variable with ids, the least of them: 0 or 1.
   std::int32_t start_index(const std::string& variable, std::int32_t fallback) const;

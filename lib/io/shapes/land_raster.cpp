@@ -41,26 +41,41 @@ std::string only_raster(const NetcdfReader& file) {
   return found.front();
 }
 
-Raster read_scaled(const NetcdfReader& file, const std::string& given, const RasterLaw& law) {
+/// Metres upwards for each unit of heights: km count a thousand times, and depths, which the
+/// attribute positive or the standard name tells, downwards.
+/// \throws Error parse, for another unit.
+double metres_up(const NetcdfReader& file, const std::string& variable) {
+  const std::string positive = file.text(variable, "positive"),
+                    standard = file.text(variable, "standard_name"),
+                    units = file.text(variable, "units");
+  const bool down =
+      positive == "down" || (positive.empty() && standard.find("depth") != std::string::npos);
+  try {
+    return (down ? -1 : 1) * (units.empty() ? 1 : std::round(1000 * kilometres_in(units)));
+  } catch (const Error&) {
+    file.fail(variable + ": the unit \"" + units + "\" is not one of heights; give m or km");
+  }
+}
+
+Raster read_ordered(const NetcdfReader& file, const std::string& given, RasterValues values) {
   const std::string variable = given.empty() ? only_raster(file) : given;
   Raster raster = read_raster(file, variable);
-  const double scale = file.number(variable, "scale_factor", 1),
-               offset = file.number(variable, "add_offset", 0);
-  if (scale != 1 || offset != 0)
-    raster.values.array() = raster.values.array() * scale + offset;
-  return ordered(std::move(raster), file.path(), law);
+  if (values == RasterValues::height)
+    if (const double factor = metres_up(file, variable); factor != 1)
+      raster.values *= factor;
+  return ordered(std::move(raster), file.path(), law_of(values));
 }
 
 } // namespace
 
 HeightRaster read_heights(const std::string& path, const std::string& variable) {
-  Raster raster = read_scaled(NetcdfReader(path), variable, law_of(RasterValues::height));
+  Raster raster = read_ordered(NetcdfReader(path), variable, RasterValues::height);
   return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
 }
 
 LandRaster read_land_raster(const std::string& path, const std::string& variable,
                             RasterValues values) {
-  Raster raster = read_scaled(NetcdfReader(path), variable, law_of(values));
+  Raster raster = read_ordered(NetcdfReader(path), variable, values);
   raster.values = raster.values.unaryExpr([&](double value) { return land_of(values, value); });
   return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/raster_file.h"
 #include "io/bytes/file_error.h"
+#include "io/netcdf/cf_values.h"
 
 #include "base/number_text.h"
 #include "density/cell_width_field.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace calotte::io_detail {
 namespace {
@@ -76,16 +76,6 @@ std::string coordinate_name(const NetcdfReader& file, const std::string& name,
   file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
 }
 
-/// Replaces fill values by NaN.
-void drop_fill(const NetcdfReader& file, const std::string& variable, DoubleMatrix& values) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  for (const std::string attribute : {"_FillValue", "missing_value"}) {
-    const double fill = file.number(variable, attribute, none);
-    if (!std::isnan(fill))
-      values = values.unaryExpr([&](double value) { return value == fill ? none : value; });
-  }
-}
-
 } // namespace
 
 Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
@@ -123,19 +113,22 @@ Raster read_raster(const NetcdfReader& file, const std::string& variable) {
   raster.value_name = variable;
   raster.latitude_name = coordinate_name(file, "lat", "latitude");
   raster.longitude_name = coordinate_name(file, "lon", "longitude");
-  raster.latitudes = file.doubles(raster.latitude_name, {-1});
-  raster.longitudes = file.doubles(raster.longitude_name, {-1});
+  raster.latitudes = cf_values(file, raster.latitude_name, {-1});
+  raster.longitudes = cf_values(file, raster.longitude_name, {-1});
   const auto rows = static_cast<std::int64_t>(raster.latitudes.size()),
              columns = static_cast<std::int64_t>(raster.longitudes.size());
   const std::vector<std::string> of_lat = file.dimensions_of(raster.latitude_name),
                                  of_lon = file.dimensions_of(raster.longitude_name),
                                  of_values = file.dimensions_of(variable);
-  if (of_values != std::vector{of_lat[0], of_lon[0]})
+  raster.longitude_fastest = of_values == std::vector{of_lat[0], of_lon[0]};
+  if (!raster.longitude_fastest && of_values != std::vector{of_lon[0], of_lat[0]})
     file.fail(variable + " is not " + variable + "(" + of_lat[0] + ", " + of_lon[0] +
-              "); give it these dimensions, in this order");
-  raster.values.resize(columns, rows);
-  file.rows(variable, 0, rows, raster.values.data());
-  drop_fill(file, variable, raster.values);
+              "); give it these dimensions");
+  const std::vector<double> values = cf_values(file, variable, file.shape_of(variable));
+  if (raster.longitude_fastest)
+    raster.values = Eigen::Map<const DoubleMatrix>(values.data(), columns, rows);
+  else
+    raster.values = Eigen::Map<const DoubleMatrix>(values.data(), rows, columns).transpose();
   return raster;
 }
 

@@ -13,10 +13,12 @@ EARTH_RADIUS_KM = 6371.0
 
 
 def numbers(values, what):
-    """An array of doubles."""
-    array = np.asarray(values)
+    """An array of doubles; NaN where values are masked, as netCDF4 masks what a file lacks."""
+    array = np.asarray(np.ma.getdata(values))
     if array.dtype.kind not in "fiu":
         raise Error(f"{what} must be numbers, not {array.dtype}")
+    if np.ma.is_masked(values):
+        array = np.where(np.ma.getmaskarray(values), np.nan, array)
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
