@@ -203,7 +203,7 @@ def test_a_file_of_a_plane(tmp_path):
 def test_a_periodic_box():
     box = calotte.periodic_box(30, 26)
     base = calotte.cvt(780, surface=box).mesh
-    finer = calotte.refine(base, region=calotte.rectangle((26, 8), (32, 14)), factor=1.8)
+    finer = calotte.refine(base, region=calotte.rectangle((26, 8), (32, 14)), factor=1.8, gradient=0.1)
     keeps(base, finer)
     assert (finer.mesh.surface.period == (30, 26)).all() and len(finer.patches) == 1
     with pytest.raises(calotte.Error, match="leads around"):
