@@ -30,15 +30,16 @@ enum class Columns {
 /// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
 /// Columns::xy. The result is 3 x n. Blanks or tabs, and at most one of comma, semicolon and bar,
 /// separate them; `#` starts a comment; blank lines are ignored; one header line without numbers
-/// may precede the points; further columns are ignored. Lines end in LF, CRLF or CR; a missing
-/// final newline loses nothing.
+/// may precede the points; further columns are ignored. A header that names lon or longitude and
+/// lat or latitude, or x, y and z, tells which columns are read. Lines end in LF, CRLF or CR; a
+/// missing final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
 /// \param name the name of the stream in messages.
-/// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity
-///         or the zero vector, too few columns, a latitude out of range, or a file without points;
-///         file.
+/// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity,
+///         a decimal comma or the zero vector, too few columns, a latitude out of range, or a file
+///         without points; file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz);
 /// The same from a file.
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz);

@@ -90,6 +90,32 @@ Mesh open_octahedron() {
 
 } // namespace
 
+TEST_CASE("a header tells which columns are read, wherever they stand") {
+  const auto read = [](const std::string& text, Columns columns) {
+    std::istringstream in(text);
+    return read_points(in, "text", columns);
+  };
+  const Points3 wanted = read("8.5 47.4\n-70 -33\n", Columns::lonlat);
+  for (const char* const text :
+       {"lat,lon\n47.4,8.5\n-33,-70\n", "name,lon,lat\nNew York,8.5,47.4\nb,-70,-33\n",
+        "id lat height lon\n1 47.4 5 8.5\n2 -33 6 -70\n",
+        "\"Latitude\"; \"Longitude\"\n47.4; 8.5\n-33; -70\n", "lon|lat|id\n8.5|47.4|3\n-70|-33|4\n",
+        "station\tlongitude\tlatitude\r\na b\t8.5\t47.4\r\nc\t-70\t-33\r\n",
+        "a,b\n8.5,47.4\n-70,-33\n"}) {
+    CAPTURE(text);
+    CHECK(read(text, Columns::lonlat) == wanted);
+  }
+  CHECK(read("z y x\n3 2 1\n", Columns::xyz) == Points3(Eigen::Vector3d(1, 2, 3)));
+  CHECK(read("id,y,x\n7,2,1\n", Columns::xy) == Points3(Eigen::Vector3d(1, 2, 0)));
+  const auto refusal = [&](const std::string& text) {
+    return std::string(test::error_of([&] { read(text, Columns::lonlat); }).what());
+  };
+  CHECK(refusal("lat,lon\n47.4\n").find("text line 2: 1 column only") == 0);
+  CHECK(refusal("lat,name,lon\n47.4,b,c\n").find("\"c\" is not a number") != std::string::npos);
+  CHECK(refusal("10,5;50,2\n") ==
+        "text line 1: commas and semicolons separate; write numbers with decimal points");
+}
+
 TEST_CASE("any separators, comments, blank lines, endings and a header give the same points") {
   const Points3 expected = (Points3(3, 2) << 1, 4, 2, -5, 3, 0.5).finished();
   for (const std::string text :

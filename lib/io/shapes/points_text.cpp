@@ -7,8 +7,12 @@
 #include <calotte/error.h>
 #include <calotte/io.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <ostream>
 
 namespace calotte {
@@ -90,6 +94,89 @@ void require_finite(const LineReader& reader, const double* values, const LineFo
                   format.use + "; remove the point or correct it");
 }
 
+// ---- Headers
+
+/// The columns of a line: between one separator, or blanks, without quotes and blanks around.
+std::vector<std::string_view> columns_of(std::string_view line, char separator) {
+  constexpr std::string_view around = " \t\r\"'";
+  std::vector<std::string_view> columns;
+  const auto is_end = [&](char c) {
+    return separator == ' ' ? c == ' ' || c == '\t' : c == separator;
+  };
+  for (std::size_t begin = 0; begin <= line.size();) {
+    std::size_t end = begin;
+    while (end < line.size() && !is_end(line[end]))
+      ++end;
+    std::string_view column = line.substr(begin, end - begin);
+    const std::size_t first = column.find_first_not_of(around),
+                      last = column.find_last_not_of(around);
+    column = first == std::string_view::npos ? std::string_view()
+                                             : column.substr(first, last - first + 1);
+    if (separator != ' ' || !column.empty())
+      columns.push_back(column);
+    begin = end + 1;
+  }
+  return columns;
+}
+
+/// Which columns a first line of names gives the coordinates.
+struct Header {
+  char separator = ' ';
+  std::array<std::size_t, 3> column{};
+};
+
+/// None where the names are others, or those of the first columns.
+std::optional<Header> header_of(std::string_view line, Columns columns) {
+  using Names = std::vector<std::string_view>;
+  const std::vector<Names> wanted =
+      columns == Columns::lonlat
+          ? std::vector<Names>{{"lon", "longitude", "long", "lng"}, {"lat", "latitude"}}
+      : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
+                               : std::vector<Names>{{"x"}, {"y"}, {"z"}};
+  Header header;
+  if (const std::size_t at = line.find_first_of(",;|\t"); at != std::string_view::npos)
+    header.separator = line[at];
+  const std::vector<std::string_view> names = columns_of(line, header.separator);
+  bool first = true;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
+      std::string lower(name);
+      std::transform(lower.begin(), lower.end(), lower.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return std::find(wanted[k].begin(), wanted[k].end(), lower) != wanted[k].end();
+    });
+    if (found == names.end())
+      return std::nullopt;
+    header.column[k] = static_cast<std::size_t>(found - names.begin());
+    first = first && header.column[k] == k;
+  }
+  return first ? std::nullopt : std::optional(header);
+}
+
+Columned parse_named(std::string_view line, const Header& header, int count, double* values) {
+  const std::vector<std::string_view> columns = columns_of(line, header.separator);
+  for (int k = 0; k < count; ++k) {
+    const std::size_t at = header.column[static_cast<std::size_t>(k)];
+    if (at >= columns.size())
+      return {Outcome::too_few, static_cast<int>(columns.size()), {}};
+    const Columned read = io_detail::parse_columns(columns[at], 1, values + k);
+    if (read.outcome != Outcome::ok)
+      return {read.outcome == Outcome::too_few ? Outcome::no_number : read.outcome, k, columns[at]};
+  }
+  return {};
+}
+
+/// A comma between digits where semicolons separate is a decimal comma.
+bool has_decimal_comma(std::string_view line) {
+  if (line.find(';') == std::string_view::npos)
+    return false;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t k = 1; k + 1 < line.size(); ++k)
+    if (line[k] == ',' && is_digit(line[k - 1]) && is_digit(line[k + 1]))
+      return true;
+  return false;
+}
+
 /// \param lines receives those of the columns, unless it is null.
 Points3 read_rows(std::istream& in, const std::string& name, Columns columns,
                   std::vector<std::int64_t>* lines) {
@@ -97,13 +184,18 @@ Points3 read_rows(std::istream& in, const std::string& name, Columns columns,
   LineReader reader(in, name);
   std::vector<double> coordinates;
   bool header = false;
+  std::optional<Header> names;
   for (std::string_view line; reader.next_content(line);) {
     double values[3];
-    const Columned read = io_detail::parse_columns(line, format.columns, values);
+    if (has_decimal_comma(line))
+      reader.fail("commas and semicolons separate; write numbers with decimal points");
+    const Columned read = names ? parse_named(line, *names, format.columns, values)
+                                : io_detail::parse_columns(line, format.columns, values);
     if (read.outcome != Outcome::ok) {
       if (header || !coordinates.empty() || io_detail::holds_number(line))
         refuse_line(reader, read, format);
       header = true;
+      names = header_of(line, columns);
       continue;
     }
     require_finite(reader, values, format);
