@@ -195,8 +195,7 @@ std::string describe_change(const RefineRequest& request, const std::vector<std:
   return lines + request.output + ": " + std::to_string(changed.mesh.points.cols()) + " cells, " +
          std::to_string(kept) + " of " + std::to_string(cells) + " kept (" +
          formatted("%.2f", 100.0 * static_cast<double>(kept) / static_cast<double>(cells)) +
-         "%), " + std::to_string(added) + " new in " +
-         std::to_string(changed.patches.size()) +
+         "%), " + std::to_string(added) + " new in " + std::to_string(changed.patches.size()) +
          (changed.patches.size() == 1 ? " patch\n" : " patches\n");
 }
 

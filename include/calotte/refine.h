@@ -66,8 +66,8 @@ struct ChangedMesh {
   /// those next to them, stay: these, and finer ones beside them, whose widths change at the
   /// gradient.
   std::int64_t held = 0;
-  /// Sites of the new mesh that are wider than a finer demand on their cells by more than 0.3, apart
-  /// from those that `held` counts.
+  /// Sites of the new mesh that are wider than a finer demand on their cells by more than 0.3,
+  /// apart from those that `held` counts.
   std::int64_t missed = 0;
 };
 

@@ -228,7 +228,8 @@ CellWidth sampled(const Widths& widths, double step = 0);
 
 /// The same for a grid on a surface of the sphere, of which the rules must give widths everywhere.
 /// Nodes outside it without a demand have the largest width of the others.
-/// \throws Error invalid_argument as sampled(), and naming a node inside where no rule gives a width.
+/// \throws Error invalid_argument as sampled(), and naming a node inside where no rule gives a
+/// width.
 CellWidth sampled_on(const Widths& widths, const Surface& surface, double step = 0);
 
 /// The same of a plane, over the box around its boundary or over its periods.
