@@ -108,7 +108,7 @@ TEST_CASE("a header tells which columns are read, wherever they stand") {
   CHECK(read("z y x\n3 2 1\n", Columns::xyz) == Points3(Eigen::Vector3d(1, 2, 3)));
   CHECK(read("id,y,x\n7,2,1\n", Columns::xy) == Points3(Eigen::Vector3d(1, 2, 0)));
   const auto refusal = [&](const std::string& text) {
-    return std::string(test::error_of([&] { read(text, Columns::lonlat); }).what());
+    return std::string(error_of([&] { read(text, Columns::lonlat); }).what());
   };
   CHECK(refusal("lat,lon\n47.4\n").find("text line 2: 1 column only") == 0);
   CHECK(refusal("lat,name,lon\n47.4,b,c\n").find("\"c\" is not a number") != std::string::npos);
