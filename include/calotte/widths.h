@@ -170,6 +170,8 @@ public:
   /// What a rule says of places where it says nothing, km: wider than any other, so that others
   /// hold in a minimum.
   static constexpr double no_demand = 1e9;
+  /// Whether a width is one that a rule gives, and not no_demand, also after rules were combined.
+  static bool is_demand(double width) { return width < 0.5 * no_demand; }
 
   /// The least of several, place by place.
   /// \throws Error invalid_argument for an empty list, here and below.

@@ -365,7 +365,7 @@ CellWidth limit_gradient(const CellWidth& widths, double gradient, double radius
     for (std::int64_t i = 0; i < columns; ++i)
       values[static_cast<std::size_t>(1 + j * columns + i)] = field.width(i, j + 1);
   for (double& value : values)
-    value = value < 0.5 * Widths::no_demand ? value : none;
+    value = Widths::is_demand(value) ? value : none;
   if (std::find_if(values.begin(), values.end(),
                    [](double value) { return std::isfinite(value); }) == values.end())
     return widths;

@@ -239,7 +239,7 @@ public:
     share_->evaluate(places, shares);
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double t = Weight(shares[k] - 1);
-      const bool silent = std::max(widths[k], others[k]) >= 0.5 * Widths::no_demand;
+      const bool silent = !Widths::is_demand(std::max(widths[k], others[k]));
       if (t == 1 || (silent && t > 0)) // what says nothing has no mean with a width
         widths[k] = t == 1 ? others[k] : Widths::no_demand;
       else
@@ -313,16 +313,16 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
 /// \throws Error invalid_argument for one in it without a demand.
 template <class IsInside, class Position>
 void require_demand(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
-  const auto is_silent = [](double width) { return width >= 0.5 * Widths::no_demand; };
   double widest = 0;
   for (Eigen::Index j = 0; j < widths.cols(); ++j)
     for (Eigen::Index i = 0; i < widths.rows(); ++i)
-      if (!is_silent(widths(i, j)))
+      if (Widths::is_demand(widths(i, j)))
         widest = std::max(widest, widths(i, j));
       else
         require(!is_inside(i, j), "no rule gives a width at " + position(i, j) +
                                       "; add one that holds everywhere, such as a number");
-  widths = widths.unaryExpr([&](double width) { return is_silent(width) ? widest : width; });
+  widths =
+      widths.unaryExpr([&](double width) { return Widths::is_demand(width) ? width : widest; });
 }
 
 constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;

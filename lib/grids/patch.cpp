@@ -50,15 +50,11 @@ bool for_each_neighbour(const Faces& faces, const RingStarts& rings, std::int32_
   return closed;
 }
 
-/// From one site to another, in the unit of widths: on the sphere between directions, whose norms
-/// files may give.
+/// From one site to another, in the unit of widths.
 template <Space S>
 Vec3 chord(const S& space, const Mesh& mesh, std::int32_t from, std::int32_t to) {
-  const Vec3 a = column(mesh.points, from), b = column(mesh.points, to);
-  if constexpr (S::on_sphere)
-    return domain_detail::as_unit(b) - domain_detail::as_unit(a);
-  else
-    return space.offset(a, b);
+  return space.offset(place_of(space, column(mesh.points, from)),
+                      place_of(space, column(mesh.points, to)));
 }
 
 template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64_t t) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "domain/arcs.h"
+#include "exact/space.h"
 #include "grids/room.h"
 #include "mesh/ring_law.h"
 
@@ -24,6 +26,14 @@ Marks sites_at_boundary(const Mesh& mesh);
 /// where there is none.
 DoubleVector own_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings,
                         const Marks& at_boundary);
+
+/// A position for measures: on the sphere a unit vector, as files may give other norms.
+template <Space S> Vec3 place_of(const S&, const Vec3& x) {
+  if constexpr (S::on_sphere)
+    return domain_detail::as_unit(x);
+  else
+    return x;
+}
 
 /// Whether cells become finer or coarser.
 enum class Way { finer, coarser };

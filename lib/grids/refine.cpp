@@ -5,9 +5,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "density/width_rules.h"
-#include "domain/arcs.h"
+#include "cvt/shape.h"
 #include "exact/space.h"
+#include "grids/demand.h"
 #include "grids/patch_run.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
@@ -20,10 +20,7 @@
 #include <calotte/locate.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,155 +63,6 @@ void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
   require_range(options.gradient, 0.001, 1, "gradient");
   require(mesh.triangles.cols() > 0 && mesh.neighbours.cols() == mesh.triangles.cols(),
           "the mesh lacks triangles or neighbours; give one of delaunay() or read_mesh()");
-}
-
-/// A demand as widths at places, in the unit of the mesh.
-class Demand {
-public:
-  /// \param own widths of the mesh, of which those of a region are a part.
-  Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own)
-      : demand_(demand), way_(way), mesh_(mesh), own_(own),
-        unit_(mesh.surface.is_sphere() ? 1 / demand.radius_km : 1),
-        factor_(way == Way::finer ? 1 / demand.factor : demand.factor),
-        fine_(demand.widths && way == Way::finer ? std::optional(FineWidths{*demand.widths, unit_})
-                                                 : std::nullopt) {}
-
-  /// Infinite where nothing finer is demanded, 0 where nothing coarser is.
-  DoubleVector at(const Points3& points) const {
-    const double nothing = way_ == Way::finer ? std::numeric_limits<double>::infinity() : 0;
-    if (demand_.region)
-      return of_region(points, nothing);
-    const DoubleVector widths = unit_ * evaluate(*demand_.widths, points);
-    const double silent = 0.5 * unit_ * Widths::no_demand;
-    return (widths.array() < silent).select(widths, nothing);
-  }
-
-  /// A bound from below of all finer widths; 0 where it is not known.
-  double least() const { return demand_.widths ? unit_ * demand_.widths->rule()->least() : 0; }
-  const std::optional<Surface>& region() const { return demand_.region; }
-
-  /// Of finer cells, widths anywhere; null where they are known at sites only.
-  const FineWidths* fine() const { return fine_ ? &*fine_ : nullptr; }
-
-private:
-  DoubleVector of_region(const Points3& points, double nothing) const {
-    std::vector<Eigen::Index> inside;
-    for (Eigen::Index i = 0; i < points.cols(); ++i)
-      if (demand_.region->contains(points.col(i)))
-        inside.push_back(i);
-    DoubleVector widths = DoubleVector::Constant(points.cols(), nothing);
-    if (inside.empty())
-      return widths;
-    const Ids nearest = locate(mesh_, Points3(points(Eigen::all, inside))).nearest;
-    for (std::size_t k = 0; k < inside.size(); ++k)
-      widths[inside[k]] = factor_ * own_[nearest[static_cast<Eigen::Index>(k)]];
-    return widths;
-  }
-
-  const WidthDemand& demand_;
-  Way way_;
-  const Mesh& mesh_; ///< as it was given
-  const DoubleVector& own_;
-  double unit_; ///< of a width, in that of the mesh
-  double factor_;
-  std::optional<FineWidths> fine_;
-};
-
-// ---- Demands between sites
-
-/// On the sphere a unit vector: files may give other norms.
-template <Space S> Vec3 place_of(const S&, const Vec3& x) {
-  if constexpr (S::on_sphere)
-    return domain_detail::as_unit(x);
-  else
-    return x;
-}
-
-/// Places of triangles, and the sites that they are for.
-struct Samples {
-  std::vector<Vec3> places;
-  std::vector<std::array<std::int32_t, 3>> sites; ///< around each
-
-  Points3 points() const {
-    Points3 out(3, std::ssize(places));
-    for (std::size_t k = 0; k < places.size(); ++k)
-      set_column(out, static_cast<std::int64_t>(k), places[k]);
-    return out;
-  }
-};
-
-/// A lattice in each triangle, as dense as the least demand, up to sixteen times as dense as the
-/// sites, and some millions in all.
-template <Space S>
-Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, double least) {
-  constexpr int densest = 16;
-  constexpr double most = 4e6;
-  const double bound = std::sqrt(2 * most / static_cast<double>(mesh.triangles.cols()));
-  Samples samples;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const std::array<std::int32_t, 3> id{mesh.triangles(0, t), mesh.triangles(1, t),
-                                         mesh.triangles(2, t)};
-    const double widest = std::max({own[id[0]], own[id[1]], own[id[2]]});
-    const int parts = static_cast<int>(std::min(
-        {static_cast<double>(densest), bound, std::ceil(widest / std::max(least, 1e-300))}));
-    const Vec3 a = place_of(space, column(mesh.points, id[0]));
-    const Vec3 u = space.offset(a, place_of(space, column(mesh.points, id[1]))),
-               v = space.offset(a, place_of(space, column(mesh.points, id[2])));
-    for (int i = 0; i <= parts; ++i)
-      for (int j = 0; i + j <= parts; ++j) {
-        const bool is_corner = i + j == 0 || i == parts || j == parts;
-        if (parts < 2 || is_corner)
-          continue;
-        samples.places.push_back(space.wrapped(a + static_cast<double>(i) / parts * u +
-                                               static_cast<double>(j) / parts * v));
-        samples.sites.push_back(id);
-      }
-  }
-  return samples;
-}
-
-/// Along the boundary of a region, a quarter of the width of the cells there apart, each for the
-/// nearest site.
-Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface& region) {
-  constexpr std::int64_t most = 1 << 20;
-  Samples samples;
-  const auto add = [&](const Vec3& place) { samples.places.push_back(place); };
-  for (const DoubleMatrix& ring : region.rings()) {
-    Points3 corners = Points3::Zero(3, ring.cols());
-    corners.topRows(ring.rows()) = ring;
-    const Ids nearest = locate(mesh, corners).nearest;
-    for (Eigen::Index k = 0; k < corners.cols(); ++k) {
-      const Vec3 from = column(corners, k), way = column(corners, (k + 1) % corners.cols()) - from;
-      const double step = std::max(0.25 * own[nearest[k]], 1e-12);
-      const auto parts = std::clamp<std::int64_t>(std::llround(norm(way) / step), 1, most);
-      for (std::int64_t p = 0; p < parts && std::ssize(samples.places) < most; ++p)
-        add(from + static_cast<double>(p) / static_cast<double>(parts) * way);
-    }
-  }
-  const Ids nearest = locate(mesh, samples.points()).nearest;
-  for (const std::int32_t site : nearest)
-    samples.sites.push_back({site, site, site});
-  return samples;
-}
-
-/// By site the finest demand on its cell: at the site, or, wider by the gradient times the distance
-/// from it, at a place in the triangles around it.
-DoubleVector on_cells(const Demand& demand, const Mesh& mesh, const DoubleVector& own,
-                      double gradient) {
-  DoubleVector widths = demand.at(mesh.points);
-  in_space_of(mesh.surface, [&](const Space auto& space) {
-    const Samples samples = demand.region() ? along_boundary(mesh, own, *demand.region())
-                                            : lattice(mesh, space, own, demand.least());
-    const DoubleVector there = demand.at(samples.points());
-    for (std::size_t k = 0; k < samples.places.size(); ++k)
-      for (const std::int32_t site : samples.sites[k]) {
-        const Vec3 way = space.offset(place_of(space, column(mesh.points, site)),
-                                      place_of(space, samples.places[k]));
-        double& width = widths[site];
-        width = std::min(width, there[static_cast<Eigen::Index>(k)] + gradient * norm(way));
-      }
-  });
-  return widths;
 }
 
 /// The sites of the new mesh.
@@ -454,25 +302,24 @@ std::int64_t missed(const DoubleVector& own, const WantedWidths& wanted) {
   return (own.array() > irregular * wanted.width.array()).count();
 }
 
-/// Whether a triangle with a new site is obtuse.
-template <Space S> bool has_obtuse(const ChangedMesh& changed, const S& space) {
-  const Mesh& mesh = changed.mesh;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t at = mesh.triangles(i, t);
-      if (changed.old_of_new[at] >= 0)
-        continue;
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 x = place_of(space, column(mesh.points, mesh.triangles(k, t)));
-        const auto way = [&](int corner) {
-          return space.offset(x, place_of(space, column(mesh.points, mesh.triangles(corner, t))));
-        };
-        if (dot(way((k + 1) % 3), way((k + 2) % 3)) < 0)
-          return true;
-      }
-      break;
+/// The new sites whose cells are beyond the limits of shapes, whatever the spacing demanded.
+std::int64_t misshapen(const ChangedMesh& changed) {
+  using namespace cvt_detail;
+  return in_space_of(changed.mesh.surface, [&]<Space S>(const S& space) {
+    const Mesh& mesh = changed.mesh;
+    const Cells<S> cells(mesh.surface);
+    const mesh_detail::Connectivity faces{mesh.triangles, mesh.neighbours};
+    std::vector<Vec3> points;
+    std::vector<std::uint8_t> stays;
+    for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+      points.push_back(place_of(space, column(mesh.points, i)));
+      stays.push_back(changed.old_of_new[i] >= 0);
     }
-  return false;
+    const DoubleVector no_spacing = DoubleVector::Zero(mesh.points.cols());
+    const ShapeInput<S> input{{cells, faces, points}, no_spacing, shape_limits, stays};
+    Points3 unused = Points3::Zero(3, mesh.points.cols());
+    return add_shape_terms(input, distorted(input), 0, unused).generators;
+  });
 }
 
 /// One change after another as one change of the first mesh: the sites that stayed, then the new
@@ -483,15 +330,20 @@ ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
   const Eigen::Index count = second.old_of_new.size();
   DoubleVector ratio = second.width_ratio;
   Ids old_of_new(count);
-  const Ids nearest = locate(first.mesh, second.mesh.points).nearest;
-  std::vector<Eigen::Index> added;
+  std::vector<Eigen::Index> added, last; // of both changes, of the second
   for (Eigen::Index k = 0; k < count; ++k) {
     const std::int32_t between = second.old_of_new[k];
     old_of_new[k] = between < 0 ? -1 : first.old_of_new[between];
-    ratio[k] *= first.width_ratio[between < 0 ? nearest[k] : between];
+    if (between < 0)
+      last.push_back(k);
+    else
+      ratio[k] *= first.width_ratio[between];
     if (old_of_new[k] < 0)
       added.push_back(k);
   }
+  const Ids nearest = locate(first.mesh, Points3(second.mesh.points(Eigen::all, last))).nearest;
+  for (std::size_t k = 0; k < last.size(); ++k)
+    ratio[last[k]] *= first.width_ratio[nearest[static_cast<Eigen::Index>(k)]];
   Array<std::int32_t> order(count);
   std::int32_t next = 0;
   for (std::int32_t k = 0; k < count; ++k)
@@ -513,15 +365,26 @@ ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
       out.new_of_old[out.old_of_new[k]] = k;
   }
   // What the later run made better does not count against the whole.
-  const bool obtuse = in_space_of(out.mesh.surface,
-                                  [&](const Space auto& space) { return has_obtuse(out, space); });
+  const bool was_bad = std::ranges::any_of(
+      first.patches, [](const ChangedPatch& patch) { return !patch.report.well_centred; });
+  const bool is_good = was_bad && misshapen(out) == 0;
   for (ChangedPatch& patch : first.patches) {
-    patch.report.well_centred = patch.report.well_centred || !obtuse;
+    if (is_good) {
+      patch.report.well_centred = true;
+      patch.report.cells_beyond_limits = 0;
+    }
     out.patches.push_back(std::move(patch));
   }
   for (ChangedPatch& patch : second.patches)
     out.patches.push_back(std::move(patch));
   return out;
+}
+
+Marks new_sites(const ChangedMesh& changed) {
+  Marks marks(static_cast<std::size_t>(changed.old_of_new.size()));
+  std::transform(changed.old_of_new.begin(), changed.old_of_new.end(), marks.begin(),
+                 [](std::int32_t old) { return static_cast<std::uint8_t>(old < 0); });
+  return marks;
 }
 
 /// Finer cells where the demand lies between sites are made in steps: those of a step are the sites
@@ -534,14 +397,16 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
   if (way == Way::coarser)
     return changed_once(given, demand, wanted_of(given, demand.at(mesh.points), way, options),
                         options);
-  const auto finer = [&](const Given& now) {
-    return wanted_of(now, on_cells(demand, now.mesh, now.own, options.gradient), way, options);
+  const auto finer = [&](const Given& now, const Marks& may_change) {
+    return wanted_of(now, demand.on_cells(now.mesh, now.own, may_change, options.gradient), way,
+                     options);
   };
-  ChangedMesh out = changed_once(given, demand, finer(given), options);
+  const Marks all(static_cast<std::size_t>(mesh.points.cols()), 1);
+  ChangedMesh out = changed_once(given, demand, finer(given, all), options);
   constexpr int most_steps = 4;
   for (int step = 1; !out.patches.empty(); ++step) {
     const Given now(out.mesh);
-    const WantedWidths widths = finer(now);
+    const WantedWidths widths = finer(now, new_sites(out));
     out.missed = missed(now.own, widths);
     if (out.missed == 0 || step == most_steps)
       break;
