@@ -91,11 +91,13 @@ public:
       const Vec3 tangent = cell.first - along * x;
       return {centroid, -2 * tangent, std::copysign(norm(cell.first), along)};
     } else {
-      const double mass = cell.first.z;
-      // A jump of the density may leave the signed kites of an obtuse triangle more than the others
-      // have: the generator waits until its neighbours have moved.
-      if (mass < 0)
-        return {x, {0, 0, 0}, -mass};
+      // |M|^2 <= m E for any density that is not negative (Cauchy and Schwarz). Where a jump of it
+      // leaves the signed kites of obtuse triangles more than the others, m and M are no moments:
+      // the generator waits until its neighbours have moved.
+      const double mass = cell.first.z,
+                   square = cell.first.x * cell.first.x + cell.first.y * cell.first.y;
+      if (mass < 0 || square > mass * cell.energy)
+        return {x, {0, 0, 0}, std::abs(mass)};
       return {centroid, {-2 * cell.first.x, -2 * cell.first.y, 0}, mass > 0 ? mass : std::nan("")};
     }
   }

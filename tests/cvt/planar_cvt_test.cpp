@@ -14,6 +14,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/planar_raster.h>
 #include <calotte/quality.h>
 
@@ -358,6 +359,29 @@ TEST_CASE("a generator of a piece around a corner stays inside, and the run conv
       check_descent(grid.report, 1e-12);
       for (Eigen::Index i = 0; i < n; ++i)
         CHECK(contains(horseshoe, grid.mesh.points.col(i)));
+    }
+}
+
+TEST_CASE("a density that jumps makes a grid, in a rectangle and in a box") {
+  for (const Surface& surface : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})})
+    for (const double low : {0.1, 1e-3}) {
+      CAPTURE(low);
+      CAPTURE(surface.is_bounded());
+      Recipe recipe{.cells = 800, .surface = surface};
+      recipe.density.kind = Density::Kind::callable;
+      recipe.density.callable = [low](const Eigen::Ref<const Points3>& x,
+                                      Eigen::Ref<Eigen::VectorXd> rho) {
+        for (Eigen::Index i = 0; i < x.cols(); ++i)
+          rho[i] = x(0, i) > 1 && x(0, i) < 2 ? 1 : low;
+      };
+      const Cvt grid = make_grid(recipe);
+      CHECK(grid.mesh.points.cols() == 800);
+      CHECK(grid.report.converged);
+      // As many cells lie in the band as the integral of sqrt(rho) has there.
+      const auto inside =
+          ((grid.mesh.points.row(0).array() > 1) && (grid.mesh.points.row(0).array() < 2)).count();
+      CHECK(static_cast<double>(inside) / 800 ==
+            doctest::Approx(1 / (1 + 3 * std::sqrt(low))).epsilon(0.05));
     }
 }
 
