@@ -307,5 +307,7 @@ def test_a_model_sets_the_order_of_the_vertices_around_cells(tmp_path):
     assert calotte.read(tmp_path / "ocean.nc").to_xarray().sphere_radius == 6371220
     with pytest.raises(calotte.Error, match="mpas-atmosphere needs a sphere with another radius"):
         mesh.to_mpas(tmp_path / "bad.nc", model="mpas-atmosphere", sphere_radius=6371220.0)
+    with pytest.raises(calotte.Error, match="model fesom reads the format fesom, not mpas"):
+        mesh.to_mpas(tmp_path / "bad.nc", model="fesom")
     with pytest.raises(calotte.Error, match="no model wrf; give one of: mpas-atmosphere"):
         mesh.to_mpas(tmp_path / "bad.nc", model="wrf")

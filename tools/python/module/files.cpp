@@ -216,10 +216,13 @@ struct Output {
   std::optional<std::string> model; ///< that reads the file
 };
 
-/// Sets what a model expects of its files. \param radius stays, if it is given.
-/// \throws Error invalid_argument for a word of no model, and for a radius that it cannot use.
+/// Sets what a model expects of its files. \param format of the file. \param radius stays, if it is
+/// given. \returns the model.
+/// \throws Error invalid_argument for a word of no model, and for a format or a radius that it
+///         cannot use.
 template <class Options>
-void set_model(const std::string& word, std::optional<double> radius, Options& options) {
+const Model& set_model(const std::string& word, Format format, std::optional<double> radius,
+                       Options& options) {
   const Model* const model = find_model(word);
   if (model == nullptr) {
     std::string words;
@@ -227,6 +230,10 @@ void set_model(const std::string& word, std::optional<double> radius, Options& o
       words += (words.empty() ? "" : ", ") + known.word;
     throw Error(ErrorCode::invalid_argument, "no model " + word + "; give one of: " + words);
   }
+  if (model->format != format)
+    throw Error(ErrorCode::invalid_argument,
+                "model " + word + " reads the format " + info_of(model->format).word + ", not " +
+                    info_of(format).word + "; give a file of that format, or leave the model out");
   options.sphere_radius = radius.value_or(model->sphere_radius);
   options.vertex_order = model->vertex_order;
   options.dimensions = model->dimensions;
@@ -235,6 +242,7 @@ void set_model(const std::string& word, std::optional<double> radius, Options& o
                 "model " + word +
                     " needs a sphere with another radius than sphere_radius; leave "
                     "one of them out");
+  return *model;
 }
 
 WriteOptions options_of(const Output& output) {
@@ -242,8 +250,12 @@ WriteOptions options_of(const Output& output) {
   options.format = output.format;
   options.numbering = output.numbering;
   options.sphere_radius = output.radius.value_or(1);
-  if (output.model)
-    set_model(*output.model, output.radius, options);
+  if (output.model) {
+    const Model& model =
+        set_model(*output.model, format_of(output.path, output.format), output.radius, options);
+    if (output.numbering == Numbering::by_format)
+      options.numbering = model.numbering;
+  }
   options.density = output.density;
   options.history = output.history;
   for (const auto& [name, values] : output.fields) {
@@ -309,7 +321,7 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Su
   options.rings = rings;
   options.sphere_radius = radius;
   if (model)
-    set_model(*model, radius, options);
+    set_model(*model, Format::mpas, radius, options);
   else if (!radius)
     options.vertex_order.reset(); // the source's, too
   const CutReport report = call([&] { return cut(source, target, region, options); });
@@ -420,7 +432,7 @@ py::dict cull_mesh(const std::string& source, const std::string& target, const p
   options.cell_map_folder = cell_map;
   options.sphere_radius = radius;
   if (model)
-    set_model(*model, radius, options);
+    set_model(*model, Format::mpas, radius, options);
   const CullReport report = call([&] {
     set_land(land, options);
     return cull(source, target, options);
