@@ -22,8 +22,8 @@ struct FieldGrid {
   MeshFile mesh = {};                    ///< where there are no boxes; without its fields
   std::vector<MeshField> fields = {};    ///< at cells
   std::vector<std::string> ignored = {}; ///< variables that are no such field
-  /// By cell whether it counts: the masks of SCRIP and ESMF. Fields are NaN where it does not.
-  /// Empty where all do.
+  /// n: 1 for cells that count, 0 for those that the mask of SCRIP (grid_imask) or ESMF
+  /// (elementMask) leaves out. Empty where all count.
   Ids mask = {};
 
   /// The number of cells.
@@ -35,8 +35,9 @@ struct FieldGrid {
 /// standard_name or units say so. Where these have bounds, the boxes are those; else see
 /// lon_lat_boxes(). Fields of a raster have both dimensions, and any others, in any order. Values
 /// are what their attributes say: unpacked, unsigned, and NaN where they are missing or out of
-/// range. \param choice of the fields. \throws Error as read_mesh_file() and lon_lat_boxes(), with
-/// the file's name.
+/// range, and where a mask leaves the cell out.
+/// \param choice of the fields.
+/// \throws Error as read_mesh_file() and lon_lat_boxes(), with the file's name.
 FieldGrid read_field_grid(const std::string& path, FieldChoice choice = FieldChoice::all);
 
 /// The same of a file of fields without their mesh, such as a model's history, and of the file of

@@ -203,3 +203,74 @@ TEST_CASE("heights and depths of a file, in metres or kilometres, in either orde
   CHECK_THROWS_WITH_AS(heights({{"units", "feet"}}, 1, false),
                        doctest::Contains("\"feet\" is not one of heights; give m or km"), Error);
 }
+
+TEST_CASE("masked cells give nothing and get nothing, by all methods") {
+  const Scratch scratch;
+  const std::string path = scratch / "grid.nc";
+  const auto boxes = [&](int columns, int rows, const std::vector<double>& mask) {
+    {
+      const Written file(path);
+      const int size = file.dimension("grid_size", static_cast<std::size_t>(columns * rows)),
+                corners = file.dimension("grid_corners", 4), rank = file.dimension("grid_rank", 1);
+      std::vector<double> lon, lat, x, y;
+      for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i) {
+          const double west = 360.0 * i / columns, east = 360.0 * (i + 1) / columns,
+                       south = 180.0 * j / rows - 90, north = 180.0 * (j + 1) / rows - 90;
+          lon.insert(lon.end(), {west, east, east, west});
+          lat.insert(lat.end(), {south, south, north, north});
+          x.push_back((west + east) / 2);
+          y.push_back((south + north) / 2);
+        }
+      const auto put = [&](const std::string& name, const std::vector<int>& dimensions,
+                           const std::vector<double>& values, nc_type type = NC_DOUBLE) {
+        const int v = file.variable(name, type, dimensions);
+        file.text(v, "units", "degrees");
+        file.put(v, values);
+      };
+      put("grid_dims", {rank}, {static_cast<double>(columns * rows)}, NC_INT);
+      put("grid_center_lon", {size}, x);
+      put("grid_center_lat", {size}, y);
+      put("grid_corner_lon", {size, corners}, lon);
+      put("grid_corner_lat", {size, corners}, lat);
+      put("grid_imask", {size}, mask, NC_INT);
+      std::vector<double> values;
+      for (const double counts : mask)
+        values.push_back(counts != 0 ? 1 : 1e20);
+      const int v = file.variable("sst", NC_DOUBLE, {size});
+      file.put(v, values);
+    }
+    return read_field_grid(path);
+  };
+  std::vector<double> land(72, 1), coarse(18, 1);
+  for (const std::size_t k : {0, 1, 13, 30, 31, 32, 60})
+    land[k] = 0;
+  coarse[7] = 0;
+  const FieldGrid source = boxes(12, 6, land);
+  REQUIRE(source.mask.size() == 72);
+  CHECK(source.mask.sum() == 65);
+  CHECK(source.fields.size() == 1);
+  const FieldGrid target = boxes(6, 3, coarse);
+  for (const Interpolation kind :
+       {Interpolation::conservative, Interpolation::linear, Interpolation::nearest}) {
+    const GridWeights weights = interpolation_weights(source, target, kind);
+    for (Eigen::Index row = 0; row < 18; ++row) {
+      double sum = 0;
+      for (Weights::InnerIterator entry(weights.weights, row); entry; ++entry) {
+        CHECK(source.mask[entry.col()] == 1);
+        sum += entry.value();
+      }
+      CHECK((row == 7 ? sum == 0 : sum == 0 || std::abs(sum - 1) < 1e-14));
+      CHECK((sum > 0) == (weights.target_fraction[row] > 0));
+    }
+    if (kind != Interpolation::conservative)
+      continue;
+    // What is shared is the same seen from both sides.
+    CHECK(std::abs(weights.source_fraction.dot(weights.source_area) -
+                   weights.target_fraction.dot(weights.target_area)) < 1e-12);
+    CHECK(weights.source_fraction[13] == 0);
+    const MeshField field = interpolate(weights, source.fields.front());
+    for (Eigen::Index row = 0; row < 18; ++row)
+      CHECK((std::isnan(field.values[row]) ? row == 7 : std::abs(field.values[row] - 1) < 1e-14));
+  }
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/netcdf/netcdf_reader.h"
+#include "io/netcdf/cf_values.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -43,12 +43,9 @@ CellField read_cell_field(const std::string& path, const std::string& name, std:
   if (!is_cell_field(file, name, cells))
     refuse_field(file, name + " has not one value for each of " + std::to_string(cells) + " cells",
                  cells);
-  const std::vector<double> values = file.doubles(name, file.shape_of(name));
-  const double fill = file.number(name, "_FillValue", std::numeric_limits<double>::quiet_NaN());
+  const std::vector<double> values = io_detail::cf_values(file, name, file.shape_of(name));
   CellField field;
   field.values = Eigen::Map<const DoubleVector>(values.data(), cells);
-  field.values =
-      (field.values.array() == fill).select(std::numeric_limits<double>::quiet_NaN(), field.values);
   field.long_name = file.text(name, "long_name");
   field.units = file.text(name, "units");
   return field;

@@ -6,6 +6,7 @@
 #include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
+#include "io/netcdf/cf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,24 +20,9 @@ constexpr std::size_t fewest_corners = 3;
 
 // ---- Corners
 
-std::optional<double> number_of(const NetcdfReader& file, const std::string& name,
-                                const std::string& attribute) {
-  const double value = file.number(name, attribute, 0);
-  const bool absent = value == 0 && file.number(name, attribute, 1) == 1;
-  return absent ? std::nullopt : std::optional(value);
+bool may_be_missing(const NetcdfReader& file, const std::string& name) {
+  return !file.numbers(name, "_FillValue").empty() || !file.numbers(name, "missing_value").empty();
 }
-
-/// The values that stand for none.
-struct Missing {
-  std::optional<double> fill, other;
-
-  Missing(const NetcdfReader& file, const std::string& name)
-      : fill(number_of(file, name, "_FillValue")), other(number_of(file, name, "missing_value")) {}
-  bool any() const { return fill || other; }
-  bool operator()(double value) const {
-    return any() && (std::isnan(value) || value == fill || value == other);
-  }
-};
 
 /// From corners first to a row of corners for each cell.
 void turn_rows(std::vector<double>& values, std::int64_t corners) {
@@ -57,14 +43,13 @@ double degrees_of(const NetcdfReader& file, const std::string& corners,
 /// Corners that are none take the place of another, so that all are places. \returns them.
 std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& rows,
                                       LonLats& places) {
-  const Missing no_longitude(file, rows.corner_longitude), no_latitude(file, rows.corner_latitude);
   std::vector<std::size_t> missing;
-  if (!no_longitude.any() && !no_latitude.any())
+  if (!may_be_missing(file, rows.corner_longitude) && !may_be_missing(file, rows.corner_latitude))
     return missing;
   const std::size_t count = places.longitudes.size();
   std::size_t known = count;
   for (std::size_t i = 0; i < count; ++i)
-    if (no_longitude(places.longitudes[i]) || no_latitude(places.latitudes[i]))
+    if (std::isnan(places.longitudes[i]) || std::isnan(places.latitudes[i]))
       missing.push_back(i);
     else
       known = std::min(known, i);
@@ -203,8 +188,8 @@ Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Po
   if (most < 3)
     file.fail(rows.corner_longitude + " has " + std::to_string(most) +
               " corners a cell; make the file again with three or more");
-  LonLats places{file.doubles(rows.corner_longitude, shape),
-                 file.doubles(rows.corner_latitude, shape)};
+  LonLats places{cf_values(file, rows.corner_longitude, shape),
+                 cf_values(file, rows.corner_latitude, shape)};
   const std::int64_t cells = std::ssize(places.longitudes) / most;
   if (centres.cols() > 0 && cells != centres.cols())
     file.fail(rows.corner_longitude + " holds " + std::to_string(cells) + " cells, but there are " +

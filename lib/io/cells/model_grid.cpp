@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/model_grid.h"
+#include "io/netcdf/cf_values.h"
 
 #include "base/lonlat.h"
 #include "base/matrix_memory.h"
@@ -145,7 +146,7 @@ void NetcdfGridFile::commit() {
 
 bool is_mask(const MeshField& field) {
   return field.location == Location::cells && field.count() == 1 &&
-         (field.name == "grid_imask" || field.name == "elementMask");
+         std::find(mask_names.begin(), mask_names.end(), field.name) != mask_names.end();
 }
 
 namespace {
@@ -205,8 +206,8 @@ LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats 
 
 LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape) {
-  LonLats places{file.doubles(longitude, shape), {}};
-  places.latitudes = file.doubles(latitude, file.shape_of(longitude));
+  LonLats places{cf_values(file, longitude, shape), {}};
+  places.latitudes = cf_values(file, latitude, file.shape_of(longitude));
   scale(places.longitudes, degrees_per_unit(file, longitude));
   scale(places.latitudes, degrees_per_unit(file, latitude));
   return checked(file, longitude + " and " + latitude, std::move(places));

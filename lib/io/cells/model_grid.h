@@ -14,6 +14,7 @@
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -125,6 +126,9 @@ private:
   NetcdfWriter file_;
   std::vector<Stage> stages_ = {{[] {}, {}}};
 };
+
+/// The variables of SCRIP and ESMF with 0 for cells that do not count.
+inline constexpr std::array<const char*, 2> mask_names{"grid_imask", "elementMask"};
 
 /// A mask of SCRIP or ESMF, of which each format has a variable of its own.
 bool is_mask(const MeshField& field);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -55,19 +57,35 @@ std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshName
   return located ? std::optional(std::move(field)) : std::nullopt;
 }
 
-/// From the order of a file, in which leading dimensions come before the location's.
-DoubleVector by_place(const MeshField& field, DoubleVector values) {
-  std::int64_t before = 1;
-  for (int d = 0; d < field.leading; ++d)
-    before *= field.dimensions[static_cast<std::size_t>(d)].size;
-  const std::int64_t after = field.count() / before, places = values.size() / field.count();
-  if (before == 1)
-    return values;
-  DoubleVector out(values.size());
-  for (std::int64_t b = 0; b < before; ++b)
-    for (std::int64_t i = 0; i < places; ++i)
-      out.segment((i * before + b) * after, after) =
-          values.segment((b * places + i) * after, after);
+/// By index over some dimensions, the slowest first: where its value stands among all.
+std::vector<std::int64_t> offsets_of(const std::vector<std::int64_t>& shape,
+                                     const std::vector<std::size_t>& dimensions) {
+  std::vector<std::int64_t> offsets{0};
+  for (const std::size_t d : dimensions) {
+    const std::int64_t stride = std::accumulate(shape.begin() + static_cast<std::ptrdiff_t>(d) + 1,
+                                                shape.end(), std::int64_t{1}, std::multiplies<>());
+    std::vector<std::int64_t> finer;
+    for (const std::int64_t offset : offsets)
+      for (std::int64_t k = 0; k < shape[d]; ++k)
+        finer.push_back(offset + k * stride);
+    offsets = std::move(finer);
+  }
+  return offsets;
+}
+
+/// From the order of a file: place by place.
+DoubleVector by_place(const std::vector<double>& values, const std::vector<std::int64_t>& shape,
+                      const std::vector<std::size_t>& places) {
+  std::vector<std::size_t> others;
+  for (std::size_t d = 0; d < shape.size(); ++d)
+    if (std::find(places.begin(), places.end(), d) == places.end())
+      others.push_back(d);
+  const std::vector<std::int64_t> at = offsets_of(shape, places), of = offsets_of(shape, others);
+  DoubleVector out(std::ssize(values));
+  double* next = out.data();
+  for (const std::int64_t place : at)
+    for (const std::int64_t other : of)
+      *next++ = values[static_cast<std::size_t>(place + other)];
   return out;
 }
 
@@ -94,18 +112,15 @@ bool is_directed(const NetcdfReader& file, const std::string& name) {
 
 } // namespace
 
-void read_values(const NetcdfReader& file, MeshField& field) {
+void read_values(const NetcdfReader& file, const std::vector<std::size_t>& places,
+                 MeshField& field) {
+  const std::vector<std::int64_t> shape = file.shape_of(field.name);
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
-  field.values = by_place(field, values_with_fill(file, field.name));
+  field.values = by_place(cf_values(file, field.name, shape), shape, places);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
   field.directed = field.location == Location::edges && is_directed(file, field.name);
-}
-
-DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name) {
-  const std::vector<double> values = cf_values(file, name, file.shape_of(name));
-  return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
@@ -121,7 +136,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
       raw.ignored.push_back(name);
       continue;
     }
-    read_values(file, *field);
+    read_values(file, {static_cast<std::size_t>(field->leading)}, *field);
     raw.fields.push_back(*std::move(field));
   }
 }

@@ -28,11 +28,11 @@ struct NetcdfMeshNames {
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
                  RawMesh& raw);
 
-/// Reads a field's values and attributes. \pre its name, location, dimensions and `leading` are
-/// set. \throws Error parse, file.
-void read_values(const NetcdfReader& file, MeshField& field);
-
-/// The values of a variable, see cf_values().
-DoubleVector values_with_fill(const NetcdfReader& file, const std::string& name);
+/// Reads a field's values, see cf_values(), and attributes.
+/// \param places which of the variable's dimensions stand for places, the slowest first; the field
+///        has a value for each of the others, in the order of the file, at each place.
+/// \pre its name, location, dimensions and `leading` are set. \throws Error parse, file.
+void read_values(const NetcdfReader& file, const std::vector<std::size_t>& places,
+                 MeshField& field);
 
 } // namespace calotte::io_detail

@@ -139,18 +139,64 @@ bool is_coordinate(const NetcdfReader& file, const std::string& name) {
   return standard == "latitude" || standard == "longitude" || name == "x" || name == "y";
 }
 
-/// Takes a mask among the fields as what it says: values of masked cells mean nothing.
-void take_mask(FieldGrid& grid) {
-  const auto found = std::find_if(grid.fields.begin(), grid.fields.end(), is_mask);
-  if (found == grid.fields.end())
-    return;
-  grid.mask = (found->values.array() == 0).select(Ids::Zero(found->values.size()), 1);
-  grid.fields.erase(found);
+/// The mask of a mesh file, which no choice of fields leaves out; none where all cells count.
+Ids mask_of(const std::string& path, std::int64_t cells) {
+  if (!is_netcdf_file(path))
+    return {};
+  const NetcdfReader file(path);
+  for (const char* const name : mask_names)
+    if (file.has_variable(name) && file.is_integer(name) &&
+        file.shape_of(name) == std::vector<std::int64_t>{cells}) {
+      const std::vector<std::int32_t> values = file.ints(name, {cells});
+      const Ids mask =
+          Eigen::Map<const Ids>(values.data(), cells).unaryExpr([](std::int32_t value) {
+            return value == 0 ? 0 : 1;
+          });
+      return mask.minCoeff() == 1 ? Ids() : mask;
+    }
+  return {};
+}
+
+/// Values of cells that do not count are missing, and the mask is no field.
+void apply_mask(FieldGrid& grid) {
+  std::erase_if(grid.fields, is_mask);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (MeshField& field : grid.fields)
     for (Eigen::Index i = 0; i < grid.mask.size(); ++i)
       if (grid.mask[i] == 0)
         field.values.segment(i * field.count(), field.count()).setConstant(none);
+}
+
+bool counts(const FieldGrid& grid, Eigen::Index cell) {
+  return grid.mask.size() == 0 || grid.mask[cell] != 0;
+}
+
+/// Weights between cells that count: rows are divided by what is left of them.
+void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeights& out) {
+  if (source.mask.size() == 0 && target.mask.size() == 0)
+    return;
+  Weights& weights = out.weights;
+  DoubleVector left = DoubleVector::Zero(weights.rows());
+  weights.prune([&](Eigen::Index row, Eigen::Index column, double weight) {
+    const bool stays = counts(target, row) && counts(source, column);
+    left[row] += stays ? weight : 0;
+    return stays;
+  });
+  weights.makeCompressed();
+  out.target_fraction.array() *= left.array();
+  DoubleVector shared = DoubleVector::Zero(weights.cols()); // of areas, where these are known
+  for (Eigen::Index row = 0; row < weights.rows(); ++row)
+    for (Weights::InnerIterator entry(weights, row); entry; ++entry) {
+      entry.valueRef() /= left[row];
+      if (out.target_area.size() > 0)
+        shared[entry.col()] += entry.value() * out.target_fraction[row] * out.target_area[row];
+    }
+  if (out.source_area.size() > 0)
+    out.source_fraction =
+        (out.source_area.array() > 0).select(shared.array() / out.source_area.array(), 0.0);
+  else
+    for (Eigen::Index i = 0; i < out.source_fraction.size(); ++i)
+      out.source_fraction[i] *= counts(source, i) ? 1 : 0;
 }
 
 } // namespace
@@ -180,7 +226,8 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
     return true;
   });
   grid.mesh.fields.clear();
-  take_mask(grid);
+  grid.mask = mask_of(path, grid.size());
+  apply_mask(grid);
   return grid;
 }
 
@@ -202,6 +249,7 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
       grid.fields.push_back(std::move(field));
   grid.ignored = std::move(raw.ignored);
   grid.name = path;
+  apply_mask(grid);
   return grid;
 }
 
@@ -233,17 +281,19 @@ GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& targ
                                   Interpolation kind) {
   using namespace io_detail;
   require_one_surface(source, target);
-  if (kind == Interpolation::conservative)
-    return conservative(source, target);
-  GridWeights out{.weights = at_positions(source, centres_of(target), kind),
-                  .source_area = {},
-                  .target_area = {},
-                  .source_fraction = DoubleVector::Ones(source.size()),
-                  .target_fraction = DoubleVector(target.size())};
-  for (Eigen::Index i = 0; i < target.size(); ++i) {
-    const int* const begin = out.weights.outerIndexPtr();
-    out.target_fraction[i] = begin[i + 1] > begin[i] ? 1 : 0;
+  GridWeights out;
+  if (kind == Interpolation::conservative) {
+    out = conservative(source, target);
+  } else {
+    out.weights = at_positions(source, centres_of(target), kind);
+    out.source_fraction = DoubleVector::Ones(source.size());
+    out.target_fraction.resize(target.size());
+    for (Eigen::Index i = 0; i < target.size(); ++i) {
+      const int* const begin = out.weights.outerIndexPtr();
+      out.target_fraction[i] = begin[i + 1] > begin[i] ? 1 : 0;
+    }
   }
+  leave_masked_out(source, target, out);
   return out;
 }
 

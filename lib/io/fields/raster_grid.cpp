@@ -87,6 +87,10 @@ LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
   }
 }
 
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 /// A field without values; none for a variable that is not on the raster. Its dimensions besides
 /// those of the raster may stand anywhere.
 std::optional<MeshField> field_of(const NetcdfReader& file, const RasterAxes& axes,
@@ -100,47 +104,13 @@ std::optional<MeshField> field_of(const NetcdfReader& file, const RasterAxes& ax
   for (const std::string& dimension : dimensions)
     if (dimension != axes.latitude && dimension != axes.longitude)
       field.dimensions.push_back({dimension, file.dimension(dimension)});
-  const auto latitude = std::find(dimensions.begin(), dimensions.end(), axes.latitude);
-  field.leading =
-      static_cast<int>(latitude + 1 != dimensions.end() && *(latitude + 1) == axes.longitude
-                           ? latitude - dimensions.begin()
-                           : std::ssize(field.dimensions));
+  const std::size_t latitude = index_of(dimensions, axes.latitude);
+  field.leading = static_cast<int>(
+      latitude + 1 == index_of(dimensions, axes.longitude) ? latitude : field.dimensions.size());
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
       return std::nullopt;
   return field;
-}
-
-/// Brings values from the order of the file, in which longitude need not follow latitude, to that
-/// of a field: box by box, latitude first.
-void order_boxes(const NetcdfReader& file, const RasterAxes& axes, MeshField& field) {
-  const std::vector<std::string> dimensions = file.dimensions_of(field.name);
-  const auto latitude = std::find(dimensions.begin(), dimensions.end(), axes.latitude);
-  if (latitude + 1 != dimensions.end() && *(latitude + 1) == axes.longitude)
-    return;
-  const std::vector<double> values = cf_values(file, field.name, file.shape_of(field.name));
-  std::vector<std::int64_t> stride(dimensions.size(), 1);
-  for (std::size_t d = dimensions.size() - 1; d > 0; --d)
-    stride[d - 1] = stride[d] * file.dimension(dimensions[d]);
-  std::int64_t of_latitude = 0, of_longitude = 0;
-  std::vector<std::int64_t> others;
-  for (std::size_t d = 0; d < dimensions.size(); ++d)
-    (dimensions[d] == axes.latitude    ? of_latitude
-     : dimensions[d] == axes.longitude ? of_longitude
-                                       : others.emplace_back()) = stride[d];
-  const std::int64_t rows = file.dimension(axes.latitude), columns = file.dimension(axes.longitude),
-                     count = field.count();
-  field.values.resize(rows * columns * count);
-  for (std::int64_t box = 0; box < rows * columns; ++box)
-    for (std::int64_t k = 0; k < count; ++k) {
-      std::int64_t at = box / columns * of_latitude + box % columns * of_longitude, rest = k;
-      for (std::size_t d = others.size(); d-- > 0;) {
-        const std::int64_t size = field.dimensions[d].size;
-        at += rest % size * others[d];
-        rest /= size;
-      }
-      field.values[box * count + k] = values[static_cast<std::size_t>(at)];
-    }
 }
 
 } // namespace
@@ -166,8 +136,9 @@ FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, Fie
       grid.ignored.push_back(name);
       continue;
     }
-    read_values(file, *field);
-    order_boxes(file, axes, *field);
+    const std::vector<std::string> dimensions = file.dimensions_of(name);
+    read_values(file, {index_of(dimensions, axes.latitude), index_of(dimensions, axes.longitude)},
+                *field);
     grid.fields.push_back(*std::move(field));
   }
   return grid;

@@ -4,6 +4,7 @@
 #include "io/cells/model_grid.h"
 #include "io/cells/written_fields.h"
 #include "io/formats/formats.h"
+#include "io/netcdf/cf_values.h"
 
 #include <limits>
 
@@ -49,7 +50,7 @@ NetcdfAttributes degrees(const std::string& of) {
 
 /// Longitudes and latitudes in pairs.
 Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
-  const std::vector<double> pairs = file.doubles(name, {-1, 2});
+  const std::vector<double> pairs = cf_values(file, name, {-1, 2});
   const double factor = degrees_per_unit(file, name);
   const std::int64_t count = std::ssize(pairs) / 2;
   LonLats places{zeros<double>(count), zeros<double>(count)};

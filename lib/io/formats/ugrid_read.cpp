@@ -4,6 +4,7 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/formats/formats.h"
 #include "io/formats/ugrid.h"
+#include "io/netcdf/cf_values.h"
 
 #include <algorithm>
 #include <array>
@@ -138,8 +139,8 @@ Points3 read_pairs(const NetcdfReader& file, const Topology& topology,
                    const std::vector<std::string>& names, std::int64_t count = -1) {
   if (!topology.planar)
     return read_lonlats(file, names[0], names[1], {count});
-  const std::vector<double> x = file.doubles(names[0], {count}),
-                            y = file.doubles(names[1], {std::ssize(x)});
+  const std::vector<double> x = cf_values(file, names[0], {count}),
+                            y = cf_values(file, names[1], {std::ssize(x)});
   Points3 places = Points3::Zero(3, std::ssize(x));
   places.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), places.cols());
   places.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), places.cols());

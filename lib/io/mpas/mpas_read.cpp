@@ -6,6 +6,7 @@
 #include "io/cells/polygons.h"
 #include "io/mpas/mpas.h"
 #include "io/mpas/vertex_order.h"
+#include "io/netcdf/cf_values.h"
 #include "io/netcdf/netcdf_reader.h"
 
 #include "base/parallel.h"
@@ -149,8 +150,10 @@ void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Field
   read_fields(file, mpas_names(), choice, raw);
   read_edges(file, cells, raw);
   if (file.has_variable(mpas::mesh_density) &&
-      file.shape_of(mpas::mesh_density) == std::vector<std::int64_t>{cells})
-    raw.density = values_with_fill(file, mpas::mesh_density);
+      file.shape_of(mpas::mesh_density) == std::vector<std::int64_t>{cells}) {
+    const std::vector<double> density = cf_values(file, mpas::mesh_density, {cells});
+    raw.density = Eigen::Map<const DoubleVector>(density.data(), cells);
+  }
 }
 
 bool holds_cells(const NetcdfReader& file) {

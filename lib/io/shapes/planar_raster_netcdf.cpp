@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_names.h"
-#include "io/netcdf/netcdf_reader.h"
+#include "io/netcdf/cf_values.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/planar_grid.h"
 
@@ -13,13 +13,14 @@
 namespace calotte {
 namespace {
 
+using io_detail::cf_values;
 using io_detail::NetcdfReader;
 using io_detail::PlanarGrid;
 
 DoubleVector read_coordinate(const NetcdfReader& file, const std::string& name) {
   if (!file.has_variable(name) || file.shape_of(name).size() != 1)
     file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ")");
-  const std::vector<double> values = file.doubles(name, {-1});
+  const std::vector<double> values = cf_values(file, name, {-1});
   return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
@@ -33,7 +34,7 @@ PlanarGrid read_grid(const NetcdfReader& file, const std::string& variable) {
   if (file.dimensions_of(variable) != expected)
     file.fail(variable + " is not " + variable + "(" + expected[0] + ", " + expected[1] +
               "); give it these dimensions, in this order");
-  const std::vector<double> values = file.doubles(variable, {grid.y.size(), grid.x.size()});
+  const std::vector<double> values = cf_values(file, variable, {grid.y.size(), grid.x.size()});
   grid.values = Eigen::Map<const DoubleMatrix>(values.data(), grid.x.size(), grid.y.size());
   return grid;
 }
