@@ -174,7 +174,7 @@ def _at(self, longitudes, latitudes):
 
 
 def _demanded(widths):
-    return np.where(widths < 0.5 * Widths.no_demand, widths, np.nan)  # as Widths::is_demand()
+    return np.where(Widths.is_demand(widths), widths, np.nan)
 
 
 def _to_xarray(self, step=0):

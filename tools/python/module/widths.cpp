@@ -89,8 +89,8 @@ void add_widths(py::module_& module) {
       .def(py::init([](const CellWidth& raster) { return call([&] { return Widths(raster); }); }))
       .def(py::init(
           [](const PlanarCellWidth& raster) { return call([&] { return Widths(raster); }); }))
-      .def_readonly_static("no_demand", &Widths::no_demand,
-                           "What a rule says of places where it gives no width, km.")
+      .def_static("is_demand", py::vectorize(&Widths::is_demand),
+                  "(n,) whether widths of at() are ones that a rule gives.")
       .def_property_readonly("of_plane", &Widths::is_of_plane,
                              "True for rules of a plane, in its unit.")
       .def(
