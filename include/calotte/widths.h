@@ -8,6 +8,7 @@
 #include <calotte/types.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct LandRaster;
 
 namespace density_detail {
 class WidthRule;
-}
+/// A rule, prepared for a sphere with a radius in km.
+using RuleOfRadius = std::function<std::shared_ptr<const WidthRule>(double)>;
+} // namespace density_detail
 
 /// How a width changes with a number, such as a distance or a latitude.
 struct WidthProfile {
@@ -82,16 +85,16 @@ public:
   Share(const LandRaster& raster); // NOLINT(google-explicit-constructor)
 
   /// A rule of the library: 1 more than the share, as widths are positive.
-  const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
+  const density_detail::RuleOfRadius& rule() const { return rule_; }
 
 private:
-  std::shared_ptr<const density_detail::WidthRule> rule_;
+  density_detail::RuleOfRadius rule_;
 };
 
 /// Cell widths as an expression: rules, each a width for every place, and what is made of them.
-/// Lengths are in km on a sphere of radius earth_radius_km, in a plane in its unit, and widths are
-/// positive. Rules of the sphere and of a plane do not mix. Those of a plane are numbers, rasters,
-/// and by distance.
+/// Lengths are in km on a sphere of radius earth_radius_km, or of that of on_sphere(), in a plane
+/// in its unit, and widths are positive. Rules of the sphere and of a plane do not mix. Those of a
+/// plane are numbers, rasters, and by distance.
 /// A value that is cheap to copy; copies share what is prepared for queries, and any number of
 /// threads may ask them.
 ///
@@ -108,7 +111,7 @@ public:
   /// Of a plane. \throws Error invalid_argument as density_of().
   Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
-  explicit Widths(std::shared_ptr<const density_detail::WidthRule> rule);
+  explicit Widths(density_detail::RuleOfRadius rule, double radius_km = earth_radius_km);
 
   /// \param profile of the latitude in degrees, from -90 to 90.
   /// \throws Error invalid_argument, naming the node, for a profile that is none.
@@ -182,7 +185,7 @@ public:
   /// \param factor > 0 and finite.
   /// \throws Error invalid_argument for a factor out of range.
   static Widths product(const Widths& widths, double factor);
-  /// At least `least` and at most `most`.
+  /// At least `least` and at most `most`. \throws Error invalid_argument for a least one above it.
   static Widths clamp(const Widths& widths, double least, double most);
   /// One rule within a region, or where a share is 1/2 or more, another outside.
   static Widths where(const Share& share, const Widths& inside, const Widths& outside);
@@ -200,13 +203,24 @@ public:
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;
 
+  /// The same rules on a sphere of another radius: distances, slopes and gradients are km of it. A
+  /// Rossby radius has the Earth's gravity and rotation. Rules of a plane stay.
+  /// \param radius_km > 0 and finite.
+  /// \throws Error invalid_argument for a radius out of range.
+  Widths on_sphere(double radius_km) const;
+  double radius_km() const { return radius_km_; } ///< of the sphere that lengths refer to
+
   bool is_of_plane() const; ///< whether some of its rules are
 
   /// What copies share.
   const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
+  /// The same for any sphere.
+  const density_detail::RuleOfRadius& rule_of_radius() const { return rule_of_radius_; }
 
 private:
-  std::shared_ptr<const density_detail::WidthRule> rule_;
+  density_detail::RuleOfRadius rule_of_radius_;
+  double radius_km_;
+  std::shared_ptr<const density_detail::WidthRule> rule_; ///< for that radius
 };
 
 /// The widths at n places.

@@ -34,7 +34,7 @@ double DiscRule::grown(double width, double beyond) const {
 double DiscRule::width_at(const Vec3& place, const Disc& disc) const {
   const double chord = norm(place - disc.centre),
                angle = 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord));
-  return grown(disc.width, earth_radius_km * angle - disc.radius);
+  return grown(disc.width, angle - disc.radius);
 }
 
 void DiscRule::evaluate(std::span<const Vec3> places, std::span<double> widths) const {
@@ -57,7 +57,7 @@ void DiscRule::evaluate(std::span<const Vec3> places, std::span<double> widths) 
       if (!(bounds.width < least))
         return false;
       const double square = square_from(bounds.centres, p), // the arc of its root c is longer than
-          away = earth_radius_km * std::sqrt(square) * (1 + square / 24); // c + c^3 / 24
+          away = std::sqrt(square) * (1 + square / 24);     // c + c^3 / 24
       return grown(bounds.width, away - bounds.radius) * (1 - rounding) < least;
     };
     discs_->tree.visit(may_demand_less, take);
@@ -72,8 +72,9 @@ double DiscRule::least() const {
   return least;
 }
 
-std::shared_ptr<const WidthRule> DiscRule::limited(double gradient) const {
-  return std::shared_ptr<const WidthRule>(new DiscRule(discs_, std::min(gradient, gradient_)));
+std::shared_ptr<const WidthRule> DiscRule::limited(double gradient, double radius_km) const {
+  return std::shared_ptr<const WidthRule>(
+      new DiscRule(discs_, std::min(gradient * radius_km, gradient_)));
 }
 
 } // namespace calotte::density_detail

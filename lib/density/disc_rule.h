@@ -15,7 +15,7 @@ namespace calotte::density_detail {
 /// The width within a distance of a place.
 struct Disc {
   Vec3 centre;   ///< unit vector
-  double radius; ///< km
+  double radius; ///< radians
   double width;  ///< km
 };
 
@@ -34,7 +34,7 @@ public:
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override;
   double least() const override;
   /// The way from a disc is straight.
-  std::shared_ptr<const WidthRule> limited(double gradient) const override;
+  std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
 
 private:
   /// What copies with other gradients share.
@@ -49,7 +49,7 @@ private:
   double width_at(const Vec3& place, const Disc& disc) const;
 
   std::shared_ptr<const Discs> discs_;
-  double gradient_; ///< km per km; infinite without a limit
+  double gradient_; ///< km per radian; infinite without a limit
 };
 
 } // namespace calotte::density_detail

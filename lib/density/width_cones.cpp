@@ -60,8 +60,8 @@ PlaceRows rows_of(const WidthRule& rule, const CellWidth& raster, int parts) {
   return rows;
 }
 
-double distance_km(const Vec3& a, const Vec3& b) {
-  return earth_radius_km * 2 * base_detail::arc_sine(std::min(1.0, 0.5 * norm(a - b)));
+double distance(const Vec3& a, const Vec3& b) {
+  return 2 * base_detail::arc_sine(std::min(1.0, 0.5 * norm(a - b)));
 }
 
 /// Lowers a row of the raster by the places within a step of its latitude.
@@ -82,9 +82,9 @@ void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, CellWid
         double& width = raster.widths(i, j);
         if (widths[k] < width)
           width = std::min(
-              width, widths[k] + gradient * distance_km(base_detail::from_lonlat(longitude, *at),
-                                                        base_detail::from_lonlat(
-                                                            raster.longitudes[i], latitude)));
+              width, widths[k] + gradient * distance(base_detail::from_lonlat(longitude, *at),
+                                                     base_detail::from_lonlat(raster.longitudes[i],
+                                                                              latitude)));
       }
     }
   }

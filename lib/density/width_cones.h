@@ -14,6 +14,7 @@ class WidthRule;
 /// h + g d(x, y). The places are the nodes of the rule's own raster, or a finer one for other
 /// rules.
 /// \param raster regular_grid() with the widths of the rule at its nodes.
+/// \param gradient km per radian.
 CellWidth with_cones(const WidthRule& rule, CellWidth raster, double gradient);
 
 } // namespace calotte::density_detail

@@ -10,6 +10,9 @@
 
 namespace calotte::density_detail {
 
+/// A distance on a sphere, km: half round the largest planets.
+constexpr double farthest_on_sphere = 3e5;
+
 /// A profile as straight pieces.
 class ProfileCurve {
 public:

@@ -101,8 +101,8 @@ public:
   }
   double least() const override { return curve_.least(); }
   /// Along a meridian the way to another latitude is shortest.
-  Rule limited(double gradient) const override {
-    return std::make_shared<LatitudeRule>(curve_.limited(gradient * earth_radius_km / degrees));
+  Rule limited(double gradient, double radius_km) const override {
+    return std::make_shared<LatitudeRule>(curve_.limited(gradient * radius_km / degrees));
   }
 
 private:
@@ -114,23 +114,24 @@ public:
   using IsBehind = std::function<bool(const Vec3&)>;
 
   /// \param is_behind of places where distances are negative; null for none.
-  DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve)
+  DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve,
+               double radius_km)
       : WidthRule(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
-        distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)) {
-  }
+        distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)),
+        unit_(distance_->on_sphere() ? radius_km : 1) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     (*distance_)(places, widths);
-    const double unit = distance_->on_sphere() ? earth_radius_km : 1;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double distance = widths[k] * unit;
+      const double distance = widths[k] * unit_;
       widths[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
     }
   }
   double least() const override { return curve_.least(); }
   /// The distance changes by no more than the way; towards the line by as much.
-  Rule limited(double gradient) const override {
+  Rule limited(double gradient, double radius_km) const override {
     return curve_.grows_from_zero()
-               ? std::make_shared<DistanceRule>(distance_, is_behind_, curve_.limited(gradient))
+               ? std::make_shared<DistanceRule>(distance_, is_behind_, curve_.limited(gradient),
+                                                radius_km)
                : nullptr;
   }
 
@@ -138,6 +139,7 @@ private:
   std::shared_ptr<const LineDistance> distance_;
   IsBehind is_behind_;
   ProfileCurve curve_;
+  double unit_; ///< of the curve's distances
 };
 
 /// Where several rules hold together.
@@ -202,10 +204,10 @@ public:
         }
     }
   }
-  Rule limited(double gradient) const override {
+  Rule limited(double gradient, double radius_km) const override {
     std::vector<Rule> limited;
     for (const Rule& part : parts())
-      limited.push_back(density_detail::limited(part, gradient));
+      limited.push_back(density_detail::limited(part, gradient, radius_km));
     return std::make_shared<MinimumRule>(std::move(limited));
   }
 };
@@ -229,9 +231,9 @@ private:
 /// (1 - t) a + t b. \tparam Weight t of a share.
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
-  BlendRule(Rule a, Rule b, const Share& share)
-      : WidthRule(common_space({a, b, share.rule()})), a_(std::move(a)), b_(std::move(b)),
-        share_(share.rule()) {}
+  BlendRule(Rule a, Rule b, Rule share)
+      : WidthRule(common_space({a, b, share})), a_(std::move(a)), b_(std::move(b)),
+        share_(std::move(share)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     std::vector<double> others(widths.size()), shares(widths.size());
     a_->evaluate(places, widths);
@@ -278,16 +280,51 @@ PlaneBox box_of(const Surface& plane) {
   return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
 }
 
-std::vector<Rule> rules_of(const std::vector<Widths>& widths) {
-  require(!widths.empty(), "there are no widths to combine; give one or more");
-  std::vector<Rule> rules;
+/// What depends on no radius.
+RuleOfRadius for_any_radius(Rule rule) {
+  return [rule = std::move(rule)](double) { return rule; };
+}
+
+/// That of some widths together: those of the Earth go to the other's sphere.
+double common_radius(const std::vector<Widths>& widths) {
+  double radius = earth_radius_km;
   for (const Widths& one : widths)
-    rules.push_back(one.rule());
-  return rules;
+    if (one.radius_km() != earth_radius_km) {
+      require(radius == earth_radius_km || radius == one.radius_km(),
+              "some widths are of a sphere of " + shortly(radius) + " km and some of one of " +
+                  shortly(one.radius_km()) + "; give those of one of them");
+      radius = one.radius_km();
+    }
+  return radius;
+}
+
+/// make(rules) of the rules of some widths.
+template <class Make> Widths made_of(const std::vector<Widths>& widths, const Make& make) {
+  require(!widths.empty(), "there are no widths to combine; give one or more");
+  std::vector<RuleOfRadius> parts;
+  for (const Widths& one : widths)
+    parts.push_back(one.rule_of_radius());
+  return Widths(
+      [parts = std::move(parts), make](double radius_km) -> Rule {
+        std::vector<Rule> rules;
+        for (const RuleOfRadius& part : parts)
+          rules.push_back(part(radius_km));
+        return make(std::move(rules));
+      },
+      common_radius(widths));
 }
 
 Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
-  return Widths(std::make_shared<CombinedRule>(rules_of(of), combine));
+  return made_of(of, [combine](std::vector<Rule> rules) {
+    return std::make_shared<CombinedRule>(std::move(rules), combine);
+  });
+}
+
+template <double (*Weight)(double)>
+Widths blended(const Widths& a, const Widths& b, const Share& share) {
+  return made_of({a, b, Widths(share.rule())}, [](const std::vector<Rule>& rules) {
+    return std::make_shared<BlendRule<Weight>>(rules[0], rules[1], rules[2]);
+  });
 }
 
 /// body(block, begin) for blocks of places of a rule's space: unit vectors, or x y 0.
@@ -312,7 +349,7 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
 /// \param is_inside(i, j) whether a node is in it. \param position(i, j) in words.
 /// \throws Error invalid_argument for one in it without a demand.
 template <class IsInside, class Position>
-void require_demand(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
+void fill_in(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
   double widest = 0;
   for (Eigen::Index j = 0; j < widths.cols(); ++j)
     for (Eigen::Index i = 0; i < widths.rows(); ++i)
@@ -325,7 +362,7 @@ void require_demand(DoubleMatrix& widths, const IsInside& is_inside, const Posit
       widths.unaryExpr([&](double width) { return Widths::is_demand(width) ? width : widest; });
 }
 
-constexpr double quarter = 90, half_round = std::numbers::pi * earth_radius_km;
+constexpr double quarter = 90;
 constexpr double farthest_in_plane = 1e30;
 
 } // namespace
@@ -334,35 +371,37 @@ void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> activ
   std::fill(active.begin(), active.end(), 0);
 }
 
-std::shared_ptr<const WidthRule> WidthRule::limited(double) const { return nullptr; }
+std::shared_ptr<const WidthRule> WidthRule::limited(double, double) const { return nullptr; }
 
-std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
-                                               std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile,
-                                               const Surface& surface) {
-  const double farthest = surface.is_sphere() ? half_round : farthest_in_plane;
-  ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
-  return std::make_shared<DistanceRule>(std::make_shared<LineDistance>(lines, surface),
-                                        std::move(is_behind), std::move(curve));
+RuleOfRadius rule_of_sides(const std::vector<Points3>& lines,
+                           std::function<bool(const Vec3&)> is_behind, const WidthProfile& profile,
+                           const Surface& surface) {
+  const double farthest = surface.is_sphere() ? farthest_on_sphere : farthest_in_plane;
+  const ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
+  const auto distance = std::make_shared<LineDistance>(lines, surface);
+  return [curve, distance, is_behind = std::move(is_behind)](double radius_km) {
+    return std::make_shared<DistanceRule>(distance, is_behind, curve, radius_km);
+  };
 }
 
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
-                                         double gradient) {
+                                         double gradient, double radius_km) {
   if (rule->space() == RuleSpace::any) // made of numbers
     return rule;
-  if (Rule exact = rule->limited(gradient))
+  if (Rule exact = rule->limited(gradient, radius_km))
     return exact;
   require(
       rule->space() != RuleSpace::plane,
       "the gradient of such widths of a plane depends on the domain; limit that of their raster");
-  const Rule raster = std::make_shared<RasterRule>(
-      limit_gradient(with_cones(*rule, sample(*rule, step_for(*rule)), gradient), gradient));
+  const Rule raster = std::make_shared<RasterRule>(limit_gradient(
+      with_cones(*rule, sample(*rule, step_for(*rule, radius_km)), gradient * radius_km), gradient,
+      radius_km));
   return std::make_shared<CombinedRule>(std::vector<Rule>{rule, raster}, least_of);
 }
 
-double step_for(const WidthRule& rule) {
+double step_for(const WidthRule& rule, double radius_km) {
   constexpr double finest = 0.05, coarsest = 1;
-  return std::clamp(rule.least() / earth_radius_km * degrees, finest, coarsest);
+  return std::clamp(rule.least() / radius_km * degrees, finest, coarsest);
 }
 
 CellWidth sample(const WidthRule& rule, double step) {
@@ -387,16 +426,26 @@ CellWidth sample(const WidthRule& rule, double step) {
 
 using namespace density_detail;
 
-Widths::Widths(double width) : rule_(std::make_shared<ConstantRule>(width)) {}
-Widths::Widths(const CellWidth& raster) : rule_(std::make_shared<RasterRule>(raster)) {}
-Widths::Widths(const PlanarCellWidth& raster) : rule_(std::make_shared<PlanarRasterRule>(raster)) {}
-Widths::Widths(std::shared_ptr<const WidthRule> rule) : rule_(std::move(rule)) {}
+Widths::Widths(double width) : Widths(for_any_radius(std::make_shared<ConstantRule>(width))) {}
+Widths::Widths(const CellWidth& raster)
+    : Widths(for_any_radius(std::make_shared<RasterRule>(raster))) {}
+Widths::Widths(const PlanarCellWidth& raster)
+    : Widths(for_any_radius(std::make_shared<PlanarRasterRule>(raster))) {}
+Widths::Widths(RuleOfRadius rule, double radius_km)
+    : rule_of_radius_(std::move(rule)), radius_km_(radius_km), rule_(rule_of_radius_(radius_km)) {}
 
 bool Widths::is_of_plane() const { return rule_->space() == RuleSpace::plane; }
 
 Widths Widths::limit_gradient(double gradient) const {
   require_gradient(gradient);
-  return Widths(limited(rule_, gradient));
+  return Widths([rule = rule_of_radius_, gradient](
+                    double radius_km) { return limited(rule(radius_km), gradient, radius_km); },
+                radius_km_);
+}
+
+Widths Widths::on_sphere(double radius_km) const {
+  require_radius(radius_km);
+  return is_of_plane() || radius_km == radius_km_ ? *this : Widths(rule_of_radius_, radius_km);
 }
 
 DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
@@ -420,7 +469,7 @@ Ids active_rules(const Widths& minimum, const PointsRef& places) {
 CellWidth sampled(const Widths& widths, double step) {
   require(step == 0 || (step >= 0.01 && step <= 10),
           "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
-  return sample(*widths.rule(), step == 0 ? step_for(*widths.rule()) : step);
+  return sample(*widths.rule(), step == 0 ? step_for(*widths.rule(), widths.radius_km()) : step);
 }
 
 CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) {
@@ -433,11 +482,11 @@ CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) 
     return "longitude " + shortly(raster.longitudes[column]) + ", latitude " +
            shortly(raster.latitudes[row]);
   };
-  require_demand(raster.widths, is_inside, position);
+  fill_in(raster.widths, is_inside, position);
   return raster;
 }
 
-PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
+PlanarCellWidth density_detail::sample(const Widths& widths, const Surface& plane, double step) {
   domain_detail::require_plane(plane, "a raster of x and y is");
   domain_detail::require_finite_plane(plane);
   const WidthRule& rule = *widths.rule();
@@ -457,19 +506,28 @@ PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step)
       row.push_back({x, raster.y[j], 0});
     rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
   });
+  return raster;
+}
+
+void density_detail::require_demand(PlanarCellWidth& raster, const Surface& plane) {
   const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
     return !plane.is_bounded() || plane.contains({raster.x[column], raster.y[row], 0});
   };
   const auto position = [&](Eigen::Index column, Eigen::Index row) {
     return "x " + shortly(raster.x[column]) + ", y " + shortly(raster.y[row]);
   };
-  require_demand(raster.widths, is_inside, position);
+  fill_in(raster.widths, is_inside, position);
+}
+
+PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
+  PlanarCellWidth raster = sample(widths, plane, step);
+  require_demand(raster, plane);
   return raster;
 }
 
 Widths Widths::by_latitude(const WidthProfile& profile) {
-  return Widths(
-      std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter)));
+  return Widths(for_any_radius(
+      std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter))));
 }
 
 Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
@@ -484,7 +542,8 @@ Widths Widths::around(const std::vector<Points3>& lines, double width, double ov
 }
 
 Widths Widths::minimum(const std::vector<Widths>& of) {
-  return Widths(std::make_shared<MinimumRule>(rules_of(of)));
+  return made_of(
+      of, [](std::vector<Rule> rules) { return std::make_shared<MinimumRule>(std::move(rules)); });
 }
 Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
 Widths Widths::sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
@@ -492,16 +551,18 @@ Widths Widths::product(const Widths& widths, double factor) {
   return combined({widths, factor}, product_of);
 }
 Widths Widths::clamp(const Widths& widths, double least, double most) {
+  require(least <= most, "the least width " + shortly(least) + " is above the largest, " +
+                             shortly(most) + "; exchange them");
   return minimum({maximum({widths, least}), most});
 }
 Widths Widths::where(const Share& share, const Widths& inside, const Widths& outside) {
-  return Widths(std::make_shared<BlendRule<rounded>>(outside.rule(), inside.rule(), share));
+  return blended<rounded>(outside, inside, share);
 }
 Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
-  return Widths(std::make_shared<BlendRule<all_of>>(a.rule(), b.rule(), t));
+  return blended<all_of>(a, b, t);
 }
 
-Share::Share(const Surface& region) : rule_(std::make_shared<RegionRule>(region)) {}
+Share::Share(const Surface& region) : rule_(for_any_radius(std::make_shared<RegionRule>(region))) {}
 
 Share::Share(const Surface& region, const WidthProfile& profile) {
   require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "

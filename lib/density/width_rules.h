@@ -43,7 +43,7 @@ public:
   virtual const WidthField* raster() const { return nullptr; }
 
   /// The rule with a limited gradient if no raster is needed for that; else null.
-  virtual std::shared_ptr<const WidthRule> limited(double gradient) const;
+  virtual std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const;
 
 private:
   RuleSpace space_;
@@ -56,19 +56,24 @@ private:
 ///
 /// \param surface the sphere or a plane.
 /// \throws Error invalid_argument as Widths::by_distance().
-std::shared_ptr<const WidthRule> rule_of_sides(const std::vector<Points3>& lines,
-                                               std::function<bool(const Vec3&)> is_behind,
-                                               const WidthProfile& profile,
-                                               const Surface& surface = {});
+RuleOfRadius rule_of_sides(const std::vector<Points3>& lines,
+                           std::function<bool(const Vec3&)> is_behind, const WidthProfile& profile,
+                           const Surface& surface = {});
 
-/// Any rule with a limited gradient: nowhere above the rule. \throws Error invalid_argument for a
-/// rule of a plane that needs a raster.
+/// Any rule with a limited gradient: nowhere above the rule.
+/// \param radius_km for which the rule was made. \throws Error invalid_argument for a rule of a
+/// plane that needs a raster.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
-                                         double gradient);
+                                         double gradient, double radius_km);
 
 /// The widths of a rule at the nodes of a raster.
 CellWidth sample(const WidthRule& rule, double step);
-/// The step for its least width, degrees.
-double step_for(const WidthRule& rule);
+/// The same in a plane, see sampled(). \throws Error as there, but for places without a demand.
+PlanarCellWidth sample(const Widths& widths, const Surface& plane, double step);
+/// Gives nodes outside a plane without a demand the largest width of the others.
+/// \throws Error invalid_argument for one inside.
+void require_demand(PlanarCellWidth& raster, const Surface& plane);
+/// The step for its least width on a sphere, degrees.
+double step_for(const WidthRule& rule, double radius_km);
 
 } // namespace calotte::density_detail

@@ -117,7 +117,7 @@ std::vector<std::int32_t> first_inputs(const Mesh& mesh) {
 
 /// \param step of the points, radians.
 std::vector<Disc> discs_of(const ShorePoints& shore, const CoastSides& sides,
-                           const ChannelRule& rule, double step) {
+                           const ChannelRule& rule, double step, double radius_km) {
   const Mesh mesh = delaunay(shore.points);
   const std::vector<std::int32_t> inputs = first_inputs(mesh);
   const auto input = [&](std::int32_t site) { return inputs[static_cast<std::size_t>(site)]; };
@@ -128,12 +128,11 @@ std::vector<Disc> discs_of(const ShorePoints& shore, const CoastSides& sides,
       const auto corners = mesh.triangles.col(t);
       const Circle circle =
           circle_through(shore, {input(corners[0]), input(corners[1]), input(corners[2])});
-      const double width = 2 * earth_radius_km * circle.radius;
+      const double width = 2 * radius_km * circle.radius;
       if (width <= rule.widest && lies_across(circle, shore) && sides.is_sea(circle.centre))
         of_block[static_cast<std::size_t>(block)].push_back(
             // A little larger, as between two circles some of the shore is in neither.
-            {circle.centre, earth_radius_km * (circle.radius + 0.25 * step),
-             std::max(rule.least, width / rule.cells)});
+            {circle.centre, circle.radius + 0.25 * step, std::max(rule.least, width / rule.cells)});
     }
   });
   std::vector<Disc> all;
@@ -159,11 +158,13 @@ Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
   const std::vector<ShoreArc> shore = shore_arcs(coast);
   if (shore.empty())
     return no_demand;
-  // The circles through points that are an eighth of their width apart err by less than 1/100.
-  const double step = std::min(rule.cells * rule.least, rule.widest) / 8 / earth_radius_km;
-  const ShorePoints points = points_along(shore, step);
-  return Widths(
-      std::make_shared<density_detail::DiscRule>(discs_of(points, CoastSides(shore), rule, step)));
+  const auto sides = std::make_shared<const CoastSides>(shore);
+  return Widths([shore, sides, rule](double radius_km) {
+    // The circles through points that are an eighth of their width apart err by less than 1/100.
+    const double step = std::min(rule.cells * rule.least, rule.widest) / 8 / radius_km;
+    return std::make_shared<density_detail::DiscRule>(
+        discs_of(points_along(shore, step), *sides, rule, step, radius_km));
+  });
 }
 
 } // namespace calotte

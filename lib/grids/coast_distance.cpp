@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 namespace calotte {
@@ -16,8 +15,9 @@ namespace {
 
 /// A profile of distances on one side, with nothing on the other.
 WidthProfile one_sided(WidthProfile profile, CoastSide side) {
-  constexpr double far = std::numbers::pi * earth_radius_km, edge = 1e-6;  // km
-  const density_detail::ProfileCurve given(profile, "a distance", 0, far); // refuses bad nodes
+  constexpr double edge = 1e-6; // km
+  const density_detail::ProfileCurve given(profile, "a distance", 0,
+                                           density_detail::farthest_on_sphere); // refuses bad nodes
   auto& nodes = profile.nodes;
   if (const auto [distance, width] = nodes.front(); distance > 0)
     nodes.insert(nodes.begin(), {0, width});

@@ -102,14 +102,16 @@ Demand::Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const Doubl
       unit_(mesh.surface.is_sphere() ? 1 / demand.radius_km : 1),
       factor_(way == Way::finer ? 1 / demand.factor : demand.factor),
       nothing_(way == Way::finer ? infinite : 0) {
-  if (demand.widths && way == Way::finer)
-    fine_.emplace(FineWidths{*demand.widths, unit_});
+  if (demand.widths)
+    widths_ = demand.widths->on_sphere(demand.radius_km);
+  if (widths_ && way == Way::finer)
+    fine_.emplace(FineWidths{*widths_, unit_});
 }
 
 DoubleVector Demand::at(const Points3& points) const {
   if (demand_.region)
     return of_region(points);
-  return evaluate(*demand_.widths, points).unaryExpr([&](double width) {
+  return evaluate(*widths_, points).unaryExpr([&](double width) {
     return Widths::is_demand(width) ? unit_ * width : nothing_;
   });
 }
@@ -142,9 +144,9 @@ DoubleVector Demand::on_cells(const Mesh& mesh, const DoubleVector& own, const M
       sites.push_back(i);
   widths(sites) = at(Points3(mesh.points(Eigen::all, sites)));
   in_space_of(mesh.surface, [&](const Space auto& space) {
-    const Samples samples = demand_.region ? along_boundary(mesh, own, *demand_.region)
-                                           : lattice(mesh, space, own, may_change,
-                                                     unit_ * demand_.widths->rule()->least());
+    const Samples samples =
+        demand_.region ? along_boundary(mesh, own, *demand_.region)
+                       : lattice(mesh, space, own, may_change, unit_ * widths_->rule()->least());
     const DoubleVector there =
         demand_.region ? within_region(samples.points()) : at(samples.points());
     for (std::size_t k = 0; k < samples.places.size(); ++k)

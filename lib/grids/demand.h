@@ -40,7 +40,8 @@ private:
   const WidthDemand& demand_;
   const Mesh& mesh_; ///< as it was given
   const DoubleVector& own_;
-  double unit_; ///< of a width, in that of the mesh
+  std::optional<Widths> widths_; ///< on the sphere that they refer to
+  double unit_;                  ///< of a width, in that of the mesh
   double factor_;
   double nothing_; ///< what stands for no demand
   std::optional<FineWidths> fine_;

@@ -14,7 +14,8 @@ Share::Share(const LandRaster& raster) {
                            (shares >= 0 && shares <= 1).all(),
                        "shares are not 0 to 1, one for each longitude and latitude; correct the "
                        "raster");
-  rule_ = Widths(CellWidth{raster.longitudes, raster.latitudes, (shares + 1).matrix()}).rule();
+  rule_ = Widths(CellWidth{raster.longitudes, raster.latitudes, (shares + 1).matrix()})
+              .rule_of_radius();
 }
 
 } // namespace calotte

@@ -111,6 +111,8 @@ TEST_CASE("rules are combined place by place") {
   CHECK(evaluate(Widths::sum({zones, 5.0}), places) == (z.array() + 5).matrix());
   CHECK(evaluate(Widths::product(zones, 2), places) == 2 * z);
   CHECK(evaluate(Widths::clamp(zones, 30, 60), places) == z.cwiseMax(30).cwiseMin(60));
+  CHECK(test::error_of([&] { Widths::clamp(zones, 60, 30); }).code() ==
+        ErrorCode::invalid_argument);
   const Surface region = circle({1, 0, 0}, 0.5);
   const DoubleVector w = evaluate(Widths::where(region, 10.0, zones), places);
   for (Eigen::Index i = 0; i < places.cols(); ++i)

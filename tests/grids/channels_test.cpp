@@ -137,9 +137,11 @@ TEST_CASE("the least width of discs, and what grows from them, is that over all"
   const Points3 centres = random_sphere(500, 6), places = random_sphere(2000, 7);
   std::vector<density_detail::Disc> discs;
   for (Eigen::Index k = 0; k < centres.cols(); ++k)
-    discs.push_back(
-        {{centres(0, k), centres(1, k), centres(2, k)}, random.real(10, 900), random.real(5, 60)});
-  const Widths rule{std::make_shared<density_detail::DiscRule>(discs)};
+    discs.push_back({{centres(0, k), centres(1, k), centres(2, k)},
+                     random.real(10, 900) / earth_radius_km,
+                     random.real(5, 60)});
+  const Widths rule{
+      [rule = std::make_shared<density_detail::DiscRule>(discs)](double) { return rule; }};
   for (const double gradient : {std::numeric_limits<double>::infinity(), 0.2, 0.001}) {
     const DoubleVector got =
         evaluate(std::isfinite(gradient) ? rule.limit_gradient(gradient) : rule, places);
@@ -148,8 +150,8 @@ TEST_CASE("the least width of discs, and what grows from them, is that over all"
       double least = Widths::no_demand;
       for (std::size_t k = 0; k < discs.size(); ++k) {
         const double beyond =
-            earth_radius_km * angle(centres.col(static_cast<Eigen::Index>(k)), places.col(i)) -
-            discs[k].radius;
+            earth_radius_km *
+            (angle(centres.col(static_cast<Eigen::Index>(k)), places.col(i)) - discs[k].radius);
         least = std::min(least, beyond > 0 ? discs[k].width + gradient * beyond : discs[k].width);
       }
       worst = std::max(worst, std::abs(got[i] - least));

@@ -115,5 +115,5 @@ TEST_CASE("profiles of a coast that are none are refused by name") {
   CHECK(message({}, {{{0, 1}}}, CoastSide::both) ==
         "the coast has no shore to be distant from; give rings");
   CHECK(message(test::gshhg('c'), {{{-10, 5}, {0, 1}}}, CoastSide::sea) ==
-        "node 0 of a profile of a distance is at -10, outside 0 to 20015.1; correct it");
+        "node 0 of a profile of a distance is at -10, outside 0 to 300000; correct it");
 }

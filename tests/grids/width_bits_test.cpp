@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/directions.h"
+#include "support/files.h"
 #include "support/gshhg.h"
 #include "support/random.h"
 
@@ -17,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-// Each width depends on its place alone, and on no thread.
+// Each width depends on its place alone, on no thread, and on no unit.
 
 using namespace calotte;
 using calotte::test::directions;
@@ -37,14 +38,14 @@ HeightRaster heights() {
   return sea;
 }
 
-CellWidth rough() {
+CellWidth rough(double unit) {
   CellWidth raster{DoubleVector::LinSpaced(60, -180, 174), DoubleVector::LinSpaced(31, -90, 90),
                    DoubleMatrix(60, 31)};
   Random random(12);
   for (double& width : raster.widths.reshaped())
-    width = random.real(110, 900);
-  raster.widths.col(0).setConstant(100);
-  raster.widths.col(30).setConstant(300);
+    width = unit * random.real(110, 900);
+  raster.widths.col(0).setConstant(unit * 100);
+  raster.widths.col(30).setConstant(unit * 300);
   return raster;
 }
 
@@ -61,27 +62,36 @@ std::vector<Points3> walks() {
 }
 
 /// Rules of all kinds, by name.
-std::vector<std::pair<std::string, Widths>> rules() {
+/// \param u the unit of their lengths, km.
+std::vector<std::pair<std::string, Widths>> rules(double u = 1) {
   const Coast coast = test::gshhg('c');
   const Surface region = circle({0.2, 0.3, 0.9}, 0.4);
-  const Widths lines = Widths::by_distance(walks(), {{{0, 120}, {500, 150}, {2000, 800}}}),
-               zones = Widths::by_latitude({{{-90, 180}, {0, 600}, {90, 120}}}),
-               depths = Widths::by_depth(heights(), {.cells = 50, .period = 44712, .least = 120}),
-               channels = Widths::by_channel(coast, {.cells = 2, .least = 120});
-  return {{"number", 200.0},
-          {"raster", rough()},
+  const Widths lines = Widths::by_distance(
+                   walks(), {{{0, u * 120}, {u * 500, u * 150}, {u * 2000, u * 800}}}),
+               zones = Widths::by_latitude({{{-90, u * 180}, {0, u * 600}, {90, u * 120}}}),
+               depths = Widths::by_depth(heights(),
+                                         {.cells = 50, .period = u * 44712, .least = u * 120}),
+               slopes = Widths::by_depth(
+                   heights(), {.kind = DepthRule::Kind::slope, .cells = 20, .least = u * 120}),
+               channels =
+                   Widths::by_channel(coast, {.cells = 2, .least = u * 120, .widest = u * 500});
+  return {{"number", u * 200.0},
+          {"raster", rough(u)},
           {"lines", lines},
           {"zones", zones},
-          {"around", Widths::around(walks(), 120, 300)},
-          {"coast", Widths::by_coast(coast, {{{-500, 500}, {0, 120}, {1000, 400}}})},
+          {"around", Widths::around(walks(), u * 120, u * 300)},
+          {"coast",
+           Widths::by_coast(coast, {{{u * -500, u * 500}, {0, u * 120}, {u * 1000, u * 400}}})},
+          {"sea", Widths::by_coast(coast, {{{0, u * 120}, {u * 1000, u * 400}}}, CoastSide::sea)},
           {"depths", depths},
+          {"slopes", slopes},
           {"channels", channels},
-          {"minimum", Widths::minimum({400.0, depths, lines})},
+          {"minimum", Widths::minimum({u * 400.0, depths, lines})},
           {"maximum", Widths::maximum({zones, lines})},
           {"times", Widths::product(channels, 1.7)},
           {"sum", Widths::sum({zones, lines})},
-          {"where", Widths::where(region, 115.0, zones)},
-          {"blend", Widths::blend(zones, lines, Share(region, {{{-300, 1}, {300, 0}}}))}};
+          {"where", Widths::where(region, u * 115.0, zones)},
+          {"blend", Widths::blend(zones, lines, Share(region, {{{u * -300, 1}, {u * 300, 0}}}))}};
 }
 
 DoubleVector in_arena(int threads, const Widths& widths, const Points3& places) {
@@ -147,4 +157,56 @@ TEST_CASE("a limited rule is nowhere above the rule, and hardly anywhere steeper
       CHECK(worst < gradient * 120);
     }
   }
+}
+
+// Slow: each rule is limited for two spheres.
+TEST_CASE("on a sphere u times as large, rules of lengths u times as large are as on the Earth "
+          "[slow]") {
+  const Points3 places = random_sphere(3000, 7);
+  const auto limited = [&](const Widths& rule) {
+    return evaluate(rule.limit_gradient(0.03), places);
+  };
+  const auto on_earth = rules();
+  for (const double u : {0.532, 4.1}) {
+    const auto elsewhere = rules(u);
+    for (std::size_t k = 0; k < on_earth.size(); ++k) {
+      CAPTURE(on_earth[k].first);
+      CAPTURE(u);
+      const Widths rule = elsewhere[k].second.on_sphere(u * earth_radius_km);
+      // Between nodes of a raster with and without a demand, widths are of neither kind.
+      const auto differences = [&](const DoubleVector& widths, const DoubleVector& others,
+                                   double tolerance) {
+        constexpr double widest = 2e4;
+        int differ = 0;
+        for (Eigen::Index i = 0; i < widths.size(); ++i)
+          differ += widths[i] < widest ? std::abs(others[i] / (u * widths[i]) - 1) > tolerance
+                                       : others[i] < u * widest;
+        return differ;
+      };
+      CHECK(differences(evaluate(on_earth[k].second, places), evaluate(rule, places), 1e-9) == 0);
+      // The limit of a raster takes widths of one float for equal.
+      const DoubleVector there = limited(rule);
+      CHECK(differences(limited(on_earth[k].second), there, 1e-6) == 0);
+      // Limited before or after: the gradient is that of the sphere that the widths are for.
+      const Widths before = elsewhere[k].second.limit_gradient(0.03);
+      if (u < 1)
+        CHECK(evaluate(before.on_sphere(u * earth_radius_km), places) == there);
+    }
+  }
+}
+
+TEST_CASE("widths of two spheres do not mix, and those of the Earth go to the other's") {
+  const Widths zones = Widths::by_latitude({{{-90, 20}, {90, 40}}}), mars = zones.on_sphere(3389.5),
+               coast = Widths::by_distance(walks(), {{{0, 120}, {500, 150}}});
+  CHECK(Widths::minimum({coast, mars}).radius_km() == 3389.5);
+  const Points3 places = random_sphere(100, 8);
+  CHECK(evaluate(Widths::minimum({coast, mars}), places) ==
+        evaluate(Widths::minimum({coast, zones}).on_sphere(3389.5), places));
+  CHECK(std::string(test::error_of([&] {
+                      Widths::sum({mars, coast.on_sphere(1737.4)});
+                    }).what()) ==
+        "some widths are of a sphere of 3389.5 km and some of one of 1737.4; give those of one of "
+        "them");
+  for (const double radius : {0.0, -1.0, std::nan("")})
+    CHECK(test::error_of([&] { zones.on_sphere(radius); }).code() == ErrorCode::invalid_argument);
 }
