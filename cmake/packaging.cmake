@@ -60,7 +60,7 @@ if(calotte_type STREQUAL "STATIC_LIBRARY")
   set(calotte_pc_requires_private "tbb, gmp")
   set(calotte_pc_libs_private "-ltbbmalloc") # oneTBB has no .pc file for its allocator
   if(CALOTTE_BUILD_IO)
-    string(APPEND calotte_pc_requires_private ", netcdf, expat, zlib")
+    string(APPEND calotte_pc_requires_private ", netcdf, expat, zlib, tomlplusplus")
     string(APPEND calotte_pc_libs_private " -lmetis") # nor does METIS
     install(FILES cmake/FindMETIS.cmake DESTINATION ${calotte_package_dir} COMPONENT development)
   endif()

@@ -12,6 +12,7 @@
 #include "options/numbers.h"
 #include "options/partition_options.h"
 #include "options/region_option.h"
+#include "options/rule_shares.h"
 #include "options/sphere_radius_option.h"
 #include "options/warning.h"
 #include "run/cvt_costs.h"

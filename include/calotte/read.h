@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,16 +31,17 @@ enum class Columns {
 /// Reads points as text, one on each line: three numbers, or two with Columns::lonlat and
 /// Columns::xy. The result is 3 x n. Blanks or tabs, and at most one of comma, semicolon and bar,
 /// separate them; `#` starts a comment; blank lines are ignored; one header line without numbers
-/// may precede the points; further columns are ignored. A header that names lon or longitude and
-/// lat or latitude, or x, y and z, tells which columns are read. Lines end in LF, CRLF or CR; a
-/// missing final newline loses nothing.
+/// may precede the points. A header that names lon or longitude and lat or latitude, or x, y and z,
+/// tells which columns are read; without one the first are, and further ones are ignored. Lines end
+/// in LF, CRLF or CR; a missing final newline loses nothing.
 ///
 /// Longitude and latitude are exact at multiples of 90 degrees and give the same bits on every
 /// machine. Longitudes that differ by 360 give the same point, and so do all longitudes at a pole.
 /// \param name the name of the stream in messages.
 /// \throws Error parse (index() is the 1-based line) for text that is not a number, NaN, infinity,
-///         a decimal comma or the zero vector, too few columns, a latitude out of range, or a file
-///         without points; file.
+///         a decimal comma or the zero vector, too few columns, a latitude out of range, of more
+///         columns without a header a first one that counts the lines or is no longitude from -360
+///         to 360, or a file without points; file.
 Points3 read_points(std::istream& in, const std::string& name, Columns columns = Columns::xyz);
 /// The same from a file.
 Points3 read_points(const std::string& path, Columns columns = Columns::xyz);
@@ -48,6 +50,8 @@ Points3 read_points(const std::string& path, Columns columns = Columns::xyz);
 struct PointLines {
   Points3 points;                  ///< as of read_points()
   std::vector<std::int64_t> lines; ///< for each column its 1-based line
+  /// Whether lines have more columns than are read, and no header names these.
+  bool further_columns = false;
 };
 
 /// As read_points(), with the lines, for messages about a point.
@@ -156,10 +160,11 @@ enum class RasterValues {
 };
 
 /// Reads a raster of land from a NetCDF file: variable(lat, lon) with the coordinates of
-/// read_cell_width(). The attributes scale_factor and add_offset apply. A value of NaN or
-/// _FillValue is an error.
-/// \param variable default: the only one of two dimensions.
-/// \throws Error parse, naming the variable and its index, and for a file with several; file.
+/// read_cell_width(). Values are what their attributes say, and fractions may be in %. A missing
+/// one is an error, but land among depths, which ocean models leave out there: those of the
+/// attribute positive "down", or of a standard_name of depths. \param variable default: the only
+/// one of two dimensions. \throws Error parse, naming the variable and its index, and for a file
+/// with several; file.
 LandRaster read_land_raster(const std::string& path, const std::string& variable = {},
                             RasterValues values = RasterValues::height);
 
@@ -226,7 +231,9 @@ double kilometres_in(const std::string& unit);
 /// not a boundary. Where features or transitions overlap, the smallest width applies. The sampling
 /// interval of the widths is a sixteenth of the transition, from 0.05 to 1 degree.
 ///
-/// \param polygons widths for GeoJSON; other formats ignore them.
+/// .toml: rules, see read_width_rules(), as sampled_on() has them.
+///
+/// \param polygons widths for GeoJSON; its radius is also that of rules. Other formats ignore them.
 /// \param region which the widths must cover; default the sphere.
 /// \throws Error invalid_argument for an unknown suffix, a width, transition or radius that is
 ///         missing or not positive, a transition narrower than 0.2 degrees, or points of a mesh
@@ -234,6 +241,34 @@ double kilometres_in(const std::string& unit);
 ///         file.
 CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
                           const Surface& region = {});
+
+/// Rules for widths, of a file.
+struct WidthRules {
+  std::string path = {};             ///< of the file
+  Widths widths = Widths::no_demand; ///< of all of it
+  double step = 0;                   ///< of their raster, as sampled() has it
+  /// Of a plane: the limit of all of it, which is that of the raster in its domain.
+  std::optional<double> gradient = {};
+  std::vector<std::string> names = {}; ///< of the rules that active_rules() numbers
+};
+
+/// Reads the table [cell-width] of a TOML file, whose keys the manual's page on cell widths lists.
+/// Names of files are relative to its folder.
+/// \param surface the sphere or a plane, which the rules are of.
+/// \param radius_km of the sphere that widths and distances refer to.
+/// \throws Error parse, naming the line and the key; as the readers of the files.
+WidthRules read_width_rules(const std::string& path, const Surface& surface = {},
+                            double radius_km = earth_radius_km);
+
+/// Their raster with the file's step, as sampled_on() and sampled() make it; in a plane with the
+/// file's limit of the gradient.
+/// \throws Error as these, naming the file.
+CellWidth sampled_on(const WidthRules& rules, const Surface& surface);
+PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane); ///< in a plane
+
+/// The widths with the file's limit of the gradient also in a plane, where it makes them a raster.
+/// \throws Error as sampled(), but for places without a demand.
+Widths limited_in(const WidthRules& rules, const Surface& plane);
 
 /// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
 /// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
@@ -251,9 +286,12 @@ PlanarRaster read_planar_raster(const std::string& path);
 /// read_cell_width(), beyond the points with the nearest one's. Of others the function reads
 /// the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
 /// domain, which is that of x and y. Where cellWidth and x both have an attribute `units`, widths
-/// in km are converted to metres and the reverse, see kilometres_in().
-/// \throws Error parse, naming the variable and its index; file.
-PlanarCellWidth read_planar_cell_width(const std::string& path);
+/// in km are converted to metres and the reverse, see kilometres_in(). A file of suffix .toml has
+/// rules, see read_width_rules().
+/// \param plane of a file of rules, which are sampled in it.
+/// \throws Error parse, naming the variable and its index; invalid_argument for rules and no plane
+///         of finite area; file.
+PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -12,12 +12,13 @@
 #include <calotte/write.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 /// What the library knows of files and formats for its command. The header is not installed; of lib
-/// it is all that tools includes.
+/// it and io/toml.h are all that tools includes.
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -68,6 +69,15 @@ void require_planar_format(const std::string& path, const Surface& plane, Format
 /// The lines of a GeoJSON file, as read_lines() has them; none of another path, and of a file of
 /// other geometries. \throws Error parse, also for lines beside other geometries; file.
 std::vector<Points3> lines_in(const std::string& path, const Surface& surface);
+
+/// What a file of rules for widths says of itself.
+struct RulesOutline {
+  std::vector<std::string> files; ///< that its rules name
+  std::optional<double> gradient; ///< the limit of all of it
+};
+
+/// Reads the TOML file alone. \throws Error parse; file.
+RulesOutline outline_of_rules(const std::string& path);
 
 // ---- Files of JIGSAW (.msh), whose lengths have one unit of any kind
 

@@ -59,7 +59,7 @@ function(build_with_pkg_config)
   run(${CXX} -std=c++20 ${warnings} ${sources} ${flags} ${rpath} -o ${SCRATCH}/build/consumer)
 endfunction()
 
-# As on a machine without NetCDF, Expat, zlib, METIS and nlohmann-json.
+# As on a machine without NetCDF, Expat, zlib, METIS, nlohmann-json and toml++.
 function(hide_libraries_of_files)
   file(MAKE_DIRECTORY ${SCRATCH}/pkgconfig)
   run(pkg-config --variable=pcfiledir gmp)

@@ -108,6 +108,32 @@ def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
     assert all(one["area"] > 0 for one in rules[:4]) and np.sum([one["cells"] for one in rules]) == pytest.approx(1)
 
 
+def test_files_of_rules_are_rules(tmp_path):
+    written(tmp_path, "l.geojson", '{"type":"LineString","coordinates":[[0,0],[10,0]]}')
+    path = written(tmp_path, "w.toml", "[cell-width]\nstep = 1\ngradient = 0.2\nmin = [900, "
+                   '{distance-to = "l.geojson", near = 300, far = 800, over = 2000}]')
+    made = widths.minimum(900, widths.distance_to([(0, 0), (10, 0)], 300, 800, 2000)).limit_gradient(0.2)
+    lon, lat = np.meshgrid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
+    assert (widths.rule(path)(lon, lat) == made(lon, lat)).all()
+    assert (np.array(calotte._arguments.cell_width(path).widths) == np.array(made.sampled(1).widths)).all()
+    # The command's grid, on another planet.
+    for radius in (6371.0, 3389.5):
+        subprocess.run([COMMAND, "plan", "--cell-width", path, "--earth-radius", str(radius), "--report",
+                        tmp_path / "plan.json"], check=True, capture_output=True)
+        assert calotte.plan(path, earth_radius=radius).cells == json.loads((tmp_path / "plan.json").read_text())["cells"]
+        assert calotte.plan(made.on_sphere(radius).sampled(1), earth_radius=radius).cells == \
+            calotte.plan(path, earth_radius=radius).cells
+    distance = np.radians(17) * 3389.5
+    rule = widths.distance_to([(0, 0), (10, 0)], 50, 400, 2000)
+    assert rule.on_sphere(3389.5)(5, 17) == pytest.approx(50 + 350 * distance / 2000, rel=1e-3)
+    plane = calotte.rectangle((0, 0), (40, 30))
+    path = written(tmp_path, "p.toml", "[cell-width]\ngradient = 0.1\nmin = [3, "
+                   '{distance-to = "l.geojson", near = 1, far = 3, over = 5}]')
+    assert calotte.plan(path, surface=plane).widths == pytest.approx((1, 3))
+    with pytest.raises(calotte.Error, match="plane|domain"):
+        calotte._arguments.planar_cell_width(path)
+
+
 @pytest.mark.parametrize("make, words", [
     (lambda: widths.by_latitude([1, 2]), "pairs"),
     (lambda: widths.by_latitude([(0, 10), (100, 20)]), "outside -90 to 90"),

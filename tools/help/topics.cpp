@@ -46,8 +46,8 @@ calotte plan describes the grid that a density or widths lead to; calotte draw s
 )";
 
 constexpr const char* widths =
-    R"(--cell-width FILE.toml reads rules for the width of cells, in km on the Earth. The file has one
-table:
+    R"(--cell-width FILE.toml reads rules for the width of cells, in km on the Earth, or on the sphere of
+--earth-radius. The file has one table:
 
   [cell-width]
   gradient = 0.03

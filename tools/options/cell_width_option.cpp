@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/cell_width_option.h"
 
+#include "io/command.h"
 #include "options/files.h"
 #include "options/numbers.h"
-#include "options/width_rules.h"
 #include "text/text.h"
 
 #include <calotte/generators.h>
@@ -75,23 +75,6 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
 
 bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
-/// \throws Error invalid_argument for rules that say nothing of a place, naming the file.
-template <class Sample> auto of_file(const std::string& path, const Sample& sample) {
-  try {
-    return sample();
-  } catch (const Error& error) {
-    throw Error(error.code(), path + ": " + error.what(), error.index());
-  }
-}
-
-/// The same of a plane, with the limit of their gradient in it.
-PlanarCellWidth sampled_rules_of_plane(const std::string& path, const Surface& plane) {
-  const WidthRules rules = read_width_rules(path, plane);
-  const PlanarCellWidth widths =
-      of_file(path, [&] { return sampled(rules.widths, plane, rules.step); });
-  return rules.gradient ? limit_gradient(widths, *rules.gradient, plane) : widths;
-}
-
 /// The widths without a limit of their gradient.
 ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
@@ -105,9 +88,8 @@ ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
   if (words.uniform)
     return {uniform_widths(*words.uniform), {}};
   if (is_toml(words.file)) {
-    WidthRules rules = read_width_rules(words.file);
-    CellWidth raster =
-        of_file(words.file, [&] { return sampled_on(rules.widths, region, rules.step); });
+    WidthRules rules = read_width_rules(words.file, {}, words.radius);
+    CellWidth raster = sampled_on(rules, region);
     return {std::move(raster), std::move(rules)};
   }
   return {read_cell_width(words.file,
@@ -210,7 +192,7 @@ ReadWidths read_widths(const WidthWords& words, const Surface& region) {
 
 Widths read_demand(const WidthWords& words, const Surface& surface) {
   if (is_toml(words.file))
-    return read_width_rules(words.file, surface).widths;
+    return limited_in(read_width_rules(words.file, surface, words.radius), surface);
   if (surface.is_sphere())
     return Widths(read_widths(words).raster);
   return words.uniform && !words.with_unit ? Widths(*words.uniform)
@@ -227,8 +209,7 @@ PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane
       suffix != ".nc" && suffix != ".msh" && suffix != ".toml")
     refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) "
                         "(.nc), JIGSAW's spacings (.msh), or rules (.toml)");
-  PlanarCellWidth widths = is_toml(words.file) ? sampled_rules_of_plane(words.file, plane)
-                                               : read_planar_cell_width(words.file);
+  PlanarCellWidth widths = read_planar_cell_width(words.file, plane);
   return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "help/cli_forward.h"
-#include "options/width_rules.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/planar_raster.h>
+#include <calotte/read.h>
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/config_file.h"
 
-#include "options/toml_file.h"
+#include "io/toml.h"
 #include "text/text.h"
 
 #include <algorithm>

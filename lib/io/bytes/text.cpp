@@ -132,10 +132,11 @@ bool LineReader::next_content(std::string_view& line) {
   return false;
 }
 
-void LineReader::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, name_ + " line " + std::to_string(number_) + ": " + problem,
-              number_);
+void fail_at(const std::string& path, std::int64_t line, const std::string& problem) {
+  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
 }
+
+void LineReader::fail(const std::string& problem) const { fail_at(name_, number_, problem); }
 
 Columned parse_columns(std::string_view line, int count, double* values) {
   return parse(line, count, values);

@@ -28,10 +28,13 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
     return io_detail::read_cell_width_netcdf(path, region);
+  if (suffix == ".toml")
+    return sampled_on(read_width_rules(path, {}, polygons.radius_km), region);
+  io_detail::refuse_foreign(path);
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
     throw Error(ErrorCode::invalid_argument,
-                path + ": unknown suffix of a file of cell widths; give .nc, .msh or "
-                       ".geojson");
+                path + ": unknown suffix of a file of cell widths; give .nc, .msh, "
+                       ".geojson or .toml");
   std::ifstream in = io_detail::open_input(path);
   return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path, region)
                           : io_detail::read_cell_width_geojson(in, path, polygons);

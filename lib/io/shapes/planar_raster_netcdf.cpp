@@ -63,9 +63,11 @@ PlanarRaster read_planar_raster(const std::string& path) {
   return {std::move(grid.x), std::move(grid.y), std::move(grid.values)};
 }
 
-PlanarCellWidth read_planar_cell_width(const std::string& path) {
-  return io_detail::suffix_of(path) == ".msh" ? io_detail::read_planar_cell_width_msh(path)
-                                              : read_cell_width_of(path);
+PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane) {
+  const std::string suffix = io_detail::suffix_of(path);
+  if (suffix == ".toml")
+    return sampled(read_width_rules(path, plane), plane);
+  return suffix == ".msh" ? io_detail::read_planar_cell_width_msh(path) : read_cell_width_of(path);
 }
 
 } // namespace calotte

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What users pass, checked and brought to the form that the compiled part takes."""
 import math
+import os
 import re
 import warnings
 
@@ -143,12 +144,15 @@ def widths(given, plane, earth_radius=EARTH_RADIUS_KM, surface=None):
 def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
     """A rule of widths as it is; or one of a number, a raster, a file or a function.
 
-    surface: a plane, where a function is sampled; None for the sphere.
+    surface: a plane, where a function or a file of rules is sampled; None for the sphere.
     """
     if isinstance(widths, _calotte.Widths):
         return widths
     if isinstance(widths, _calotte.PlanarCellWidth):
         return _calotte.Widths(widths)
+    if (isinstance(widths, str) or hasattr(widths, "__fspath__")) and str(widths).endswith(".toml"):
+        return _calotte.read_widths(str(widths), _calotte.Surface() if surface is None else surface,
+                                    earth_radius)
     value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
     if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
         return _calotte.Widths(float(value))
@@ -170,7 +174,8 @@ def planar_cell_width(widths, surface=None):
                         "so give a number in that unit")
         return planar_cell_width(parts[0])
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_planar_cell_width(str(widths))
+        return _calotte.read_planar_cell_width(str(widths),
+                                               _calotte.Surface() if surface is None else surface)
     if isinstance(widths, tuple):
         if len(widths) != 3:
             raise Error("give cell widths of a plane as (values, x, y)")
@@ -206,7 +211,7 @@ def _widths(widths, earth_radius, surface):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, _calotte.Widths):
-        return widths.sampled_on(surface)
+        return widths.on_sphere(earth_radius).sampled_on(surface)
     if isinstance(widths, str) and (parts := measure(widths)):
         return _widths(kilometres(*parts, "the cell width"), earth_radius, surface)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
@@ -376,8 +381,11 @@ def _degrees(text):
 def _shape(text, earth_radius):
     """A surface of a word such as circle=-105,40,1000km, as the command has it; None for others."""
     shape, equals, rest = text.partition("=")
-    if not equals or shape not in _SHAPES:
+    if not equals or (shape not in _SHAPES and (not shape.isalpha() or os.path.exists(text))):
         return None
+    if shape not in _SHAPES:
+        raise Error(f"surface {text}: there is no such shape, and no such file; give "
+                    f"{', '.join(f'{known}=' for known in _SHAPES)} or the file of a region")
     form, example = _SHAPES[shape]
     parts = rest.split(",")
     if shape == "land" and len(parts) > 3:

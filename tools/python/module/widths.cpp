@@ -91,6 +91,13 @@ void add_widths(py::module_& module) {
           [](const PlanarCellWidth& raster) { return call([&] { return Widths(raster); }); }))
       .def_static("is_demand", py::vectorize(&Widths::is_demand),
                   "(n,) whether widths of at() are ones that a rule gives.")
+      .def(
+          "on_sphere",
+          [](const Widths& widths, double radius) {
+            return call([&] { return widths.on_sphere(radius); });
+          },
+          py::arg("earth_radius"),
+          "The same rules on a sphere of another radius, km: distances and gradients are km of it.")
       .def_property_readonly("of_plane", &Widths::is_of_plane,
                              "True for rules of a plane, in its unit.")
       .def(
@@ -128,6 +135,9 @@ void add_widths(py::module_& module) {
           },
           py::arg("plane"), py::arg("step") = 0,
           "A PlanarCellWidth over a plane, with nodes so far apart; 0: by its least width.");
+  module.def("read_widths", [](const std::string& path, const Surface& surface, double radius_km) {
+    return call([&] { return limited_in(read_width_rules(path, surface, radius_km), surface); });
+  });
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
   module.def("widths_by_distance_from_file", &by_distance_from_file);

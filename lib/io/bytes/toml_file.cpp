@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/toml_file.h"
-
+#include "io/bytes/text.h"
 #include "io/command.h"
-#include "text/text.h"
+#include "io/toml.h"
 
 #include <calotte/error.h>
 
@@ -12,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace calotte::tools {
+namespace calotte {
 namespace {
 
 /// The parser's tables call themselves for each part of a key such as a.b.c; here two do for all.
@@ -90,9 +89,10 @@ toml::table read_toml(const std::string& path) {
   try {
     return toml::parse(read_text(path), path);
   } catch (const toml::parse_error& error) {
-    refuse_line(path, error.source().begin.line,
-                std::string(error.description()) + "; write key = value, with text in quotes");
+    io_detail::fail_at(path, error.source().begin.line,
+                       std::string(error.description()) +
+                           "; write key = value, with text in quotes");
   }
 }
 
-} // namespace calotte::tools
+} // namespace calotte

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/width_rules.h"
-
+#include "io/command.h"
+#include "support/directions.h"
 #include "support/files.h"
 
 #include <calotte/error.h>
@@ -18,7 +18,6 @@
 // Files of rules against the same rules in C++, and what is refused, with its line.
 
 using namespace calotte;
-using namespace calotte::tools;
 using calotte::test::Scratch;
 
 namespace {
@@ -156,30 +155,36 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 
-// Slow: hundreds of thousands of places.
-TEST_CASE("the rules of a minimum have names and shares of the area and of the cells [slow]") {
+TEST_CASE("the rules of a minimum have names") {
   const Rules rules;
-  const WidthRules read = rules.read(
-      "[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200], [0, 200], "
-      "[0.001, 25]]}, {lines = \"line.geojson\", width = 5, over = 200}]");
-  CHECK(read.names == std::vector<std::string>{"width 100", "latitude", "lines line.geojson"});
-  const auto shares_of = [](const WidthRules& of, const Surface& surface) {
-    return rule_shares(of, surface, density_of(sampled(of.widths)));
-  };
-  const std::vector<RuleShare> shares = shares_of(read, Surface::sphere());
-  REQUIRE(shares.size() == 3);
-  CHECK(shares[1].area == doctest::Approx(0.5).epsilon(0.02));
-  CHECK(shares[0].area + shares[1].area + shares[2].area == doctest::Approx(1));
-  CHECK(shares[0].cells + shares[1].cells + shares[2].cells == doctest::Approx(1));
-  // The south has half of the area, of cells four times as wide.
-  CHECK(shares[0].cells / shares[1].cells ==
-        doctest::Approx(shares[0].area / shares[1].area / 16).epsilon(0.02));
-  const Surface south = channel(-1.5707963267948966, -0.5);
-  CHECK(shares_of(read, south)[0].area == doctest::Approx(1));
-  CHECK(shares_of(rules.read("[cell-width]\nlatitude = [[-90, 60], [90, 20]]\nmost = 40"),
-                  Surface::sphere())[0]
-            .area == 1);
+  CHECK(rules
+            .read("[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200]]}, "
+                  "{lines = \"line.geojson\", width = 5, over = 200}]")
+            .names == std::vector<std::string>{"width 100", "latitude", "lines line.geojson"});
   CHECK(rules.read("[cell-width]\nwidth = 60").names == std::vector<std::string>{"width 60"});
+}
+
+TEST_CASE("distances and gradients of rules are those of the sphere that the widths are for") {
+  const Rules rules;
+  constexpr double radius = 3389.5;
+  test::write_text(rules.path(), "[cell-width]\nstep = 2\nmin = [{distance-to = \"points.txt\", "
+                                 "near = 10, far = 100, over = 4000}, {polygons = "
+                                 "\"island.geojson\", inside = 20, outside = 300, "
+                                 "transition = 1000, gradient = 0.05}]");
+  const Widths read = read_width_rules(rules.path(), {}, radius).widths;
+  const Widths made = Widths::minimum(
+      {Widths::by_distance({test::directions({{0, 90}}), test::directions({{180, 0}})},
+                           {{{0, 10}, {4000, 100}}})
+           .on_sphere(radius),
+       Widths(
+           read_cell_width(rules.beside("island.geojson"),
+                           {.inside = 20, .outside = 300, .transition = 1000, .radius_km = radius}))
+           .on_sphere(radius)
+           .limit_gradient(0.05)});
+  CHECK(evaluate(read, sample_points()) == evaluate(made, sample_points()));
+  const CellWidth raster = read_cell_width(rules.path(), {.radius_km = radius});
+  CHECK(raster.latitudes.size() == 91);
+  CHECK(raster.widths == sampled(made, 2).widths);
 }
 
 TEST_CASE("heights of a file give the widths of waves") {
@@ -209,6 +214,8 @@ TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the d
   const WidthRules read = read_width_rules(rules.path(), plane);
   CHECK(read.gradient == 0.2);
   CHECK(read.step == 5);
+  CHECK(read_planar_cell_width(rules.path(), plane).widths ==
+        limit_gradient(sampled(read.widths, plane, 5), 0.2, plane).widths);
   const DoubleVector widths = evaluate(read.widths, Points2{{100, 140, 25}, {50, 50, 25}});
   CHECK(widths[0] == doctest::Approx(1));
   CHECK(widths[1] == doctest::Approx(5));
@@ -249,6 +256,8 @@ TEST_CASE("files of rules that are none are refused with their line") {
   CHECK(
       rules.refused("[cell-width]\ndistance-to = \"island.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
                     "side = \"left\"") == " line 6: side is \"left\"; give sea or land");
+  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60]]\nmost = 20\nleast = 30") ==
+        " line 4: least is 30, above most, 20; exchange them");
   CHECK(rules.refused("[cell-width]\nmin = []") ==
         " line 2: min holds no rules; give [{...}, {...}]");
   CHECK(rules.refused("[cell-width]\nwidth = 5\nbetween = \"smooth\"")

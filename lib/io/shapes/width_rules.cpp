@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/width_rules.h"
-
-#include "options/numbers.h"
-#include "options/toml_file.h"
-#include "text/text.h"
+#include "density/width_rules.h"
+#include "base/number_text.h"
+#include "io/bytes/text.h"
+#include "io/command.h"
+#include "io/shapes/room.h"
+#include "io/toml.h"
 
 #include <calotte/error.h>
-#include <calotte/generators.h>
 #include <calotte/ocean.h>
 #include <calotte/read.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <set>
-#include <tuple>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
-namespace calotte::tools {
+namespace calotte {
 namespace {
+
+using base_detail::shortly;
+using io_detail::fail_at;
+
+template <class Words> std::string listed(const Words& words) {
+  std::string text;
+  for (const std::string& word : words)
+    text.append(text.empty() ? "" : ", ").append(word);
+  return text;
+}
 
 std::string beside(const std::string& path, const std::filesystem::path& name) {
   return (std::filesystem::path(path).parent_path() / name).string();
@@ -36,8 +47,8 @@ public:
 
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
     const toml::node* const node = table_.get(key);
-    refuse_line(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
-                key + " " + problem);
+    fail_at(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
+            key + " " + problem);
   }
 
   /// Whether there is a key that nobody took before.
@@ -51,7 +62,7 @@ public:
   double number(const std::string& key) {
     const toml::node* const node = take(key);
     if (node == nullptr)
-      refuse_line(path_, table_.source().begin.line, "the rule needs " + key + "; give a number");
+      fail_at(path_, table_.source().begin.line, "the rule needs " + key + "; give a number");
     const std::optional<double> value = node->value<double>();
     if (!value || !(*value > 0) || !std::isfinite(*value))
       refuse(key, "is not a positive number; give one");
@@ -96,13 +107,24 @@ public:
     return profile;
   }
 
+  /// \throws Error parse for a least width above the largest one.
+  void require_least_below_most() const {
+    const auto number = [&](const char* key) {
+      const toml::node* const node = table_.get(key);
+      return node == nullptr ? std::nullopt : node->value<double>();
+    };
+    if (const auto least = number("least"), most = number("most"); least && most && *least > *most)
+      refuse("least",
+             "is " + shortly(*least) + ", above most, " + shortly(*most) + "; exchange them");
+  }
+
   /// \throws Error parse for a key that nobody took.
   void require_all_taken() const {
     for (const auto& [key, node] : table_)
       if (!taken_.contains(std::string(key.str())))
-        refuse_line(path_, key.source().begin.line,
-                    "the rule does not take " + std::string(key.str()) + "; it takes " +
-                        joined({taken_.begin(), taken_.end()}) + "; see calotte help widths");
+        fail_at(path_, key.source().begin.line,
+                "the rule does not take " + std::string(key.str()) + "; it takes " +
+                    listed(taken_) + "; see calotte help widths");
   }
 
   /// With the place in the file before what the library refuses.
@@ -112,7 +134,7 @@ public:
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_argument)
         throw;
-      refuse_line(path_, table_.source().begin.line, error.what());
+      fail_at(path_, table_.source().begin.line, error.what());
     }
   }
 
@@ -124,7 +146,8 @@ private:
 
 class RuleReader {
 public:
-  RuleReader(const std::string& path, const Surface& surface) : path_(path), surface_(surface) {}
+  RuleReader(const std::string& path, const Surface& surface, double radius_km)
+      : path_(path), surface_(surface), radius_km_(radius_km) {}
 
   WidthRules rules() {
     const toml::table root = read_toml(path_);
@@ -133,7 +156,7 @@ public:
       throw Error(ErrorCode::parse,
                   path_ +
                       ": a file of widths has one table, [cell-width]; see calotte help widths");
-    WidthRules rules{.widths = Widths::no_demand};
+    WidthRules rules{.path = path_};
     rules.widths = rule_of(*table, &rules);
     rules.names = names_of(*table);
     return rules;
@@ -188,8 +211,9 @@ private:
     // What changes a minimum changes its rules, so that active_rules() tells them apart.
     const bool least = key == "min";
     std::vector<Widths> rules =
-        least ? parts(table, key)
-              : std::vector{table.made([&, source = source] { return (this->*source)(table); })};
+        least ? parts(table, key) : std::vector{table.made([&, source = source] {
+          return (this->*source)(table).on_sphere(radius_km_);
+        })};
     table.made([&] { change(table, rules); });
     table.require_all_taken();
     return Widths::minimum(rules);
@@ -202,7 +226,7 @@ private:
         return known;
       keys.push_back(known.name);
     }
-    refuse_line(path_, rule.source().begin.line, "a rule has one of the keys " + joined(keys));
+    fail_at(path_, rule.source().begin.line, "a rule has one of the keys " + listed(keys));
   }
 
   /// Of the rules of a minimum, or of the one rule: "distance-to coast.geojson".
@@ -211,12 +235,12 @@ private:
     if (key != "min") {
       const std::optional<std::string> file = rule[key].value_exact<std::string>();
       const std::optional<double> number = rule[key].value<double>();
-      return {key + (file ? " " + *file : number ? " " + shortest(*number) : "")};
+      return {key + (file ? " " + *file : number ? " " + shortly(*number) : "")};
     }
     std::vector<std::string> names;
     for (const toml::node& item : *rule[key].as_array())
-      names.push_back(item.is_table() ? joined(names_of(*item.as_table()))
-                                      : "width " + shortest(item.value_or(0.0)));
+      names.push_back(item.is_table() ? listed(names_of(*item.as_table()))
+                                      : "width " + shortly(item.value_or(0.0)));
     return names;
   }
 
@@ -225,6 +249,7 @@ private:
     const auto each = [&](const auto& changed) {
       std::transform(rules.begin(), rules.end(), rules.begin(), changed);
     };
+    table.require_least_below_most();
     if (table.takes("times"))
       each([factor = table.number("times")](const Widths& rule) {
         return Widths::product(rule, factor);
@@ -363,16 +388,18 @@ private:
 
   static double seconds(RuleTable& table) {
     const std::string text = table.text("period", "a time such as 12.42h");
-    const std::optional<Measure> measure = measure_of(text);
+    double value = 0;
+    const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string_view word(stop, text.data() + text.size());
     constexpr std::array<std::pair<std::string_view, double>, 4> units{
         {{"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
-    const auto* const unit = std::find_if(units.begin(), units.end(), [&](const auto& known) {
-      return measure && known.first == measure->unit;
-    });
-    if (unit == units.end() || !(measure->value > 0))
+    const auto* const unit =
+        std::ranges::find(units, word.substr(std::min(word.find_first_not_of(' '), word.size())),
+                          [](const auto& known) { return known.first; });
+    if (problem != std::errc() || unit == units.end() || !(value > 0) || !std::isfinite(value))
       table.refuse("period", "is \"" + text +
                                  "\"; give a time with its unit, s, min, h or d, such as 12.42h");
-    return measure->value * unit->second;
+    return value * unit->second;
   }
 
   Widths raster(RuleTable& table) {
@@ -384,7 +411,7 @@ private:
 
   Widths polygons(RuleTable& table) {
     const std::string path = file(table, "polygons");
-    PolygonWidths widths;
+    PolygonWidths widths{.radius_km = radius_km_};
     for (const auto& [key, value] : {std::pair{"inside", &widths.inside},
                                      {"outside", &widths.outside},
                                      {"transition", &widths.transition}})
@@ -395,46 +422,43 @@ private:
 
   const std::string& path_;
   const Surface& surface_;
+  double radius_km_;
 };
 
-} // namespace
-
-WidthRules read_width_rules(const std::string& path, const Surface& surface) {
-  return RuleReader(path, surface).rules();
+/// \throws Error invalid_argument for rules that say nothing of a place, naming the file.
+template <class Sample> auto of_file(const std::string& path, const Sample& sample) {
+  try {
+    return sample();
+  } catch (const Error& error) {
+    throw Error(error.code(), path + ": " + error.what(), error.index());
+  }
 }
 
-namespace {
-
-/// Random points of a surface, each near the one before, for which rules take less time.
-Points3 sorted_points(const Surface& surface, const Density& density) {
-  constexpr std::int64_t count = 200'000;
-  constexpr double bands = 100; // of latitude, in each hemisphere
-  const Points3 points = random_points(count, surface, density);
-  std::vector<std::tuple<double, double, Eigen::Index>> order;
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    order.emplace_back(std::floor(bands * points(2, i)), std::atan2(points(1, i), points(0, i)), i);
-  std::sort(order.begin(), order.end());
-  Points3 sorted(3, points.cols());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sorted.col(static_cast<Eigen::Index>(k)) = points.col(std::get<2>(order[k]));
-  return sorted;
+PlanarCellWidth limited_raster(const WidthRules& rules, const Surface& plane) {
+  const PlanarCellWidth raster = density_detail::sample(rules.widths, plane, rules.step);
+  return rules.gradient ? limit_gradient(raster, *rules.gradient, plane) : raster;
 }
 
 } // namespace
 
-std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface,
-                                   const Density& density) {
-  // Places that follow the cells find rules of small parts with many of them.
-  const Ids by_area = active_rules(rules.widths, sorted_points(surface, {})),
-            by_cells =
-                active_rules(rules.widths, sorted_points(surface, site_density(density, surface)));
-  const auto share = [](const Ids& active, std::size_t rule) {
-    return (active.array() == static_cast<std::int32_t>(rule)).cast<double>().mean();
-  };
-  std::vector<RuleShare> shares;
-  for (std::size_t rule = 0; rule < rules.names.size(); ++rule)
-    shares.push_back({rules.names[rule], share(by_area, rule), share(by_cells, rule)});
-  return shares;
+WidthRules read_width_rules(const std::string& path, const Surface& surface, double radius_km) {
+  return RuleReader(path, surface, radius_km).rules();
+}
+
+CellWidth sampled_on(const WidthRules& rules, const Surface& surface) {
+  return of_file(rules.path, [&] { return sampled_on(rules.widths, surface, rules.step); });
+}
+
+PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane) {
+  return of_file(rules.path, [&] {
+    PlanarCellWidth raster = limited_raster(rules, plane);
+    density_detail::require_demand(raster, plane);
+    return raster;
+  });
+}
+
+Widths limited_in(const WidthRules& rules, const Surface& plane) {
+  return rules.gradient ? Widths(limited_raster(rules, plane)) : rules.widths;
 }
 
 RulesOutline outline_of_rules(const std::string& path) {
@@ -455,4 +479,4 @@ RulesOutline outline_of_rules(const std::string& path) {
   return outline;
 }
 
-} // namespace calotte::tools
+} // namespace calotte
