@@ -211,7 +211,7 @@ void run(const InterpolateRequest& request) {
       write_weights(request.weights, weights, source, target, request.method, request.format,
                     history_of(request));
     if (!request.output.empty())
-      write_fields(request.output, target, fields, history_of(request));
+      write_fields(request.output, target, fields, history_of(request), source.name);
     lines += describe_weights(request, source, weights, fields);
   }
   std::cout << lines;

@@ -93,10 +93,14 @@ GridWeights read_weights(const std::string& path);
 /// dimension of the cells has the name that the mesh's format gives it, such as nCells. Another
 /// suffix writes the mesh with its fields, see write().
 /// \param history attribute; empty for none.
+/// \param source NetCDF file that the fields are from; empty for none. What it says of their other
+///        dimensions goes into the file as it is: coordinates such as time and lev with bounds and
+///        terms, times as text, scalar coordinates. A dimension that is unlimited in it stays so.
 /// \throws Error invalid_argument for a field without a value for each cell, or a suffix that does
 ///         not hold the grid; file.
 void write_fields(const std::string& path, const FieldGrid& grid,
-                  const std::vector<MeshField>& fields, const std::string& history = {});
+                  const std::vector<MeshField>& fields, const std::string& history = {},
+                  const std::string& source = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -3,6 +3,7 @@
 
 #include <calotte/types.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ enum class Location {
 
 /// A dimension of a field besides that of its location, such as levels or times.
 struct FieldDimension {
-  std::string name;      ///< of the dimension
-  std::int64_t size = 1; ///< >= 1
+  std::string name;       ///< of the dimension
+  std::int64_t size = 1;  ///< >= 1
+  bool unlimited = false; ///< in a file, such as the times of a model's history
 };
 
 /// Numbers for each cell, edge or vertex of a mesh, in its order.
@@ -39,9 +41,13 @@ struct MeshField {
   /// How many of the dimensions come before the location's in a file: 1 for (Time, nCells, levels).
   int leading = 0;
   bool integer = false; ///< all are 32-bit integers, and NetCDF files store them as such
+  bool single = false;  ///< NetCDF files store them as 32-bit floats; not of integers
   /// At edges: components along the edge's normal, from the lower to the higher site, or along its
   /// tangent. They change their sign where a numbering exchanges the two sites.
   bool directed = false;
+  /// Other attributes of text in NetCDF files, each a name and its text, that hold for the numbers
+  /// on any grid, such as standard_name and cell_methods.
+  std::vector<std::array<std::string, 2>> attributes = {};
 
   /// Numbers for each cell, edge or vertex: the product of the dimensions' sizes.
   std::int64_t count() const {

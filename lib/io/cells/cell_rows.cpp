@@ -223,12 +223,9 @@ RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice c
   raw.corner_rounding = file.is_float(rows.corner_longitude) ? float_rounding : 0;
   std::vector<std::string> dimensions = file.dimensions_of(rows.corner_longitude);
   dimensions.erase(rows.corners_first ? dimensions.begin() : std::prev(dimensions.end()));
-  read_fields(
-      file,
-      {.cells = dimensions.size() == 1 ? dimensions.front() : "",
-       .vertices = "",
-       .variables = {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude}},
-      choice, raw);
+  read_fields_on(file, dimensions,
+                 {rows.corner_longitude, rows.corner_latitude, rows.longitude, rows.latitude},
+                 choice, raw.fields, raw.ignored);
   drop_derived_fields(raw);
   return raw;
 }

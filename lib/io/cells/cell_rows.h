@@ -34,8 +34,8 @@ Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Po
 /// \throws Error parse, for a file of several OASIS grids.
 std::optional<CellRows> cell_rows_of(const NetcdfReader& file);
 
-/// The cells with their centres, and the fields on cells of one dimension. \throws Error parse,
-/// file.
+/// The cells with their centres, and the fields on their one or two dimensions. \throws Error
+/// parse, file.
 RawMesh read_cells(const NetcdfReader& file, const CellRows& rows, FieldChoice choice);
 
 /// Why a NetCDF file is none of a mesh, what it is instead, and the remedy.

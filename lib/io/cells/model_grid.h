@@ -6,6 +6,7 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
 #include "io/cells/room.h"
+#include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 
@@ -94,6 +95,13 @@ public:
   void ints(const std::string& name, const std::vector<int>& dimensions,
             const NetcdfAttributes& attributes, const NetcdfWriter::Fill<std::int32_t>& contents) {
     variable(name, NetcdfType::int32, dimensions, attributes, contents);
+  }
+  /// Bytes as the file has them, see NetcdfWriter::put(); of variables of records, too.
+  void bytes(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
+             const NetcdfAttributes& attributes, const NetcdfWriter::FillBytes& contents) {
+    const int id = file_.variable(name, type, dimensions, attributes);
+    stages_.back().puts.emplace_back(
+        [this, id, type, contents] { file_.put(id, size_of(type), contents); });
   }
   struct Announced {
     std::string name;

@@ -89,6 +89,22 @@ DoubleVector by_place(const std::vector<double>& values, const std::vector<std::
   return out;
 }
 
+/// The attributes that say what the numbers are, and neither where nor how they are stored.
+std::vector<std::array<std::string, 2>> meaning_of(const NetcdfReader& file,
+                                                   const std::string& name) {
+  static const std::set<std::string> others{
+      "long_name",     "units",     "coordinates",   "grid_mapping",        "bounds",
+      "mesh",          "location",  "cell_measures", "ancillary_variables", "grid_type",
+      "CDI_grid_type", "_Unsigned", "formula_terms", "missing_value",       "_FillValue"};
+  std::vector<std::array<std::string, 2>> attributes;
+  for (const NetcdfAttribute& attribute :
+       file.variables()[static_cast<std::size_t>(file.find(name))].attributes)
+    if (const auto* const text = std::get_if<std::string>(&attribute.value);
+        text && !others.contains(attribute.name))
+      attributes.push_back({attribute.name, *text});
+  return attributes;
+}
+
 /// Whether all are numbers that NetCDF's int can hold, besides its own _FillValue.
 bool fit_int(const DoubleVector& values) {
   using Limits = std::numeric_limits<std::int32_t>;
@@ -110,8 +126,10 @@ bool is_directed(const NetcdfReader& file, const std::string& name) {
   return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
 }
 
-} // namespace
-
+/// Reads a field's values, see cf_values(), and attributes.
+/// \param places which of the variable's dimensions stand for places, the slowest first; the field
+///        has a value for each of the others, in the order of the file, at each place.
+/// \pre its name, location, dimensions and `leading` are set.
 void read_values(const NetcdfReader& file, const std::vector<std::size_t>& places,
                  MeshField& field) {
   const std::vector<std::int64_t> shape = file.shape_of(field.name);
@@ -120,7 +138,64 @@ void read_values(const NetcdfReader& file, const std::vector<std::size_t>& place
   field.values = by_place(cf_values(file, field.name, shape), shape, places);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
+  field.single = file.is_float(field.name);
+  field.attributes = meaning_of(file, field.name);
+  for (FieldDimension& dimension : field.dimensions)
+    dimension.unlimited = file.is_unlimited(dimension.name);
   field.directed = field.location == Location::edges && is_directed(file, field.name);
+}
+
+/// Where dimensions stand among those of a variable; none unless it has each once.
+std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>& all,
+                                                  const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> places;
+  for (const std::string& dimension : wanted) {
+    if (std::count(all.begin(), all.end(), dimension) != 1)
+      return std::nullopt;
+    places.push_back(
+        static_cast<std::size_t>(std::find(all.begin(), all.end(), dimension) - all.begin()));
+  }
+  return places;
+}
+
+/// A field on some dimensions without values, or nothing for one without a place for them.
+std::optional<MeshField> field_on(const NetcdfReader& file, const std::string& name,
+                                  const std::vector<std::size_t>& places) {
+  MeshField field{.name = name};
+  const std::vector<std::string> all = file.dimensions_of(name);
+  for (std::size_t d = 0; d < all.size(); ++d)
+    if (std::find(places.begin(), places.end(), d) == places.end()) {
+      field.dimensions.push_back({all[d], file.dimension(all[d])});
+      if (field.dimensions.back().size < 1)
+        return std::nullopt;
+    }
+  bool together = true;
+  for (std::size_t k = 1; k < places.size(); ++k)
+    together = together && places[k] == places[k - 1] + 1;
+  field.leading = static_cast<int>(together ? places.front() : field.dimensions.size());
+  return field;
+}
+
+} // namespace
+
+void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
+                    const std::set<std::string>& no_fields, FieldChoice choice,
+                    std::vector<MeshField>& fields, std::vector<std::string>& ignored) {
+  if (choice == FieldChoice::none)
+    return;
+  for (const std::string& name : file.variable_names()) {
+    if (no_fields.contains(name))
+      continue;
+    const auto places =
+        file.is_numeric(name) ? places_of(file.dimensions_of(name), dimensions) : std::nullopt;
+    std::optional<MeshField> field = places ? field_on(file, name, *places) : std::nullopt;
+    if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
+      ignored.push_back(name);
+      continue;
+    }
+    read_values(file, *places, *field);
+    fields.push_back(*std::move(field));
+  }
 }
 
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,

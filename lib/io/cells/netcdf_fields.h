@@ -7,6 +7,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace calotte::io_detail {
 
@@ -28,11 +29,13 @@ struct NetcdfMeshNames {
 void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldChoice choice,
                  RawMesh& raw);
 
-/// Reads a field's values, see cf_values(), and attributes.
-/// \param places which of the variable's dimensions stand for places, the slowest first; the field
-///        has a value for each of the others, in the order of the file, at each place.
-/// \pre its name, location, dimensions and `leading` are set. \throws Error parse, file.
-void read_values(const NetcdfReader& file, const std::vector<std::size_t>& places,
-                 MeshField& field);
+/// Reads the variables that have some dimensions, each once, as fields of cells that are numbered
+/// over these, the last one fastest. Their other dimensions may stand anywhere.
+/// \param no_fields variables that are neither read nor listed.
+/// \param ignored receives the other variables' names.
+/// \throws Error parse, file.
+void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& dimensions,
+                    const std::set<std::string>& no_fields, FieldChoice choice,
+                    std::vector<MeshField>& fields, std::vector<std::string>& ignored);
 
 } // namespace calotte::io_detail

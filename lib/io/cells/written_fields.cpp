@@ -1,43 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/written_fields.h"
 
+#include "io/bytes/big_endian.h"
 #include "io/bytes/utf8.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace calotte::io_detail {
 namespace {
 
-/// The library's own, for integers.
-constexpr std::int32_t no_int = std::numeric_limits<std::int32_t>::min() + 1;
+/// The values that the C library fills in.
+template <class T> constexpr T fill_value = static_cast<T>(9.9692099683868690e+36);
+template <>
+constexpr std::int32_t fill_value<std::int32_t> = std::numeric_limits<std::int32_t>::min() + 1;
 
-template <class T> T written_as(double value) {
-  if constexpr (std::is_same_v<T, double>)
-    return value;
-  else
-    return std::isnan(value) ? no_int : static_cast<T>(value);
-}
-
-/// In the order of a file, in which leading dimensions come before the location's.
-template <class T> NetcdfWriter::Fill<T> contents_of(const MeshField& field) {
+/// In the order of a file, in which leading dimensions come before the location's, one by one.
+/// \param filled whether the fill value stands for NaN.
+template <class T> NetcdfWriter::FillBytes contents_of(const MeshField& field, bool filled) {
   const double* const values = field.values.data();
   std::int64_t before = 1;
   for (int d = 0; d < field.leading; ++d)
     before *= field.dimensions[static_cast<std::size_t>(d)].size;
   const std::int64_t after = field.count() / before, places = field.values.size() / field.count();
-  const std::int64_t rows = field.leading > 0 ? field.dimensions[0].size : places;
-  const std::int64_t width = field.values.size() / std::max<std::int64_t>(rows, 1);
-  return [=](std::int64_t begin, std::int64_t end, T* out) {
-    for (std::int64_t k = begin * width; k < end * width; k += after) {
-      const std::int64_t place = k / after % places, leading = k / after / places;
-      const double* const from = values + (place * before + leading) * after;
-      out = std::transform(from, from + after, out, written_as<T>);
+  return [=](std::int64_t begin, std::int64_t end, char* out) {
+    char* to = out;
+    for (std::int64_t k = begin; k < end;) {
+      const std::int64_t row = k / after, place = row % places, leading = row / places,
+                         last = std::min(end, (row + 1) * after);
+      const double* from = values + (place * before + leading) * after - row * after;
+      for (; k < last; ++k, to += sizeof(T)) {
+        const T value = filled && std::isnan(from[k]) ? fill_value<T> : static_cast<T>(from[k]);
+        std::memcpy(to, &value, sizeof value);
+      }
     }
+    swap_big_endian(out, end - begin, sizeof(T), out);
   };
+}
+
+NetcdfAttribute attribute_of_fill(NetcdfType type) {
+  if (type == NetcdfType::int32)
+    return {"_FillValue", fill_value<std::int32_t>};
+  if (type == NetcdfType::float64)
+    return {"_FillValue", fill_value<double>};
+  const float value = fill_value<float>;
+  return {"_FillValue", NetcdfValues{type, {reinterpret_cast<const char*>(&value), sizeof value}}};
 }
 
 const FieldPlace& place_of(const FieldPlaces& places, Location location) {
@@ -63,7 +75,8 @@ bool is_letter_or_digit(unsigned char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
 }
 
-/// A name that NetCDF takes: no white space, no /, no control characters, and no sign at the start.
+} // namespace
+
 std::string netcdf_name(std::string_view name) {
   constexpr std::size_t longest = 200; // bytes; the library takes 256
   name = name.substr(0, longest);
@@ -80,7 +93,28 @@ std::string netcdf_name(std::string_view name) {
   return out.empty() ? "field" : out;
 }
 
-} // namespace
+void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& places,
+               const std::vector<int>& others, NetcdfAttributes attributes, Missing missing) {
+  if (!field.units.empty())
+    attributes.push_back({"units", field.units});
+  if (!field.long_name.empty())
+    attributes.push_back({"long_name", field.long_name});
+  for (const auto& [word, text] : field.attributes)
+    attributes.push_back({word, text});
+  const NetcdfType type = field.integer  ? NetcdfType::int32
+                          : field.single ? NetcdfType::float32
+                                         : NetcdfType::float64;
+  const bool filled =
+      missing == Missing::filled || (type == NetcdfType::int32 && field.values.hasNaN());
+  if (filled)
+    attributes.push_back(attribute_of_fill(type));
+  std::vector<int> dimensions = others;
+  dimensions.insert(dimensions.begin() + field.leading, places.begin(), places.end());
+  file.bytes(field.name, type, dimensions, attributes,
+             field.integer  ? contents_of<std::int32_t>(field, filled)
+             : field.single ? contents_of<float>(field, filled)
+                            : contents_of<double>(field, filled));
+}
 
 bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
   const bool has_place = field.location == Location::cells   ? !names.cells.empty()
@@ -95,22 +129,10 @@ void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FieldPl
     const FieldPlace& place = place_of(places, field.location);
     if (place.dimension < 0 || is_name_of_mesh(names, field.name) || is_kept_as_mask(names, field))
       continue;
-    NetcdfAttributes attributes = place.attributes;
-    if (!field.units.empty())
-      attributes.push_back({"units", field.units});
-    if (!field.long_name.empty())
-      attributes.push_back({"long_name", field.long_name});
-    std::vector<int> dimensions;
+    std::vector<int> others;
     for (const FieldDimension& dimension : field.dimensions)
-      dimensions.push_back(
-          file.netcdf().field_dimension(netcdf_name(dimension.name), dimension.size));
-    dimensions.insert(dimensions.begin() + field.leading, place.dimension);
-    if (field.integer && field.values.hasNaN())
-      attributes.push_back({"_FillValue", no_int});
-    if (field.integer)
-      file.ints(field.name, dimensions, attributes, contents_of<std::int32_t>(field));
-    else
-      file.doubles(field.name, dimensions, attributes, contents_of<double>(field));
+      others.push_back(file.netcdf().field_dimension(netcdf_name(dimension.name), dimension.size));
+    add_field(file, field, {place.dimension}, others, place.attributes, Missing::where_integer);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Fields on their way to NetCDF files.
@@ -29,6 +30,21 @@ struct FieldPlace {
 struct FieldPlaces {
   FieldPlace cells = {}, edges = {}, vertices = {};
 };
+
+/// What stands for missing numbers of a field in a file.
+enum class Missing {
+  where_integer, ///< NaN, and of integers a fill value
+  filled         ///< a fill value, which the attributes name in any case
+};
+
+/// Announces a field.
+/// \param places ids of its location's dimensions, the slowest first. \param others ids of its
+///        own. \param attributes besides the field's own.
+void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& places,
+               const std::vector<int>& others, NetcdfAttributes attributes, Missing missing);
+
+/// A name that NetCDF takes: no white space, no /, no control characters, and no sign at the start.
+std::string netcdf_name(std::string_view name);
 
 /// Whether a NetCDF format holds a field, if it holds those at edges.
 bool can_hold(const NetcdfMeshNames& names, const MeshField& field);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -167,6 +168,20 @@ void apply_mask(FieldGrid& grid) {
         field.values.segment(i * field.count(), field.count()).setConstant(none);
 }
 
+/// Fields are of no use where each has a dimension of size 0, such as times without records.
+/// \throws Error parse, with its name.
+void require_records(const std::string& path, const FieldGrid& grid, FieldChoice choice) {
+  if (choice == FieldChoice::none || !grid.fields.empty() || !is_netcdf_file(path))
+    return;
+  const NetcdfReader file(path);
+  for (const std::string& name : grid.ignored)
+    if (file.has_variable(name))
+      for (const std::string& dimension : file.dimensions_of(name))
+        if (file.dimension(dimension) == 0)
+          file.fail("its dimension " + dimension + " has the size 0, so that " + name +
+                    " holds no numbers; give a file with records");
+}
+
 bool counts(const FieldGrid& grid, Eigen::Index cell) {
   return grid.mask.size() == 0 || grid.mask[cell] != 0;
 }
@@ -212,8 +227,11 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
   using namespace io_detail;
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
-    if (const std::optional<RasterAxes> axes = raster_axes(file))
-      return read_raster_grid(file, *axes, choice);
+    if (const std::optional<RasterAxes> axes = raster_axes(file)) {
+      FieldGrid raster = read_raster_grid(file, *axes, choice);
+      require_records(path, raster, choice);
+      return raster;
+    }
   }
   FieldGrid grid{.name = path};
   grid.mesh = read_mesh_file(path, nullptr, choice);
@@ -228,6 +246,7 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
   grid.mesh.fields.clear();
   grid.mask = mask_of(path, grid.size());
   apply_mask(grid);
+  require_records(path, grid, choice);
   return grid;
 }
 
@@ -238,18 +257,16 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
   require(!grid.boxes, mesh_path + " is a raster, whose fields are in its own file; give that "
                                    "alone");
   const NetcdfReader file(path);
-  const NetcdfMeshNames names{
-      .cells = dimension_of_cells(file, grid), .vertices = "", .variables = {}};
-  RawMesh raw;
-  read_fields(file, names, choice, raw);
-  for (MeshField& field : raw.fields)
-    if (is_coordinate(file, field.name))
-      raw.ignored.push_back(field.name);
-    else
-      grid.fields.push_back(std::move(field));
-  grid.ignored = std::move(raw.ignored);
+  std::set<std::string> coordinates;
+  for (const std::string& name : file.variable_names())
+    if (is_coordinate(file, name))
+      coordinates.insert(name);
+  grid.ignored.assign(coordinates.begin(), coordinates.end());
+  read_fields_on(file, {dimension_of_cells(file, grid)}, coordinates, choice, grid.fields,
+                 grid.ignored);
   grid.name = path;
   apply_mask(grid);
+  require_records(path, grid, choice);
   return grid;
 }
 

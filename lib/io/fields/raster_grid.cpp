@@ -87,32 +87,6 @@ LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
   }
 }
 
-std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-/// A field without values; none for a variable that is not on the raster. Its dimensions besides
-/// those of the raster may stand anywhere.
-std::optional<MeshField> field_of(const NetcdfReader& file, const RasterAxes& axes,
-                                  const std::string& name) {
-  const std::vector<std::string> dimensions = file.dimensions_of(name);
-  if (std::count(dimensions.begin(), dimensions.end(), axes.latitude) != 1 ||
-      std::count(dimensions.begin(), dimensions.end(), axes.longitude) != 1 ||
-      !file.is_numeric(name))
-    return std::nullopt;
-  MeshField field{.name = name};
-  for (const std::string& dimension : dimensions)
-    if (dimension != axes.latitude && dimension != axes.longitude)
-      field.dimensions.push_back({dimension, file.dimension(dimension)});
-  const std::size_t latitude = index_of(dimensions, axes.latitude);
-  field.leading = static_cast<int>(
-      latitude + 1 == index_of(dimensions, axes.longitude) ? latitude : field.dimensions.size());
-  for (const FieldDimension& dimension : field.dimensions)
-    if (dimension.size < 1)
-      return std::nullopt;
-  return field;
-}
-
 } // namespace
 
 std::optional<RasterAxes> raster_axes(const NetcdfReader& file) {
@@ -126,21 +100,8 @@ std::optional<RasterAxes> raster_axes(const NetcdfReader& file) {
 FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice) {
   FieldGrid grid{.name = file.path()};
   grid.boxes = boxes_of(file, axes);
-  if (choice == FieldChoice::none)
-    return grid;
-  for (const std::string& name : file.variable_names()) {
-    if (name == axes.longitude || name == axes.latitude)
-      continue;
-    std::optional<MeshField> field = field_of(file, axes, name);
-    if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
-      grid.ignored.push_back(name);
-      continue;
-    }
-    const std::vector<std::string> dimensions = file.dimensions_of(name);
-    read_values(file, {index_of(dimensions, axes.latitude), index_of(dimensions, axes.longitude)},
-                *field);
-    grid.fields.push_back(*std::move(field));
-  }
+  read_fields_on(file, {axes.latitude, axes.longitude}, {axes.latitude, axes.longitude}, choice,
+                 grid.fields, grid.ignored);
   return grid;
 }
 

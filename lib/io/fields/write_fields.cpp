@@ -4,14 +4,15 @@
 #include "io/cells/centroids.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/written_fields.h"
+#include "io/command.h"
+#include "io/fields/carried.h"
 #include "io/fields/cell_dimension.h"
 
 #include <calotte/field_grid.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,50 +23,76 @@ namespace {
 
 using base_detail::require;
 
-/// NetCDF's default fill values.
-constexpr double no_double = 9.9692099683868690e+36;
-constexpr std::int32_t no_int = -2147483647;
-
-/// Values in the order of a file, in which leading dimensions come before the cells.
-/// \param slowest the size of the slowest dimension of the cells.
-template <class T>
-NetcdfWriter::Fill<T> contents_of(const MeshField& field, std::int64_t slowest, T none) {
-  std::int64_t before = 1;
-  for (int d = 0; d < field.leading; ++d)
-    before *= field.dimensions[static_cast<std::size_t>(d)].size;
-  const std::int64_t after = field.count() / before, cells = field.values.size() / field.count(),
-                     rows = field.leading > 0 ? field.dimensions[0].size : slowest,
-                     width = field.values.size() / rows;
-  const double* const values = field.values.data();
-  return [=](std::int64_t begin, std::int64_t end, T* out) {
-    for (std::int64_t k = begin * width; k < end * width; ++k) {
-      const std::int64_t cell = k / after % cells, leading = k / after / cells;
-      const double value = values[(cell * before + leading) * after + k % after];
-      *out++ = std::isnan(value) ? none : static_cast<T>(value);
-    }
+/// Whether all that have a dimension have it first, as records must.
+bool is_first_of_all(const std::string& name, const std::vector<MeshField>& fields,
+                     const std::vector<Carried>& carried) {
+  const auto is_first = [&](const std::vector<FieldDimension>& dimensions, bool leads) {
+    for (std::size_t d = 0; d < dimensions.size(); ++d)
+      if (dimensions[d].name == name && (d > 0 || !leads))
+        return false;
+    return true;
   };
+  return std::ranges::all_of(fields,
+                             [&](const MeshField& field) {
+                               return is_first(field.dimensions, field.leading > 0);
+                             }) &&
+         std::ranges::all_of(
+             carried, [&](const Carried& variable) { return is_first(variable.dimensions, true); });
 }
 
-/// \param dimensions of the cells, the slowest first.
-void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& dimensions,
-               std::int64_t slowest, const std::string& coordinates) {
-  NetcdfAttributes attributes;
-  if (!field.units.empty())
-    attributes.push_back({"units", field.units});
-  if (!field.long_name.empty())
-    attributes.push_back({"long_name", field.long_name});
-  if (!coordinates.empty())
-    attributes.push_back({"coordinates", coordinates});
-  std::vector<int> all;
-  for (const FieldDimension& dimension : field.dimensions)
-    all.push_back(file.netcdf().field_dimension(dimension.name, dimension.size));
-  all.insert(all.begin() + field.leading, dimensions.begin(), dimensions.end());
-  if (field.integer) {
-    attributes.push_back({"_FillValue", no_int});
-    file.ints(field.name, all, attributes, contents_of<std::int32_t>(field, slowest, no_int));
-  } else {
-    attributes.push_back({"_FillValue", no_double});
-    file.doubles(field.name, all, attributes, contents_of<double>(field, slowest, no_double));
+/// The dimensions that fields have besides those of places, in a file that is written.
+class OtherDimensions {
+public:
+  /// Announces the unlimited one, if all have it first.
+  OtherDimensions(NetcdfWriter& file, const std::vector<MeshField>& fields,
+                  const std::vector<Carried>& carried)
+      : file_(file) {
+    for (const MeshField& field : fields)
+      for (const FieldDimension& dimension : field.dimensions)
+        if (dimension.unlimited && records_.empty() &&
+            is_first_of_all(dimension.name, fields, carried)) {
+          records_ = dimension.name;
+          id_of_records_ = file.record_dimension(netcdf_name(records_), dimension.size);
+        }
+  }
+  std::vector<int> ids(const std::vector<FieldDimension>& dimensions) const {
+    std::vector<int> ids;
+    for (const FieldDimension& dimension : dimensions)
+      ids.push_back(dimension.name == records_
+                        ? id_of_records_
+                        : file_.field_dimension(netcdf_name(dimension.name), dimension.size));
+    return ids;
+  }
+
+private:
+  NetcdfWriter& file_;
+  std::string records_;
+  int id_of_records_ = -1;
+};
+
+/// Fields, and what belongs to their other dimensions.
+/// \param places ids of the dimensions of their cells, the slowest first.
+/// \param coordinates names of variables of the cells.
+void add_fields(NetcdfGridFile& file, const std::vector<MeshField>& fields,
+                const std::vector<Carried>& carried, const std::vector<int>& places,
+                const std::string& coordinates) {
+  const OtherDimensions others(file.netcdf(), fields, carried);
+  for (const Carried& variable : carried) {
+    const std::int64_t size = size_of(variable.type);
+    file.bytes(variable.name, variable.type, others.ids(variable.dimensions), variable.attributes,
+               [&variable, size](std::int64_t begin, std::int64_t end, char* out) {
+                 std::copy_n(variable.bytes.data() + begin * size, (end - begin) * size, out);
+               });
+  }
+  for (const MeshField& field : fields) {
+    std::string all = coordinates;
+    for (const Carried& variable : carried)
+      if (std::ranges::find(variable.of, field.name) != variable.of.end())
+        all.append(all.empty() ? "" : " ").append(variable.name);
+    NetcdfAttributes attributes;
+    if (!all.empty())
+      attributes.push_back({"coordinates", all});
+    add_field(file, field, places, others.ids(field.dimensions), attributes, Missing::filled);
   }
 }
 
@@ -82,22 +109,23 @@ void add_axis(NetcdfGridFile& file, const std::string& name, const std::string& 
 }
 
 void write_raster(const std::string& path, const LonLatBoxes& boxes,
-                  const std::vector<MeshField>& fields, const WriteOptions& options) {
+                  const std::vector<MeshField>& fields, const std::vector<Carried>& carried,
+                  const WriteOptions& options) {
   NetcdfGridFile file(path, options, "CF-1.8");
   const int lat = file.netcdf().dimension("lat", boxes.latitudes.size()),
             lon = file.netcdf().dimension("lon", boxes.longitudes.size()),
-            pair = file.netcdf().dimension("bnds", 2);
+            pair = file.netcdf().field_dimension("bnds", 2); // times have bounds, too
   add_axis(file, "lat", "latitude", "degrees_north", boxes.latitudes, boxes.parallels, lat, pair);
   add_axis(file, "lon", "longitude", "degrees_east", boxes.longitudes, boxes.meridians, lon, pair);
-  for (const MeshField& field : fields)
-    add_field(file, field, {lat, lon}, boxes.latitudes.size(), "");
+  add_fields(file, fields, carried, {lat, lon}, "");
   file.commit();
 }
 
 // ---- Meshes
 
 void write_cells(const std::string& path, const FieldGrid& grid,
-                 const std::vector<MeshField>& fields, const WriteOptions& options) {
+                 const std::vector<MeshField>& fields, const std::vector<Carried>& carried,
+                 const WriteOptions& options) {
   const Points3 centres = !grid.mesh.polygons ? grid.mesh.mesh->points
                           : grid.mesh.polygons->centres.cols() > 0
                               ? grid.mesh.polygons->centres
@@ -119,24 +147,38 @@ void write_cells(const std::string& path, const FieldGrid& grid,
     file.doubles("x", {cells}, {{"units", std::string("m")}}, row_of(centres, 0));
     file.doubles("y", {cells}, {{"units", std::string("m")}}, row_of(centres, 1));
   }
-  for (const MeshField& field : fields)
-    add_field(file, field, {cells}, grid.size(), sphere ? "lat lon" : "x y");
+  add_fields(file, fields, carried, {cells}, sphere ? "lat lon" : "x y");
   file.commit();
+}
+
+constexpr std::array<const char*, 6> own_names{"lat", "lon", "lat_bnds", "lon_bnds", "x", "y"};
+
+bool is_own_name(const std::string& name) {
+  return std::ranges::find(own_names, name) != own_names.end();
 }
 
 /// Names that the file's own variables have.
 void require_free_names(const std::string& path, const std::vector<MeshField>& fields) {
   for (const MeshField& field : fields)
-    for (const std::string name : {"lat", "lon", "lat_bnds", "lon_bnds", "x", "y"})
-      require(field.name != name, path + ": the field " + name +
-                                      " has the name of a coordinate; leave it out with --fields");
+    require(!is_own_name(field.name),
+            path + ": the field " + field.name +
+                " has the name of a coordinate; leave it out with --fields");
+}
+
+std::vector<Carried> carried_from(const std::string& source, const std::vector<MeshField>& fields) {
+  if (source.empty() || !is_netcdf_file(source))
+    return {};
+  std::vector<Carried> carried = carried_with(NetcdfReader(source), fields);
+  std::erase_if(carried, [](const Carried& variable) { return is_own_name(variable.name); });
+  return carried;
 }
 
 } // namespace
 } // namespace io_detail
 
 void write_fields(const std::string& path, const FieldGrid& grid,
-                  const std::vector<MeshField>& fields, const std::string& history) {
+                  const std::vector<MeshField>& fields, const std::string& history,
+                  const std::string& source) {
   using namespace io_detail;
   for (const MeshField& field : fields)
     require(field.location == Location::cells && field.values.size() == grid.size() * field.count(),
@@ -152,12 +194,13 @@ void write_fields(const std::string& path, const FieldGrid& grid,
     return;
   }
   require_free_names(path, fields);
+  const std::vector<Carried> carried = carried_from(source, fields);
   std::vector<MeshField> named = fields;
   replace_names(named);
   if (grid.boxes)
-    write_raster(path, *grid.boxes, named, options);
+    write_raster(path, *grid.boxes, named, carried, options);
   else
-    write_cells(path, grid, named, options);
+    write_cells(path, grid, named, carried, options);
 }
 
 } // namespace calotte

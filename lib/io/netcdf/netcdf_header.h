@@ -77,8 +77,9 @@ struct NetcdfVariable {
 struct NetcdfHeader {
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfVariable> variables;
-  NetcdfAttributes attributes; ///< of the file
-  std::int64_t bytes = 0;      ///< of a classic file's header
+  NetcdfAttributes attributes;          ///< of the file
+  std::int64_t bytes = 0;               ///< of a classic file's header
+  std::vector<std::string> groups = {}; ///< of an HDF5 file, whose variables are not read
 };
 
 /// Whether a file begins as CDF-1, -2 or -5 does. \throws Error file.

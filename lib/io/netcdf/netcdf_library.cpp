@@ -86,7 +86,22 @@ NetcdfHeader NetcdfLibraryFile::header() const {
     }
   }
   header.attributes = read_attributes(NC_GLOBAL, attributes);
+  header.groups = read_groups();
   return header;
+}
+
+std::vector<std::string> NetcdfLibraryFile::read_groups() const {
+  int count = 0;
+  require(nc_inq_grps(id_, &count, nullptr));
+  std::vector<int> ids(static_cast<std::size_t>(count));
+  require(nc_inq_grps(id_, &count, ids.data()));
+  std::vector<std::string> names;
+  for (const int id : ids) {
+    char name[NC_MAX_NAME + 1] = "";
+    require(nc_inq_grpname(id, name));
+    names.emplace_back(name);
+  }
+  return names;
 }
 
 /// \param ids receives those of the library, which leave out the dimensions of groups.

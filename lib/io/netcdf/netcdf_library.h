@@ -49,6 +49,7 @@ private:
   void require_values(int variable, int code) const;
   std::vector<NetcdfDimension> read_dimensions(std::vector<int>& ids) const;
   NetcdfAttributes read_attributes(int variable, int count) const;
+  std::vector<std::string> read_groups() const;
   std::string joined_strings(int variable, const char* name, std::size_t count) const;
   void cache_chunks(int variable) const;
 

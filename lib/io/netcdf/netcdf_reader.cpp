@@ -108,6 +108,8 @@ NetcdfReader::NetcdfReader(const std::string& path) : file_(path) {
     header_ = library_->header();
     require_sizes();
   }
+  if (variables().empty() && !header_.groups.empty())
+    fail_for_groups("it holds nothing");
   for (int v = 0; v < std::ssize(variables()); ++v)
     by_name_.push_back(v);
   std::sort(by_name_.begin(), by_name_.end(), [&](int a, int b) {
@@ -172,9 +174,19 @@ std::vector<std::string> NetcdfReader::variable_names() const {
 
 int NetcdfReader::require_variable(const std::string& name) const {
   const int v = find(name);
+  if (v < 0 && !header_.groups.empty())
+    fail_for_groups("it has no variable " + name);
   if (v < 0)
     fail("it has no variable " + name + "; give a file that has");
   return v;
+}
+
+void NetcdfReader::fail_for_groups(const std::string& problem) const {
+  std::string names;
+  for (const std::string& group : header_.groups)
+    names.append(names.empty() ? "" : ", ").append(group);
+  fail(problem + " beside its groups (" + names + "), which are not read; ncks -G : -g " +
+       header_.groups.front() + " IN OUT takes what one holds out");
 }
 
 std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
@@ -205,10 +217,19 @@ std::int64_t NetcdfReader::record_bytes(int variable) const {
   return of.stride == 0 ? 0 : product(variable, 1, of.dimensions.size()) * size_of(*of.type);
 }
 
+const NetcdfDimension* NetcdfReader::find_dimension(const std::string& name) const {
+  const auto found = std::ranges::find(dimensions(), name, &NetcdfDimension::name);
+  return found == dimensions().end() ? nullptr : &*found;
+}
+
 std::int64_t NetcdfReader::dimension(const std::string& name) const {
-  const auto found = std::find_if(dimensions().begin(), dimensions().end(),
-                                  [&](const NetcdfDimension& d) { return d.name == name; });
-  return found == dimensions().end() ? -1 : found->size;
+  const NetcdfDimension* const found = find_dimension(name);
+  return found == nullptr ? -1 : found->size;
+}
+
+bool NetcdfReader::is_unlimited(const std::string& dimension) const {
+  const NetcdfDimension* const found = find_dimension(dimension);
+  return found != nullptr && found->unlimited;
 }
 
 std::optional<NetcdfType> NetcdfReader::type_of(const std::string& variable) const {

@@ -45,6 +45,7 @@ public:
   std::int64_t product(int variable, std::size_t first, std::size_t last) const;
   /// The size of a dimension, -1 where the file has none of that name.
   std::int64_t dimension(const std::string& name) const;
+  bool is_unlimited(const std::string& dimension) const; ///< false where it has none of that name
   /// Whether a variable holds numbers; characters and strings are none. \pre it exists.
   bool is_numeric(const std::string& variable) const;
   /// Whether a variable holds integers of any size. \pre it exists.
@@ -81,7 +82,9 @@ public:
                    char* out) const;
 
 private:
+  const NetcdfDimension* find_dimension(const std::string& name) const;
   int require_variable(const std::string& name) const;
+  [[noreturn]] void fail_for_groups(const std::string& problem) const;
   std::optional<NetcdfType> type_of(const std::string& variable) const;
   const NetcdfAttribute* find_attribute(const std::string& variable,
                                         const std::string& attribute) const;

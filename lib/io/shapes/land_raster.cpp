@@ -60,9 +60,15 @@ double metres_up(const NetcdfReader& file, const std::string& variable) {
 Raster read_ordered(const NetcdfReader& file, const std::string& given, RasterValues values) {
   const std::string variable = given.empty() ? only_raster(file) : given;
   Raster raster = read_raster(file, variable);
-  if (values == RasterValues::height)
-    if (const double factor = metres_up(file, variable); factor != 1)
+  if (values == RasterValues::height) {
+    const double factor = metres_up(file, variable);
+    if (factor != 1)
       raster.values *= factor;
+    if (factor < 0) // land has no depth
+      raster.values =
+          raster.values.unaryExpr([](double height) { return std::isnan(height) ? 0.0 : height; });
+  } else if (file.text(variable, "units") == "%")
+    raster.values /= 100;
   return ordered(std::move(raster), file.path(), law_of(values));
 }
 

@@ -118,8 +118,11 @@ Raster read_raster(const NetcdfReader& file, const std::string& variable) {
   const auto rows = static_cast<std::int64_t>(raster.latitudes.size()),
              columns = static_cast<std::int64_t>(raster.longitudes.size());
   const std::vector<std::string> of_lat = file.dimensions_of(raster.latitude_name),
-                                 of_lon = file.dimensions_of(raster.longitude_name),
-                                 of_values = file.dimensions_of(variable);
+                                 of_lon = file.dimensions_of(raster.longitude_name);
+  std::vector<std::string> of_values = file.dimensions_of(variable);
+  std::erase_if(of_values, [&](const std::string& name) { // one time or level is no dimension
+    return file.dimension(name) == 1 && name != of_lat[0] && name != of_lon[0];
+  });
   raster.longitude_fastest = of_values == std::vector{of_lat[0], of_lon[0]};
   if (!raster.longitude_fastest && of_values != std::vector{of_lon[0], of_lat[0]})
     file.fail(variable + " is not " + variable + "(" + of_lat[0] + ", " + of_lon[0] +
