@@ -161,8 +161,10 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
 }
 
 void draw_mesh(const DrawArguments& arguments) {
-  require_distinct(arguments.output, arguments.source->path);
-  require_distinct(arguments.output, arguments.source->points);
+  const WidthWords& widths = arguments.density->widths;
+  require_outputs({{"picture", arguments.output}},
+                  {arguments.source->path, arguments.source->points, widths.file, widths.raster,
+                   arguments.domain->file.value_or("")});
   require_density(arguments);
   const bool plane = arguments.source->plane;
   std::optional<Surface> domain = surface_of(*arguments.domain);

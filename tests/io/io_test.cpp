@@ -4,8 +4,10 @@
 #include "support/full_disk.h"
 #include "support/meshes.h"
 #include "support/planes.h"
+#include "support/random.h"
 
 #include <calotte/error.h>
+#include <calotte/field_grid.h>
 #include <calotte/io.h>
 
 #include <doctest/doctest.h>
@@ -16,10 +18,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -101,6 +107,11 @@ TEST_CASE("a header tells which columns are read, wherever they stand") {
         "id lat height lon\n1 47.4 5 8.5\n2 -33 6 -70\n",
         "\"Latitude\"; \"Longitude\"\n47.4; 8.5\n-33; -70\n", "lon|lat|id\n8.5|47.4|3\n-70|-33|4\n",
         "station\tlongitude\tlatitude\r\na b\t8.5\t47.4\r\nc\t-70\t-33\r\n",
+        "Latitude [deg],Longitude [deg]\n47.4,8.5\n-33,-70\n",
+        "lat_deg lon_deg\n47.4 8.5\n-33 -70\n", "Y,X\n47.4,8.5\n-33,-70\n",
+        "x,y,lat,lon\n1,2,47.4,8.5\n3,4,-33,-70\n", "# lat lon\n47.4 8.5\n-33 -70\n",
+        "# of 2020\n# lat,lon\n\n47.4, 8.5\n-33, -70\n", "# lat lon\n47.4,8.5\n-33,-70\n",
+        "# The lat and the lon\n8.5 47.4\n-70 -33\n", "# lat lon\nlon lat\n8.5 47.4\n-70 -33\n",
         "a,b\n8.5,47.4\n-70,-33\n"}) {
     CAPTURE(text);
     CHECK(read(text, Columns::lonlat) == wanted);
@@ -112,8 +123,75 @@ TEST_CASE("a header tells which columns are read, wherever they stand") {
   };
   CHECK(refusal("lat,lon\n47.4\n").find("text line 2: 1 column only") == 0);
   CHECK(refusal("lat,name,lon\n47.4,b,c\n").find("\"c\" is not a number") != std::string::npos);
-  CHECK(refusal("10,5;50,2\n") ==
-        "text line 1: commas and semicolons separate; write numbers with decimal points");
+  for (const char* const text : {"10,5;50,2\n", "10,5 50,2\n", "10,5\t50,2\n", "10,5 50,2 3,7\n"})
+    CHECK(refusal(text) ==
+          "text line 1: commas separate columns; write numbers with decimal points");
+}
+
+TEST_CASE("numbers of lines and of stations are no coordinates, and further columns are told") {
+  const auto read = [](const std::string& text, Columns columns) {
+    std::istringstream in(text);
+    return calotte::read_point_lines(in, "text", columns);
+  };
+  const auto refusal = [&](const std::string& text, Columns columns = Columns::lonlat) {
+    return std::string(error_of([&] { read(text, columns); }).what());
+  };
+  const std::string remedy = ", and there are more than 2; write a header that names the columns, "
+                             "such as id lon lat";
+  Random random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const int first = random.integer(-3, 400), lines = random.integer(3, 40);
+    std::string text, named = "nr;lon;lat\n", plain;
+    for (int k = 0; k < lines; ++k) {
+      const std::string place = std::to_string(random.real(-180, 180)) + ";" +
+                                std::to_string(random.real(-90, 90)) + "\n";
+      text += std::to_string(first + k) + ";" + place;
+      named += std::to_string(first + k) + ";" + place;
+      plain += place;
+    }
+    CHECK(refusal(text).find(remedy) != std::string::npos);
+    CHECK(read(named, Columns::lonlat).points == read(plain, Columns::lonlat).points);
+    CHECK(!read(named, Columns::lonlat).further_columns);
+  }
+  CHECK(refusal("7 120 47.4\n8 110 40\n") ==
+        "text line 1: the first column counts the lines" + remedy);
+  CHECK(refusal("1 10 47.4\n2 11 40\n3 12 40\n") ==
+        "text line 3: the first column counts the lines" + remedy);
+  CHECK(refusal("1.5 120 47.4\n").find("latitude 120 is outside") != std::string::npos);
+  CHECK(refusal("10438 8.5 47.4\n") == "text line 1: the first column is no longitude" + remedy);
+  CHECK(refusal("0 1 2 3\n1 1 2 3\n2 1 2 3\n", Columns::xyz).find("such as id x y z") !=
+        std::string::npos);
+  CHECK(refusal("0 1 2\n1 1 2\n2 1 2\n", Columns::xy).find("such as id x y") != std::string::npos);
+  // Two lines, other numbers, a header: depths, names and weights may follow.
+  CHECK(read("1 2 3\n2 3 4\n", Columns::lonlat).further_columns);
+  CHECK(read("1 2 a\n2 3 b\n4 5 c\n", Columns::lonlat).further_columns);
+  CHECK(!read("lon lat depth\n1 2 3\n2 3 4\n3 4 5\n", Columns::lonlat).further_columns);
+  CHECK(!read("400 2\n401 3\n402 4\n", Columns::lonlat).further_columns);
+}
+
+TEST_CASE("files that other programs convert are refused with the command") {
+  using namespace calotte;
+  const Scratch scratch;
+  for (const auto& [suffix, command] :
+       {std::pair<std::string, std::string>{".shp",
+                                            "this is a shapefile, which Calotte does not read; "
+                                            "convert it with GDAL: ogr2ogr "},
+        {".GPKG",
+         "this is a GeoPackage, which Calotte does not read; convert it with GDAL: ogr2ogr "},
+        {".kml", "this is KML, which Calotte does not read; convert it with GDAL: ogr2ogr "},
+        {".tif", "this is an image, which Calotte does not read; convert it with GDAL: "
+                 "gdal_translate -of netCDF "},
+        {".png", "this is an image, which Calotte does not read; convert it with GDAL: "
+                 "gdal_translate -of netCDF "}}) {
+    const std::string path = scratch / ("a" + suffix);
+    write_text(path, "anything");
+    for (const std::function<void()>& read : std::vector<std::function<void()>>{
+             [&] { read_points(path); }, [&] { read_mesh(path); }, [&] { read_region(path); },
+             [&] { read_domain(path); }, [&] { read_coast(path); }, [&] { read_heights(path); },
+             [&] { read_cell_width(path); }, [&] { read_shapes(path); },
+             [&] { read_field_grid(path); }, [&] { read_planar_cell_width(path); }})
+      CHECK(std::string(error_of(read).what()).find(path + ": " + command) == 0);
+  }
 }
 
 TEST_CASE("any separators, comments, blank lines, endings and a header give the same points") {
@@ -469,7 +547,8 @@ TEST_CASE("places in a plane are read as they stand, with their lines") {
                        "points line 5: \"0x\" is not a number; write two numbers x y on each line",
                        calotte::Error);
   std::istringstream good("x y\n1e-300 -2 7\n0 0\n");
-  const auto [points, lines] = calotte::read_point_lines(good, "points", Columns::xy);
+  const auto [points, lines, further] = calotte::read_point_lines(good, "points", Columns::xy);
+  CHECK(!further); // the header names the columns
   REQUIRE(points.cols() == 2);
   CHECK(points(0, 0) == 1e-300);
   CHECK(points(1, 0) == -2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/files.h"
 
+#include "io/command.h"
 #include "text/text.h"
 
 #include <calotte/error.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include <unistd.h>
 
@@ -38,7 +40,22 @@ void require_distinct(const std::string& output, const std::string& input) {
     refuse(output + " is both input and output; give the output another name");
 }
 
-void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs) {
+namespace {
+
+/// With the files that those of rules name.
+std::vector<std::string> with_named(const std::vector<std::string>& inputs) {
+  std::vector<std::string> all = inputs;
+  for (const std::string& input : inputs)
+    if (std::filesystem::path(input).extension() == ".toml")
+      for (std::string& named : outline_of_rules(input).files)
+        all.push_back(std::move(named));
+  return all;
+}
+
+} // namespace
+
+void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& given) {
+  const std::vector<std::string> inputs = with_named(given);
   const auto place = [](const Output& output) {
     return std::filesystem::path(output.path).lexically_normal();
   };

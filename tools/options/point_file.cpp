@@ -2,6 +2,7 @@
 #include "options/point_file.h"
 
 #include "options/format_options.h"
+#include "options/warning.h"
 #include "text/text.h"
 
 #include <iostream>
@@ -16,6 +17,9 @@ PointFile read_text_points(const std::string& path, Columns columns) {
   const std::string name = path == "-" ? "standard input" : path;
   PointLines read =
       path == "-" ? read_point_lines(std::cin, name, columns) : read_point_lines(path, columns);
+  if (read.further_columns)
+    warn(name + ": columns after the first " + (columns == Columns::xyz ? "3 are" : "2 are") +
+         " ignored; a header that names the columns says which count");
   return {name, std::move(read.points), std::move(read.lines)};
 }
 

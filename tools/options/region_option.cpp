@@ -12,7 +12,10 @@
 
 #include <boost/crc.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string_view>
@@ -101,6 +104,15 @@ void require_parts(const OptionWord& word, std::size_t count) {
                           " instead of " + std::to_string(count));
 }
 
+/// Whether a word is name=values, and no file.
+bool is_unknown_shape(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  return equals != std::string::npos && equals > 0 &&
+         std::all_of(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(equals),
+                     [](unsigned char c) { return std::isalpha(c) != 0; }) &&
+         !std::filesystem::exists(word);
+}
+
 Surface shape_or_file(const std::string& word, double radius_km) {
   static const std::vector<std::pair<std::string, std::string>> shapes{
       {"circle", "circle=LON,LAT,RADIUS, as in circle=-105,40,1000km"},
@@ -113,6 +125,13 @@ Surface shape_or_file(const std::string& word, double radius_km) {
       require_parts(parsed, split(form.substr(0, form.find(", as"))).size());
       return made_of(parsed, shape, radius_km);
     }
+  if (is_unknown_shape(word)) {
+    std::vector<std::string> names;
+    for (const auto& [shape, form] : shapes)
+      names.push_back(shape + "=");
+    refuse("--region " + word + ": there is no such shape, and no such file; give " +
+           joined(names) + " or the file of a region, see calotte help region");
+  }
   return read_region(word);
 }
 

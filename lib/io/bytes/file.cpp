@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
 
 #include "io/bytes/output_queue.h"
 #include "io/bytes/temporary_file.h"
@@ -246,6 +247,7 @@ std::ifstream open_input(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in)
     refuse_input(path, errno);
+  refuse_foreign(path);
   return in;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_names.h"
 
+#include <calotte/error.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 
@@ -12,6 +15,38 @@ std::string suffix_of(const std::string& path) {
   std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return suffix;
+}
+
+void refuse_foreign(const std::string& path) {
+  struct Kind {
+    std::string_view suffix, name;
+    bool shapes; ///< or a raster
+  };
+  static constexpr std::array<Kind, 16> kinds{{{".shp", "a shapefile", true},
+                                               {".gpkg", "a GeoPackage", true},
+                                               {".kml", "KML", true},
+                                               {".kmz", "KML", true},
+                                               {".gml", "GML", true},
+                                               {".gpx", "GPX", true},
+                                               {".fgb", "FlatGeobuf", true},
+                                               {".tif", "an image", false},
+                                               {".tiff", "an image", false},
+                                               {".png", "an image", false},
+                                               {".jpg", "an image", false},
+                                               {".jpeg", "an image", false},
+                                               {".grib", "GRIB", false},
+                                               {".grib2", "GRIB", false},
+                                               {".grb", "GRIB", false},
+                                               {".grb2", "GRIB", false}}};
+  const auto* const kind = std::ranges::find(kinds, suffix_of(path), &Kind::suffix);
+  if (kind == kinds.end())
+    return;
+  const std::string stem = std::filesystem::path(path).replace_extension();
+  throw Error(ErrorCode::parse,
+              path + ": this is " + std::string(kind->name) +
+                  ", which Calotte does not read; convert it with GDAL: " +
+                  (kind->shapes ? "ogr2ogr " + stem + ".geojson " + path
+                                : "gdal_translate -of netCDF " + path + " " + stem + ".nc"));
 }
 
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

@@ -28,6 +28,10 @@ inline constexpr std::string_view fesom_depths_name = "aux3d.out";
 /// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);
 
+/// Refuses a file of a kind that this library does not read, but other programs convert: shapes,
+/// images and GRIB, by the suffix. \throws Error parse, with the command that converts it.
+void refuse_foreign(const std::string& path);
+
 /// Replaces the start `stem` of the file name by `other`; none if the name does not start with
 /// `stem`.
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

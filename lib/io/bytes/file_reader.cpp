@@ -2,6 +2,7 @@
 #include "io/bytes/file_reader.h"
 
 #include "io/bytes/file.h"
+#include "io/bytes/file_names.h"
 
 #include <calotte/error.h>
 
@@ -15,6 +16,7 @@ FileReader::FileReader(const std::string& path) : path_(path) {
   file_ = Descriptor::to_read(path);
   if (!file_)
     refuse_input(path, errno);
+  refuse_foreign(path);
   size_ = file_.size();
   if (size_ >= 0)
     return;

@@ -123,34 +123,52 @@ std::vector<std::string_view> columns_of(std::string_view line, char separator) 
 struct Header {
   char separator = ' ';
   std::array<std::size_t, 3> column{};
+  bool first = true;     ///< these are the first columns, in order
+  std::size_t names = 0; ///< of all columns
 };
 
-/// None where the names are others, or those of the first columns.
+/// The separator of a line, which may be another one than that of its header.
+char separator_of(std::string_view line) {
+  const std::size_t at = line.find_first_of(",;|\t");
+  return at == std::string_view::npos ? ' ' : line[at];
+}
+
+/// The letters that a name begins with, as in "Latitude [deg]", in lower case.
+std::string letters_of(std::string_view name) {
+  std::string letters;
+  for (const char c : name)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else
+      break;
+  return letters;
+}
+
+/// None where the names are others.
 std::optional<Header> header_of(std::string_view line, Columns columns) {
   using Names = std::vector<std::string_view>;
   const std::vector<Names> wanted =
       columns == Columns::lonlat
-          ? std::vector<Names>{{"lon", "longitude", "long", "lng"}, {"lat", "latitude"}}
+          ? std::vector<Names>{{"lon", "longitude", "long", "lng", "x"}, {"lat", "latitude", "y"}}
       : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
                                : std::vector<Names>{{"x"}, {"y"}, {"z"}};
   Header header;
-  if (const std::size_t at = line.find_first_of(",;|\t"); at != std::string_view::npos)
-    header.separator = line[at];
-  const std::vector<std::string_view> names = columns_of(line, header.separator);
-  bool first = true;
+  header.separator = separator_of(line);
+  std::vector<std::string> names;
+  for (const std::string_view name : columns_of(line, header.separator))
+    names.push_back(letters_of(name));
+  header.names = names.size();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
-      std::string lower(name);
-      std::transform(lower.begin(), lower.end(), lower.begin(),
-                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      return std::find(wanted[k].begin(), wanted[k].end(), lower) != wanted[k].end();
-    });
+    auto found = names.end();
+    for (const std::string_view known : wanted[k]) // the first that there is
+      if (found == names.end())
+        found = std::find(names.begin(), names.end(), known);
     if (found == names.end())
       return std::nullopt;
     header.column[k] = static_cast<std::size_t>(found - names.begin());
-    first = first && header.column[k] == k;
+    header.first = header.first && header.column[k] == k;
   }
-  return first ? std::nullopt : std::optional(header);
+  return header;
 }
 
 Columned parse_named(std::string_view line, const Header& header, int count, double* values) {
@@ -166,71 +184,138 @@ Columned parse_named(std::string_view line, const Header& header, int count, dou
   return {};
 }
 
-/// A comma between digits where semicolons separate is a decimal comma.
-bool has_decimal_comma(std::string_view line) {
-  if (line.find(';') == std::string_view::npos)
-    return false;
+/// Whether there are commas between digits that separate no columns: beside semicolons, or in each
+/// of as many words as there are to be columns.
+bool has_decimal_commas(std::string_view line, int count) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t k = 1; k + 1 < line.size(); ++k)
-    if (line[k] == ',' && is_digit(line[k - 1]) && is_digit(line[k + 1]))
-      return true;
-  return false;
+  const auto commas = [&](std::string_view text) {
+    int found = 0;
+    for (std::size_t k = 1; k + 1 < text.size(); ++k)
+      found += text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1]) ? 1 : 0;
+    return found;
+  };
+  if (line.find(',') == std::string_view::npos)
+    return false;
+  if (line.find(';') != std::string_view::npos)
+    return commas(line) > 0;
+  const std::vector<std::string_view> words = columns_of(line, ' ');
+  return std::ssize(words) >= count &&
+         std::ranges::all_of(words, [&](std::string_view word) { return commas(word) == 1; });
 }
 
-/// \param lines receives those of the columns, unless it is null.
-Points3 read_rows(std::istream& in, const std::string& name, Columns columns,
-                  std::vector<std::int64_t>* lines) {
+/// Whether the first of more columns than are read has other things than coordinates: numbers of
+/// the lines, or what no longitude is.
+class FirstColumn {
+public:
+  FirstColumn(Columns columns, int count) : lonlat_(columns == Columns::lonlat), count_(count) {}
+
+  bool has_further() const { return further_; }
+
+  /// \param named whether a header names the columns.
+  void take(const LineReader& reader, std::string_view line, double value, bool named) {
+    if (lines_++ == 0) {
+      double values[4];
+      further_ = io_detail::parse_columns(line, count_ + 1, values).outcome != Outcome::too_few;
+      counts_ = further_ && !named && value == std::floor(value);
+      begin_ = value;
+    }
+    counts_ = counts_ && value == begin_ + static_cast<double>(lines_ - 1);
+    if (further_ && !named && lonlat_ && std::abs(value) > 360)
+      refuse(reader, "the first column is no longitude");
+  }
+  /// \param fewest lines that tell.
+  void require_no_count(const LineReader& reader, std::int64_t fewest) const {
+    if (counts_ && lines_ >= fewest)
+      refuse(reader, "the first column counts the lines");
+  }
+
+private:
+  [[noreturn]] void refuse(const LineReader& reader, const std::string& what) const {
+    reader.fail(what + ", and there are more than " + std::to_string(count_) +
+                "; write a header that names the columns, such as " +
+                (lonlat_       ? "id lon lat"
+                 : count_ == 3 ? "id x y z"
+                               : "id x y"));
+  }
+
+  bool lonlat_;
+  int count_;
+  std::int64_t lines_ = 0;
+  double begin_ = 0;
+  bool further_ = false, counts_ = false;
+};
+
+PointLines read_rows(std::istream& in, const std::string& name, Columns columns) {
   const LineFormat format = line_format(columns);
   LineReader reader(in, name);
+  PointLines result;
   std::vector<double> coordinates;
   bool header = false;
   std::optional<Header> names;
-  for (std::string_view line; reader.next_content(line);) {
+  FirstColumn first(columns, format.columns);
+  for (std::string_view line; reader.next(line);) {
+    const std::size_t comment = line.find('#');
+    const std::string_view content = line.substr(0, comment);
+    if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
+      if (comment != std::string_view::npos && coordinates.empty() && !header)
+        names = header_of(line.substr(comment + 1), columns);
+      continue;
+    }
+    line = content;
+    if (coordinates.empty() && names && !header) { // "# lat lon", or a sentence
+      names->separator = separator_of(line);
+      if (columns_of(line, names->separator).size() != names->names)
+        names.reset();
+    }
     double values[3];
-    if (has_decimal_comma(line))
-      reader.fail("commas and semicolons separate; write numbers with decimal points");
-    const Columned read = names ? parse_named(line, *names, format.columns, values)
-                                : io_detail::parse_columns(line, format.columns, values);
+    if (has_decimal_commas(line, format.columns))
+      reader.fail("commas separate columns; write numbers with decimal points");
+    const Columned read = names && !names->first
+                              ? parse_named(line, *names, format.columns, values)
+                              : io_detail::parse_columns(line, format.columns, values);
     if (read.outcome != Outcome::ok) {
       if (header || !coordinates.empty() || io_detail::holds_number(line))
         refuse_line(reader, read, format);
       header = true;
-      names = header_of(line, columns);
+      if (const std::optional<Header> found = header_of(line, columns))
+        names = found;
       continue;
     }
     require_finite(reader, values, format);
+    first.take(reader, line, values[0], names.has_value());
+    if (columns == Columns::lonlat && std::abs(values[1]) > 90) // a longitude behind an id
+      first.require_no_count(reader, 1);
     format.require(reader, values);
     format.append(coordinates, values);
-    if (lines != nullptr)
-      lines->push_back(reader.number());
+    result.lines.push_back(reader.number());
   }
   if (coordinates.empty())
     throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
                                       (reader.number() == 1 ? " line" : " lines") + "; " +
                                       format.expected);
-  return Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
+  first.require_no_count(reader, 3);
+  result.further_columns = first.has_further() && !names;
+  result.points = Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
+  return result;
 }
 
 } // namespace
 
 PointLines read_point_lines(std::istream& in, const std::string& name, Columns columns) {
-  PointLines result;
-  result.points = read_rows(in, name, columns, &result.lines);
-  return result;
+  return read_rows(in, name, columns);
 }
 
 PointLines read_point_lines(const std::string& path, Columns columns) {
   std::ifstream in = io_detail::open_input(path);
-  return read_point_lines(in, path, columns);
+  return read_rows(in, path, columns);
 }
 
 Points3 read_points(std::istream& in, const std::string& name, Columns columns) {
-  return read_rows(in, name, columns, nullptr);
+  return read_rows(in, name, columns).points;
 }
 
 Points3 read_points(const std::string& path, Columns columns) {
-  std::ifstream in = io_detail::open_input(path);
-  return read_points(in, path, columns);
+  return read_point_lines(path, columns).points;
 }
 
 namespace {

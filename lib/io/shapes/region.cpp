@@ -26,6 +26,7 @@ bool is_geojson(const std::string& name) {
 }
 
 void require_format(const std::string& name) {
+  refuse_foreign(name);
   if (!counts_beside(name) && !is_geojson(name) && suffix_of(name) != ".pts")
     throw Error(ErrorCode::invalid_argument,
                 name + ": the name determines no format of regions; name it .geojson, .json or "

@@ -10,13 +10,21 @@ const answerTime = 6000;
 /** A direction or a degree sign after a number, as in 12.34° W. */
 const direction = /^(.*?)°?([NSEW]?)$/i;
 
-/** Numbers of a text, also as the page prints them; NaN where there is something else. */
-function numbersOf(text) {
+/** Numbers of a text, also as the page prints them; NaN where there is something else. Of two numbers with
+ *  directions the one of north or south is the second. */
+export function numbersOf(text) {
   const plain = text.replace(/\u202f/g, "").replace(/\u2212/g, "-").replace(/\s*°\s*|\s+(?=[NSEW]\b)/gi, "");
-  return plain.split(/[\s,;]+/).filter(Boolean).map((word) => {
+  const words = plain.split(/[\s,;]+/).filter(Boolean).map((word) => {
     const [, digits, side] = direction.exec(word);
-    return digits ? Number(digits) * (/[SW]/i.test(side) ? -1 : 1) : NaN;
+    return { number: digits ? Number(digits) * (/[SW]/i.test(side) ? -1 : 1) : NaN, side };
   });
+  const has = (word, sides) => word !== undefined && sides.test(word.side);
+  const [first, second] = words;
+  const swapped = has(first, /[NS]/i) || has(second, /[EW]/i);
+  const contrary = words.length === 1 ? first.side !== ""
+    : swapped ? has(first, /[EW]/i) || has(second, /[NS]/i) : false;
+  const numbers = words.map((word) => (contrary ? NaN : word.number));
+  return swapped ? numbers.reverse() : numbers;
 }
 
 export class Find {
