@@ -30,9 +30,9 @@ namespace calotte {
 struct Start {
   /// How they are made. In brackets: what a kind applies to, if not to all surfaces.
   enum class Kind {
-    /// multilevel for a density that is not uniform, for a part of the sphere and with fixed
-    /// generators, unless bisections or iterations are given; otherwise continuation on the whole
-    /// sphere without fixed generators, else density.
+    /// multilevel for a density that is not uniform, for a part of the sphere, in the plane and
+    /// with fixed generators, unless bisections or iterations are given; otherwise continuation on
+    /// the whole sphere without fixed generators, else density.
     automatic,
     points, ///< those of Start::points, which need not be distinct
     /// Random points that follow site_density(), as few as resolve the density, beside the fixed

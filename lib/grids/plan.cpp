@@ -127,8 +127,8 @@ void choose_start(Recipe& recipe) {
   if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
     start.kind = Start::Kind::points;
   if (start.kind == Start::Kind::automatic) {
-    if ((follows || beside || ends || !recipe.density.uniform()) && !recipe.stop.iterations &&
-        !start.bisections)
+    if ((plane || follows || beside || ends || !recipe.density.uniform()) &&
+        !recipe.stop.iterations && !start.bisections)
       start.kind = Start::Kind::multilevel;
     else
       start.kind = plane || follows || beside ? Start::Kind::density : Start::Kind::continuation;

@@ -59,8 +59,14 @@ TEST_CASE("plan: the start follows from density, surface and fixed generators") 
   const auto kind = [](const Recipe& of) { return plan(of).recipe.start.kind; };
   CHECK(kind(recipe) == Start::Kind::continuation);
   CHECK(plan(recipe).first == Start::Kind::geodesic);
-  recipe.surface = box;
+  for (const Surface& plane : {box, rectangle({0, 0}, {2, 1})}) {
+    recipe.surface = plane;
+    CHECK(kind(recipe) == Start::Kind::multilevel);
+    CHECK(plan(recipe).recipe.stop.well_centred == true);
+  }
+  recipe.stop.iterations = 20;
   CHECK(kind(recipe) == Start::Kind::density);
+  recipe.stop.iterations = {};
   recipe.surface = part();
   CHECK(kind(recipe) == Start::Kind::multilevel);
   recipe.start.bisections = 1;

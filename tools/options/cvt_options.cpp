@@ -71,10 +71,10 @@ void add_start(CLI::App& command, CvtRequest& request) {
           "--start", request.start,
           "Initial generators without a file: multilevel (converges a coarse grid, bisects it and "
           "converges again, in turn; inserts and removes cells where the density demands it; the "
-          "default unless the density is uniform), continuation (the same without insertion, for "
-          "the sphere; if the density is uniform the default there, and geodesic from 150 cells "
-          "on), density (random, distributed as the cells of an optimal grid; the default in the "
-          "plane if the density is uniform), random (uniform), fibonacci, spiral, icosahedron "
+          "default but for a uniform density on the whole sphere), continuation (the same without "
+          "insertion, for the sphere; the default there if the density is uniform, and geodesic "
+          "from 150 cells on), density (random, distributed as the cells of an optimal grid; the "
+          "default with iterations in the plane), random (uniform), fibonacci, spiral, icosahedron "
           "(bisected) or geodesic (12 cells of five neighbours, all others of six, for any number "
           "of cells) on the sphere, or hexagonal in the plane")
       ->check(CLI::IsMember(words_of(start_words(), {"automatic", "points"})));
