@@ -38,7 +38,8 @@ struct Verb {
   const char* purpose;
   const char* widths;
   const char* factor;
-  const char* left; ///< of cells that do not meet the demand
+  const char* left;   ///< of cells that do not meet the demand
+  const char* missed; ///< the same of those that are not at the boundary
   ChangedMesh (*change)(const Mesh&, const WidthDemand&, const RefineOptions&);
 };
 
@@ -47,6 +48,8 @@ constexpr Verb refining{"refine",
                         "Widths, in km, that cells become as narrow as where they are wider",
                         "How many times as narrow cells of the region become, more than 1 to 100",
                         "wider",
+                        "are wider than demanded by more than 0.3; refine the result again, or "
+                        "give a larger --gradient",
                         refine};
 constexpr Verb coarsening{
     "coarsen",
@@ -54,6 +57,8 @@ constexpr Verb coarsening{
     "Widths, in km, that cells become as wide as where they are narrower",
     "How many times as wide cells of the region become, more than 1 to 100",
     "narrower",
+    "are narrower than demanded, as all are: coarser cells grow from those around; give a larger "
+    "region or --gradient",
     coarsen};
 
 struct RefineRequest {
@@ -102,9 +107,11 @@ void set_known_surface(const RefineRequest& request, MeshFile& file) {
 WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
   const Surface& surface = file.mesh->surface;
   WidthDemand demand;
-  demand.radius_km = radius_km(file, request.widths).value_or(request.widths.radius);
+  WidthWords words = request.widths;
+  words.radius = radius_km(file, words).value_or(words.radius);
+  demand.radius_km = words.radius;
   if (request.region.empty()) {
-    demand.widths = read_demand(request.widths, surface);
+    demand.widths = read_demand(words, surface);
     return demand;
   }
   if (!surface.is_sphere())
@@ -207,9 +214,8 @@ void judge(const RefineRequest& request, const ChangedMesh& changed) {
                      " cells stay " + request.verb->left +
                      " than demanded, because they are at the boundary or next to it\n";
   if (changed.missed > 0)
-    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.missed) +
-                     " cells are wider than demanded by more than 0.3; refine the result again, or "
-                     "give a larger --gradient\n";
+    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.missed) + " cells " +
+                     request.verb->missed + "\n";
   if (!totals.converged)
     std::cerr << "calotte: " + request.output + ": not converged\n";
   if (!totals.well_centred)

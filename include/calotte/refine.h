@@ -67,7 +67,8 @@ struct ChangedMesh {
   /// gradient.
   std::int64_t held = 0;
   /// Sites of the new mesh that are wider than a finer demand on their cells by more than 0.3,
-  /// apart from those that `held` counts.
+  /// apart from those that `held` counts. Of a coarser demand that is met nowhere, since its part
+  /// is small for the gradient: the sites of the old mesh to which it applies.
   std::int64_t missed = 0;
 };
 
@@ -95,6 +96,7 @@ ChangedMesh refine(const Mesh& mesh, const WidthDemand& demand, const RefineOpti
 
 /// The same for cells that are narrower than demanded, which become wider. They begin at those that
 /// stay around them, and grow from there at the gradient.
+/// \throws Error as refine(); invalid_argument for a region that holds no site.
 ChangedMesh coarsen(const Mesh& mesh, const WidthDemand& demand, const RefineOptions& options = {});
 
 } // namespace calotte

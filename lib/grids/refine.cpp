@@ -302,6 +302,15 @@ std::int64_t missed(const DoubleVector& own, const WantedWidths& wanted) {
   return (own.array() > irregular * wanted.width.array()).count();
 }
 
+/// The cells that are narrower than demanded, if all are to which a coarser demand applies: cells
+/// grow from those around it, and a small part ends before they are wide.
+std::int64_t nowhere_as_wide(const DoubleVector& own, const DoubleVector& demanded,
+                             const WantedWidths& wanted, double tolerance) {
+  const auto coarser = demanded.array() > (1 + tolerance) * own.array(),
+             narrower = demanded.array() > (1 + tolerance) * wanted.width.array();
+  return (coarser && !narrower).any() ? 0 : (coarser && narrower).count();
+}
+
 /// The new sites whose cells are beyond the limits of shapes, whatever the spacing demanded.
 std::int64_t misshapen(const ChangedMesh& changed) {
   using namespace cvt_detail;
@@ -394,9 +403,16 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
   require_demand(mesh, wanted, way, options);
   const Given given(mesh);
   const Demand demand(wanted, way, mesh, given.own);
-  if (way == Way::coarser)
-    return changed_once(given, demand, wanted_of(given, demand.at(mesh.points), way, options),
-                        options);
+  if (way == Way::coarser) {
+    const DoubleVector demanded = demand.at(mesh.points);
+    require(!wanted.region || (demanded.array() > 0).any(),
+            "the region holds the centre of no cell, so that none becomes coarser; give a larger "
+            "one");
+    const WantedWidths widths = wanted_of(given, demanded, way, options);
+    ChangedMesh out = changed_once(given, demand, widths, options);
+    out.missed = nowhere_as_wide(given.own, demanded, widths, options.tolerance);
+    return out;
+  }
   const auto finer = [&](const Given& now, const Marks& may_change) {
     return wanted_of(now, demand.on_cells(now.mesh, now.own, may_change, options.gradient), way,
                      options);

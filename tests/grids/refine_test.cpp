@@ -258,6 +258,23 @@ TEST_CASE("widths along a line, finer than the cells of the mesh [slow]") {
   CHECK(shortest * earth_radius_km > 45);
 }
 
+TEST_CASE("a part that is too small for coarser cells is told") {
+  const Mesh& base = uniform_sphere(); // 240 km
+  const Eigen::Vector3d at = base.points.col(4000);
+  for (const auto& [radius, missed] : {std::pair(150.0, true), {600.0, true}, {6000.0, false}}) {
+    CAPTURE(radius);
+    const ChangedMesh coarser = coarsen(base, in_circle(at, radius / earth_radius_km, 1.5));
+    CHECK((coarser.missed > 0) == missed);
+  }
+  CHECK(coarsen(base, in_circle(at, 150 / earth_radius_km, 1.5)).missed == 1);
+  const Eigen::Vector3d between =
+      (base.points.col(base.triangles(0, 5)) + base.points.col(base.triangles(1, 5)) +
+       base.points.col(base.triangles(2, 5)))
+          .normalized();
+  CHECK(test::error_of([&] { coarsen(base, in_circle(between, 0.001, 1.5)); }).code() ==
+        ErrorCode::invalid_argument);
+}
+
 TEST_CASE("a demand between the sites is met: circles smaller than a cell, and narrow lines") {
   const Mesh& base = uniform_sphere(); // 240 km
   const std::vector<double> radii = {20, 90, 150};
