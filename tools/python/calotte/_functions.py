@@ -664,7 +664,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     insertion_rounds: of the start multilevel, on its last level; default as `calotte cvt`.
     kind: of the start: multilevel, continuation, density, random, fibonacci, spiral, icosahedron,
         geodesic or hexagonal, as `calotte cvt --start`. Default: multilevel where a density, widths,
-        fixed points or a region are given, unless bisections or iterations are; otherwise
+        fixed points, a region or a plane are given, unless bisections or iterations are; otherwise
         continuation, in the plane density.
     bisections: of the converged grid, each followed by a descent; for other kinds than multilevel
         and continuation, which choose them. Default 0.
@@ -687,7 +687,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     >>> 190 < len(channel.cells) < 210
     True
     """
-    recipe, _ = _recipe(
+    recipe, widths = _recipe(
         start, density, cell_width, surface, fixed, lines, earth_radius, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
@@ -695,10 +695,35 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
     mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])
-    if between is None:
-        return Cvt(mesh, **report)
-    cells, cells._content = between
-    return Cvt(mesh, **report, cells=cells)
+    if between is not None:
+        cells, cells._content = between
+        report["cells"] = cells
+    grid = Cvt(mesh, **report)
+    if isinstance(widths, CellWidth):
+        _warn_of_steep(widths, recipe)
+    _warn_of_shortfall(grid.converged, grid.cells_beyond_limits)
+    return grid
+
+
+_STEEPEST = 0.03  # km per km, that most models accept
+
+
+def _warn_of_steep(widths, recipe):
+    scale = 1 if recipe.cells == 0 else math.sqrt(
+        _calotte.implied_cells(widths, recipe.surface, recipe.radius_km) / recipe.cells)
+    slope, longitude, latitude = _calotte.largest_gradient(widths, recipe.radius_km)
+    if scale * slope > 1.005 * _STEEPEST:
+        warnings.warn(f"the cell width changes by {scale * slope:.2g} km per km at longitude {longitude:.1f}, "
+                      f"latitude {latitude:.1f}, above {_STEEPEST}, the limit for most models; limit it, as "
+                      f"calotte.widths.rule(widths).limit_gradient({_STEEPEST}) does", stacklevel=3)
+
+
+def _warn_of_shortfall(converged, beyond):
+    if not converged:
+        warnings.warn("not converged; increase max_iterations or the tolerance", stacklevel=3)
+    elif beyond:
+        warnings.warn(f"not well-centred: {beyond} cells have shapes beyond the limits of models; make the "
+                      "widths or the density smoother, or give more cells", stacklevel=3)
 
 
 # ---- Meshes of which a part changes
@@ -744,7 +769,8 @@ class ChangedMesh:
         See ChangedPatch.
     held: number of sites of the old mesh where the demand is not met because sites at the mesh's
         boundary, and those next to them, stay.
-    missed: number of sites of the new mesh that are wider than a finer demand by more than 0.3.
+    missed: number of sites of the new mesh that are wider than a finer demand by more than 0.3; of a
+        coarser demand that is met nowhere the number of sites of the old mesh to which it applies.
     nearest: names of the file's fields whose new cells have the value of the nearest old one.
     left_out: names of the file's fields at edges and vertices, which do not follow.
     converged: whether all patches are.
@@ -846,7 +872,25 @@ def _changed(change, mesh, demand, surface, nearest, conservative, progress, **f
     for name in ("nearest", "left_out"):
         values[name] = tuple(values[name])
     values["patches"] = tuple(ChangedPatch(**patch) for patch in values["patches"])
-    return ChangedMesh(made, **values)
+    changed = ChangedMesh(made, **values)
+    _warn_of_change(changed, "are wider than demanded by more than 0.3; refine the result again, or give a "
+                    "larger gradient" if change is _calotte.refine else
+                    "are narrower than demanded, as all are: coarser cells grow from those around; give a "
+                    "larger region or gradient")
+    return changed
+
+
+def _warn_of_change(changed, missed):
+    if changed.held:
+        warnings.warn(f"{changed.held} cells stay as they are, against the demand, because they are at the "
+                      "boundary or next to it", stacklevel=4)
+    if changed.missed:
+        warnings.warn(f"{changed.missed} cells {missed}", stacklevel=4)
+    if not changed.converged:
+        warnings.warn("not converged", stacklevel=4)
+    if not changed.well_centred:
+        beyond = sum(patch.cells_beyond_limits for patch in changed.patches)
+        warnings.warn(f"not well-centred: {beyond} cells are beyond the limits of shapes", stacklevel=4)
 
 
 def refine(mesh: Mesh, cell_width: WidthLike = None, *, region: SurfaceLike | None = None,

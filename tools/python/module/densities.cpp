@@ -92,6 +92,10 @@ void add_cell_width(py::module_& module) {
     call([&] { require_covering(widths, region); });
   });
   module.def("kilometres_in", &kilometres_in);
+  module.def("implied_cells",
+             [](const CellWidth& widths, const Surface& surface, double radius_km) {
+               return call([&] { return implied_cells(widths, surface, radius_km); });
+             });
   module.def("largest_gradient", [](const CellWidth& widths, double radius_km) {
     const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
