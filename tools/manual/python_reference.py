@@ -94,7 +94,7 @@ def methods(kind):
     for name, member in vars(kind).items():
         if name.startswith("_") or isinstance(member, property) or not callable(member):
             continue
-        about = documented(member.__doc__).split("\n\n")
+        about = documented(getattr(kind, name).__doc__).split("\n\n")
         is_signature = about[0].startswith(f"{name}(") and len(about) > 1
         found.append((f"{name}()", about[is_signature]))
     return found
