@@ -406,6 +406,70 @@ TEST_CASE("heights and depths of a file, in metres or kilometres, in either orde
                        doctest::Contains("\"feet\" is not one of heights; give m or km"), Error);
 }
 
+TEST_CASE("what one reader takes for a raster of longitudes and latitudes, all do") {
+  struct Axes {
+    std::string longitude, latitude, longitude_units, latitude_units, attribute = "units";
+    bool radians = false;
+  };
+  const Scratch scratch;
+  const std::string path = scratch / "raster.nc";
+  for (const Axes& axes :
+       std::vector<Axes>{{"lon", "lat", "", ""},
+                         {"longitude", "latitude", "", ""},
+                         {"x", "y", "degrees_east", "degrees_north"},
+                         {"i", "j", "degree_E", "degreeN"},
+                         {"nav_lon", "nav_lat", "longitude", "latitude", "standard_name"},
+                         {"lon", "lat", "radians", "radians", "units", true}}) {
+    CAPTURE(axes.longitude);
+    for (const bool transposed : {false, true})
+      for (const bool descending : {false, true}) {
+        const double unit = axes.radians ? std::acos(-1) / 180 : 1;
+        const std::vector<double> rows =
+            descending ? std::vector<double>{60, 0, -60} : std::vector<double>{-60, 0, 60};
+        {
+          const Written file(path);
+          const int lat = file.dimension(axes.latitude, 3), lon = file.dimension(axes.longitude, 4),
+                    two = file.dimension("two", 2);
+          const int x = file.variable(axes.longitude, NC_DOUBLE, {lon}),
+                    y = file.variable(axes.latitude, NC_DOUBLE, {lat});
+          file.put(file.variable("lat_edges", NC_DOUBLE, {lat, two}), {1, 2, 3, 4, 5, 6});
+          if (!axes.longitude_units.empty()) {
+            file.text(x, axes.attribute, axes.longitude_units);
+            file.text(y, axes.attribute, axes.latitude_units);
+          }
+          std::vector<double> longitudes{0, 90, 180, 270}, latitudes = rows, values;
+          for (std::vector<double>* const nodes : {&longitudes, &latitudes})
+            for (double& node : *nodes)
+              node *= unit;
+          file.put(x, longitudes);
+          file.put(y, latitudes);
+          for (int k = 0; k < 12; ++k) {
+            const int column = transposed ? k / 3 : k % 4, row = transposed ? k % 3 : k / 4;
+            values.push_back(1 + 10 * (rows[static_cast<std::size_t>(row)] / 60 + 1) + column);
+          }
+          file.put(file.variable("cellWidth", NC_FLOAT,
+                                 transposed ? std::vector{lon, lat} : std::vector{lat, lon}),
+                   values);
+        }
+        const CellWidth widths = read_cell_width(path);
+        const HeightRaster heights = read_heights(path);
+        const FieldGrid grid = read_field_grid(path);
+        REQUIRE(grid.boxes);
+        REQUIRE(grid.fields.size() == 1);
+        CHECK(heights.heights == widths.widths);
+        CHECK((heights.latitudes - DoubleVector{{-60, 0, 60}}).cwiseAbs().maxCoeff() < 1e-12);
+        int wrong = 0;
+        for (Eigen::Index j = 0; j < 3; ++j)
+          for (Eigen::Index i = 0; i < 4; ++i) {
+            const auto wanted = static_cast<double>(1 + 10 * j + i);
+            const Eigen::Index row = descending ? 2 - j : j;
+            wrong += widths.widths(i, j) != wanted || grid.fields[0].values[4 * row + i] != wanted;
+          }
+        CHECK(wrong == 0);
+      }
+  }
+}
+
 TEST_CASE("a raster of one time and one level, and fractions in percent") {
   const Scratch scratch;
   const std::string path = scratch / "raster.nc";

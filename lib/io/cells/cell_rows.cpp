@@ -6,6 +6,7 @@
 #include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
+#include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
 
 #include <algorithm>
@@ -64,21 +65,6 @@ std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& 
 }
 
 // ---- Names
-
-/// The units of the conventions end in "_east", "_E" or "E".
-bool says(const NetcdfReader& file, const std::string& name, const std::string& standard_name,
-          const std::string& direction, char letter) {
-  const std::string units = file.text(name, "units");
-  return file.is_numeric(name) &&
-         (file.text(name, "standard_name") == standard_name || units.ends_with(direction) ||
-          (units.starts_with("degree") && units.back() == letter));
-}
-bool is_longitude(const NetcdfReader& file, const std::string& name) {
-  return says(file, name, "longitude", "_east", 'E');
-}
-bool is_latitude(const NetcdfReader& file, const std::string& name) {
-  return says(file, name, "latitude", "_north", 'N');
-}
 
 /// The bounds of coordinates; empty without, or if they have another shape.
 std::string bounds_of(const NetcdfReader& file, const std::string& name) {

@@ -20,7 +20,6 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 /// of(point) for each column.
 template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const Of& of) {
@@ -173,22 +172,6 @@ void drop_derived_fields(RawMesh& raw) {
     return (is_mask(field) && (field.values.array() == 1).all()) ||
            (is_area(field) && are_areas_of(raw.polygons, field.values));
   });
-}
-
-void scale(std::vector<double>& values, double factor) {
-  if (factor != 1)
-    for (double& value : values)
-      value *= factor;
-}
-
-double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
-  const std::string units = file.text(variable, "units");
-  if (units.empty() || units.starts_with("deg"))
-    return 1;
-  if (units.starts_with("rad"))
-    return degrees_per_radian;
-  file.fail("the units of " + variable + " are " + in_quotes(units) +
-            "; only degrees and radians of longitude and latitude are read");
 }
 
 LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats places) {

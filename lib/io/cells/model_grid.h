@@ -6,6 +6,7 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
 #include "io/cells/room.h"
+#include "io/netcdf/cf_axes.h"
 #include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
@@ -152,12 +153,6 @@ inline constexpr double float_rounding = 4e-7;
 /// Removes areas of SCRIP and ESMF that are those of the polygons but for rounding, and masks that
 /// are 1 at all cells: what a writer makes anew.
 void drop_derived_fields(RawMesh& raw);
-
-/// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
-/// that starts with "rad", 180 / pi. \throws Error parse, for others.
-double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
-
-void scale(std::vector<double>& values, double factor);
 
 /// Places in degrees, as many of each.
 struct LonLats {

@@ -136,8 +136,7 @@ std::string dimension_of_cells(const NetcdfReader& file, const FieldGrid& mesh) 
 
 /// Whether a variable at the cells says where they are.
 bool is_coordinate(const NetcdfReader& file, const std::string& name) {
-  const std::string standard = file.text(name, "standard_name");
-  return standard == "latitude" || standard == "longitude" || name == "x" || name == "y";
+  return is_longitude(file, name) || is_latitude(file, name) || name == "x" || name == "y";
 }
 
 /// The mask of a mesh file, which no choice of fields leaves out; none where all cells count.

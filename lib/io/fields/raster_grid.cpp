@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/fields/raster_grid.h"
 
-#include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
+#include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
+#include "io/shapes/raster_file.h"
 
 #include <calotte/error.h>
 
@@ -15,31 +16,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-/// Whether a variable is a coordinate of its own dimension, and its attributes or name say which.
-bool is_axis(const NetcdfReader& file, const std::string& variable, const std::string& standard,
-             const std::string& short_name, const std::string& units) {
-  if (file.dimensions_of(variable) != std::vector{variable} || !file.is_numeric(variable))
-    return false;
-  const std::string said = file.text(variable, "units");
-  return variable == standard || variable == short_name ||
-         file.text(variable, "standard_name") == standard || said.starts_with("degrees_" + units) ||
-         said.starts_with("degree_" + units);
-}
-
-std::string axis_of(const NetcdfReader& file, const std::string& standard,
-                    const std::string& short_name, const std::string& units) {
-  for (const std::string& name : file.variable_names())
-    if (is_axis(file, name, standard, short_name, units))
-      return name;
-  return "";
-}
-
-DoubleVector degrees_of(const NetcdfReader& file, const std::string& variable) {
-  std::vector<double> values = cf_values(file, variable, {-1});
-  scale(values, degrees_per_unit(file, variable));
-  return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
-}
 
 /// The sides of boxes that a variable of bounds gives, in the order of the nodes; none without.
 /// \throws Error parse, where they leave gaps.
@@ -71,8 +47,8 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
 }
 
 LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
-  const DoubleVector longitudes = degrees_of(file, axes.longitude),
-                     latitudes = degrees_of(file, axes.latitude),
+  const DoubleVector longitudes = vector_of(degrees_of(file, axes.longitude)),
+                     latitudes = vector_of(degrees_of(file, axes.latitude)),
                      meridians = sides_of(file, axes.longitude, longitudes),
                      parallels = sides_of(file, axes.latitude, latitudes);
   try {
@@ -88,14 +64,6 @@ LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
 }
 
 } // namespace
-
-std::optional<RasterAxes> raster_axes(const NetcdfReader& file) {
-  RasterAxes axes{axis_of(file, "longitude", "lon", "east"),
-                  axis_of(file, "latitude", "lat", "north")};
-  if (axes.longitude.empty() || axes.latitude.empty())
-    return std::nullopt;
-  return axes;
-}
 
 FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice) {
   FieldGrid grid{.name = file.path()};

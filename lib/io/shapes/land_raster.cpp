@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/netcdf/cf_axes.h"
 #include "io/shapes/raster_file.h"
 
 #include <calotte/read.h>
@@ -33,11 +34,12 @@ double land_of(RasterValues values, double value) {
 std::string only_raster(const NetcdfReader& file) {
   std::vector<std::string> found;
   for (const std::string& name : file.variable_names())
-    if (file.shape_of(name).size() == 2 && file.is_numeric(name))
+    if (file.is_numeric(name) && axes_of(file, name))
       found.push_back(name);
   if (found.size() != 1)
     file.fail(std::to_string(found.size()) +
-              " variables have two dimensions; name one, or give a file with one");
+              " variables are rasters of latitudes and longitudes; name one, or give a file with "
+              "one");
   return found.front();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/raster_file.h"
 #include "io/bytes/file_error.h"
+#include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
 
 #include "base/number_text.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace calotte::io_detail {
 namespace {
@@ -67,12 +69,21 @@ void require_law(const Raster& raster, const std::string& name, const RasterLaw&
     }
 }
 
-/// Returns the first of the names that is a variable of one dimension in the file.
-std::string coordinate_name(const NetcdfReader& file, const std::string& name,
-                            const std::string& long_name) {
-  for (const std::string& candidate : {name, long_name})
-    if (file.has_variable(candidate) && file.shape_of(candidate).size() == 1)
-      return candidate;
+/// \throws Error parse, for a file without.
+RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
+  std::optional<RasterAxes> axes = axes_of(file, variable);
+  if (!axes)
+    axes = raster_axes(file);
+  if (axes)
+    return *axes;
+  const std::vector<std::string> names = file.variable_names();
+  const std::string name =
+      std::ranges::any_of(names,
+                          [&](const std::string& one) {
+                            return is_latitude(file, one) && file.shape_of(one).size() == 1;
+                          })
+          ? "lon"
+          : "lat";
   file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
 }
 
@@ -111,10 +122,11 @@ Raster read_raster(const NetcdfReader& file, const std::string& variable) {
     file.fail("no variable " + variable + "; give " + variable + "(lat, lon)");
   Raster raster;
   raster.value_name = variable;
-  raster.latitude_name = coordinate_name(file, "lat", "latitude");
-  raster.longitude_name = coordinate_name(file, "lon", "longitude");
-  raster.latitudes = cf_values(file, raster.latitude_name, {-1});
-  raster.longitudes = cf_values(file, raster.longitude_name, {-1});
+  const RasterAxes axes = require_axes(file, variable);
+  raster.latitude_name = axes.latitude;
+  raster.longitude_name = axes.longitude;
+  raster.latitudes = degrees_of(file, axes.latitude);
+  raster.longitudes = degrees_of(file, axes.longitude);
   const auto rows = static_cast<std::int64_t>(raster.latitudes.size()),
              columns = static_cast<std::int64_t>(raster.longitudes.size());
   const std::vector<std::string> of_lat = file.dimensions_of(raster.latitude_name),

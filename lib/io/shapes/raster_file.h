@@ -41,8 +41,8 @@ inline DoubleVector vector_of(const std::vector<double>& values) {
   return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 
-/// Reads a variable(lat, lon) with its coordinate variables, lat or latitude and lon or longitude.
-/// Fill values become NaN. \throws Error parse; file.
+/// Reads a variable(lat, lon), in any order of its dimensions, of which others have the size 1,
+/// with the axes that axes_of() finds. Missing values are NaN. \throws Error parse; file.
 Raster read_raster(const NetcdfReader& file, const std::string& variable);
 
 } // namespace calotte::io_detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "io/netcdf/netcdf_reader.h"
+#include "io/netcdf/room.h"
+
+#include <calotte/matrices.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Which variables are longitudes and latitudes, by their names and attributes, and in degrees.
+/// (CF conventions 1.11, 4.1 and 4.2.)
+namespace calotte::io_detail {
+
+/// Named lon or longitude, or what its standard_name or units say.
+bool is_longitude(const NetcdfReader& file, const std::string& variable);
+bool is_latitude(const NetcdfReader& file, const std::string& variable);
+
+/// The variables of a raster's nodes, each of one dimension.
+struct RasterAxes {
+  std::string longitude, latitude;
+};
+
+/// Those of a file, each of the dimension of its own name; none where it is no raster.
+std::optional<RasterAxes> raster_axes(const NetcdfReader& file);
+
+/// Those on two dimensions of a variable; none where it has no such dimensions.
+std::optional<RasterAxes> axes_of(const NetcdfReader& file, const std::string& variable);
+
+/// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
+/// that starts with "rad", 180 / pi. \throws Error parse, for others.
+double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
+
+/// All numbers of an axis, see cf_values(), in degrees. \throws Error parse, file.
+std::vector<double> degrees_of(const NetcdfReader& file, const std::string& axis);
+
+void scale(std::vector<double>& values, double factor);
+
+} // namespace calotte::io_detail
