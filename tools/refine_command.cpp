@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -38,8 +39,8 @@ struct Verb {
   const char* purpose;
   const char* widths;
   const char* factor;
-  const char* left;   ///< of cells that do not meet the demand
-  const char* missed; ///< the same of those that are not at the boundary
+  const char* left;                  ///< of cells that do not meet the demand
+  std::array<const char*, 2> missed; ///< the same of those not at the boundary: around their number
   ChangedMesh (*change)(const Mesh&, const WidthDemand&, const RefineOptions&);
 };
 
@@ -48,8 +49,8 @@ constexpr Verb refining{"refine",
                         "Widths, in km, that cells become as narrow as where they are wider",
                         "How many times as narrow cells of the region become, more than 1 to 100",
                         "wider",
-                        "are wider than demanded by more than 0.3; refine the result again, or "
-                        "give a larger --gradient",
+                        {"", " cells are wider than demanded by more than 0.3; refine the result "
+                             "again, or give a larger --gradient"},
                         refine};
 constexpr Verb coarsening{
     "coarsen",
@@ -57,8 +58,8 @@ constexpr Verb coarsening{
     "Widths, in km, that cells become as wide as where they are narrower",
     "How many times as wide cells of the region become, more than 1 to 100",
     "narrower",
-    "are narrower than demanded, as all are: coarser cells grow from those around; give a larger "
-    "region or --gradient",
+    {"the demand is met in none of its ",
+     " cells: coarser ones grow from those around; give a larger region or --gradient"},
     coarsen};
 
 struct RefineRequest {
@@ -214,8 +215,8 @@ void judge(const RefineRequest& request, const ChangedMesh& changed) {
                      " cells stay " + request.verb->left +
                      " than demanded, because they are at the boundary or next to it\n";
   if (changed.missed > 0)
-    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.missed) + " cells " +
-                     request.verb->missed + "\n";
+    std::cerr << "calotte: " + request.output + ": " + request.verb->missed[0] +
+                     std::to_string(changed.missed) + request.verb->missed[1] + "\n";
   if (!totals.converged)
     std::cerr << "calotte: " + request.output + ": not converged\n";
   if (!totals.well_centred)

@@ -95,7 +95,8 @@ GridWeights read_weights(const std::string& path);
 /// \param history attribute; empty for none.
 /// \param source NetCDF file that the fields are from; empty for none. What it says of their other
 ///        dimensions goes into the file as it is: coordinates such as time and lev with bounds and
-///        terms, times as text, scalar coordinates. A dimension that is unlimited in it stays so.
+///        terms, times as text, scalar coordinates. An unlimited dimension stays so, where all have
+///        it first.
 /// \throws Error invalid_argument for a field without a value for each cell, or a suffix that does
 ///         not hold the grid; file.
 void write_fields(const std::string& path, const FieldGrid& grid,

@@ -50,7 +50,7 @@ Points3 read_points(const std::string& path, Columns columns = Columns::xyz);
 struct PointLines {
   Points3 points;                  ///< as of read_points()
   std::vector<std::int64_t> lines; ///< for each column its 1-based line
-  /// Whether lines have more columns than are read, and no header names these.
+  /// Whether the first line has more columns than are read, and no header names these.
   bool further_columns = false;
 };
 

@@ -8,7 +8,6 @@
 #include <calotte/types.h>
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -20,8 +19,7 @@ struct LandRaster;
 
 namespace density_detail {
 class WidthRule;
-/// A rule, prepared for a sphere with a radius in km.
-using RuleOfRadius = std::function<std::shared_ptr<const WidthRule>(double)>;
+class RuleOfRadius;
 } // namespace density_detail
 
 /// How a width changes with a number, such as a distance or a latitude.
@@ -85,10 +83,10 @@ public:
   Share(const LandRaster& raster); // NOLINT(google-explicit-constructor)
 
   /// A rule of the library: 1 more than the share, as widths are positive.
-  const density_detail::RuleOfRadius& rule() const { return rule_; }
+  const std::shared_ptr<const density_detail::RuleOfRadius>& rule() const { return rule_; }
 
 private:
-  density_detail::RuleOfRadius rule_;
+  std::shared_ptr<const density_detail::RuleOfRadius> rule_;
 };
 
 /// Cell widths as an expression: rules, each a width for every place, and what is made of them.
@@ -111,7 +109,8 @@ public:
   /// Of a plane. \throws Error invalid_argument as density_of().
   Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
-  explicit Widths(density_detail::RuleOfRadius rule, double radius_km = earth_radius_km);
+  explicit Widths(std::shared_ptr<const density_detail::RuleOfRadius> rule,
+                  double radius_km = earth_radius_km);
 
   /// \param profile of the latitude in degrees, from -90 to 90.
   /// \throws Error invalid_argument, naming the node, for a profile that is none.
@@ -176,8 +175,10 @@ public:
   /// Whether a width is one that a rule gives, and not no_demand, also after rules were combined.
   static bool is_demand(double width) { return width < 0.5 * no_demand; }
 
-  /// The least of several, place by place.
-  /// \throws Error invalid_argument for an empty list, here and below.
+  /// The least of several, place by place. Widths of the Earth go to the sphere of the others.
+  /// \throws Error invalid_argument for an empty list, and for widths of a sphere and of a plane,
+  /// or
+  ///         of two other spheres, here and below.
   static Widths minimum(const std::vector<Widths>& of);
   static Widths maximum(const std::vector<Widths>& of); ///< the greatest
   static Widths sum(const std::vector<Widths>& of);     ///< all together
@@ -206,21 +207,22 @@ public:
   /// The same rules on a sphere of another radius: distances, slopes and gradients are km of it. A
   /// Rossby radius has the Earth's gravity and rotation. Rules of a plane stay.
   /// \param radius_km > 0 and finite.
-  /// \throws Error invalid_argument for a radius out of range.
+  /// \throws Error invalid_argument for a radius out of range, and for widths of a third sphere.
   Widths on_sphere(double radius_km) const;
   double radius_km() const { return radius_km_; } ///< of the sphere that lengths refer to
 
   bool is_of_plane() const; ///< whether some of its rules are
 
-  /// What copies share.
-  const std::shared_ptr<const density_detail::WidthRule>& rule() const { return rule_; }
+  /// What copies share. It is prepared when it is first asked for.
+  std::shared_ptr<const density_detail::WidthRule> rule() const;
   /// The same for any sphere.
-  const density_detail::RuleOfRadius& rule_of_radius() const { return rule_of_radius_; }
+  const std::shared_ptr<const density_detail::RuleOfRadius>& rule_of_radius() const {
+    return rule_of_radius_;
+  }
 
 private:
-  density_detail::RuleOfRadius rule_of_radius_;
+  std::shared_ptr<const density_detail::RuleOfRadius> rule_of_radius_;
   double radius_km_;
-  std::shared_ptr<const density_detail::WidthRule> rule_; ///< for that radius
 };
 
 /// The widths at n places.

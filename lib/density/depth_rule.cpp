@@ -2,11 +2,13 @@
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/require.h"
+#include "density/width_rules.h"
 
 #include <calotte/widths.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace calotte {
@@ -104,9 +106,14 @@ Widths Widths::by_depth(const HeightRaster& raster, const DepthRule& rule) {
   require(raster.heights.rows() == raster.longitudes.size() &&
               raster.heights.cols() == raster.latitudes.size() && raster.heights.allFinite(),
           "heights are not finite, one for each longitude and latitude; correct the raster");
-  return Widths([raster, rule](double radius_km) {
-    return Widths(widths_of(raster, rule, 1000 * radius_km)).rule();
-  });
+  using namespace density_detail;
+  const Widths widths(std::make_shared<RuleOfRadius>(
+      RuleSpace::sphere,
+      [heights = std::make_shared<const HeightRaster>(raster), rule](double radius_km) {
+        return Widths(widths_of(*heights, rule, 1000 * radius_km)).rule();
+      }));
+  widths.rule(); // refuses axes that are none
+  return widths;
 }
 
 } // namespace calotte

@@ -15,6 +15,8 @@
 #include "density/width_profile.h"
 #include "domain/surface.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -143,9 +145,9 @@ private:
 };
 
 /// Where several rules hold together.
-RuleSpace common_space(const std::vector<Rule>& rules) {
+template <class Rules> RuleSpace common_space(const Rules& rules) {
   RuleSpace space = RuleSpace::any;
-  for (const Rule& rule : rules) {
+  for (const auto& rule : rules) {
     require(space == RuleSpace::any || rule->space() == RuleSpace::any || rule->space() == space,
             "some widths are of the sphere and some of a plane; give those of one of them");
     if (rule->space() != RuleSpace::any)
@@ -232,7 +234,7 @@ private:
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
   BlendRule(Rule a, Rule b, Rule share)
-      : WidthRule(common_space({a, b, share})), a_(std::move(a)), b_(std::move(b)),
+      : WidthRule(common_space(std::array{a, b, share})), a_(std::move(a)), b_(std::move(b)),
         share_(std::move(share)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     std::vector<double> others(widths.size()), shares(widths.size());
@@ -280,9 +282,8 @@ PlaneBox box_of(const Surface& plane) {
   return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
 }
 
-/// What depends on no radius.
-RuleOfRadius for_any_radius(Rule rule) {
-  return [rule = std::move(rule)](double) { return rule; };
+std::shared_ptr<const RuleOfRadius> for_any_radius(Rule rule) {
+  return std::make_shared<RuleOfRadius>(std::move(rule));
 }
 
 /// That of some widths together: those of the Earth go to the other's sphere.
@@ -301,17 +302,18 @@ double common_radius(const std::vector<Widths>& widths) {
 /// make(rules) of the rules of some widths.
 template <class Make> Widths made_of(const std::vector<Widths>& widths, const Make& make) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
-  std::vector<RuleOfRadius> parts;
+  std::vector<std::shared_ptr<const RuleOfRadius>> parts;
   for (const Widths& one : widths)
     parts.push_back(one.rule_of_radius());
-  return Widths(
-      [parts = std::move(parts), make](double radius_km) -> Rule {
-        std::vector<Rule> rules;
-        for (const RuleOfRadius& part : parts)
-          rules.push_back(part(radius_km));
-        return make(std::move(rules));
-      },
-      common_radius(widths));
+  const RuleSpace space = common_space(parts);
+  return Widths(std::make_shared<RuleOfRadius>(space,
+                                               [parts = std::move(parts), make](double radius_km) {
+                                                 std::vector<Rule> rules;
+                                                 for (const auto& part : parts)
+                                                   rules.push_back((*part)(radius_km));
+                                                 return make(std::move(rules));
+                                               }),
+                common_radius(widths));
 }
 
 Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
@@ -349,7 +351,7 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
 /// \param is_inside(i, j) whether a node is in it. \param position(i, j) in words.
 /// \throws Error invalid_argument for one in it without a demand.
 template <class IsInside, class Position>
-void fill_in(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
+void fill_where_silent(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
   double widest = 0;
   for (Eigen::Index j = 0; j < widths.cols(); ++j)
     for (Eigen::Index i = 0; i < widths.rows(); ++i)
@@ -373,15 +375,28 @@ void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> activ
 
 std::shared_ptr<const WidthRule> WidthRule::limited(double, double) const { return nullptr; }
 
-RuleOfRadius rule_of_sides(const std::vector<Points3>& lines,
-                           std::function<bool(const Vec3&)> is_behind, const WidthProfile& profile,
-                           const Surface& surface) {
+Rule RuleOfRadius::operator()(double radius_km) const {
+  const std::lock_guard lock(mutex_);
+  if (rule_ == nullptr || radius_km != radius_km_) {
+    // A task of the caller, taken up meanwhile, could ask for the same.
+    tbb::this_task_arena::isolate([&] { rule_ = make_(radius_km); });
+    radius_km_ = radius_km;
+  }
+  return rule_;
+}
+
+std::shared_ptr<const RuleOfRadius> rule_of_sides(const std::vector<Points3>& lines,
+                                                  std::function<bool(const Vec3&)> is_behind,
+                                                  const WidthProfile& profile,
+                                                  const Surface& surface) {
   const double farthest = surface.is_sphere() ? farthest_on_sphere : farthest_in_plane;
   const ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
   const auto distance = std::make_shared<LineDistance>(lines, surface);
-  return [curve, distance, is_behind = std::move(is_behind)](double radius_km) {
-    return std::make_shared<DistanceRule>(distance, is_behind, curve, radius_km);
-  };
+  return std::make_shared<RuleOfRadius>(
+      surface.is_sphere() ? RuleSpace::sphere : RuleSpace::plane,
+      [curve, distance, is_behind = std::move(is_behind)](double radius_km) {
+        return std::make_shared<DistanceRule>(distance, is_behind, curve, radius_km);
+      });
 }
 
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
@@ -431,37 +446,50 @@ Widths::Widths(const CellWidth& raster)
     : Widths(for_any_radius(std::make_shared<RasterRule>(raster))) {}
 Widths::Widths(const PlanarCellWidth& raster)
     : Widths(for_any_radius(std::make_shared<PlanarRasterRule>(raster))) {}
-Widths::Widths(RuleOfRadius rule, double radius_km)
-    : rule_of_radius_(std::move(rule)), radius_km_(radius_km), rule_(rule_of_radius_(radius_km)) {}
+Widths::Widths(std::shared_ptr<const RuleOfRadius> rule, double radius_km)
+    : rule_of_radius_(std::move(rule)), radius_km_(radius_km) {}
 
-bool Widths::is_of_plane() const { return rule_->space() == RuleSpace::plane; }
+std::shared_ptr<const WidthRule> Widths::rule() const { return (*rule_of_radius_)(radius_km_); }
+
+bool Widths::is_of_plane() const { return rule_of_radius_->space() == RuleSpace::plane; }
 
 Widths Widths::limit_gradient(double gradient) const {
   require_gradient(gradient);
-  return Widths([rule = rule_of_radius_, gradient](
-                    double radius_km) { return limited(rule(radius_km), gradient, radius_km); },
-                radius_km_);
+  const Widths limits(
+      std::make_shared<RuleOfRadius>(rule_of_radius_->space(),
+                                     [rule = rule_of_radius_, gradient](double radius_km) {
+                                       return limited((*rule)(radius_km), gradient, radius_km);
+                                     }),
+      radius_km_);
+  if (is_of_plane())
+    limits.rule(); // which not every rule has
+  return limits;
 }
 
 Widths Widths::on_sphere(double radius_km) const {
   require_radius(radius_km);
-  return is_of_plane() || radius_km == radius_km_ ? *this : Widths(rule_of_radius_, radius_km);
+  if (is_of_plane() || radius_km == radius_km_)
+    return *this;
+  require(radius_km_ == earth_radius_km, "the widths are those of a sphere of " +
+                                             shortly(radius_km_) + " km, not of " +
+                                             shortly(radius_km) + "; give one radius");
+  return Widths(rule_of_radius_, radius_km);
 }
 
 DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
   DoubleVector values(places.cols());
-  const RuleSpace space = widths.rule()->space();
-  for_each_block_of(places, space, [&](const std::vector<Vec3>& block, std::int64_t begin) {
-    widths.rule()->evaluate(block, {values.data() + begin, block.size()});
+  const Rule rule = widths.rule();
+  for_each_block_of(places, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
+    rule->evaluate(block, {values.data() + begin, block.size()});
   });
   return values;
 }
 
 Ids active_rules(const Widths& minimum, const PointsRef& places) {
   Ids active(places.cols());
-  const RuleSpace space = minimum.rule()->space();
-  for_each_block_of(places, space, [&](const std::vector<Vec3>& block, std::int64_t begin) {
-    minimum.rule()->find_active(block, {active.data() + begin, block.size()});
+  const Rule rule = minimum.rule();
+  for_each_block_of(places, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
+    rule->find_active(block, {active.data() + begin, block.size()});
   });
   return active;
 }
@@ -469,7 +497,8 @@ Ids active_rules(const Widths& minimum, const PointsRef& places) {
 CellWidth sampled(const Widths& widths, double step) {
   require(step == 0 || (step >= 0.01 && step <= 10),
           "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
-  return sample(*widths.rule(), step == 0 ? step_for(*widths.rule(), widths.radius_km()) : step);
+  const Rule rule = widths.rule();
+  return sample(*rule, step == 0 ? step_for(*rule, widths.radius_km()) : step);
 }
 
 CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) {
@@ -482,14 +511,15 @@ CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) 
     return "longitude " + shortly(raster.longitudes[column]) + ", latitude " +
            shortly(raster.latitudes[row]);
   };
-  fill_in(raster.widths, is_inside, position);
+  fill_where_silent(raster.widths, is_inside, position);
   return raster;
 }
 
 PlanarCellWidth density_detail::sample(const Widths& widths, const Surface& plane, double step) {
   domain_detail::require_plane(plane, "a raster of x and y is");
   domain_detail::require_finite_plane(plane);
-  const WidthRule& rule = *widths.rule();
+  const Rule prepared = widths.rule();
+  const WidthRule& rule = *prepared;
   require(rule.space() != RuleSpace::sphere,
           "the widths are those of the sphere; give rules of a plane");
   const PlaneBox box = box_of(plane);
@@ -509,19 +539,19 @@ PlanarCellWidth density_detail::sample(const Widths& widths, const Surface& plan
   return raster;
 }
 
-void density_detail::require_demand(PlanarCellWidth& raster, const Surface& plane) {
+void density_detail::fill_outside(PlanarCellWidth& raster, const Surface& plane) {
   const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
     return !plane.is_bounded() || plane.contains({raster.x[column], raster.y[row], 0});
   };
   const auto position = [&](Eigen::Index column, Eigen::Index row) {
     return "x " + shortly(raster.x[column]) + ", y " + shortly(raster.y[row]);
   };
-  fill_in(raster.widths, is_inside, position);
+  fill_where_silent(raster.widths, is_inside, position);
 }
 
 PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
   PlanarCellWidth raster = sample(widths, plane, step);
-  require_demand(raster, plane);
+  fill_outside(raster, plane);
   return raster;
 }
 

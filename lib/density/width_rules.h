@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -49,6 +51,28 @@ private:
   RuleSpace space_;
 };
 
+/// A rule as a function of the radius of its sphere. What it makes for a radius it keeps, so that
+/// rules that are made of others share it. Threads may ask at once.
+class RuleOfRadius {
+public:
+  using Make = std::function<std::shared_ptr<const WidthRule>(double radius_km)>;
+
+  RuleOfRadius(RuleSpace space, Make make) : space_(space), make_(std::move(make)) {}
+  /// Of a rule that depends on no radius.
+  explicit RuleOfRadius(std::shared_ptr<const WidthRule> rule)
+      : RuleOfRadius(rule->space(), [rule](double) { return rule; }) {}
+
+  RuleSpace space() const { return space_; }
+  std::shared_ptr<const WidthRule> operator()(double radius_km) const;
+
+private:
+  RuleSpace space_;
+  Make make_;
+  mutable std::mutex mutex_; ///< of what follows: the last one that was asked for
+  mutable double radius_km_ = 0;
+  mutable std::shared_ptr<const WidthRule> rule_;
+};
+
 /// A rule by the distance from lines, which is negative at places where `is_behind` is true.
 /// \param lines closed boundaries of these places.
 ///
@@ -56,13 +80,14 @@ private:
 ///
 /// \param surface the sphere or a plane.
 /// \throws Error invalid_argument as Widths::by_distance().
-RuleOfRadius rule_of_sides(const std::vector<Points3>& lines,
-                           std::function<bool(const Vec3&)> is_behind, const WidthProfile& profile,
-                           const Surface& surface = {});
+std::shared_ptr<const RuleOfRadius> rule_of_sides(const std::vector<Points3>& lines,
+                                                  std::function<bool(const Vec3&)> is_behind,
+                                                  const WidthProfile& profile,
+                                                  const Surface& surface = {});
 
 /// Any rule with a limited gradient: nowhere above the rule.
-/// \param radius_km for which the rule was made. \throws Error invalid_argument for a rule of a
-/// plane that needs a raster.
+/// \param radius_km for which the rule was made.
+/// \throws Error invalid_argument for a rule of a plane that needs a raster.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient, double radius_km);
 
@@ -72,7 +97,7 @@ CellWidth sample(const WidthRule& rule, double step);
 PlanarCellWidth sample(const Widths& widths, const Surface& plane, double step);
 /// Gives nodes outside a plane without a demand the largest width of the others.
 /// \throws Error invalid_argument for one inside.
-void require_demand(PlanarCellWidth& raster, const Surface& plane);
+void fill_outside(PlanarCellWidth& raster, const Surface& plane);
 /// The step for its least width on a sphere, degrees.
 double step_for(const WidthRule& rule, double radius_km);
 

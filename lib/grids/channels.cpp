@@ -159,12 +159,14 @@ Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
   if (shore.empty())
     return no_demand;
   const auto sides = std::make_shared<const CoastSides>(shore);
-  return Widths([shore, sides, rule](double radius_km) {
+  const auto make = [shore, sides, rule](double radius_km) {
     // The circles through points that are an eighth of their width apart err by less than 1/100.
     const double step = std::min(rule.cells * rule.least, rule.widest) / 8 / radius_km;
     return std::make_shared<density_detail::DiscRule>(
         discs_of(points_along(shore, step), *sides, rule, step, radius_km));
-  });
+  };
+  return Widths(
+      std::make_shared<density_detail::RuleOfRadius>(density_detail::RuleSpace::sphere, make));
 }
 
 } // namespace calotte

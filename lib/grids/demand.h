@@ -18,6 +18,8 @@ class Demand {
 public:
   /// \param own widths of the mesh, of which those of a region are a part.
   Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own);
+  Demand(const Demand&) = delete; // one part refers to another
+  Demand& operator=(const Demand&) = delete;
 
   /// At places. Infinite where nothing finer is demanded, 0 where nothing coarser is.
   DoubleVector at(const Points3& points) const;

@@ -76,6 +76,9 @@ struct RulesOutline {
   std::optional<double> gradient; ///< the limit of all of it
 };
 
+/// Whether a file of cell widths holds rules, by its suffix, .toml in any case.
+bool holds_rules(const std::string& path);
+
 /// Reads the TOML file alone. \throws Error parse; file.
 RulesOutline outline_of_rules(const std::string& path);
 

@@ -195,6 +195,17 @@ TEST_CASE("on a sphere u times as large, rules of lengths u times as large are a
   }
 }
 
+TEST_CASE("a rule is prepared for its sphere alone, and once") {
+  // On the Earth so narrow cells would cut the coast into too many pieces.
+  const Widths narrow =
+      Widths::by_channel(test::gshhg('c'), {.cells = 3, .least = 0.02, .widest = 1});
+  const Widths small = Widths::minimum({narrow, 5.0}).on_sphere(6.371);
+  CHECK(evaluate(small, random_sphere(100, 9)).minCoeff() > 0);
+  CHECK(narrow.on_sphere(6.371).rule() == narrow.on_sphere(6.371).rule());
+  const Widths zones = Widths::by_latitude({{{-90, 20}, {90, 40}}});
+  CHECK(Widths(zones).rule() == zones.rule());
+}
+
 TEST_CASE("widths of two spheres do not mix, and those of the Earth go to the other's") {
   const Widths zones = Widths::by_latitude({{{-90, 20}, {90, 40}}}), mars = zones.on_sphere(3389.5),
                coast = Widths::by_distance(walks(), {{{0, 120}, {500, 150}}});
@@ -207,6 +218,9 @@ TEST_CASE("widths of two spheres do not mix, and those of the Earth go to the ot
                     }).what()) ==
         "some widths are of a sphere of 3389.5 km and some of one of 1737.4; give those of one of "
         "them");
+  CHECK(mars.on_sphere(3389.5).radius_km() == 3389.5);
+  CHECK(std::string(test::error_of([&] { mars.on_sphere(1737.4); }).what()) ==
+        "the widths are those of a sphere of 3389.5 km, not of 1737.4; give one radius");
   for (const double radius : {0.0, -1.0, std::nan("")})
     CHECK(test::error_of([&] { zones.on_sphere(radius); }).code() == ErrorCode::invalid_argument);
 }

@@ -111,7 +111,9 @@ TEST_CASE("a header tells which columns are read, wherever they stand") {
         "lat_deg lon_deg\n47.4 8.5\n-33 -70\n", "Y,X\n47.4,8.5\n-33,-70\n",
         "x,y,lat,lon\n1,2,47.4,8.5\n3,4,-33,-70\n", "# lat lon\n47.4 8.5\n-33 -70\n",
         "# of 2020\n# lat,lon\n\n47.4, 8.5\n-33, -70\n", "# lat lon\n47.4,8.5\n-33,-70\n",
-        "# The lat and the lon\n8.5 47.4\n-70 -33\n", "# lat lon\nlon lat\n8.5 47.4\n-70 -33\n",
+        "# The lat and the lon\n8.5 47.4\n-70 -33\n",
+        "# depth at lon lat\n8.5 47.4 5 6\n-70 -33 7 8\n",
+        "lon;lat;remark\n8.5;47.4;3,4 m\n-70;-33;b\n", "# lat lon\nlon lat\n8.5 47.4\n-70 -33\n",
         "a,b\n8.5,47.4\n-70,-33\n"}) {
     CAPTURE(text);
     CHECK(read(text, Columns::lonlat) == wanted);
@@ -137,7 +139,7 @@ TEST_CASE("numbers of lines and of stations are no coordinates, and further colu
     return std::string(error_of([&] { read(text, columns); }).what());
   };
   const std::string remedy = ", and there are more than 2; write a header that names the columns, "
-                             "such as id lon lat";
+                             "such as id lon lat, or lon lat value";
   Random random(3);
   for (int trial = 0; trial < 50; ++trial) {
     const int first = random.integer(-3, 400), lines = random.integer(3, 40);

@@ -258,6 +258,9 @@ TEST_CASE("files of rules that are none are refused with their line") {
                     "side = \"left\"") == " line 6: side is \"left\"; give sea or land");
   CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60]]\nmost = 20\nleast = 30") ==
         " line 4: least is 30, above most, 20; exchange them");
+  for (const std::string key : {"raster", "polygons"})
+    CHECK(rules.refused("[cell-width]\n" + key + " = \"W.TOML\"") ==
+          " line 2: " + key + " is a file of rules; write its rules in this file");
   CHECK(rules.refused("[cell-width]\nmin = []") ==
         " line 2: min holds no rules; give [{...}, {...}]");
   CHECK(rules.refused("[cell-width]\nwidth = 5\nbetween = \"smooth\"")

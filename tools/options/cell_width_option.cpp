@@ -73,8 +73,6 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
   return notes;
 }
 
-bool is_toml(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
-
 /// The widths without a limit of their gradient.
 ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
   if (!words.raster.empty())
@@ -87,7 +85,7 @@ ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
   if (words.uniform)
     return {uniform_widths(*words.uniform), {}};
-  if (is_toml(words.file)) {
+  if (holds_rules(words.file)) {
     WidthRules rules = read_width_rules(words.file, {}, words.radius);
     CellWidth raster = sampled_on(rules, region);
     return {std::move(raster), std::move(rules)};
@@ -191,7 +189,7 @@ ReadWidths read_widths(const WidthWords& words, const Surface& region) {
 }
 
 Widths read_demand(const WidthWords& words, const Surface& surface) {
-  if (is_toml(words.file))
+  if (holds_rules(words.file))
     return limited_in(read_width_rules(words.file, surface, words.radius), surface);
   if (surface.is_sphere())
     return Widths(read_widths(words).raster);
@@ -218,7 +216,7 @@ std::string width_configuration(const WidthWords& words) {
     return "density-raster of " + checksum_of(words.raster) + "\n";
   std::string text =
       "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
-  if (is_toml(words.file))
+  if (holds_rules(words.file))
     for (const std::string& named : outline_of_rules(words.file).files)
       text += "rules of " + checksum_of(named) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
@@ -246,9 +244,10 @@ std::string distinct_from(double other, double value) {
 
 Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale) {
   Gradient steepest = largest_gradient(scaled, words.radius);
-  const std::optional<double> limit = words.gradient        ? words.gradient
-                                      : is_toml(words.file) ? outline_of_rules(words.file).gradient
-                                                            : std::nullopt;
+  const std::optional<double> limit = words.gradient ? words.gradient
+                                      : holds_rules(words.file)
+                                          ? outline_of_rules(words.file).gradient
+                                          : std::nullopt;
   if (limit) // between nodes, at the tip of a cone, the raster has more than the nodes
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;

@@ -41,12 +41,16 @@ void refuse_foreign(const std::string& path) {
   const auto* const kind = std::ranges::find(kinds, suffix_of(path), &Kind::suffix);
   if (kind == kinds.end())
     return;
-  const std::string stem = std::filesystem::path(path).replace_extension();
+  const auto quoted = [](const std::string& name) {
+    return name.find(' ') == std::string::npos ? name : "'" + name + "'";
+  };
+  const std::string stem = std::filesystem::path(path).replace_extension(), given = quoted(path);
   throw Error(ErrorCode::parse,
               path + ": this is " + std::string(kind->name) +
                   ", which Calotte does not read; convert it with GDAL: " +
-                  (kind->shapes ? "ogr2ogr " + stem + ".geojson " + path
-                                : "gdal_translate -of netCDF " + path + " " + stem + ".nc"));
+                  (kind->shapes
+                       ? "ogr2ogr " + quoted(stem + ".geojson") + " " + given
+                       : "gdal_translate -of netCDF " + given + " " + quoted(stem + ".nc")));
 }
 
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

@@ -95,7 +95,8 @@ std::vector<std::array<std::string, 2>> meaning_of(const NetcdfReader& file,
   static const std::set<std::string> others{
       "long_name",     "units",     "coordinates",   "grid_mapping",        "bounds",
       "mesh",          "location",  "cell_measures", "ancillary_variables", "grid_type",
-      "CDI_grid_type", "_Unsigned", "formula_terms", "missing_value",       "_FillValue"};
+      "CDI_grid_type", "_Unsigned", "flag_meanings", "formula_terms",       "missing_value",
+      "_FillValue"};
   std::vector<std::array<std::string, 2>> attributes;
   for (const NetcdfAttribute& attribute :
        file.variables()[static_cast<std::size_t>(file.find(name))].attributes)
@@ -138,7 +139,7 @@ void read_values(const NetcdfReader& file, const std::vector<std::size_t>& place
   field.values = by_place(cf_values(file, field.name, shape), shape, places);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
-  field.single = file.is_float(field.name);
+  field.single = file.is_float(field.name) && !is_packed(file, field.name);
   field.attributes = meaning_of(file, field.name);
   for (FieldDimension& dimension : field.dimensions)
     dimension.unlimited = file.is_unlimited(dimension.name);

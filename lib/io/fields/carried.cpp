@@ -2,7 +2,7 @@
 #include "io/fields/carried.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -57,12 +57,13 @@ public:
       if (belongs(variable))
         choose(variable.name, chosen);
     // Those name others in turn: a level its bounds and its terms.
-    for (std::size_t before = 0; before != chosen.size();) {
+    std::size_t before = 0;
+    do {
       before = chosen.size();
       for (const NetcdfVariable& variable : file_.variables())
         if (named_.contains(variable.name) && can_be_carried(variable))
           choose(variable.name, chosen);
-    }
+    } while (before != chosen.size());
     std::vector<Carried> out;
     for (const NetcdfVariable& variable : file_.variables()) // in the order of the file
       if (chosen.contains(variable.name))
@@ -77,8 +78,10 @@ private:
   }
 
   bool can_be_carried(const NetcdfVariable& variable) const {
+    const std::vector<std::int64_t> shape = file_.shape_of(variable.name);
     return variable.type && !fields_.contains(variable.name) &&
-           !contains_any(of_places_, file_.dimensions_of(variable.name));
+           !contains_any(of_places_, file_.dimensions_of(variable.name)) &&
+           std::ranges::find(shape, 0) == shape.end();
   }
 
   bool belongs(const NetcdfVariable& variable) const {
@@ -98,8 +101,7 @@ private:
       if (words_of(file_, field, "coordinates").contains(variable.name))
         out.of.push_back(field);
     out.bytes.resize(static_cast<std::size_t>(file_.product(id, 0, rank) * size_of(out.type)));
-    if (!out.bytes.empty())
-      file_.stored_rows(id, 0, 0, rank > 0 ? out.dimensions.front().size : 1, out.bytes.data());
+    file_.stored_rows(id, 0, 0, rank > 0 ? out.dimensions.front().size : 1, out.bytes.data());
     return out;
   }
 

@@ -165,11 +165,18 @@ void require_free_names(const std::string& path, const std::vector<MeshField>& f
                 " has the name of a coordinate; leave it out with --fields");
 }
 
-std::vector<Carried> carried_from(const std::string& source, const std::vector<MeshField>& fields) {
-  if (source.empty() || !is_netcdf_file(source))
-    return {};
-  std::vector<Carried> carried = carried_with(NetcdfReader(source), fields);
-  std::erase_if(carried, [](const Carried& variable) { return is_own_name(variable.name); });
+/// What belongs to fields, of which some get other names.
+std::vector<Carried> carried_from(const std::string& source, std::vector<MeshField>& fields) {
+  std::vector<Carried> carried;
+  if (!source.empty() && is_netcdf_file(source))
+    carried = carried_with(NetcdfReader(source), fields);
+  for (const auto& [before, now] : replace_names(fields))
+    for (Carried& variable : carried)
+      std::ranges::replace(variable.of, before, now);
+  std::erase_if(carried, [&](const Carried& variable) {
+    return is_own_name(variable.name) ||
+           std::ranges::find(fields, variable.name, &MeshField::name) != fields.end();
+  });
   return carried;
 }
 
@@ -194,9 +201,8 @@ void write_fields(const std::string& path, const FieldGrid& grid,
     return;
   }
   require_free_names(path, fields);
-  const std::vector<Carried> carried = carried_from(source, fields);
   std::vector<MeshField> named = fields;
-  replace_names(named);
+  const std::vector<Carried> carried = carried_from(source, named);
   if (grid.boxes)
     write_raster(path, *grid.boxes, named, carried, options);
   else

@@ -3,6 +3,7 @@
 
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
+#include "io/command.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
@@ -28,7 +29,7 @@ CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
     return io_detail::read_cell_width_netcdf(path, region);
-  if (suffix == ".toml")
+  if (holds_rules(path))
     return sampled_on(read_width_rules(path, {}, polygons.radius_km), region);
   io_detail::refuse_foreign(path);
   if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")

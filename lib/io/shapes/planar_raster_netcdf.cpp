@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_names.h"
+#include "io/command.h"
 #include "io/netcdf/cf_values.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/planar_grid.h"
@@ -64,10 +65,10 @@ PlanarRaster read_planar_raster(const std::string& path) {
 }
 
 PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane) {
-  const std::string suffix = io_detail::suffix_of(path);
-  if (suffix == ".toml")
+  if (holds_rules(path))
     return sampled(read_width_rules(path, plane), plane);
-  return suffix == ".msh" ? io_detail::read_planar_cell_width_msh(path) : read_cell_width_of(path);
+  return io_detail::suffix_of(path) == ".msh" ? io_detail::read_planar_cell_width_msh(path)
+                                              : read_cell_width_of(path);
 }
 
 } // namespace calotte

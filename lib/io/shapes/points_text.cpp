@@ -123,8 +123,8 @@ std::vector<std::string_view> columns_of(std::string_view line, char separator) 
 struct Header {
   char separator = ' ';
   std::array<std::size_t, 3> column{};
-  bool first = true;     ///< these are the first columns, in order
-  std::size_t names = 0; ///< of all columns
+  bool first = true;                 ///< these are the first columns, in order
+  std::size_t names = 0, wanted = 0; ///< of all columns, and of the coordinates
 };
 
 /// The separator of a line, which may be another one than that of its header.
@@ -158,6 +158,7 @@ std::optional<Header> header_of(std::string_view line, Columns columns) {
   for (const std::string_view name : columns_of(line, header.separator))
     names.push_back(letters_of(name));
   header.names = names.size();
+  header.wanted = wanted.size();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     auto found = names.end();
     for (const std::string_view known : wanted[k]) // the first that there is
@@ -184,23 +185,30 @@ Columned parse_named(std::string_view line, const Header& header, int count, dou
   return {};
 }
 
-/// Whether there are commas between digits that separate no columns: beside semicolons, or in each
-/// of as many words as there are to be columns.
-bool has_decimal_commas(std::string_view line, int count) {
+int commas_in(std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const auto commas = [&](std::string_view text) {
-    int found = 0;
-    for (std::size_t k = 1; k + 1 < text.size(); ++k)
-      found += text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1]) ? 1 : 0;
-    return found;
-  };
+  int found = 0;
+  for (std::size_t k = 1; k + 1 < text.size(); ++k)
+    found += text[k] == ',' && is_digit(text[k - 1]) && is_digit(text[k + 1]) ? 1 : 0;
+  return found;
+}
+
+/// Whether there are commas between digits that separate no columns: beside semicolons in those
+/// that are read, or in each of as many words as there are to be columns.
+bool has_decimal_commas(std::string_view line, int count, const std::optional<Header>& header) {
   if (line.find(',') == std::string_view::npos)
     return false;
-  if (line.find(';') != std::string_view::npos)
-    return commas(line) > 0;
+  if (line.find(';') != std::string_view::npos) {
+    const std::vector<std::string_view> columns = columns_of(line, ';');
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      if (const std::size_t at = header ? header->column[k] : k;
+          at < columns.size() && commas_in(columns[at]) > 0)
+        return true;
+    return false;
+  }
   const std::vector<std::string_view> words = columns_of(line, ' ');
   return std::ssize(words) >= count &&
-         std::ranges::all_of(words, [&](std::string_view word) { return commas(word) == 1; });
+         std::ranges::all_of(words, [](std::string_view word) { return commas_in(word) == 1; });
 }
 
 /// Whether the first of more columns than are read has other things than coordinates: numbers of
@@ -233,9 +241,9 @@ private:
   [[noreturn]] void refuse(const LineReader& reader, const std::string& what) const {
     reader.fail(what + ", and there are more than " + std::to_string(count_) +
                 "; write a header that names the columns, such as " +
-                (lonlat_       ? "id lon lat"
-                 : count_ == 3 ? "id x y z"
-                               : "id x y"));
+                (lonlat_       ? "id lon lat, or lon lat value"
+                 : count_ == 3 ? "id x y z, or x y z value"
+                               : "id x y, or x y value"));
   }
 
   bool lonlat_;
@@ -263,12 +271,13 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
     }
     line = content;
     if (coordinates.empty() && names && !header) { // "# lat lon", or a sentence
+      const bool is_list = names->separator != ' ' || names->names == names->wanted;
       names->separator = separator_of(line);
-      if (columns_of(line, names->separator).size() != names->names)
+      if (!is_list || columns_of(line, names->separator).size() != names->names)
         names.reset();
     }
     double values[3];
-    if (has_decimal_commas(line, format.columns))
+    if (has_decimal_commas(line, format.columns, names))
       reader.fail("commas separate columns; write numbers with decimal points");
     const Columned read = names && !names->first
                               ? parse_named(line, *names, format.columns, values)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_rules.h"
 #include "base/number_text.h"
+#include "io/bytes/file_names.h"
 #include "io/bytes/text.h"
 #include "io/command.h"
 #include "io/shapes/room.h"
@@ -402,15 +403,23 @@ private:
     return value * unit->second;
   }
 
+  /// Rules within rules could name each other without an end.
+  std::string file_of_no_rules(RuleTable& table, const std::string& key) {
+    std::string path = file(table, key);
+    if (holds_rules(path))
+      table.refuse(key, "is a file of rules; write its rules in this file");
+    return path;
+  }
+
   Widths raster(RuleTable& table) {
-    const std::string path = file(table, "raster");
+    const std::string path = file_of_no_rules(table, "raster");
     if (surface_.is_sphere())
       return read_cell_width(path);
     return read_planar_cell_width(path);
   }
 
   Widths polygons(RuleTable& table) {
-    const std::string path = file(table, "polygons");
+    const std::string path = file_of_no_rules(table, "polygons");
     PolygonWidths widths{.radius_km = radius_km_};
     for (const auto& [key, value] : {std::pair{"inside", &widths.inside},
                                      {"outside", &widths.outside},
@@ -441,6 +450,8 @@ PlanarCellWidth limited_raster(const WidthRules& rules, const Surface& plane) {
 
 } // namespace
 
+bool holds_rules(const std::string& path) { return io_detail::suffix_of(path) == ".toml"; }
+
 WidthRules read_width_rules(const std::string& path, const Surface& surface, double radius_km) {
   return RuleReader(path, surface, radius_km).rules();
 }
@@ -452,7 +463,7 @@ CellWidth sampled_on(const WidthRules& rules, const Surface& surface) {
 PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane) {
   return of_file(rules.path, [&] {
     PlanarCellWidth raster = limited_raster(rules, plane);
-    density_detail::require_demand(raster, plane);
+    density_detail::fill_outside(raster, plane);
     return raster;
   });
 }

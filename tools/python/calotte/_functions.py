@@ -693,14 +693,14 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
+    if isinstance(widths, CellWidth):
+        _warn_of_steep(widths, recipe)
     mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])
     if between is not None:
         cells, cells._content = between
         report["cells"] = cells
     grid = Cvt(mesh, **report)
-    if isinstance(widths, CellWidth):
-        _warn_of_steep(widths, recipe)
     _warn_of_shortfall(grid.converged, grid.cells_beyond_limits)
     return grid
 
@@ -873,10 +873,10 @@ def _changed(change, mesh, demand, surface, nearest, conservative, progress, **f
         values[name] = tuple(values[name])
     values["patches"] = tuple(ChangedPatch(**patch) for patch in values["patches"])
     changed = ChangedMesh(made, **values)
-    _warn_of_change(changed, "are wider than demanded by more than 0.3; refine the result again, or give a "
-                    "larger gradient" if change is _calotte.refine else
-                    "are narrower than demanded, as all are: coarser cells grow from those around; give a "
-                    "larger region or gradient")
+    _warn_of_change(changed, f"{changed.missed} cells are wider than demanded by more than 0.3; refine the "
+                    "result again, or give a larger gradient" if change is _calotte.refine else
+                    f"the demand is met in none of its {changed.missed} cells: coarser ones grow from those "
+                    "around; give a larger region or gradient")
     return changed
 
 
@@ -885,7 +885,7 @@ def _warn_of_change(changed, missed):
         warnings.warn(f"{changed.held} cells stay as they are, against the demand, because they are at the "
                       "boundary or next to it", stacklevel=4)
     if changed.missed:
-        warnings.warn(f"{changed.missed} cells {missed}", stacklevel=4)
+        warnings.warn(missed, stacklevel=4)
     if not changed.converged:
         warnings.warn("not converged", stacklevel=4)
     if not changed.well_centred:
