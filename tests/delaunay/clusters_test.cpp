@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "support/sanitizer.h"
 
 #include <calotte/check.h>
@@ -55,10 +54,9 @@ const Eigen::Vector3d here = Eigen::Vector3d(1, 2, 3).normalized();
 void check_caps(const Points3& points, int count, Overlap overlap = Overlap::halo) {
   CAPTURE(count);
   CAPTURE(static_cast<int>(overlap));
-  DelaunayReport report;
-  const Mesh mesh = spherical_delaunay(points, regions(count, overlap), &report);
+  const auto [mesh, report] = triangulate(points, {}, regions(count, overlap));
   CHECK_FALSE(report.serial);
-  const Mesh whole = spherical_delaunay(points, regions(1));
+  const Mesh whole = delaunay(points, {}, regions(1));
   CHECK((mesh.triangles == whole.triangles));
   CHECK((mesh.neighbours == whole.neighbours));
   CHECK(mesh.closed());
@@ -93,8 +91,7 @@ TEST_CASE("a cluster that holds most sites, or alone, has the mesh of one region
   for (const Eigen::Index others : {4, 100, 1000}) {
     CAPTURE(others);
     const Points3 points = beside(random_sphere(others, 3), cluster(here, 3000, 1e-9));
-    const Mesh mesh = spherical_delaunay(points, regions(24)),
-               whole = spherical_delaunay(points, regions(1));
+    const Mesh mesh = delaunay(points, {}, regions(24)), whole = delaunay(points, {}, regions(1));
     CHECK((mesh.triangles == whole.triangles));
     CHECK((mesh.neighbours == whole.neighbours));
   }
@@ -106,8 +103,8 @@ TEST_CASE("in the plane, too") {
     Points2 points(2, 11000);
     points << random_sphere(8000, 3).topRows<2>(),
         (width * random_sphere(3000, 4).topRows<2>()).colwise() + Eigen::Vector2d(0.3, 0.2);
-    const PlanarMesh mesh = planar_delaunay(points, regions(42)),
-                     whole = planar_delaunay(points, regions(1));
+    const Mesh mesh = delaunay(points, Surface::plane(), regions(42)),
+               whole = delaunay(points, Surface::plane(), regions(1));
     CHECK((mesh.triangles == whole.triangles));
     CHECK((mesh.neighbours == whole.neighbours));
   }
@@ -115,5 +112,5 @@ TEST_CASE("in the plane, too") {
 
 TEST_CASE("the mesh of a cluster passes the exact check") {
   const Points3 points = beside(random_sphere(3000, 3), cluster(here, 1000, 1e-12));
-  CHECK(check(spherical_delaunay(points, regions(24))).passed());
+  CHECK(check(delaunay(points, {}, regions(24))).passed());
 }

@@ -5,7 +5,6 @@
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -77,7 +76,7 @@ std::vector<RegionsAndThreads> all_runs() {
 /// Laws 1, 2 and 4 on one set.
 void require_one_mesh(const Cloud& cloud, const std::vector<RegionsAndThreads>& runs) {
   CAPTURE(cloud.name);
-  const Mesh mesh = spherical_delaunay(cloud.points);
+  const Mesh mesh = delaunay(cloud.points);
   require_laws(mesh, cloud.closed);
   CHECK(mesh.site_of_input.size() == static_cast<std::size_t>(cloud.points.cols()));
   if (cloud.sites != unknown_sites)
@@ -86,12 +85,12 @@ void require_one_mesh(const Cloud& cloud, const std::vector<RegionsAndThreads>& 
     CAPTURE(run.regions);
     CAPTURE(run.threads);
     CHECK(with_threads(run.threads, [&] {
-      return identical(spherical_delaunay(cloud.points, with_regions(run.regions)), mesh);
+      return identical(delaunay(cloud.points, {}, with_regions(run.regions)), mesh);
     }));
   }
   for (const Setting& setting : settings(cloud.points)) {
     CAPTURE(setting.name);
-    CHECK(identical(spherical_delaunay(cloud.points, setting.options), mesh));
+    CHECK(identical(delaunay(cloud.points, {}, setting.options), mesh));
   }
 }
 
@@ -104,18 +103,18 @@ std::vector<std::int32_t> random_permutation(std::int64_t n, std::uint64_t seed)
 
 void require_permutable(const Cloud& cloud, std::uint64_t seed) {
   CAPTURE(cloud.name);
-  const Mesh mesh = spherical_delaunay(cloud.points);
+  const Mesh mesh = delaunay(cloud.points);
   const std::vector<std::int32_t> to = random_permutation(mesh.points.cols(), seed);
   const Mesh expected = renumbered(mesh, to);
   for (const int regions : {1, 12}) {
     CAPTURE(regions);
-    CHECK(identical(spherical_delaunay(expected.points, with_regions(regions)), expected));
+    CHECK(identical(delaunay(expected.points, {}, with_regions(regions)), expected));
   }
 }
 
 void require_scalable(const Cloud& cloud, std::uint64_t seed) {
   CAPTURE(cloud.name);
-  const Mesh mesh = spherical_delaunay(cloud.points);
+  const Mesh mesh = delaunay(cloud.points);
   Random random(seed);
   Points3 scaled = cloud.points;
   for (Eigen::Index i = 0; i < scaled.cols(); ++i) {
@@ -128,7 +127,7 @@ void require_scalable(const Cloud& cloud, std::uint64_t seed) {
       return; // a component underflowed
   for (const int regions : {1, 12}) {
     CAPTURE(regions);
-    const Mesh other = spherical_delaunay(scaled, with_regions(regions));
+    const Mesh other = delaunay(scaled, {}, with_regions(regions));
     CHECK(same_bits(other.triangles, mesh.triangles));
     CHECK(same_bits(other.neighbours, mesh.neighbours));
     CHECK(other.site_of_input == mesh.site_of_input);
@@ -197,7 +196,7 @@ struct Failure {
 
 Failure failure_of(const Points3& points, const DelaunayOptions& options = {}) {
   try {
-    spherical_delaunay(points, options);
+    delaunay(points, {}, options);
   } catch (const Error& error) {
     return {error.code(), error.index(), error.what()};
   }
@@ -230,7 +229,7 @@ TEST_CASE("small sets: the triangulation that the definition gives") {
     if (cloud.points.cols() > 25)
       continue;
     CAPTURE(cloud.name);
-    const Mesh mesh = spherical_delaunay(cloud.points);
+    const Mesh mesh = delaunay(cloud.points);
     Mesh expected = oracle::delaunay(mesh.points);
     expected.site_of_input = mesh.site_of_input;
     CHECK(identical(mesh, expected));
@@ -264,7 +263,7 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
     Mesh mesh;
     bool has_mesh = true;
     try {
-      mesh = spherical_delaunay(points, with_regions(1));
+      mesh = delaunay(points, {}, with_regions(1));
     } catch (const Error& error) {
       has_mesh = false;
       CHECK((error.code() == ErrorCode::degenerate || error.code() == ErrorCode::too_few_sites));
@@ -280,9 +279,9 @@ TEST_CASE("small sets at random, in special position, any options: one mesh [slo
       const DelaunayOptions options = random_options(random, points);
       CAPTURE(k);
       if (has_mesh)
-        CHECK(identical(spherical_delaunay(points, options), mesh));
+        CHECK(identical(delaunay(points, {}, options), mesh));
       else
-        CHECK_THROWS_AS(spherical_delaunay(points, options), Error);
+        CHECK_THROWS_AS(delaunay(points, {}, options), Error);
     }
   }
   CHECK(std::min(closed, open) > 50);
@@ -306,7 +305,7 @@ TEST_CASE("without ties the triangles are those of CGAL's triangulation on the s
       if (cloud.ties)
         continue;
       CAPTURE(cloud.name);
-      const Mesh mesh = spherical_delaunay(cloud.points);
+      const Mesh mesh = delaunay(cloud.points);
       const std::vector<Triple> expected = cgal_triangles(mesh.points);
       REQUIRE(mesh.triangles.cols() == std::ssize(expected));
       for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
@@ -327,8 +326,7 @@ TEST_CASE("duplicates: the lowest index stays, and the map gives the site of eac
                                   {0, 0, -1},
                                   {0.5, 0.5, 0.5},
                                   {-1, 0, 0}});
-  DelaunayReport report;
-  const Mesh mesh = spherical_delaunay(points, {}, &report);
+  const auto [mesh, report] = triangulate(points);
   CHECK(mesh.points.cols() == 5);
   CHECK(report.sites == 5);
   CHECK(report.duplicates == 3);
@@ -338,7 +336,7 @@ TEST_CASE("duplicates: the lowest index stays, and the map gives the site of eac
   for (const Cloud& cloud : large_clouds()) {
     if (cloud.sites < 0)
       continue;
-    const Mesh merged = spherical_delaunay(cloud.points);
+    const Mesh merged = delaunay(cloud.points);
     for (Eigen::Index i = 0; i < cloud.points.cols(); ++i) {
       const std::int32_t s = merged.site_of_input[static_cast<std::size_t>(i)];
       CHECK(exact::same_direction(site(cloud.points, i), site(merged.points, s)));
@@ -352,9 +350,9 @@ TEST_CASE("points that are handed over give the same mesh, and are not copied") 
     Points3 points = 3 * random_sphere(5000, 12);
     if (twins)
       points.col(4000) = points.col(7);
-    const Mesh expected = spherical_delaunay(points);
+    const Mesh expected = delaunay(points);
     const double* data = points.data();
-    const Mesh mesh = spherical_delaunay(std::move(points));
+    const Mesh mesh = delaunay(std::move(points));
     CHECK((mesh.points.data() == data) == !twins);
     CHECK(mesh.points == expected.points);
     CHECK(mesh.triangles == expected.triangles);
@@ -370,13 +368,13 @@ TEST_CASE("duplicates refused, and merge_within") {
   require_error(points, refuse, ErrorCode::duplicate, 6);
   DelaunayOptions near;
   near.merge_within = 2e-4;
-  const Mesh mesh = spherical_delaunay(points, near);
+  const Mesh mesh = delaunay(points, {}, near);
   CHECK(mesh.points.cols() == 6);
   CHECK(mesh.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 1, 0});
   near.merge_within = 5e-5;
-  CHECK(spherical_delaunay(points, near).points.cols() == 7);
+  CHECK(delaunay(points, {}, near).points.cols() == 7);
   // Points 1e-16 apart are two sites.
-  CHECK(spherical_delaunay(joined(octahedron(), columns({{1, 1e-16, 0}}))).points.cols() == 7);
+  CHECK(delaunay(joined(octahedron(), columns({{1, 1e-16, 0}}))).points.cols() == 7);
 }
 
 TEST_CASE("bad input is one error that names the first offending index") {
@@ -415,7 +413,7 @@ TEST_CASE("three sites make one open triangle, counter-clockwise from outside") 
           std::pair(columns({{1, 0, 1e-12}, {-1, 1, 0}, {-1, -1, 0}}), Eigen::Vector3i(0, 1, 2)),
           std::pair(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0}}),
                     Eigen::Vector3i(0, 1, 2))}) {
-      const Mesh mesh = spherical_delaunay(points, with_regions(regions));
+      const Mesh mesh = delaunay(points, {}, with_regions(regions));
       CHECK(mesh.points.cols() == 3);
       REQUIRE(mesh.triangles.cols() == 1);
       CHECK(mesh.triangles.col(0) == triangle);
@@ -448,20 +446,20 @@ TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642
   for (const DelaunayOptions& options :
        {with_regions(12), with_centres(bisected_icosahedron(0)),
         with_regions(12, Overlap::distance), with_regions(12, Overlap::voronoi)})
-    CHECK(bisect(spherical_delaunay(coarse, options)).cols() == 642);
+    CHECK(bisect(delaunay(coarse, {}, options)).cols() == 642);
 }
 
 TEST_CASE("regression: 642 icosahedral sites over 12 icosahedral centres (MPI-SCVT: 1172)") {
   for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
     DelaunayOptions options = with_centres(bisected_icosahedron(0));
     options.partition.overlap = overlap;
-    CHECK(spherical_delaunay(bisected_icosahedron(3), options).triangles.cols() == 1280);
+    CHECK(delaunay(bisected_icosahedron(3), {}, options).triangles.cols() == 1280);
   }
 }
 
 TEST_CASE("bisection of an icosahedral mesh is the next level in another order") {
   for (const int level : {0, 1, 2, 3}) {
-    const Points3 finer = bisect(spherical_delaunay(bisected_icosahedron(level)));
+    const Points3 finer = bisect(delaunay(bisected_icosahedron(level)));
     const Points3 expected = bisected_icosahedron(level + 1);
     REQUIRE(finer.cols() == expected.cols());
     const auto sorted = [](const Points3& points) {
@@ -479,18 +477,18 @@ TEST_CASE("regression: sites in a hemisphere, region centres beyond it: the mesh
   // Seen from their foci, the hull of the sites has a far side; its triangles are empty but
   // clockwise.
   const Points3 points = upper_half(6, 4);
-  const Mesh mesh = spherical_delaunay(points, with_regions(1));
+  const Mesh mesh = delaunay(points, {}, with_regions(1));
   REQUIRE_FALSE(mesh.closed());
-  CHECK(identical(spherical_delaunay(points, with_centres(-points.leftCols(2))), mesh));
+  CHECK(identical(delaunay(points, {}, with_centres(-points.leftCols(2))), mesh));
 }
 
 TEST_CASE("regions whose centres and foci are sites") {
   const Points3 points = joined(random_sphere(2000, 81), octahedron());
-  const Mesh mesh = spherical_delaunay(points, with_regions(1));
-  DelaunayReport report;
-  CHECK(identical(spherical_delaunay(points, with_centres(octahedron()), &report), mesh));
-  CHECK(report.regions == 6);
-  CHECK_FALSE(report.serial);
+  const Mesh mesh = delaunay(points, {}, with_regions(1));
+  const Triangulation centred = triangulate(points, {}, with_centres(octahedron()));
+  CHECK(identical(centred.mesh, mesh));
+  CHECK(centred.report.regions == 6);
+  CHECK_FALSE(centred.report.serial);
 }
 
 TEST_CASE("a lowest site with any number of triangles: they ascend by their second site") {
@@ -507,7 +505,7 @@ TEST_CASE("a lowest site with any number of triangles: they ascend by their seco
           2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(ring);
       points.col(place[static_cast<std::size_t>(i)]) << std::cos(angle), std::sin(angle), 0.5;
     }
-    const Triangles triangles = spherical_delaunay(points).triangles;
+    const Triangles triangles = delaunay(points).triangles;
     REQUIRE(triangles.cols() == 2 * ring);
     for (Eigen::Index t = 0; t < ring; ++t) {
       CHECK(triangles(0, t) == 0);
@@ -519,8 +517,7 @@ TEST_CASE("a lowest site with any number of triangles: they ascend by their seco
 
 TEST_CASE("the report adds up") {
   const Points3 points = random_sphere(20000, 91);
-  DelaunayReport report;
-  const Mesh mesh = spherical_delaunay(points, with_regions(12), &report);
+  const auto [mesh, report] = triangulate(points, {}, with_regions(12));
   CHECK(report.sites == 20000);
   CHECK(report.duplicates == 0);
   CHECK(report.regions == 12);
@@ -544,21 +541,15 @@ TEST_CASE("the report adds up") {
   const DelaunayReport::Seconds& s = report.seconds;
   CHECK(std::min({s.sites, s.regions, s.triangulate, s.unite}) >= 0);
   CHECK(s.sites + s.regions + s.triangulate + s.unite <= s.total * 1.000001);
-  CHECK(with_threads(2, [&] {
-          DelaunayReport other;
-          spherical_delaunay(points, with_regions(12), &other);
-          return other.threads;
-        }) == 2);
-  spherical_delaunay(points, with_regions(1), &report);
-  CHECK(report.serial);
-  spherical_delaunay(upper_half(500, 92), with_regions(12), &report);
-  CHECK(report.serial);
+  CHECK(with_threads(2, [&] { return triangulate(points, {}, with_regions(12)).report.threads; }) ==
+        2);
+  CHECK(triangulate(points, {}, with_regions(1)).report.serial);
+  CHECK(triangulate(upper_half(500, 92), {}, with_regions(12)).report.serial);
 }
 
 TEST_CASE("caps give up where each query would look at most sites: along a satellite's track") {
   const Points3 points = joined(circle_at_random(30000, 1e-6, 93), random_sphere(6, 94));
-  DelaunayReport report;
-  const Mesh mesh = spherical_delaunay(points, with_regions(12), &report);
+  const auto [mesh, report] = triangulate(points, {}, with_regions(12));
   CHECK(report.serial);
   CHECK(check(mesh).failure == "");
 }

@@ -3,10 +3,10 @@
 #include "delaunay/delaunay.h"
 #include "delaunay/plane_chart.h"
 #include "delaunay/settings.h"
+#include "domain/surface.h"
 #include "support/joined.h"
 #include "support/laws.h"
 #include "support/plane_laws.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>
@@ -31,6 +31,7 @@
 
 using namespace calotte;
 using namespace calotte::test;
+using domain_detail::UncheckedSurface;
 
 namespace {
 
@@ -128,7 +129,7 @@ std::vector<PlaneCloud> clouds() {
   return out;
 }
 
-std::vector<Triple> triangles_of(const PlanarMesh& mesh) {
+std::vector<Triple> triangles_of(const Mesh& mesh) {
   std::vector<Triple> out;
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     out.push_back(triple(mesh, t));
@@ -141,9 +142,9 @@ std::vector<Triple> triangles_of(const PlanarMesh& mesh) {
 TEST_CASE("a planar triangulation is exact and whole") {
   for (const PlaneCloud& cloud : clouds()) {
     CAPTURE(cloud.name);
-    const PlanarMesh mesh = planar_delaunay(cloud.points, with_regions(9));
-    require_exact(mesh);
-    require_whole(mesh);
+    const Mesh mesh = delaunay(cloud.points, Surface::plane(), with_regions(9));
+    plane_laws::require_exact(mesh);
+    plane_laws::require_whole(mesh);
     if (!cloud.degenerate)
       CHECK(triangles_of(mesh) == cgal_triangles(cloud.points));
   }
@@ -193,27 +194,29 @@ TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
 TEST_CASE("any regions, sorts, centres and threads give the same planar mesh") {
   for (const PlaneCloud& cloud : clouds()) {
     CAPTURE(cloud.name);
-    const PlanarMesh mesh = planar_delaunay(cloud.points, with_regions(1));
+    const Mesh mesh = delaunay(cloud.points, Surface::plane(), with_regions(1));
     for (const int regions : {2, 9, 64, 200})
       for (const int threads : {1, 2, 4}) {
         CAPTURE(regions);
         CAPTURE(threads);
-        const auto again = with_threads(
-            threads, [&] { return planar_delaunay(cloud.points, with_regions(regions)); });
+        const auto again = with_threads(threads, [&] {
+          return delaunay(cloud.points, Surface::plane(), with_regions(regions));
+        });
         CHECK(identical(again, mesh));
       }
     for (const Overlap overlap : {Overlap::distance, Overlap::voronoi})
-      CHECK(identical(planar_delaunay(cloud.points, with_regions(12, overlap)), mesh));
-    CHECK(identical(
-        planar_delaunay(cloud.points, with_regions(12, Overlap::halo, Centres::fibonacci)), mesh));
+      CHECK(identical(delaunay(cloud.points, Surface::plane(), with_regions(12, overlap)), mesh));
+    CHECK(identical(delaunay(cloud.points, Surface::plane(),
+                             with_regions(12, Overlap::halo, Centres::fibonacci)),
+                    mesh));
     DelaunayOptions options;
     options.partition.given_centres = Points3(3, 3);
     *options.partition.given_centres << cloud.points.leftCols(3), 7, 8, 9;
-    CHECK(identical(planar_delaunay(cloud.points, options), mesh));
+    CHECK(identical(delaunay(cloud.points, Surface::plane(), options), mesh));
     const double beyond = 20 * cloud.points.cwiseAbs().maxCoeff(); // all far outside
     *options.partition.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond, 0,
         0, 0;
-    CHECK(identical(planar_delaunay(cloud.points, options), mesh));
+    CHECK(identical(delaunay(cloud.points, Surface::plane(), options), mesh));
   }
 }
 
@@ -228,32 +231,30 @@ TEST_CASE("a permuted planar input permutes the ids") {
     for (std::size_t i = 0; i < order.size(); ++i)
       shuffled.col(static_cast<Eigen::Index>(i)) = cloud.points.col(order[i]);
     std::vector<Triple> named;
-    for (Triple t : triangles_of(planar_delaunay(shuffled, with_regions(7)))) {
+    for (Triple t : triangles_of(delaunay(shuffled, Surface::plane(), with_regions(7)))) {
       for (std::int32_t& id : t)
         id = order[static_cast<std::size_t>(id)];
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
       named.push_back(t);
     }
     std::sort(named.begin(), named.end());
-    CHECK(named == triangles_of(planar_delaunay(cloud.points, with_regions(7))));
+    CHECK(named == triangles_of(delaunay(cloud.points, Surface::plane(), with_regions(7))));
   }
 }
 
 TEST_CASE("regions are used, and certified by cull") {
   const Points2 points = random_box(30000, 1, 1, 21);
-  DelaunayReport report;
-  const PlanarMesh mesh = planar_delaunay(points, with_regions(12), &report);
+  const auto [mesh, report] = triangulate(points, Surface::plane(), with_regions(12));
   CHECK_FALSE(report.serial);
   CHECK(report.regions == 12);
   CHECK(report.overlap < 1.3);
   CHECK(report.certified_by_cull > 50 * report.certified_by_query);
-  CHECK(identical(mesh, planar_delaunay(points, with_regions(1))));
+  CHECK(identical(mesh, delaunay(points, Surface::plane(), with_regions(1))));
 }
 
 TEST_CASE("duplicates in the plane are merged, or refused by name") {
   Points2 points = joined(random_box(100, 1, 1, 22), random_box(50, 1, 1, 22));
-  DelaunayReport report;
-  const PlanarMesh mesh = planar_delaunay(points, {}, &report);
+  const auto [mesh, report] = triangulate(points, Surface::plane());
   CHECK(report.duplicates == 50);
   CHECK(mesh.points.cols() == 100);
   for (std::size_t i = 100; i < 150; ++i)
@@ -261,7 +262,7 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
   DelaunayOptions refuse;
   refuse.duplicates = Duplicates::refuse;
   try {
-    planar_delaunay(points, refuse);
+    delaunay(points, Surface::plane(), refuse);
     FAIL("duplicates were accepted");
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::duplicate);
@@ -269,7 +270,7 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
   }
   DelaunayOptions near;
   near.merge_within = 0.05;
-  const PlanarMesh merged = planar_delaunay(points, near);
+  const Mesh merged = delaunay(points, Surface::plane(), near);
   CHECK(merged.points.cols() < 100);
   for (Eigen::Index i = 0; i < merged.points.cols(); ++i)
     for (Eigen::Index j = 0; j < i; ++j)
@@ -281,15 +282,15 @@ TEST_CASE("places are merged by their own distance in any frame") {
   points << 0, 1e-20, 1, 0.3, 1.7e308, 0, 0, 0, 1, 0;
   DelaunayOptions near;
   near.merge_within = 1e-300;
-  CHECK(planar_delaunay(points, near).points.cols() == 5);
+  CHECK(delaunay(points, Surface::plane(), near).points.cols() == 5);
   near.merge_within = 1e-10;
-  CHECK(planar_delaunay(points, near).points.cols() == 4);
+  CHECK(delaunay(points, Surface::plane(), near).points.cols() == 4);
 }
 
 TEST_CASE("bad planar input ends in a typed error") {
   const auto code_of = [](const Points2& points) {
     try {
-      planar_delaunay(points, with_regions(3));
+      delaunay(points, Surface::plane(), with_regions(3));
     } catch (const Error& error) {
       return std::pair(error.code(), error.index());
     }
@@ -320,16 +321,17 @@ Eigen::Vector2d nearest_image(const Eigen::Vector2d& p, const Eigen::Vector2d& t
 
 /// Every triangle is counter-clockwise, and each convex quadrilateral has the Delaunay diagonal, in
 /// doubles with a margin for rounding; 2n triangles tile the box, and no edge is open.
-void require_periodic(const PlanarMesh& mesh) {
+void require_periodic(const Mesh& mesh) {
+  const Eigen::Vector2d& period = mesh.surface.period();
   const auto corner = [&](std::int64_t t, int v, const Eigen::Vector2d& to) {
-    return nearest_image(mesh.points.col(mesh.triangles(v, t)), to, mesh.period);
+    return nearest_image(mesh.points.col(mesh.triangles(v, t)).head<2>(), to, period);
   };
   REQUIRE(mesh.triangles.cols() == 2 * mesh.points.cols());
-  if (mesh.period.maxCoeff() < 1e-9 || mesh.period.maxCoeff() > 1e9)
+  if (period.maxCoeff() < 1e-9 || period.maxCoeff() > 1e9)
     return; // squares would leave the doubles' range
   double area = 0;
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
-    const Eigen::Vector2d a = mesh.points.col(mesh.triangles(0, t)), b = corner(t, 1, a),
+    const Eigen::Vector2d a = mesh.points.col(mesh.triangles(0, t)).head<2>(), b = corner(t, 1, a),
                           c = corner(t, 2, a);
     const Eigen::Vector2d p = b - a, q = c - a;
     const double twice = p.x() * q.y() - p.y() * q.x();
@@ -349,7 +351,7 @@ void require_periodic(const PlanarMesh& mesh) {
       REQUIRE((d - a - offset).norm() > offset.norm() * (1 - 1e-12) - 1e-15);
     }
   }
-  CHECK(area == doctest::Approx(mesh.period.prod()).epsilon(1e-12));
+  CHECK(area == doctest::Approx(period.prod()).epsilon(1e-12));
 }
 
 std::vector<std::pair<Points2, Eigen::Vector2d>> boxes() {
@@ -373,17 +375,18 @@ std::vector<std::pair<Points2, Eigen::Vector2d>> boxes() {
 TEST_CASE("a periodic box is tiled by the same triangles for any regions") {
   for (const auto& [points, period] : boxes()) {
     CAPTURE(points.cols());
-    const PlanarMesh mesh = periodic_delaunay(points, period, with_regions(1));
+    const Surface box = UncheckedSurface::of_plane({}, period); // of any size
+    const Mesh mesh = delaunay(points, box, with_regions(1));
     require_periodic(mesh);
     for (const int regions : {2, 9, 64})
-      CHECK(identical(periodic_delaunay(points, period, with_regions(regions)), mesh));
+      CHECK(identical(delaunay(points, box, with_regions(regions)), mesh));
   }
 }
 
 TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Points2 points = random_box(3000, 1, 1, seed);
-    const PlanarMesh mesh = periodic_delaunay(points, Eigen::Vector2d(1, 1));
+    const Mesh mesh = delaunay(points, Surface::periodic({1, 1}));
     CHECK(mesh.triangles.cols() == 6000);
     CHECK(triangles_of(mesh) == cgal_periodic_triangles(points));
   }
@@ -392,10 +395,10 @@ TEST_CASE("a periodic box has the triangles of CGAL's periodic triangulation") {
 TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
   // Exact in doubles, so that ties differ only in which site is lowest.
   const Points2 points = (random_box(1000, 1, 1, 35) * 1024).array().floor() / 1024;
-  const PlanarMesh mesh = periodic_delaunay(points, Eigen::Vector2d(1, 1));
+  const Mesh mesh = delaunay(points, Surface::periodic({1, 1}));
   Points2 shifted = points.array() + 0.25;
   shifted = shifted.array() - (shifted.array() >= 1).cast<double>();
-  const PlanarMesh other = periodic_delaunay(shifted, Eigen::Vector2d(1, 1));
+  const Mesh other = delaunay(shifted, Surface::periodic({1, 1}));
   CHECK(mesh.site_of_input == other.site_of_input);
   CHECK(mesh.triangles.cols() == other.triangles.cols());
   require_periodic(mesh);
@@ -405,7 +408,7 @@ TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
 TEST_CASE("sparse periodic boxes and points outside are refused") {
   const auto code_of = [](const Points2& points, const Eigen::Vector2d& period) {
     try {
-      periodic_delaunay(points, period);
+      delaunay(points, UncheckedSurface::of_plane({}, period));
     } catch (const Error& error) {
       return error.code();
     }

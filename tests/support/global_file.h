@@ -2,8 +2,8 @@
 #pragma once
 
 #include "delaunay/delaunay.h"
-#include "support/files.h"
 #include "support/planes.h"
+#include "support/files.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>
@@ -102,7 +102,7 @@ inline void write_global(const Scratch& scratch, const std::string& path, const 
   options.sphere_radius = file.radius;
   options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 0.5); // about that of the lattice
   options.history = "made by a test";
-  write(plain, spherical_delaunay(fibonacci_sphere(file.cells)), options);
+  write(plain, delaunay(fibonacci_sphere(file.cells)), options);
   int in = -1, out = -1, dimensions = 0, variables = 0, attributes = 0, unlimited = -1;
   require(nc_open(plain.c_str(), NC_NOWRITE, &in));
   require(nc_create(path.c_str(), NC_CLOBBER | file.format, &out));

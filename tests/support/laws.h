@@ -39,7 +39,7 @@ template <class Matrix> bool same_bits(const Matrix& a, const Matrix& b) {
 }
 
 /// Equal to the last bit.
-template <class AnyMesh> bool identical(const AnyMesh& a, const AnyMesh& b) {
+inline bool identical(const Mesh& a, const Mesh& b) {
   return same_bits(a.points, b.points) && same_bits(a.triangles, b.triangles) &&
          same_bits(a.neighbours, b.neighbours) && a.site_of_input == b.site_of_input;
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "delaunay/delaunay.h"
+#include "support/planes.h"
 #include "support/clouds.h"
 #include "support/oracle.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -32,23 +32,22 @@ inline std::vector<NamedMesh> closed_meshes() {
   bridge << 0.3, -0.3, 0, 0, 1, -1, 0, //
       0, 0, 1, -1, 0, 0, 0,            //
       1, 1, 0.2, 0.2, -0.2, -0.2, -1;
-  return {{"random", spherical_delaunay(random_sphere(150, 1))},
-          {"of many norms", spherical_delaunay(with_norms(random_sphere(60, 2), 150, 3))},
-          {"lat-lon with poles", spherical_delaunay(lat_lon_sphere(5, 8, true))},
-          {"lat-lon", spherical_delaunay(lat_lon_sphere(4, 6))},
-          {"cubed sphere", spherical_delaunay(cubed_sphere(3))},
-          {"cube", spherical_delaunay(signs_of({1, 1, 1}))},
-          {"octahedron with zeros of both signs", spherical_delaunay(-axes)},
-          {"tetrahedron",
-           spherical_delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}))},
+  return {{"random", delaunay(random_sphere(150, 1))},
+          {"of many norms", delaunay(with_norms(random_sphere(60, 2), 150, 3))},
+          {"lat-lon with poles", delaunay(lat_lon_sphere(5, 8, true))},
+          {"lat-lon", delaunay(lat_lon_sphere(4, 6))},
+          {"cubed sphere", delaunay(cubed_sphere(3))},
+          {"cube", delaunay(signs_of({1, 1, 1}))},
+          {"octahedron with zeros of both signs", delaunay(-axes)},
+          {"tetrahedron", delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}))},
           {"four sites, one far",
-           spherical_delaunay(columns({{0, 0, 1}, {1, 0, -0.1}, {-1, 1, 0}, {-1, -2, 0}}))},
-          {"bridge over a pole", spherical_delaunay(bridge)}};
+           delaunay(columns({{0, 0, 1}, {1, 0, -0.1}, {-1, 1, 0}, {-1, -2, 0}}))},
+          {"bridge over a pole", delaunay(bridge)}};
 }
 
 inline std::vector<NamedMesh> open_meshes() {
-  return {{"half", spherical_delaunay(upper_half(120, 4))},
-          {"octant", spherical_delaunay(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}))}};
+  return {{"half", delaunay(upper_half(120, 4))},
+          {"octant", delaunay(columns({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}))}};
 }
 
 inline std::vector<NamedMesh> all_meshes() {
@@ -62,8 +61,8 @@ inline std::vector<NamedMesh> all_meshes() {
 /// counts.
 inline std::vector<NamedMesh> uneven_meshes() {
   std::vector<NamedMesh> all = closed_meshes();
-  all.push_back({"8:1", spherical_delaunay(eight_to_one(200, 5))});
-  all.push_back({"many meridians", spherical_delaunay(lat_lon_sphere(4, 140, true))});
+  all.push_back({"8:1", delaunay(eight_to_one(200, 5))});
+  all.push_back({"many meridians", delaunay(lat_lon_sphere(4, 140, true))});
   return all;
 }
 

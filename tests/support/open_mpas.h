@@ -3,8 +3,8 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "support/files.h"
 #include "support/planes.h"
+#include "support/files.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>
@@ -197,8 +197,7 @@ inline void put_attributes(int id) {
 
 /// A mesh without its cells below a height.
 inline Cut open_file(const Scratch& scratch, const Points3& points, double lowest) {
-  write(scratch / "closed.nc", spherical_delaunay(points),
-        {.format = Format::mpas, .sphere_radius = radius});
+  write(scratch / "closed.nc", delaunay(points), {.format = Format::mpas, .sphere_radius = radius});
   Cut file(scratch / "closed.nc");
   file.variables.erase("nominalMinDc");
   cut_cells(file, lowest);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/planes.h"
+#include "support/laws.h"
 
 #include <calotte/types.h>
 
@@ -18,18 +19,12 @@
 
 /// The laws of a planar mesh as assertions, in rational arithmetic and without the library's
 /// predicates.
-namespace calotte::test {
-
-using Triple = std::array<std::int32_t, 3>;
-
-inline Triple triple(const PlanarMesh& mesh, std::int64_t t) {
-  return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-}
+namespace calotte::test::plane_laws {
 
 /// A row x, y, x^2 + y^2, 1.
 using LiftedRow = std::array<mpq_class, 4>;
 
-inline LiftedRow lifted(const Points2& points, std::int32_t i) {
+inline LiftedRow lifted(const PointsRef& points, std::int32_t i) {
   const mpq_class x(points(0, i)), y(points(1, i));
   return {x, y, x * x + y * y, 1};
 }
@@ -46,13 +41,13 @@ inline mpq_class minor_of(const LiftedRow& a, const LiftedRow& b, const LiftedRo
          a[z] * (b[x] * c[y] - b[y] * c[x]);
 }
 
-inline int orientation(const Points2& points, const Triple& t) {
+inline int orientation(const PointsRef& points, const Triple& t) {
   return sgn(minor_of(lifted(points, t[0]), lifted(points, t[1]), lifted(points, t[2]), 2));
 }
 
 /// The sign of the determinant of the four lifted rows; if it is 0, its first non-zero derivative
 /// with respect to the lifts of the sites in the order of (x, y).
-inline int in_circle_resolved(const Points2& points, const Triple& t, std::int32_t d) {
+inline int in_circle_resolved(const PointsRef& points, const Triple& t, std::int32_t d) {
   const std::array<std::int32_t, 4> site{t[0], t[1], t[2], d};
   std::array<LiftedRow, 4> row;
   for (std::size_t r = 0; r < 4; ++r)
@@ -82,7 +77,7 @@ inline int in_circle_resolved(const Points2& points, const Triple& t, std::int32
 
 /// Law 1: every triangle is counter-clockwise, and no site is inside a circumcircle. Up to 50 sites
 /// all are tested; beyond, the site across each edge, which implies the others.
-inline void require_exact(const PlanarMesh& mesh) {
+inline void require_exact(const Mesh& mesh) {
   const auto n = static_cast<std::int32_t>(mesh.points.cols());
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t) {
     const Triple own = triple(mesh, t);
@@ -105,7 +100,7 @@ inline void require_exact(const PlanarMesh& mesh) {
 }
 
 /// The edges of one triangle only, each by its start.
-inline std::map<std::int32_t, std::int32_t> boundary_of(const PlanarMesh& mesh) {
+inline std::map<std::int32_t, std::int32_t> boundary_of(const Mesh& mesh) {
   std::map<std::int32_t, std::int32_t> next;
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
@@ -117,7 +112,7 @@ inline std::map<std::int32_t, std::int32_t> boundary_of(const PlanarMesh& mesh) 
 
 /// Law 4: canonical order, mutual neighbours, every site a vertex, Euler's formula, and one
 /// boundary that nowhere turns right: that of the convex hull.
-inline void require_whole(const PlanarMesh& mesh) {
+inline void require_whole(const Mesh& mesh) {
   const std::int64_t n = mesh.points.cols(), m = mesh.triangles.cols();
   std::vector<bool> is_vertex(static_cast<std::size_t>(n), false);
   for (std::int64_t t = 0; t < m; ++t) {
@@ -151,4 +146,4 @@ inline void require_whole(const PlanarMesh& mesh) {
   REQUIRE(length == std::ssize(next));
 }
 
-} // namespace calotte::test
+} // namespace calotte::test::plane_laws

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/planes.h"
+
 #include "base/points.h"
 #include "cvt/cells.h"
 #include "domain/spherical_outline.h"
 #include "integrals/clipped_moments.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 
@@ -17,11 +18,10 @@
 namespace calotte::test::region_laws {
 
 /// The sum of the areas of the cells, as a run has them, clipped by the region.
-inline double sum_of_cells(const Region& region, const Points3& points,
+inline double sum_of_cells(const Surface& region, const Points3& points,
                            const Density& density = {}) {
-  const Surface surface = region;
-  const auto& outline = *domain_detail::outline_of<exact_detail::Sphere>(surface);
-  cvt_detail::Cells<exact_detail::Sphere> cells(surface, Boundary::clip, density, points);
+  const auto& outline = *domain_detail::outline_of<exact_detail::Sphere>(region);
+  cvt_detail::Cells<exact_detail::Sphere> cells(region, Boundary::clip, density, points);
   cells.move(points);
   const mesh_detail::Connectivity mesh = cells.triangulate();
   std::vector<std::vector<base_detail::Vec3>> around(static_cast<std::size_t>(points.cols()));
