@@ -5,7 +5,6 @@
 #include "support/clouds.h"
 #include "support/constants.h"
 #include "support/densities.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -75,7 +74,7 @@ TEST_CASE("the lists have the ranges of quality() on closed meshes") {
   for (const Points3& points : starts)
     for (const Density& density : {Density{}, x8()}) {
       CAPTURE(points.cols());
-      const Mesh mesh = spherical_delaunay(points);
+      const Mesh mesh = delaunay(points);
       const CellMeasures cells = cell_measures(mesh, density);
       const Quality quality = calotte::quality(mesh, density);
       check_ranges(cells, quality);
@@ -96,7 +95,7 @@ TEST_CASE("an open mesh has measures of the cells that triangles surround") {
   Points3 points = random_sphere(400, 9);
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points(2, i) = std::abs(points(2, i)) + 0.1;
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   const CellMeasures cells = cell_measures(mesh);
   check_ranges(cells, open_quality(mesh));
   CHECK(numbers_in(cells.area) == numbers_in(cells.degree));
@@ -107,7 +106,7 @@ TEST_CASE("an open mesh has measures of the cells that triangles surround") {
 }
 
 TEST_CASE("a mesh that is not Delaunay has measures of its triangles") {
-  Mesh mesh = spherical_delaunay(spiral_sphere(60));
+  Mesh mesh = delaunay(spiral_sphere(60));
   mesh.points.col(30) += 0.3 * (mesh.points.col(31) - mesh.points.col(30)); // the ids stay
   mesh.points.col(7) += 0.45 * (mesh.points.col(8) - mesh.points.col(7));
   const CellMeasures cells = cell_measures(mesh);
@@ -119,12 +118,11 @@ TEST_CASE("a mesh that is not Delaunay has measures of its triangles") {
 TEST_CASE("in the plane the lists have the ranges of quality()") {
   const Points3 random = random_sphere(300, 3);
   const Points2 places = (random.topRows<2>().array() + 1) / 2;
-  const PlanarDomain box = rectangle({-0.1, -0.1}, {1.1, 1.2});
-  const PlanarMesh open = planar_delaunay(places);
-  const CellMeasures cells = cell_measures(in_domain(box, open));
-  check_ranges(cells, quality(in_domain(box, open)));
+  const Mesh open = delaunay(places, rectangle({-0.1, -0.1}, {1.1, 1.2}));
+  const CellMeasures cells = cell_measures(open);
+  check_ranges(cells, quality(open));
   CHECK(cells.area.sum() == doctest::Approx(1.2 * 1.3));
-  const PlanarMesh torus = periodic_delaunay(places, {1.01, 1.02});
+  const Mesh torus = delaunay(places, Surface::periodic({1.01, 1.02}));
   const Quality whole = quality(torus);
   const CellMeasures of_torus = cell_measures(torus);
   check_ranges(of_torus, whole);
@@ -135,18 +133,18 @@ TEST_CASE("in the plane the lists have the ranges of quality()") {
 }
 
 TEST_CASE("no surface and no density are errors") {
-  Mesh mesh = spherical_delaunay(spiral_sphere(20));
+  Mesh mesh = delaunay(spiral_sphere(20));
   const Density no_bump = tanh_bump({0, 0, 0}, 1, 1, 0.5);
   CHECK_THROWS_AS(cell_measures(mesh, no_bump), const Error&);
   Points3 half = random_sphere(20, 2);
   half.row(2) = half.row(2).cwiseAbs();
-  CHECK_THROWS_AS(cell_measures(spherical_delaunay(half), no_bump), const Error&);
+  CHECK_THROWS_AS(cell_measures(delaunay(half), no_bump), const Error&);
   mesh.triangles(0, 3) = 99;
   CHECK_THROWS_AS(cell_measures(mesh), const Error&);
 }
 
 TEST_CASE("a site in no triangle has no measures, and changes no others") {
-  const Mesh mesh = spherical_delaunay(spiral_sphere(20));
+  const Mesh mesh = delaunay(spiral_sphere(20));
   Mesh more = mesh;
   more.points.conservativeResize(3, 21);
   more.points.col(20) << 0, 0.6, 0.8;

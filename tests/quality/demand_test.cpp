@@ -6,7 +6,6 @@
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/delaunay.h>
@@ -132,20 +131,19 @@ void check_definition(const Mesh& mesh, const Density& density, double root_inte
 }
 
 /// Rows of regular hexagons of width 1 in a periodic box.
-PlanarMesh hexagons(int columns, int rows) {
+Mesh hexagons(int columns, int rows) {
   Points2 places(2, columns * rows);
   const double height = std::sqrt(3.0) / 2;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
       places.col(j * columns + i) << i + 0.25 + 0.5 * (j % 2), (j + 0.5) * height;
-  return periodic_delaunay(places, {static_cast<double>(columns), rows * height});
+  return delaunay(places, Surface::periodic({static_cast<double>(columns), rows * height}));
 }
 
 } // namespace
 
 TEST_CASE("limit, dc/h, dv/dc and the cells to object to are as defined") {
-  const Mesh random = spherical_delaunay(random_sphere(300, 4)),
-             spiral = spherical_delaunay(spiral_sphere(700));
+  const Mesh random = delaunay(random_sphere(300, 4)), spiral = delaunay(spiral_sphere(700));
   const double root = zonal_integral([](double t) { return std::sqrt(x8_profile(t)); });
   for (const Mesh& mesh : {random, spiral}) {
     check_definition(mesh, {}, 4 * pi);
@@ -161,12 +159,12 @@ TEST_CASE("the limit of cell widths is that of the number of cells that they imp
                                      30 * std::exp(-std::pow(static_cast<double>(j - 90) / 15, 2)));
   const double least = widths.widths.minCoeff() / earth_radius_km;
   const double root = std::sqrt(3.0) / 2 * least * least * implied_cells(widths);
-  const Quality q = quality(spherical_delaunay(bisected_icosahedron(5)), density_of(widths));
+  const Quality q = quality(delaunay(bisected_icosahedron(5)), density_of(widths));
   CHECK(q.limit == doctest::Approx(limit_of(root)).epsilon(1e-6));
 }
 
 TEST_CASE("laws: regular hexagons of a periodic box have no excess, and exact ratios") {
-  const PlanarMesh mesh = hexagons(24, 28);
+  const Mesh mesh = hexagons(24, 28);
   const Quality q = quality(mesh);
   CHECK(std::abs(q.excess) < 1e-12);
   for (const double fit : {q.dc_over_h.min, q.dc_over_h.p50, q.dc_over_h.max})
@@ -186,11 +184,10 @@ TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
   linear.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     rho = (1 + x.row(0).array()).square().transpose();
   };
-  const PlanarMesh mesh = planar_delaunay(places);
-  const PlanarDomain square = rectangle({0, 0}, {1, 1});
-  CHECK(quality(in_domain(square, mesh)).limit == doctest::Approx(limit_of(1)).epsilon(1e-12));
-  CHECK(quality(in_domain(square, mesh), linear).limit ==
-        doctest::Approx(limit_of(1.5)).epsilon(1e-9));
+  const Surface square = rectangle({0, 0}, {1, 1});
+  const Mesh mesh = delaunay(places, square);
+  CHECK(quality(mesh).limit == doctest::Approx(limit_of(1)).epsilon(1e-12));
+  CHECK(quality(mesh, linear).limit == doctest::Approx(limit_of(1.5)).epsilon(1e-9));
   const Density bump = tanh_bump({0.4, 0.5, 0}, 0.15, 0.05, 1.0 / 256);
   constexpr int side = 2000; // of a lattice of midpoints
   Eigen::Matrix2Xd row(2, side);
@@ -200,18 +197,16 @@ TEST_CASE("in a plane the limit is that of the domain, and follows its unit") {
       row.col(i) << (i + 0.5) / side, (j + 0.5) / side;
     sum += evaluate(bump, row, square).cwiseSqrt().sum() / side / side;
   }
-  CHECK(quality(in_domain(square, mesh), bump).limit ==
-        doctest::Approx(limit_of(sum)).epsilon(2e-6));
-  const Quality small = quality(in_domain(square, mesh)),
-                large = quality(in_domain(rectangle({0, 0}, {1000, 1000}),
-                                          planar_delaunay(Points2(1000 * places))));
+  CHECK(quality(mesh, bump).limit == doctest::Approx(limit_of(sum)).epsilon(2e-6));
+  const Quality small = quality(mesh),
+                large = quality(delaunay(Points2(1000 * places), rectangle({0, 0}, {1000, 1000})));
   CHECK(large.excess == doctest::Approx(small.excess));
   CHECK(large.dc_over_h.p50 == doctest::Approx(small.dc_over_h.p50));
   CHECK(large.bad_cells == small.bad_cells);
 }
 
 TEST_CASE("a factor of the density changes neither the excess nor dc/h") {
-  const Mesh mesh = spherical_delaunay(random_sphere(200, 1));
+  const Mesh mesh = delaunay(random_sphere(200, 1));
   Density scaled;
   scaled.kind = Density::Kind::callable;
   scaled.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
@@ -224,7 +219,7 @@ TEST_CASE("a factor of the density changes neither the excess nor dc/h") {
 }
 
 TEST_CASE("the limit and the percentiles have the same bits for any number of threads") {
-  const Mesh mesh = spherical_delaunay(random_sphere(30000, 5));
+  const Mesh mesh = delaunay(random_sphere(30000, 5));
   const auto measured = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     const Quality q = quality(mesh, x8());
@@ -239,7 +234,7 @@ TEST_CASE("the limit and the percentiles have the same bits for any number of th
 TEST_CASE("an open mesh has no limit, and no cells to object to") {
   Points3 points(3, 4);
   points << 0, 1, 0, -1, 0, 0, 1, -1, 1, 1, 1, 1;
-  const Quality q = triangle_quality(spherical_delaunay(points));
+  const Quality q = triangle_quality(delaunay(points));
   CHECK(q.limit == 0);
   CHECK(q.dc_over_h.max == 0);
   CHECK(q.dv_over_dc.max == 0);
@@ -247,7 +242,7 @@ TEST_CASE("an open mesh has no limit, and no cells to object to") {
 }
 
 TEST_CASE("a closed mesh without one triangle has the cells of the closed one, but three") {
-  const Mesh closed = spherical_delaunay(random_sphere(300, 7));
+  const Mesh closed = delaunay(random_sphere(300, 7));
   Mesh open = closed;
   const Eigen::Index last = open.triangles.cols() - 1;
   for (const std::int32_t other : closed.neighbours.col(last))

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/quality.h>
@@ -65,7 +64,7 @@ TEST_CASE("flat triangles of the hull are counted and left out of the measures")
   std::int64_t found = 0;
   for (const int rows : {6, 17, 40}) {
     CAPTURE(rows);
-    const Mesh mesh = spherical_delaunay(octant(rows));
+    const Mesh mesh = delaunay(octant(rows));
     std::int64_t flat = 0;
     std::set<std::int32_t> inner;
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -94,6 +93,6 @@ TEST_CASE("thin triangles along a border that are wider than rounding are measur
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (const Eigen::Vector3d p = axes.transpose() * points.col(i); std::abs(p.y()) < 1e-14)
       points.col(i) += 1e-9 * p.x() * p.z() * axes.col(1); // a border that is bent inwards
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   CHECK(open_quality(mesh).triangles >= 12 * 12 + 10);
 }

@@ -7,7 +7,6 @@
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -72,7 +71,7 @@ Matrix3d rotation(double angle, const Vector3d& axis) {
 Mesh uneven() {
   Points3 points = bisected_icosahedron(2);
   const Points3 noise = random_sphere(static_cast<std::int32_t>(points.cols()), 4);
-  return spherical_delaunay(points + 0.02 * noise);
+  return delaunay(points + 0.02 * noise);
 }
 
 // ---- A direct evaluation
@@ -199,7 +198,7 @@ MatrixXd rotated_gradient(const Voronoi& of) {
 } // namespace
 
 TEST_CASE("the errors are those of a direct evaluation") {
-  for (const Mesh& mesh : {spherical_delaunay(bisected_icosahedron(2)), uneven()}) {
+  for (const Mesh& mesh : {delaunay(bisected_icosahedron(2)), uneven()}) {
     const Voronoi of = voronoi(mesh);
     const OperatorErrors errors = operator_errors(mesh);
     check_norms(errors, direct_norms(of), 1e-10);
@@ -226,7 +225,7 @@ TEST_CASE("a rotation of the mesh leaves the errors") {
   const Mesh mesh = uneven();
   const OperatorErrors errors = operator_errors(mesh);
   const Matrix3d turn = rotation(1.1, {1, 2, 3});
-  const OperatorErrors turned = operator_errors(spherical_delaunay(turn * mesh.points));
+  const OperatorErrors turned = operator_errors(delaunay(turn * mesh.points));
   const std::vector<Named> before = norms_of(errors), after = norms_of(turned);
   for (std::size_t k = 0; k < before.size(); ++k) {
     CAPTURE(before[k].first);
@@ -241,7 +240,7 @@ TEST_CASE("a rotation of the mesh leaves the errors") {
 }
 
 TEST_CASE("any number of threads gives the same bits") {
-  const Mesh mesh = spherical_delaunay(random_sphere(20000, 8));
+  const Mesh mesh = delaunay(random_sphere(20000, 8));
   std::vector<OperatorErrors> results;
   for (const int threads : {1, 4}) {
     tbb::task_arena arena(threads);
@@ -262,7 +261,7 @@ TEST_CASE("any number of threads gives the same bits") {
 TEST_CASE("orders of convergence on icosahedral CVTs") {
   std::vector<OperatorErrors> errors;
   for (const int level : {3, 4})
-    errors.push_back(operator_errors(spherical_cvt(bisected_icosahedron(level)).mesh));
+    errors.push_back(operator_errors(cvt(bisected_icosahedron(level), {}).mesh));
   const auto order = [&](ErrorNorms OperatorErrors::*norms) {
     return std::log2((errors[0].*norms).l2 / (errors[1].*norms).l2);
   };
@@ -305,7 +304,7 @@ TEST_CASE("distances from centroids are those of cell_measures()") {
 }
 
 TEST_CASE("an edge without length leaves no stable step for vorticity") {
-  const OperatorErrors errors = operator_errors(spherical_delaunay(lat_lon_sphere(8, 16, true)));
+  const OperatorErrors errors = operator_errors(delaunay(lat_lon_sphere(8, 16, true)));
   CHECK(std::isinf(errors.dual_eigenvalue));
   CHECK(diffusion_step(errors.dual_eigenvalue, 1) == 0);
   CHECK(std::isfinite(errors.primal_eigenvalue));
@@ -354,7 +353,7 @@ Mesh part_of(const Mesh& whole, const std::vector<std::int32_t>& sites) {
 } // namespace
 
 TEST_CASE("an open mesh: whole cells have the errors that they have in a closed one") {
-  const Mesh closed = spherical_delaunay(bisected_icosahedron(4));
+  const Mesh closed = delaunay(bisected_icosahedron(4));
   const std::vector<std::int32_t> kept = sites_around(closed, Vector3d(1, 2, 3).normalized(), 0.5);
   const Mesh open = part_of(closed, kept);
   REQUIRE(!open.closed());
@@ -469,9 +468,10 @@ struct Wave {
 
 TEST_CASE("regular hexagons in a periodic plane have the errors of plane waves") {
   const double d = 0.7;
-  const PlanarMesh mesh = periodic_hexagons(12, 18, d);
-  const OperatorErrors errors = operator_errors(in_domain(periodic_box(mesh.period), mesh));
-  const Wave x{{2 * pi / mesh.period[0], 0}, d}, y{{0, 2 * pi / mesh.period[1]}, d};
+  const Mesh mesh = hexagonal_box(12, 18, d);
+  const OperatorErrors errors = operator_errors(mesh);
+  const Eigen::Vector2d& period = mesh.surface.period();
+  const Wave x{{2 * pi / period[0], 0}, d}, y{{0, 2 * pi / period[1]}, d};
   const auto mean = [&](double (Wave::*error)() const) { return (x.*error)() + (y.*error)(); };
   const double fourth = std::pow(x.k[0], 4) + std::pow(y.k[1], 4),
                square = x.k.squaredNorm() + y.k.squaredNorm();
@@ -492,22 +492,21 @@ TEST_CASE("regular hexagons in a periodic plane have the errors of plane waves")
 TEST_CASE("in a bounded plane the cells count that the boundary does not clip") {
   const Points3 random = random_sphere(400, 3);
   const Points2 places = (random.topRows<2>().array() + 1) / 2;
-  const PlanarDomain box = rectangle({-0.1, -0.1}, {1.1, 1.2});
-  const PlanarMesh mesh = planar_delaunay(places);
-  const OperatorErrors errors = operator_errors(in_domain(box, mesh));
-  const std::vector<bool> clipped = clipped_cells(in_domain(box, mesh));
+  const Mesh mesh = delaunay(places, rectangle({-0.1, -0.1}, {1.1, 1.2}));
+  const OperatorErrors errors = operator_errors(mesh);
+  const std::vector<bool> clipped = clipped_cells(mesh);
   for (std::size_t i = 0; i < clipped.size(); ++i)
     CHECK(std::isnan(errors.by_cell.divergence[static_cast<Eigen::Index>(i)]) == clipped[i]);
   CHECK(errors.by_cell.curl[errors.curl.cell] == errors.curl.max);
   CHECK(errors.gradient.l2 < 0.1);
-  CHECK(errors.off_centroid.max == cell_measures(in_domain(box, mesh)).off_centroid.maxCoeff());
+  CHECK(errors.off_centroid.max == cell_measures(mesh).off_centroid.maxCoeff());
 }
 
 TEST_CASE("no density, no whole cell and no Voronoi cells are errors") {
-  Mesh mesh = spherical_delaunay(bisected_icosahedron(1));
+  Mesh mesh = delaunay(bisected_icosahedron(1));
   CHECK_THROWS_AS(operator_errors(mesh, tanh_bump({0, 0, 0}, 1, 1, 0.5)), const Error&);
   const Points3 triangle = Points3(Matrix3d::Identity());
-  CHECK_THROWS_AS(operator_errors(spherical_delaunay(triangle)), const Error&);
+  CHECK_THROWS_AS(operator_errors(delaunay(triangle)), const Error&);
   mesh.points.col(30) += 0.9 * (mesh.points.col(31) - mesh.points.col(30)); // the ids stay
   CHECK_THROWS_AS(operator_errors(mesh), const Error&);
   mesh.triangles(0, 3) = 99;

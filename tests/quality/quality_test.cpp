@@ -7,12 +7,12 @@
 #include "support/clouds.h"
 #include "support/constants.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/voronoi.h>
 
 #include <Eigen/Geometry>
 
@@ -42,14 +42,14 @@ struct Case {
 /// near a hemisphere.
 std::vector<Case> cases() {
   std::vector<Case> out;
-  out.push_back({"cube", spherical_delaunay(signs_of({1, 1, 1}))});
-  out.push_back({"icosahedron", spherical_delaunay(bisected_icosahedron(0))});
-  out.push_back({"162 bisected", spherical_delaunay(bisected_icosahedron(2))});
-  out.push_back({"lat-lon", spherical_delaunay(lat_lon_sphere(7, 12, true))});
-  out.push_back({"cubed sphere", spherical_delaunay(cubed_sphere(5))});
-  out.push_back({"spiral", spherical_delaunay(spiral_sphere(100))});
-  out.push_back({"random 15", spherical_delaunay(random_sphere(15, 5))});
-  out.push_back({"random 200", spherical_delaunay(random_sphere(200, 6))});
+  out.push_back({"cube", delaunay(signs_of({1, 1, 1}))});
+  out.push_back({"icosahedron", delaunay(bisected_icosahedron(0))});
+  out.push_back({"162 bisected", delaunay(bisected_icosahedron(2))});
+  out.push_back({"lat-lon", delaunay(lat_lon_sphere(7, 12, true))});
+  out.push_back({"cubed sphere", delaunay(cubed_sphere(5))});
+  out.push_back({"spiral", delaunay(spiral_sphere(100))});
+  out.push_back({"random 15", delaunay(random_sphere(15, 5))});
+  out.push_back({"random 200", delaunay(random_sphere(200, 6))});
   return out;
 }
 
@@ -231,7 +231,7 @@ Density bump(const Eigen::Vector3d& centre) { return tanh_bump(centre, 0.6, 0.5,
 
 TEST_CASE("every measure agrees with its definition") {
   std::vector<Case> all = cases();
-  all.push_back({"several blocks", spherical_delaunay(random_sphere(20000, 4))});
+  all.push_back({"several blocks", delaunay(random_sphere(20000, 4))});
   for (const Case& c : all) {
     CAPTURE(c.name);
     check_same(quality(c.mesh), ShapesByDefinition(c.mesh).quality());
@@ -267,7 +267,7 @@ TEST_CASE("laws: Euler's counts, areas of the sphere, means within their bounds"
 }
 
 TEST_CASE("the icosahedron is perfect") {
-  const Quality q = quality(spherical_delaunay(bisected_icosahedron(0)));
+  const Quality q = quality(delaunay(bisected_icosahedron(0)));
   CHECK(q.degrees == std::vector<std::int64_t>{0, 0, 0, 0, 0, 12});
   CHECK(q.obtuse == 0);
   const auto check_all = [](const Range& range, double value) {
@@ -290,7 +290,7 @@ TEST_CASE(
     Random random(static_cast<std::uint64_t>(round));
     const Vec3 axis = random.direction();
     const Eigen::AngleAxisd turn(random.real(0, 2 * pi), Eigen::Vector3d(axis.x, axis.y, axis.z));
-    const Quality q = quality(spherical_delaunay(turn.toRotationMatrix() * signs_of({1, 1, 1})));
+    const Quality q = quality(delaunay(turn.toRotationMatrix() * signs_of({1, 1, 1})));
     CHECK(q.obtuse == 0);
     CHECK(q.angles.max == doctest::Approx(90));
     CHECK(q.cell_quality.min == 0);
@@ -315,9 +315,9 @@ TEST_CASE("rotation, permutation and the norms of the directions do not affect t
     for (Eigen::Index i = 0; i < 300; ++i)
       other.col(order[static_cast<std::size_t>(i)]) =
           std::exp(random.real(-20, 20)) * (turn * points.col(i));
-    check_same(quality(spherical_delaunay(points)), quality(spherical_delaunay(other)));
-    check_same(quality(spherical_delaunay(points), bump(centre)),
-               quality(spherical_delaunay(other), bump(turn * centre)));
+    check_same(quality(delaunay(points)), quality(delaunay(other)));
+    check_same(quality(delaunay(points), bump(centre)),
+               quality(delaunay(other), bump(turn * centre)));
   }
 }
 
@@ -328,8 +328,8 @@ TEST_CASE("the residual and the energy are those of the next step of the iterati
     options.max_iterations = 1;
     options.rule = 6;
     const Points3 start = random_sphere(500, 3);
-    const Quality q = quality(spherical_delaunay(start), density);
-    const Cvt next = spherical_cvt(start, options);
+    const Quality q = quality(delaunay(start), density);
+    const Cvt next = cvt(start, {}, options);
     CHECK(q.residual == doctest::Approx(next.report.residual).epsilon(1e-10));
     CHECK(q.energy == doctest::Approx(next.report.iterations[0].energy).epsilon(1e-12));
   }
@@ -339,14 +339,14 @@ TEST_CASE("the residual vanishes for centroidal meshes of the same density alone
   const Points3 start = bisected_icosahedron(2);
   CvtOptions options;
   options.tolerance = 1e-12;
-  CHECK(quality(spherical_delaunay(start)).residual > 1e-3);
-  CHECK(quality(spherical_cvt(start, options).mesh).residual < 1e-12);
+  CHECK(quality(delaunay(start)).residual > 1e-3);
+  CHECK(quality(cvt(start, {}, options).mesh).residual < 1e-12);
   // Slow: only the discreteness of the triangles prevents the grid from rotating about the bump's
   // axis.
   options.tolerance = 1e-4;
   options.density = bump({1, 0, 1});
-  CHECK(quality(spherical_delaunay(start), options.density).residual > 1e-2);
-  const Mesh grid = spherical_cvt(start, options).mesh;
+  CHECK(quality(delaunay(start), options.density).residual > 1e-2);
+  const Mesh grid = cvt(start, {}, options).mesh;
   CHECK(quality(grid, options.density).residual < 1e-4);
   CHECK(quality(grid).residual > 1e-2);
 }
@@ -355,8 +355,7 @@ TEST_CASE("ties of cocircular sites do not affect Voronoi measures") {
   const Points3 points = cubed_sphere(6);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Quality a = quality(spherical_delaunay(points)),
-                b = quality(spherical_delaunay(turn * points));
+  const Quality a = quality(delaunay(points)), b = quality(delaunay(turn * points));
   for (const auto& [one, other] :
        {std::pair(a.cell_area, b.cell_area), std::pair(a.off_centring, b.off_centring)}) {
     CHECK(one.min == doctest::Approx(other.min).scale(1).epsilon(1e-11));
@@ -368,7 +367,7 @@ TEST_CASE("ties of cocircular sites do not affect Voronoi measures") {
 }
 
 TEST_CASE("the same bits for any number of threads") {
-  const Mesh mesh = spherical_delaunay(random_sphere(40000, 5));
+  const Mesh mesh = delaunay(random_sphere(40000, 5));
   const auto with = [&](std::size_t threads, const Density& density) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return quality(mesh, density);
@@ -400,11 +399,11 @@ TEST_CASE(
         CHECK(message.find(words + std::to_string(error.index())) != std::string::npos);
     }
   };
-  const Mesh good = spherical_delaunay(random_sphere(50, 2));
+  const Mesh good = delaunay(random_sphere(50, 2));
   check_refused(Mesh{}, {}, "no triangle");
   Points3 half = random_sphere(50, 2);
   half.row(2) = half.row(2).cwiseAbs();
-  check_refused(spherical_delaunay(half), {}, "the mesh is open");
+  check_refused(delaunay(half), {}, "the mesh is open");
   Mesh lonely = good;
   lonely.points.conservativeResize(3, 51);
   lonely.points.col(50) << 1, 2, 3;
@@ -440,7 +439,7 @@ TEST_CASE(
 }
 
 TEST_CASE("rings of the sphere have no effect on a closed mesh") {
-  Mesh mesh = spherical_delaunay(random_sphere(200, 2));
+  Mesh mesh = delaunay(random_sphere(200, 2));
   const std::vector<double> whole = measures(quality(mesh));
   mesh.surface = circle({0, 0, 1}, 0.5);
   CHECK(measures(quality(mesh)) == whole);
@@ -466,7 +465,7 @@ TEST_CASE("uniform grids by continuation from the icosahedron have the known qua
   options.max_iterations = 5000;
   Points3 start = bisected_icosahedron(3);
   for (int level = 3; level <= 6; ++level) {
-    const Cvt grid = spherical_cvt(start, options);
+    const Cvt grid = cvt(start, {}, options);
     REQUIRE(grid.report.converged);
     start = bisect(grid.mesh);
     if (level == 3)
