@@ -5,7 +5,6 @@
 #include "mesh/vertex_rings.h"
 #include "support/clouds.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 
@@ -53,7 +52,7 @@ TEST_CASE("neighbours are rebuilt from triangles alone") {
   clouds.push_back({"a hub", calotte::lat_lon_sphere(5, 900, true)});
   for (const Cloud& cloud : clouds) {
     CAPTURE(cloud.name);
-    const Mesh mesh = calotte::spherical_delaunay(cloud.points);
+    const Mesh mesh = calotte::delaunay(cloud.points);
     Triangles triangles = mesh.triangles, neighbours = mesh.neighbours;
     CHECK(same_bits(mesh_detail::neighbours_of(triangles, mesh.points.cols()), neighbours));
     shuffle_triangles(triangles, neighbours, random);
@@ -77,7 +76,7 @@ TEST_CASE("no neighbour along an edge of one triangle, of three, or of two of eq
 }
 
 TEST_CASE("a walk visits each corner at a site once, or those from a boundary on") {
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(500, 3));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(500, 3));
   const mesh_detail::Faces faces = mesh_detail::faces_of(mesh);
   const mesh_detail::VertexRings rings = mesh_detail::make_vertex_rings(mesh);
   CHECK(rings.items.size() == mesh.triangles.size());
@@ -97,7 +96,7 @@ TEST_CASE("a walk visits each corner at a site once, or those from a boundary on
     CHECK(place == ring.size());
   }
 
-  const Mesh open = calotte::spherical_delaunay(upper_half(300, 4));
+  const Mesh open = calotte::delaunay(upper_half(300, 4));
   const mesh_detail::Faces half = mesh_detail::faces_of(open);
   for (std::int32_t t = 0; t < open.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)

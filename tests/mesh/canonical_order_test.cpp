@@ -3,7 +3,6 @@
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 
@@ -18,7 +17,6 @@
 #include <vector>
 
 using calotte::Mesh;
-using calotte::PlanarMesh;
 using calotte::Triangles;
 using namespace calotte::test;
 namespace mesh_detail = calotte::mesh_detail;
@@ -32,22 +30,19 @@ struct Connected {
   std::int64_t sites;
 };
 
-template <class AnyMesh> Connected connected(const std::string& name, const AnyMesh& mesh) {
+Connected connected(const std::string& name, const Mesh& mesh) {
   return {name, mesh.triangles, mesh.neighbours, mesh.points.cols()};
 }
 
 std::vector<Connected> samples() {
   std::vector<Connected> out;
   for (const Cloud& cloud : small_clouds())
-    out.push_back(connected(cloud.name, calotte::spherical_delaunay(cloud.points)));
-  out.push_back(
-      connected("of many blocks", calotte::spherical_delaunay(calotte::random_sphere(20'000, 1))));
-  out.push_back(connected("open", calotte::spherical_delaunay(upper_half(3000, 3))));
-  out.push_back(
-      connected("a hub", calotte::spherical_delaunay(calotte::lat_lon_sphere(5, 900, true))));
-  const Eigen::Vector2d box(2, 1);
-  const calotte::Points2 places = calotte::random_places(2000, calotte::periodic_box(box));
-  out.push_back(connected("periodic", calotte::periodic_delaunay(places, box)));
+    out.push_back(connected(cloud.name, calotte::delaunay(cloud.points)));
+  out.push_back(connected("of many blocks", calotte::delaunay(calotte::random_sphere(20'000, 1))));
+  out.push_back(connected("open", calotte::delaunay(upper_half(3000, 3))));
+  out.push_back(connected("a hub", calotte::delaunay(calotte::lat_lon_sphere(5, 900, true))));
+  const calotte::Surface box = calotte::Surface::periodic({2, 1});
+  out.push_back(connected("periodic", calotte::delaunay(calotte::random_points(2000, box), box)));
   return out;
 }
 
@@ -113,7 +108,7 @@ TEST_CASE("triangles alone are ordered without neighbours") {
 
 TEST_CASE("one thread and many give the same order") {
   Random random(4);
-  Connected mesh = connected("", calotte::spherical_delaunay(calotte::random_sphere(40'000, 5)));
+  Connected mesh = connected("", calotte::delaunay(calotte::random_sphere(40'000, 5)));
   const Connected before = mesh;
   shuffle_triangles(mesh.triangles, mesh.neighbours, random);
   tbb::task_arena(1).execute([&] { mesh_detail::make_canonical(mesh.triangles, mesh.neighbours); });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/traversal.h"
 #include "delaunay/delaunay.h"
+#include "domain/surface.h"
 #include "mesh/renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -95,7 +95,7 @@ TEST_CASE("triangles that are hemispheres up to rounding have positive areas") {
     }
     points(2, 2) = -5e-324;
     points(2, 6) = 1;
-    const Check result = check(spherical_delaunay(points));
+    const Check result = check(delaunay(points));
     CHECK(result.failure == "");
     if (result.boundary_edges == 0)
       CHECK(result.area == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
@@ -103,7 +103,7 @@ TEST_CASE("triangles that are hemispheres up to rounding have positive areas") {
 }
 
 TEST_CASE("points of any norm pass, also unit vectors up to rounding") {
-  Mesh mesh = spherical_delaunay(random_sphere(3000, 5));
+  Mesh mesh = delaunay(random_sphere(3000, 5));
   for (const double factor : {1.0, 1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-50, 1 - 0x1p-50, 3e28}) {
     Mesh scaled = mesh;
     scaled.points *= factor;
@@ -114,7 +114,7 @@ TEST_CASE("points of any norm pass, also unit vectors up to rounding") {
 }
 
 TEST_CASE("an empty mesh, and sizes that do not match") {
-  fails_with(Mesh{}, "no triangle");
+  fails_with({.surface = Surface::plane()}, "no triangle");
   Mesh mesh = good_mesh();
   mesh.neighbours.conservativeResize(3, mesh.neighbours.cols() - 1);
   fails_with(mesh, "neighbours");
@@ -319,16 +319,6 @@ TEST_CASE("arrays of nonsense do not crash") {
 
 namespace {
 
-bool fails_with(const PlanarMesh& mesh, const std::string& words) {
-  const Check result = check(mesh);
-  INFO("failure: ", result.failure);
-  CHECK_FALSE(result.passed());
-  CHECK(result.failure.find('\n') == std::string::npos);
-  const bool found = result.failure.find(words) != std::string::npos;
-  CHECK(found);
-  return found;
-}
-
 Points2 scatter(int n, std::uint64_t seed) {
   Random random(seed);
   Points2 points(2, n);
@@ -345,8 +335,8 @@ Points2 square_lattice(int side) {
 }
 
 /// Canonical again after its triangles were changed.
-PlanarMesh planar_mesh_of(const PlanarMesh& mesh, std::vector<Triple> triangles) {
-  PlanarMesh out = mesh;
+Mesh planar_mesh_of(const Mesh& mesh, std::vector<Triple> triangles) {
+  Mesh out = mesh;
   const Mesh whole =
       oracle::mesh_of(Points3::Constant(3, mesh.points.cols(), 1), std::move(triangles));
   out.triangles = whole.triangles;
@@ -355,7 +345,7 @@ PlanarMesh planar_mesh_of(const PlanarMesh& mesh, std::vector<Triple> triangles)
 }
 
 /// The mesh with the edge across from vertex i of triangle t flipped.
-PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
+Mesh flipped(const Mesh& mesh, std::int64_t t, int i) {
   std::vector<Triple> triangles;
   for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
     triangles.push_back({mesh.triangles(0, u), mesh.triangles(1, u), mesh.triangles(2, u)});
@@ -371,31 +361,30 @@ PlanarMesh flipped(const PlanarMesh& mesh, std::int64_t t, int i) {
   return planar_mesh_of(mesh, triangles);
 }
 
-std::vector<PlanarMesh> planar_meshes() {
-  std::vector<PlanarMesh> meshes;
+std::vector<Mesh> planar_meshes() {
+  std::vector<Mesh> meshes;
   for (const double scale : {1.0, 1e-150, 1e150})
-    meshes.push_back(planar_delaunay(Points2(scale * scatter(60, 8))));
-  meshes.push_back(planar_delaunay(square_lattice(6)));
+    meshes.push_back(delaunay(scale * scatter(60, 8), Surface::plane()));
+  meshes.push_back(delaunay(square_lattice(6), Surface::plane()));
   Points2 thin = scatter(80, 9); // long triangles along the hull
   thin.row(1) *= 1e-9;
-  meshes.push_back(planar_delaunay(thin));
+  meshes.push_back(delaunay(thin, Surface::plane()));
   for (const std::uint64_t seed : {1, 2, 3})
-    meshes.push_back(periodic_delaunay(scatter(100, seed), Eigen::Vector2d(1, 1)));
+    meshes.push_back(delaunay(scatter(100, seed), Surface::periodic({1, 1})));
   Points2 wide = scatter(300, 4);
   wide.row(0) *= 7e28;
   wide.row(1) *= 3e28;
-  meshes.push_back(periodic_delaunay(wide, Eigen::Vector2d(7e28, 3e28)));
-  meshes.push_back(periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)));
-  meshes.push_back(
-      periodic_delaunay(periodic_hexagons(8, 10, 1).points, periodic_hexagons(8, 10, 1).period));
+  meshes.push_back(delaunay(wide, Surface::periodic({7e28, 3e28})));
+  meshes.push_back(delaunay(square_lattice(8), Surface::periodic({8, 8})));
+  meshes.push_back(delaunay(hexagonal_box(8, 10, 1).points, hexagonal_box(8, 10, 1).surface));
   return meshes;
 }
 
 /// Six rows of eight nearly equilateral triangles between straight walls, whose sites are the 16 of
 /// the first and the last row; along y with negative x.
-PlanarMesh channel(bool along_x) {
-  const PlanarMesh box = periodic_hexagons(8, 6, 1);
-  PlanarMesh mesh = box;
+Mesh channel(bool along_x) {
+  const Mesh box = hexagonal_box(8, 6, 1);
+  Mesh mesh = box;
   std::vector<Triple> triangles;
   for (const auto& t : box.triangles.colwise()) {
     const Eigen::Vector3d y(box.points(1, t[0]), box.points(1, t[1]), box.points(1, t[2]));
@@ -405,16 +394,16 @@ PlanarMesh channel(bool along_x) {
   const double top = box.points.row(1).maxCoeff();
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
     if (const double y = box.points(1, i); y > 0 && y < top)
-      mesh.points.col(i) +=
+      mesh.points.col(i).head<2>() +=
           0.04 * Eigen::Vector2d(std::sin(3.0 * double(i)), std::cos(double(i * i)));
   mesh.points.row(0) =
       mesh.points.row(0).unaryExpr([](double x) { return x - 8 * std::floor(x / 8); });
-  mesh.period = {8, 0};
+  mesh.surface = Surface::periodic({8, 0});
   if (!along_x) {
     const Eigen::RowVectorXd x = mesh.points.row(0);
     mesh.points.row(0) = -mesh.points.row(1);
     mesh.points.row(1) = x;
-    mesh.period = {0, 8};
+    mesh.surface = Surface::periodic({0, 8});
   }
   return planar_mesh_of(mesh, triangles);
 }
@@ -422,23 +411,23 @@ PlanarMesh channel(bool along_x) {
 } // namespace
 
 TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
-  for (const PlanarMesh& mesh : planar_meshes()) {
+  for (const Mesh& mesh : planar_meshes()) {
     CAPTURE(mesh.points.cols());
     const Check result = check(mesh);
     CHECK(result.failure == "");
     CHECK(result.sites == mesh.points.cols());
     CHECK(result.area == doctest::Approx(result.expected_area).epsilon(1e-12));
-    if (mesh.period.x() > 0) {
-      CHECK(result.expected_area == doctest::Approx(mesh.period.prod()));
+    if (mesh.surface.is_box()) {
+      CHECK(result.expected_area == doctest::Approx(mesh.surface.area()));
       CHECK(result.boundary_edges == 0);
     }
   }
-  CHECK(check(planar_delaunay(square_lattice(6))).area == 25);
+  CHECK(check(delaunay(square_lattice(6), Surface::plane())).area == 25);
 }
 
 TEST_CASE("channels pass between straight walls, along x and y, and their area is known") {
   for (const bool along_x : {true, false}) {
-    const PlanarMesh mesh = channel(along_x);
+    const Mesh mesh = channel(along_x);
     CAPTURE(along_x);
     const Check result = check(mesh);
     CHECK(result.failure == "");
@@ -448,7 +437,7 @@ TEST_CASE("channels pass between straight walls, along x and y, and their area i
     CHECK(result.expected_area == doctest::Approx(8 * 5 * std::sqrt(3) / 2));
     CHECK(check_surface(mesh).failure == "");
 
-    PlanarMesh wrong = mesh; // a dent and a bump in a wall
+    Mesh wrong = mesh; // a dent and a bump in a wall
     wrong.points(along_x ? 1 : 0, 0) += 0.1;
     CHECK(check(wrong).failure.find("not convex") != std::string::npos);
     CHECK(check_surface(wrong).failure == "");
@@ -459,21 +448,21 @@ TEST_CASE("channels pass between straight walls, along x and y, and their area i
     wrong.points(along_x ? 0 : 1, 3) = 8;
     fails_with(wrong, "site 3 is outside the periodic channel");
     wrong = mesh; // the triangles at the seam are missing
-    wrong.period *= 2;
+    wrong.surface = Surface::periodic(2 * wrong.surface.period());
     CHECK_FALSE(check(wrong).passed());
     wrong = mesh;
-    wrong.period.setZero();
+    wrong.surface = Surface::plane();
     CHECK_FALSE(check(wrong).passed());
   }
 }
 
 TEST_CASE("two sheets over a channel, and two channels, are not one") {
-  const PlanarMesh one = channel(true);
+  const Mesh one = channel(true);
   const auto n = static_cast<std::int32_t>(one.points.cols());
   for (const double apart : {0.0, 100.0}) {
-    PlanarMesh two = one;
-    two.points.resize(2, 2 * n);
-    two.points << one.points, (one.points.colwise() + Eigen::Vector2d(0, apart));
+    Mesh two = one;
+    two.points.resize(3, 2 * n);
+    two.points << one.points, (one.points.colwise() + Eigen::Vector3d(0, apart, 0));
     std::vector<Triple> triangles;
     for (const std::int32_t shift : {0, n})
       for (const auto& t : one.triangles.colwise())
@@ -484,10 +473,10 @@ TEST_CASE("two sheets over a channel, and two channels, are not one") {
 }
 
 TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
-  std::vector<PlanarMesh> meshes = planar_meshes();
+  std::vector<Mesh> meshes = planar_meshes();
   meshes.push_back(channel(true));
   meshes.push_back(channel(false));
-  for (const PlanarMesh& mesh : meshes)
+  for (const Mesh& mesh : meshes)
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
       for (int i = 0; i < 3; ++i)
         if (mesh.neighbours(i, t) > t) {
@@ -497,16 +486,16 @@ TEST_CASE("every flipped edge of a planar mesh is found, ties and copies too") {
 }
 
 TEST_CASE("in the plane the other diagonals of cocircular sites are counted, and are no fault") {
-  for (const PlanarMesh& mesh : {planar_delaunay(square_lattice(6)),
-                                 periodic_delaunay(square_lattice(8), Eigen::Vector2d(8, 8)),
-                                 planar_delaunay(Points2(1e150 * square_lattice(5)))}) {
+  for (const Mesh& mesh : {delaunay(square_lattice(6), Surface::plane()),
+                           delaunay(square_lattice(8), Surface::periodic({8, 8})),
+                           delaunay(1e150 * square_lattice(5), Surface::plane())}) {
     CHECK(count_edges(mesh).cocircular == 0);
     std::int64_t squares = 0;
     for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
       for (int i = 0; i < 3; ++i) {
         if (mesh.neighbours(i, t) < t)
           continue;
-        const PlanarMesh other = flipped(mesh, t, i);
+        const Mesh other = flipped(mesh, t, i);
         const bool diagonal =
             (other.triangles.cols() == mesh.triangles.cols()) && check_surface(other).passed();
         if (!diagonal) // two triangles of a straight line, or of one that is wider than the box
@@ -525,13 +514,13 @@ TEST_CASE("in the plane the other diagonals of cocircular sites are counted, and
 
 TEST_CASE(
     "in the plane edges that are not Delaunay are counted, with the rounding of coordinates") {
-  const PlanarMesh random = planar_delaunay(scatter(60, 8));
+  const Mesh random = delaunay(scatter(60, 8), Surface::plane());
   std::int64_t flips = 0;
   for (std::int64_t t = 0; t < random.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i) {
       if (random.neighbours(i, t) < t)
         continue;
-      const PlanarMesh other = flipped(random, t, i);
+      const Mesh other = flipped(random, t, i);
       if (!check_surface(other).passed()) // not a convex quadrangle
         continue;
       ++flips;
@@ -541,24 +530,20 @@ TEST_CASE(
   CHECK(flips > 60);
 
   // A turned square: whichever diagonal, its sites are cocircular up to rounding.
-  Points2 corners(2, 4);
-  corners << 0.3, 1.1, 0.5, -0.3, 0.1, 0.7, 1.5, 0.9;
+  Points3 corners(3, 4);
+  corners << 0.3, 1.1, 0.5, -0.3, 0.1, 0.7, 1.5, 0.9, 0, 0, 0, 0;
   for (const std::vector<Triple>& triangles :
        {std::vector<Triple>{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}}) {
-    PlanarMesh mesh;
-    mesh.points = corners;
-    mesh = planar_mesh_of(mesh, triangles);
+    const Mesh mesh = planar_mesh_of({.points = corners, .surface = Surface::plane()}, triangles);
     CHECK(count_edges(mesh).not_delaunay == 0);
     CHECK(count_edges(mesh).edges == 5);
     CHECK(count_edges(mesh).boundary == 4);
     CHECK(count_edges(mesh).loops == 1);
   }
   // 10% longer along one side it is a rectangle, and cocircular still; as a kite it is not.
-  PlanarMesh kite;
-  kite.points.resize(2, 4);
-  kite.points << 0, 1, 2, 1, 0, -0.1, 0, 0.1;
-  kite = planar_mesh_of(kite, {{0, 1, 2}, {0, 2, 3}});
-  const EdgeCounts edges = count_edges(kite);
+  corners << 0, 1, 2, 1, 0, -0.1, 0, 0.1, 0, 0, 0, 0;
+  const EdgeCounts edges = count_edges(
+      planar_mesh_of({.points = corners, .surface = Surface::plane()}, {{0, 1, 2}, {0, 2, 3}}));
   CHECK(edges.not_delaunay == 1);
   CHECK((edges.first[0] == 0 && edges.first[1] == 2));
   // The angles at sites 1 and 3 are pi - 2 atan(1/10), whose cotangent is (1/100 - 1) / (2/10).
@@ -566,15 +551,15 @@ TEST_CASE(
 }
 
 TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
-  const PlanarMesh open = planar_delaunay(scatter(30, 5)),
-                   box = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
-  fails_with(PlanarMesh{}, "no triangle");
-  for (const PlanarMesh& mesh : {open, box}) {
-    PlanarMesh wrong = mesh;
+  const Mesh open = delaunay(scatter(30, 5), Surface::plane()),
+             box = delaunay(scatter(60, 6), Surface::periodic({1, 1}));
+  fails_with({.surface = Surface::plane()}, "no triangle");
+  for (const Mesh& mesh : {open, box}) {
+    Mesh wrong = mesh;
     wrong.points(1, 4) = std::numeric_limits<double>::quiet_NaN();
     fails_with(wrong, "site 4 is not a place");
     wrong = mesh;
-    wrong.points.resize(2, 0);
+    wrong.points.resize(3, 0);
     wrong.site_of_input.clear();
     fails_with(wrong, "vertex outside");
     wrong = mesh;
@@ -590,25 +575,26 @@ TEST_CASE("arrays and sites of a planar mesh that are wrong are named") {
     wrong.points.col(0).swap(wrong.points.col(1));
     CHECK_FALSE(check(wrong).passed());
     wrong = mesh;
-    wrong.points.conservativeResize(2, mesh.points.cols() + 1);
-    wrong.points.rightCols<1>() << 0.5, 0.5;
+    wrong.points.conservativeResize(3, mesh.points.cols() + 1);
+    wrong.points.rightCols<1>() << 0.5, 0.5, 0;
     fails_with(wrong, "is not a vertex");
   }
-  PlanarMesh wrong = box;
+  Mesh wrong = box;
   wrong.points(0, 3) = 1;
   fails_with(wrong, "site 3 is outside the periodic box");
   wrong = box;
-  wrong.period *= 2; // the bridge of the meshes' triangles is missing
+  wrong.surface = Surface::periodic(
+      2 * wrong.surface.period()); // the bridge of the meshes' triangles is missing
   CHECK_FALSE(check(wrong).passed());
   wrong = box;
-  wrong.period.setZero();
+  wrong.surface = Surface::plane();
   CHECK_FALSE(check(wrong).passed());
 }
 
 TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
-  const PlanarMesh open = planar_delaunay(scatter(30, 5)),
-                   box = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
-  for (const PlanarMesh& mesh : {open, box}) {
+  const Mesh open = delaunay(scatter(30, 5), Surface::plane()),
+             box = delaunay(scatter(60, 6), Surface::periodic({1, 1}));
+  for (const Mesh& mesh : {open, box}) {
     std::vector<Triple> triangles;
     for (std::int64_t u = 0; u < mesh.triangles.cols(); ++u)
       if (u != 7)
@@ -618,9 +604,9 @@ TEST_CASE("a planar boundary that is not convex, and a torus with a hole") {
 }
 
 TEST_CASE("two sheets over a periodic box are not one") {
-  const PlanarMesh one = periodic_delaunay(scatter(60, 6), Eigen::Vector2d(1, 1));
-  PlanarMesh two = one;
-  two.points.resize(2, 120);
+  const Mesh one = delaunay(scatter(60, 6), Surface::periodic({1, 1}));
+  Mesh two = one;
+  two.points.resize(3, 120);
   two.points << one.points, one.points;
   std::vector<Triple> triangles;
   for (const std::int32_t shift : {0, 60})
@@ -631,8 +617,10 @@ TEST_CASE("two sheets over a periodic box are not one") {
   fails_with(planar_mesh_of(two, triangles), "the areas sum to 2");
 }
 
+namespace {
+
 /// Of a closed mesh.
-template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int rounds = 40) {
+void check_neighbours_exchanged(Mesh mesh, int rounds = 40) {
   REQUIRE(check(mesh).passed());
   const auto triangles = static_cast<int>(mesh.triangles.cols());
   Random random(48);
@@ -645,13 +633,15 @@ template <class AnyMesh> void check_neighbours_exchanged(AnyMesh mesh, int round
   }
 }
 
+} // namespace
+
 TEST_CASE("any wrong neighbour is found, in a mesh of several blocks") {
-  check_neighbours_exchanged(calotte::spherical_delaunay(calotte::random_sphere(20000, 5)));
-  check_neighbours_exchanged(periodic_delaunay(scatter(20000, 5), Eigen::Vector2d(1, 1)));
+  check_neighbours_exchanged(calotte::delaunay(calotte::random_sphere(20000, 5)));
+  check_neighbours_exchanged(delaunay(scatter(20000, 5), Surface::periodic({1, 1})));
 }
 
 TEST_CASE("large meshes are checked patch by patch if their sites are in random order") {
-  const Mesh mesh = calotte::spherical_delaunay(random_sphere(530000, 6));
+  const Mesh mesh = calotte::delaunay(random_sphere(530000, 6));
   const Mesh along = mesh_detail::in_order(mesh, mesh_detail::curve_order(mesh.points));
   REQUIRE(curve_detail::are_scattered(mesh.neighbours));
   REQUIRE_FALSE(curve_detail::are_scattered(along.neighbours));
@@ -665,8 +655,7 @@ TEST_CASE("large meshes are checked patch by patch if their sites are in random 
 // Slow: a mesh counts as scattered from half a million triangles on.
 TEST_CASE("the same of periodic boxes of any size [slow]") {
   for (const double scale : {1e-29, 1.0, 1e29}) {
-    const PlanarMesh box =
-        periodic_delaunay(Points2(scale * scatter(530000, 5)), Eigen::Vector2d(scale, scale));
+    const Mesh box = delaunay(scale * scatter(530000, 5), Surface::periodic({scale, scale}));
     REQUIRE(curve_detail::are_scattered(box.neighbours));
     check_neighbours_exchanged(box, 4);
   }
@@ -676,10 +665,9 @@ TEST_CASE("planar arrays of nonsense do not crash") {
   Random random(53);
   for (int round = 0; round < 3000; ++round) {
     const int n = random.integer(0, 6), m = random.integer(0, 8);
-    PlanarMesh mesh;
-    mesh.points.resize(2, n);
-    for (Eigen::Index i = 0; i < mesh.points.size(); ++i)
-      mesh.points.data()[i] = random.integer(-1, 1);
+    Mesh mesh{.points = Points3::Zero(3, n), .surface = Surface::plane()};
+    for (Eigen::Index i = 0; i < 2 * n; ++i)
+      mesh.points(i % 2, i / 2) = random.integer(-1, 1);
     mesh.triangles.resize(3, m);
     mesh.neighbours.resize(3, m);
     for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i) {
@@ -687,7 +675,8 @@ TEST_CASE("planar arrays of nonsense do not crash") {
       mesh.neighbours.data()[i] = random.integer(-1, m);
     }
     if (round % 2 == 0)
-      mesh.period = {random.integer(0, 2), random.integer(0, 2)};
+      mesh.surface = domain_detail::UncheckedSurface::of_plane(
+          {}, {random.integer(0, 2), random.integer(0, 2)});
     CHECK_FALSE(check(mesh).passed());
   }
 }

@@ -11,7 +11,6 @@
 #include "mesh/convex_boundary.h"
 #include "support/clouds.h"
 #include "support/parts.h"
-#include "support/planes.h"
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -56,8 +55,8 @@ Found by_all(const Mesh& mesh, const Eigen::Vector3d& position) {
 }
 
 /// In a periodic box over the copies of positions around it.
-Found by_all(const PlanarMesh& mesh, const Eigen::Vector2d& p) {
-  const Vec2 period{mesh.period.x(), mesh.period.y()};
+Found by_all_in_plane(const Mesh& mesh, const Eigen::Vector2d& p) {
+  const Vec2 period{mesh.surface.period().x(), mesh.surface.period().y()};
   const auto image = [&](std::int32_t site, int i, int j) {
     return Image{{mesh.points(0, site), mesh.points(1, site)}, i, j};
   };
@@ -99,13 +98,14 @@ Found by_all(const PlanarMesh& mesh, const Eigen::Vector2d& p) {
 }
 
 /// The law: what an exhaustive search finds, and weights that give the position back.
-template <class AnyMesh, class Points> void check_located(const AnyMesh& mesh, const Points& at) {
+void check_located(const Mesh& mesh, const PointsRef& at) {
   const Locations found = locate(mesh, at);
   REQUIRE(found.triangle.size() == at.cols());
   REQUIRE(found.nearest.size() == at.cols());
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
     CAPTURE(i);
-    const Found wanted = by_all(mesh, at.col(i));
+    const Found wanted = mesh.surface.is_sphere() ? by_all(mesh, at.col(i))
+                                                  : by_all_in_plane(mesh, at.col(i).head<2>());
     CHECK(found.triangle[i] == wanted.triangle);
     CHECK(found.nearest[i] == wanted.nearest);
     if (wanted.triangle < 0) {
@@ -154,7 +154,7 @@ TEST_CASE("positions are where an exhaustive search finds them: closed meshes of
         Points3(Points3::Identity(3, 3) * 2)}) {
     if (points.cols() < 4)
       continue;
-    const Mesh mesh = spherical_delaunay(points);
+    const Mesh mesh = delaunay(points);
     CAPTURE(points.cols());
     check_located(mesh, random_sphere(200, 3));
     check_located(mesh, special(mesh));
@@ -164,7 +164,7 @@ TEST_CASE("positions are where an exhaustive search finds them: closed meshes of
 TEST_CASE("the octahedron: ties go to the lowest triangle and the lowest site") {
   Points3 points(3, 6);
   points << 1, -1, 0, 0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, -1;
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   Points3 at(3, 4);
   at << 1, 1, 0, -1, 0, 1, 5, -1, 0, 0, 0, -1;
   const Locations found = locate(mesh, at);
@@ -185,12 +185,12 @@ TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
   for (Eigen::Index i = 0; i < all.cols(); ++i)
     if (all(2, i) > 0.1)
       north.push_back(i);
-  Mesh mesh = spherical_delaunay(Points3(all(Eigen::all, north)));
+  Mesh mesh = delaunay(Points3(all(Eigen::all, north)));
   CHECK(!mesh.closed());
   check_located(mesh, random_sphere(300, 6));
 
   // Without the triangles of a hole and of a bay, so that a walk leaves the mesh on its way.
-  const Mesh whole = spherical_delaunay(all);
+  const Mesh whole = delaunay(all);
   const Mesh cut = part_of(whole, [&](Eigen::Index t) {
     const Eigen::Vector3d x = whole.points.col(whole.triangles(0, t)) +
                               whole.points.col(whole.triangles(1, t)) +
@@ -202,21 +202,21 @@ TEST_CASE("open meshes: a hemisphere, and one with a hole and a bay") {
 }
 
 TEST_CASE("the plane and periodic boxes") {
-  const PlanarDomain domain = rectangle({0, 0}, {4, 3}), box = periodic_box({4, 3});
-  const Points2 inside = random_places(150, rectangle({-2, -1}, {8, 5}), 3);
-  for (const Points2& points : {random_places(200, domain), lattice_places(150, domain)}) {
-    const PlanarMesh mesh = planar_delaunay(points);
+  const Surface domain = rectangle({0, 0}, {4, 3}), box = Surface::periodic({4, 3});
+  const Points3 inside = random_points(150, rectangle({-2, -1}, {8, 5}), {}, 3);
+  for (const Points3& points : {random_points(200, domain), hexagonal_lattice(150, domain)}) {
+    const Mesh mesh = delaunay(points, Surface::plane());
     check_located(mesh, inside);
     check_located(mesh, points);
   }
-  for (const Points2& points : {random_places(90, box), lattice_places(80, box)}) {
-    const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+  for (const Points3& points : {random_points(90, box), hexagonal_lattice(80, box)}) {
+    const Mesh mesh = delaunay(points, box);
     check_located(mesh, inside);
-    check_located(mesh, Points2(points.colwise() + Eigen::Vector2d(8, -3)));
+    check_located(mesh, points.colwise() + Eigen::Vector3d(8, -3, 0));
   }
   Points2 square(2, 4);
   square << 0, 1, 0, 1, 0, 0, 1, 1;
-  const PlanarMesh mesh = planar_delaunay(square);
+  const Mesh mesh = delaunay(square, Surface::plane());
   Points2 at(2, 3);
   at << 0.5, 1, 2, 0.5, 0.5, 2;
   const Locations found = locate(mesh, at);
@@ -227,24 +227,21 @@ TEST_CASE("the plane and periodic boxes") {
 }
 
 TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
-  const Points2 positions = random_places(250, rectangle({-2, -1}, {8, 5}), 3);
-  Points2 grid(2, 7 * 5);
+  const Points3 positions = random_points(250, rectangle({-2, -1}, {8, 5}), {}, 3);
+  Points3 grid(3, 7 * 5);
   for (Eigen::Index i = 0; i < grid.cols(); ++i)
-    grid.col(i) << static_cast<double>(i % 7), static_cast<double>(i / 7) / 2;
-  for (const Points2& points : {random_places(150, rectangle({0, 0}, {6, 2})), grid}) {
-    const PlanarMesh whole = planar_delaunay(points);
-    const auto centre = [&](Eigen::Index t) {
-      return Eigen::Vector2d((points.col(whole.triangles(0, t)) +
-                              points.col(whole.triangles(1, t)) +
-                              points.col(whole.triangles(2, t))) /
-                             3);
+    grid.col(i) << static_cast<double>(i % 7), static_cast<double>(i / 7) / 2, 0;
+  for (const Points3& points : {random_points(150, rectangle({0, 0}, {6, 2})), grid}) {
+    const Mesh whole = delaunay(points, Surface::plane());
+    const auto centre = [&](Eigen::Index t) -> Eigen::Vector2d {
+      return points(Eigen::all, whole.triangles.col(t)).rowwise().mean().head<2>();
     };
     const auto check_part = [&](bool convex, const auto& keep) {
-      const PlanarMesh part = part_of(whole, keep);
+      const Mesh part = part_of(whole, keep);
       CHECK(mesh_detail::is_convex(part) == convex);
       check_located(part, positions);
       check_located(part, points);
-      check_located(part, Points2(points.colwise() + Eigen::Vector2d(0.5, 0.25)));
+      check_located(part, points.colwise() + Eigen::Vector3d(0.5, 0.25, 0));
     };
     check_part(true, [](Eigen::Index) { return true; });
     check_part(true, [](Eigen::Index t) { return t == 7; });
@@ -261,15 +258,16 @@ TEST_CASE("parts of a plane: a hole and a bay, two parts, a single triangle") {
 }
 
 TEST_CASE("a channel, and a periodic box with land") {
-  const Points2 points = random_places(120, periodic_box({4, 3}));
+  const Surface box = Surface::periodic({4, 3});
+  const Points3 points = random_points(120, box);
   for (const bool channel : {true, false}) {
-    const PlanarMesh whole = periodic_delaunay(points, {4, 3});
+    const Mesh whole = delaunay(points, box);
     CHECK(whole.closed());
-    PlanarMesh mesh = part_of(whole, [&](Eigen::Index t) {
+    Mesh mesh = part_of(whole, [&](Eigen::Index t) {
       double low = 3, high = 0;
       bool land = false;
       for (int v = 0; v < 3; ++v) {
-        const Eigen::Vector2d x = points.col(whole.triangles(v, t));
+        const Eigen::Vector2d x = points.col(whole.triangles(v, t)).head<2>();
         low = std::min(low, x.y());
         high = std::max(high, x.y());
         land = land || (x - Eigen::Vector2d(2, 1.5)).norm() < 0.8;
@@ -278,21 +276,21 @@ TEST_CASE("a channel, and a periodic box with land") {
                      : !land; // without those that join the walls, or of the land
     });
     if (channel)
-      mesh.period.y() = 0;
+      mesh.surface = Surface::periodic({4, 0});
     CHECK_FALSE(mesh.closed());
-    check_located(mesh, random_places(150, rectangle({-3, -1}, {9, 4}), 3));
+    check_located(mesh, random_points(150, rectangle({-3, -1}, {9, 4}), {}, 3));
     check_located(mesh, points);
   }
 }
 
 TEST_CASE("weights give the position back") {
-  const Mesh mesh = spherical_delaunay(random_sphere(5000));
+  const Mesh mesh = delaunay(random_sphere(5000));
   const Points3 at = random_sphere(3000, 8);
   CHECK((from_weights(mesh, locate(mesh, at)) - at).cwiseAbs().maxCoeff() < 1e-13);
 }
 
 TEST_CASE("the same for any number of threads and order of positions") {
-  const Mesh mesh = spherical_delaunay(random_sphere(20000));
+  const Mesh mesh = delaunay(random_sphere(20000));
   const Points3 at = random_sphere(30000, 9);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -307,7 +305,7 @@ TEST_CASE("the same for any number of threads and order of positions") {
 }
 
 TEST_CASE("bad input of locate is one clear line with the index") {
-  const Mesh mesh = spherical_delaunay(random_sphere(20));
+  const Mesh mesh = delaunay(random_sphere(20));
   Points3 at = random_sphere(5);
   CHECK(locate(mesh, Points3(3, 0)).triangle.size() == 0);
   at.col(3).setZero();
@@ -315,17 +313,18 @@ TEST_CASE("bad input of locate is one clear line with the index") {
                        "position 3 is the zero vector, which is no direction; leave it out", Error);
   at(1, 2) = std::nan("");
   CHECK_THROWS_WITH_AS(locate(mesh, at), "position 2 is not finite; leave it out", Error);
-  CHECK_THROWS_AS(locate(mesh, random_places(3, rectangle({0, 0}, {1, 1}))), Error);
+  const Points3 places = random_points(3, rectangle({0, 0}, {1, 1}));
+  CHECK_THROWS_AS(locate(mesh, places.topRows<2>()), Error);
   CHECK_THROWS_WITH_AS(locate(Mesh{}, random_sphere(3)),
                        "the mesh has no triangles; give one that has", Error);
-  const Points2 places = random_places(3, rectangle({0, 0}, {1, 1}));
-  CHECK_THROWS_WITH_AS(locate(PlanarMesh{}, places), "the mesh has no triangles; give one that has",
-                       Error);
-  const PlanarMesh box = periodic_delaunay(random_places(30, periodic_box({1, 1})), {1, 1});
-  CHECK_THROWS_WITH_AS(locate(box, Points2(1e12 * places)),
+  CHECK_THROWS_WITH_AS(locate({.surface = Surface::plane()}, places),
+                       "the mesh has no triangles; give one that has", Error);
+  const Surface unit = Surface::periodic({1, 1});
+  const Mesh box = delaunay(random_points(30, unit), unit);
+  CHECK_THROWS_WITH_AS(locate(box, 1e12 * places),
                        "position 0 is more than 2^30 periods away; give its copy in the box",
                        Error);
-  PlanarMesh far = box;
+  Mesh far = box;
   far.points(1, 7) = -1e12;
   CHECK_THROWS_WITH_AS(locate(far, places),
                        "site 7 is more than 2^30 periods away; give its copy in the box", Error);

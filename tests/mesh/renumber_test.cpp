@@ -3,7 +3,6 @@
 #include "mesh/renumber.h"
 #include "support/clouds.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/random.h"
 #include "support/shuffled.h"
 
@@ -75,14 +74,14 @@ TEST_CASE("a renumbered mesh is that of the points in their new order") {
     for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
       CAPTURE(name);
       CAPTURE(int(numbering));
-      const Mesh mesh = calotte::spherical_delaunay(points);
+      const Mesh mesh = calotte::delaunay(points);
       const Mesh moved = calotte::renumbered(mesh, numbering);
       const std::vector<std::int32_t> to = where(mesh, moved);
       CHECK(std::is_permutation(to.begin(), to.end(), where(mesh, mesh).begin()));
       Mesh expected = renumbered(mesh, to);
       expected.site_of_input = moved.site_of_input;
       CHECK(identical(moved, expected));
-      CHECK(same_bits(moved.triangles, calotte::spherical_delaunay(moved.points).triangles));
+      CHECK(same_bits(moved.triangles, calotte::delaunay(moved.points).triangles));
       for (std::size_t i = 0; i < to.size(); ++i)
         REQUIRE(same_bits(moved.points.col(to[i]).eval(), mesh.points.col(Eigen::Index(i)).eval()));
     }
@@ -91,7 +90,7 @@ TEST_CASE("a renumbered mesh is that of the points in their new order") {
 TEST_CASE("input keeps a mesh, and one along the curve stays as it is") {
   for (const auto& [name, points, closed, ties, sites] : clouds()) {
     CAPTURE(name);
-    const Mesh mesh = calotte::spherical_delaunay(points);
+    const Mesh mesh = calotte::delaunay(points);
     CHECK(identical(calotte::renumbered(mesh, Numbering::input), mesh));
     const Mesh ordered = calotte::renumbered(mesh, Numbering::curve);
     CHECK(identical(calotte::renumbered(ordered, Numbering::curve), ordered));
@@ -108,7 +107,7 @@ TEST_CASE("is_in_curve_order() is true exactly if renumbering would not change t
   sets.push_back({"of three blocks", calotte::random_sphere(40'000, 8)});
   for (const auto& [name, points, closed, ties, sites] : sets) {
     CAPTURE(name);
-    const Mesh mesh = calotte::spherical_delaunay(points);
+    const Mesh mesh = calotte::delaunay(points);
     check(mesh);
     const Mesh ordered = calotte::renumbered(mesh, Numbering::curve);
     CHECK(calotte::mesh_detail::is_in_curve_order(ordered));
@@ -133,7 +132,7 @@ TEST_CASE("the result does not depend on the order of the triangles") {
   for (const auto& [name, points, closed, ties, sites] : clouds())
     for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
       CAPTURE(name);
-      const Mesh mesh = calotte::spherical_delaunay(points);
+      const Mesh mesh = calotte::delaunay(points);
       Mesh shuffled = mesh;
       shuffle_triangles(shuffled.triangles, shuffled.neighbours, random);
       const Mesh moved = calotte::renumbered(shuffled, numbering);
@@ -145,8 +144,8 @@ TEST_CASE("the result does not depend on the order of the triangles") {
 }
 
 TEST_CASE("along the curve neighbours in memory are neighbours in space") {
-  const Mesh mesh = calotte::renumbered(
-      calotte::spherical_delaunay(calotte::random_sphere(5000, 2)), Numbering::curve);
+  const Mesh mesh =
+      calotte::renumbered(calotte::delaunay(calotte::random_sphere(5000, 2)), Numbering::curve);
   const double spacing = std::sqrt(4 * std::numbers::pi / 5000);
   double sum = 0;
   for (int i = 1; i < 5000; ++i)
@@ -157,7 +156,7 @@ TEST_CASE("along the curve neighbours in memory are neighbours in space") {
 TEST_CASE("reverse Cuthill-McKee keeps edges within two levels of a breadth-first search") {
   for (const auto& [name, points, closed, ties, sites] : clouds()) {
     CAPTURE(name);
-    const Mesh mesh = calotte::renumbered(calotte::spherical_delaunay(points), Numbering::rcm);
+    const Mesh mesh = calotte::renumbered(calotte::delaunay(points), Numbering::rcm);
     const std::vector<std::int32_t> sizes = level_sizes(mesh, std::int32_t(mesh.points.cols()) - 1);
     std::int32_t widest = 0;
     for (std::size_t l = 1; l < sizes.size(); ++l)
@@ -208,7 +207,7 @@ TEST_CASE("soups: sites without triangles, repeated vertices, and edges of three
 }
 
 TEST_CASE("the order does not depend on the number of threads") {
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(40'000, 6));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(40'000, 6));
   const auto with = [&](int threads) {
     return tbb::task_arena(threads).execute(
         [&] { return calotte::renumbered(mesh, Numbering::curve); });
@@ -217,7 +216,7 @@ TEST_CASE("the order does not depend on the number of threads") {
 }
 
 TEST_CASE("ids out of range and points without a direction are refused") {
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   const auto code = [](const Mesh& bad) {
     try {
       calotte::renumbered(bad, Numbering::curve);

@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/calotte.h>
 
@@ -20,22 +19,22 @@ using calotte::test::error_of;
 
 namespace {
 
-const PlanarDomain rectangle_of = rectangle({0, 0}, {2, 1});
-const PlanarDomain box_of = periodic_box({2, 1});
+const Surface rectangle_of = rectangle({0, 0}, {2, 1});
+const Surface box_of = Surface::periodic({2, 1});
 
-Region cap() { return circle({0.2, 0.3, 0.9}, 0.8, 60); }
+Surface cap() { return circle({0.2, 0.3, 0.9}, 0.8, 60); }
 
 /// A box, and a part of the plane.
 struct Case {
-  PlanarDomain domain;
-  PlanarMesh old; ///< by the plane's own functions
+  Surface domain;
+  Mesh old; ///< of the plane without rings
 
-  Mesh mesh() const { return delaunay(old.points, domain); }
+  Mesh mesh() const { return delaunay(old.points.topRows<2>(), domain); }
 };
 
 std::vector<Case> planes() {
-  return {{rectangle_of, planar_delaunay(random_places(300, rectangle_of, 5))},
-          {box_of, periodic_delaunay(random_places(300, box_of, 6), box_of.period)}};
+  return {{rectangle_of, delaunay(random_points(300, rectangle_of, {}, 5), Surface::plane())},
+          {box_of, delaunay(random_points(300, box_of, {}, 6), box_of)}};
 }
 
 /// Rows of triangles between walls along x.
@@ -59,7 +58,7 @@ std::vector<Mesh> all_planes() {
   return meshes;
 }
 
-template <class AnyMesh> void check_same(const AnyMesh& mesh, const AnyMesh& old) {
+void check_same(const Mesh& mesh, const Mesh& old) {
   CHECK(equal_bits(mesh.points, old.points));
   CHECK(mesh.triangles == old.triangles);
   CHECK(mesh.neighbours == old.neighbours);
@@ -72,7 +71,7 @@ Density bump() { return tanh_bump({0.7, 0.4, 0.5}, 0.3, 0.2, 0.1); }
 
 TEST_CASE("points of a sphere are read in place, evaluated or taken over") {
   Points3 points = random_sphere(200, 3);
-  const Mesh old = spherical_delaunay(points);
+  const Mesh old = delaunay(points);
   const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> row_major = points;
   const Eigen::MatrixXd any = points;
   check_same(delaunay(points), old);
@@ -85,7 +84,7 @@ TEST_CASE("points of a sphere are read in place, evaluated or taken over") {
   const Triangulation both = triangulate(points, cap());
   check_same(both.mesh, old);
   CHECK(both.report.sites == 200);
-  CHECK(both.mesh.surface == Surface(cap()));
+  CHECK(both.mesh.surface == cap());
   const double* const memory = points.data();
   CHECK(delaunay(std::move(points)).points.data() == memory);
 }
@@ -93,9 +92,9 @@ TEST_CASE("points of a sphere are read in place, evaluated or taken over") {
 TEST_CASE("meshes of the plane have the triangles of the plane's own functions, and z = 0") {
   for (const Case& plane : planes()) {
     const Mesh mesh = plane.mesh();
-    check_same(PlanarMesh(mesh), plane.old);
-    CHECK(mesh.surface == Surface(plane.domain));
-    CHECK(mesh.closed() == plane.domain.periodic());
+    check_same(mesh, plane.old);
+    CHECK(mesh.surface == plane.domain);
+    CHECK(mesh.closed() == plane.domain.is_box());
     check_same(delaunay(mesh.points, plane.domain), mesh); // 3 rows
     check_same(delaunay(Points3(mesh.points), plane.domain), mesh);
   }
@@ -108,7 +107,7 @@ TEST_CASE("meshes of the plane are proven, and searched for positions with or wi
     CHECK(check(mesh).failure == "");
     CHECK(check(mesh).area == doctest::Approx(check(mesh).expected_area));
     CHECK(check_surface(mesh).passed());
-    const Points3 at = random_points(100, periodic_box({4, 3}));
+    const Points3 at = random_points(100, Surface::periodic({4, 3}));
     const Locations with_z = locate(mesh, at), without = locate(mesh, at.topRows<2>());
     CHECK(without.triangle == with_z.triangle);
     CHECK(equal_bits(without.weights, with_z.weights));
@@ -173,7 +172,7 @@ TEST_CASE("points and densities are those of the surface") {
   }
   const CellWidth widths{Eigen::Vector3d(-120, 0, 120), Eigen::Vector2d(-80, 80),
                          Eigen::MatrixXd::Constant(3, 2, 300)};
-  CHECK(with_rings(cap(), widths).area() > Surface(cap()).area());
+  CHECK(with_rings(cap(), widths).area() > cap().area());
   CHECK_NOTHROW(require_covering(widths));
 }
 

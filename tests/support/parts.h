@@ -10,7 +10,7 @@
 namespace calotte::test {
 
 /// The triangles that keep(t) keeps.
-template <class AnyMesh, class Keep> AnyMesh part_of(AnyMesh mesh, const Keep& keep) {
+template <class Keep> Mesh part_of(Mesh mesh, const Keep& keep) {
   std::vector<Eigen::Index> kept;
   std::vector<std::int32_t> name(static_cast<std::size_t>(mesh.triangles.cols()), -1);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
