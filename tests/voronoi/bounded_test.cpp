@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -36,21 +35,21 @@ Eigen::MatrixXd matrix_of(const Ring& ring) {
   return matrix;
 }
 
-PlanarDomain domain_of(const std::vector<Ring>& rings) {
-  PlanarDomain domain;
+Surface domain_of(const std::vector<Ring>& rings) {
+  Surface::Rings matrices;
   for (const Ring& ring : rings)
-    domain.rings.push_back(matrix_of(ring));
-  return domain;
+    matrices.push_back(matrix_of(ring));
+  return Surface::plane().within(matrices);
 }
 
 /// An L with a hole near its reflex corner, in any orientation.
-PlanarDomain bent() {
+Surface bent() {
   return domain_of({{{0, 0}, {0, 2}, {1, 2}, {1, 1}, {3, 1}, {3, 0}},
                     {{0.4, 0.3}, {0.9, 0.35}, {0.8, 0.8}, {0.35, 0.7}}});
 }
 
 /// Two pools, one of them with an island that has a pond.
-PlanarDomain pools() {
+Surface pools() {
   const auto square = [](double x, double y, double side) {
     return Ring{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
   };
@@ -81,25 +80,30 @@ Ring nearer(const Ring& ring, const Place& a, const Place& b) {
   return part;
 }
 
+Place at(const Points3& points, std::int64_t i) { return points.col(i).head<2>(); }
+
 /// The sign of a ring's area in a domain: holes count less.
-double sign_of(const PlanarDomain& domain, std::size_t r) {
-  PlanarDomain others = domain;
-  others.rings.erase(others.rings.begin() + static_cast<std::ptrdiff_t>(r));
-  return !others.rings.empty() && contains(others, domain.rings[r].col(0)) ? -1 : 1;
+double sign_of(const Surface& domain, std::size_t r) {
+  Surface::Rings others = domain.rings();
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
+  const auto& corners = domain.rings()[r];
+  const bool hole = !others.empty() &&
+                    Surface::plane().within(others).contains({corners(0, 0), corners(1, 0), 0});
+  return hole ? -1 : 1;
 }
 
-std::vector<double> areas_by_cutting(const Points2& sites, const PlanarDomain& domain) {
+std::vector<double> areas_by_cutting(const Points3& sites, const Surface& domain) {
   std::vector<double> areas(static_cast<std::size_t>(sites.cols()), 0);
-  for (std::size_t r = 0; r < domain.rings.size(); ++r) {
+  for (std::size_t r = 0; r < domain.rings().size(); ++r) {
     Ring whole;
-    for (const auto corner : domain.rings[r].colwise())
+    for (const auto corner : domain.rings()[r].colwise())
       whole.emplace_back(corner);
     const double sign = sign_of(domain, r);
     for (Eigen::Index i = 0; i < sites.cols(); ++i) {
       Ring part = whole;
       for (Eigen::Index j = 0; j < sites.cols(); ++j)
         if (j != i && !part.empty())
-          part = nearer(part, sites.col(i), sites.col(j));
+          part = nearer(part, at(sites, i), at(sites, j));
       if (!part.empty())
         areas[static_cast<std::size_t>(i)] += sign * std::abs(twice_area(part)) / 2;
     }
@@ -107,28 +111,26 @@ std::vector<double> areas_by_cutting(const Points2& sites, const PlanarDomain& d
   return areas;
 }
 
-double perimeter(const PlanarDomain& domain) {
+double perimeter(const Surface& domain) {
   double sum = 0;
-  for (const DoubleMatrix& ring : domain.rings)
+  for (const DoubleMatrix& ring : domain.rings())
     for (Eigen::Index k = 0; k < ring.cols(); ++k)
       sum += (ring.col((k + 1) % ring.cols()) - ring.col(k)).norm();
   return sum;
 }
 
-Place at(const Points3& points, std::int64_t i) { return points.col(i).head<2>(); }
-
 double cross(const Place& a, const Place& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Of the largest coordinate, and of the domain.
-double size_of(const PlanarDomain& domain) {
+double size_of(const Surface& domain) {
   double size = 0;
-  for (const DoubleMatrix& ring : domain.rings)
+  for (const DoubleMatrix& ring : domain.rings())
     size = std::max(size, ring.cwiseAbs().maxCoeff());
   return size;
 }
 
-void check_areas(const Voronoi& v, const Points2& sites, const PlanarDomain& domain) {
-  const double whole = area(domain);
+void check_areas(const Voronoi& v, const Points3& sites, const Surface& domain) {
+  const double whole = domain.area();
   CHECK(std::abs(v.cell_area.sum() - whole) <= 1e-12 * whole);
   CHECK(std::abs(v.kites.sum() - whole) <= 1e-12 * whole);
   CHECK(std::abs(v.vertex_area.sum() - whole) <= 1e-12 * whole);
@@ -170,7 +172,7 @@ void check_lists(const Voronoi& v) {
 }
 
 /// Vertices are as far from all their cells, boundary edges lie on the boundary.
-void check_duality(const Voronoi& v, const PlanarDomain& domain) {
+void check_duality(const Voronoi& v, const Surface& domain) {
   const double rounding = 1e-11 * size_of(domain);
   for (Eigen::Index vertex = 0; vertex < v.vertices.cols(); ++vertex) {
     const Place p = at(v.vertices, vertex);
@@ -217,9 +219,9 @@ void check_weights(const Voronoi& v) {
   }
 }
 
-Voronoi checked(const Points2& places, const PlanarDomain& domain) {
-  const PlanarMesh mesh = planar_delaunay(places);
-  const Voronoi v = voronoi(in_domain(domain, mesh));
+Voronoi checked(const PointsRef& places, const Surface& domain) {
+  const Mesh mesh = delaunay(places, domain);
+  const Voronoi v = voronoi(mesh);
   CHECK(!v.on_sphere);
   check_areas(v, mesh.points, domain);
   check_lists(v);
@@ -232,26 +234,26 @@ Voronoi checked(const Points2& places, const PlanarDomain& domain) {
 std::int64_t euler(const Voronoi& v) { return v.vertices.cols() - v.dc.size() + v.cells.cols(); }
 
 TEST_CASE("random sites in a rectangle, few and many") {
-  const PlanarDomain domain = rectangle({-1, 2}, {2, 3});
+  const Surface domain = rectangle({-1, 2}, {2, 3});
   for (const std::int64_t n : {3, 4, 5, 8, 30, 400})
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       CAPTURE(n);
       CAPTURE(seed);
-      CHECK(euler(checked(random_places(n, domain, seed), domain)) == 1);
+      CHECK(euler(checked(random_points(n, domain, {}, seed), domain)) == 1);
     }
 }
 
 /// Evenly spread, so that the boundary cuts no cell into parts.
-Points2 relaxed(std::int64_t n, const PlanarDomain& domain, std::uint64_t seed) {
+Points3 relaxed(std::int64_t n, const Surface& domain, std::uint64_t seed) {
   CvtOptions options;
   options.max_iterations = 40;
-  return planar_cvt(random_places(n, domain, seed), domain, options).mesh.points;
+  return cvt(random_points(n, domain, {}, seed), domain, options).mesh.points;
 }
 
 /// Where a cell is no polygon, that is said of the right one.
-bool is_refused(const Points2& places, const PlanarDomain& domain) {
+bool is_refused(const PointsRef& places, const Surface& domain) {
   try {
-    voronoi(in_domain(domain, planar_delaunay(places)));
+    voronoi(delaunay(places, domain));
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::invalid_argument);
     CHECK(std::string(error.what()).find("island") != std::string::npos);
@@ -268,14 +270,14 @@ TEST_CASE("a domain with a hole and a reflex corner, and one of several parts") 
         CAPTURE(n);
         CAPTURE(seed);
         CHECK(euler(checked(relaxed(n, domain, seed), domain)) == characteristic);
-        const Points2 places = random_places(n, domain, seed);
+        const Points3 places = random_points(n, domain, {}, seed);
         if (!is_refused(places, domain))
           checked(places, domain);
       }
 }
 
 TEST_CASE("few sites around a hole") {
-  const PlanarDomain domain = bent();
+  const Surface domain = bent();
   Points2 places(2, 5);
   places << 0.2, 0.95, 0.6, 0.5, 2.4, 0.5, 0.6, 0.15, 1.4, 0.5;
   CHECK(euler(checked(places, domain)) == 0);
@@ -284,11 +286,11 @@ TEST_CASE("few sites around a hole") {
   CHECK(is_refused(apart, domain));
 }
 
-Points2 inside(const Points2& places, const PlanarDomain& domain) {
-  Points2 kept(2, 0);
+Points3 inside(const Points3& places, const Surface& domain) {
+  Points3 kept(3, 0);
   for (const auto place : places.colwise())
-    if (contains(domain, place)) {
-      kept.conservativeResize(2, kept.cols() + 1);
+    if (domain.contains(place)) {
+      kept.conservativeResize(3, kept.cols() + 1);
       kept.col(kept.cols() - 1) = place;
     }
   return kept;
@@ -296,33 +298,33 @@ Points2 inside(const Points2& places, const PlanarDomain& domain) {
 
 /// All is cocircular; the boundary runs through vertices, along edges and across both.
 TEST_CASE("lattices that the boundary cuts at vertices and along edges") {
-  Points2 lattice(2, 36);
+  Points3 lattice(3, 36);
   for (int i = 0; i < 36; ++i)
-    lattice.col(i) << i % 6, i / 6;
+    lattice.col(i) << i % 6, i / 6, 0;
   for (const double low : {-0.5, -0.25, 0.0, -1.0})
     checked(lattice, rectangle({low, low}, {5.5, 5.25}));
   // A frame around the cell of site 14, along its edges.
-  const PlanarDomain framed = domain_of({{{-0.5, -0.5}, {5.5, -0.5}, {5.5, 5.5}, {-0.5, 5.5}},
-                                         {{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}}});
-  Points2 without(2, 35);
+  const Surface framed = domain_of({{{-0.5, -0.5}, {5.5, -0.5}, {5.5, 5.5}, {-0.5, 5.5}},
+                                    {{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}}});
+  Points3 without(3, 35);
   without << lattice.leftCols(14), lattice.rightCols(21);
   const Voronoi v = checked(without, framed);
   CHECK(euler(v) == 0);
   // A rhombus through corners of cells.
-  const PlanarDomain rhombus = domain_of({{{2.5, -0.5}, {5.5, 2.5}, {2.5, 5.5}, {-0.5, 2.5}}});
+  const Surface rhombus = domain_of({{{2.5, -0.5}, {5.5, 2.5}, {2.5, 5.5}, {-0.5, 2.5}}});
   checked(inside(lattice, rhombus), rhombus);
 }
 
 TEST_CASE("sites and corners of the boundary at random places of a lattice") {
-  const PlanarDomain domains[] = {
+  const Surface domains[] = {
       rectangle({0, 0}, {6, 5}), domain_of({{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 6}, {0, 6}}}),
       domain_of({{{0, 0}, {6, 0}, {6, 6}, {0, 6}}, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}}),
       domain_of({{{0, 3}, {3, 0}, {6, 3}, {3, 6}}, {{2.5, 2.5}, {2.5, 3.5}, {3.5, 3.5}}})};
   int cells = 0;
-  for (const PlanarDomain& domain : domains)
+  for (const Surface& domain : domains)
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       CAPTURE(seed);
-      Points2 places = random_places(25, rectangle({0, 0}, {6, 6}), seed);
+      Points3 places = random_points(25, rectangle({0, 0}, {6, 6}), {}, seed);
       places = inside((places * 2).array().round() / 2, domain);
       if (is_refused(places, domain))
         continue;
@@ -341,18 +343,20 @@ TEST_CASE("sites on the boundary and at its corners") {
 }
 
 TEST_CASE("the example's lake, far from the origin") {
-  PlanarDomain domain = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson");
-  for (DoubleMatrix& ring : domain.rings)
+  Surface::Rings rings = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson").rings();
+  for (DoubleMatrix& ring : rings)
     ring.colwise() += Place(5e3, -2e3);
+  const Surface domain = Surface::plane().within(rings);
   // Sites at random leave cells in several parts around its capes.
   CHECK(euler(checked(relaxed(500, domain, 1), domain)) == 1 - 3); // three islands
 }
 
 TEST_CASE("what does not fit is refused") {
-  const PlanarMesh mesh = planar_delaunay(random_places(9, rectangle({0, 0}, {1, 1}), 3));
-  const auto message = [](const PlanarMesh& given, const PlanarDomain& domain) {
+  const Mesh mesh = delaunay(random_points(9, rectangle({0, 0}, {1, 1}), {}, 3), Surface::plane());
+  const auto message = [](Mesh given, const Surface& domain) {
+    given.surface = domain;
     try {
-      voronoi(in_domain(domain, given));
+      voronoi(given);
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::invalid_argument);
       return std::string(error.what());
@@ -361,7 +365,7 @@ TEST_CASE("what does not fit is refused") {
   };
   CHECK(message(mesh, rectangle({0, 0}, {0.5, 1})).find("is outside of the domain") !=
         std::string::npos);
-  PlanarMesh spoilt = mesh;
+  Mesh spoilt = mesh;
   spoilt.triangles(0, 0) = 9;
   CHECK(message(spoilt, rectangle({0, 0}, {1, 1})).find("an id that is not one of its 9 points") !=
         std::string::npos);

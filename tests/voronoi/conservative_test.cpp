@@ -6,7 +6,6 @@
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <Eigen/Geometry>
@@ -32,7 +31,7 @@ Polygons cells_of(const Mesh& mesh) {
   const Voronoi cells = voronoi(mesh);
   return {cells.vertices, cells.vertices_on_cell, cells.cells, cells.on_sphere, cells.period};
 }
-Polygons cells_of(const Points3& points) { return cells_of(spherical_delaunay(points)); }
+Polygons cells_of(const Points3& points) { return cells_of(delaunay(points)); }
 
 DoubleVector steps(double first, double step, Eigen::Index n) {
   return DoubleVector::LinSpaced(n, first, first + step * static_cast<double>(n - 1));
@@ -385,14 +384,12 @@ TEST_CASE("concave cells count what they hold") {
 TEST_CASE("polygons in the plane, and round its periods") {
   const Surface square = rectangle({0, 0}, {3, 2});
   const auto clipped = [&](std::uint64_t seed) {
-    Mesh mesh = delaunay(random_places(200, PlanarDomain(square), seed), Surface::plane());
-    mesh.surface = square;
-    return cells_of(mesh);
+    return cells_of(delaunay(random_points(200, square, {}, seed), square));
   };
   check_laws(conservative_weights(clipped(1), clipped(2)), 6);
-  const auto periodic = [&](std::uint64_t seed) {
-    return cells_of(
-        delaunay(random_places(150, periodic_box({3, 2}), seed), Surface::periodic({3, 2})));
+  const auto periodic = [](std::uint64_t seed) {
+    const Surface box = Surface::periodic({3, 2});
+    return cells_of(delaunay(random_points(150, box, {}, seed), box));
   };
   check_laws(conservative_weights(periodic(1), periodic(2)), 6);
   CHECK_THROWS_AS(conservative_weights(clipped(1), periodic(2)), Error);
@@ -513,9 +510,9 @@ TEST_CASE("what is wrong with boxes is said") {
   CHECK_THROWS_AS(
       interpolation_weights(lon_lat_boxes(4, 2), cells.centres, Interpolation::natural_neighbours),
       Error);
-  CHECK_THROWS_AS(interpolation_weights(spherical_delaunay(cubed_sphere(2)), cells.centres,
-                                        Interpolation::conservative),
-                  Error);
+  CHECK_THROWS_AS(
+      interpolation_weights(delaunay(cubed_sphere(2)), cells.centres, Interpolation::conservative),
+      Error);
 }
 
 // ---- Fields
@@ -598,11 +595,11 @@ TEST_CASE("the cell that holds a position") {
       CHECK(found[i] == nearest);
     }
   }
-  const Polygons box =
-      cells_of(delaunay(random_places(80, periodic_box({3, 2})), Surface::periodic({3, 2})));
-  const Points2 inside = random_places(200, periodic_box({3, 2}), 4);
+  const Surface periodic = Surface::periodic({3, 2});
+  const Polygons box = cells_of(delaunay(random_points(80, periodic), periodic));
+  const Points3 inside = random_points(200, periodic, {}, 4);
   const Ids here = cells_at(box, inside),
-            there = cells_at(box, Points2(inside.colwise() + Eigen::Vector2d(6, -4)));
+            there = cells_at(box, inside.colwise() + Eigen::Vector3d(6, -4, 0));
   CHECK(here.minCoeff() >= 0);
   CHECK(here == there);
   Polygons part = cells_of(random_sphere(400));

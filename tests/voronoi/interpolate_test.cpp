@@ -8,7 +8,6 @@
 #include "support/clouds.h"
 #include "support/joined.h"
 #include "support/parts.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <doctest/doctest.h>
@@ -38,7 +37,7 @@ Eigen::VectorXd stolen(const Eigen::VectorXd& before, const Eigen::VectorXd& aft
 }
 
 /// Weights of both kinds: >= 0, and their sum is 1.
-template <class AnyMesh, class Points> void check_rows(const AnyMesh& mesh, const Points& at) {
+void check_rows(const Mesh& mesh, const Points3& at) {
   for (const Interpolation kind : {Interpolation::linear, natural}) {
     const Weights weights = interpolation_weights(mesh, at, kind);
     REQUIRE(weights.rows() == at.cols());
@@ -64,45 +63,43 @@ template <class AnyMesh, class Points> void check_rows(const AnyMesh& mesh, cons
 TEST_CASE("natural neighbours on the sphere have what the cells lose") {
   for (const Points3& points : {random_sphere(150), fibonacci_sphere(120), cubed_sphere(4),
                                 lat_lon_sphere(6, 12, true), bisected_icosahedron(2)}) {
-    const Mesh mesh = spherical_delaunay(points);
+    const Mesh mesh = delaunay(points);
     const Eigen::VectorXd before = voronoi(mesh).cell_area;
     const Points3 at = random_sphere(60, 11);
     check_rows(mesh, at);
     const Weights weights = interpolation_weights(mesh, at, natural);
     for (Eigen::Index i = 0; i < at.cols(); ++i) {
-      const Eigen::VectorXd after =
-          voronoi(spherical_delaunay(joined(mesh.points, at.col(i)))).cell_area;
+      const Eigen::VectorXd after = voronoi(delaunay(joined(mesh.points, at.col(i)))).cell_area;
       CHECK((dense_row(weights, i) - stolen(before, after)).cwiseAbs().maxCoeff() < 1e-9);
     }
   }
 }
 
 TEST_CASE("natural neighbours in a periodic box have what the cells lose") {
-  for (const Points2& points :
-       {random_places(120, periodic_box({4, 3})), lattice_places(100, periodic_box({4, 3}))}) {
-    const PlanarMesh mesh = periodic_delaunay(points, {4, 3});
+  const Surface box = Surface::periodic({4, 3});
+  for (const Points3& points : {random_points(120, box), hexagonal_lattice(100, box)}) {
+    const Mesh mesh = delaunay(points, box);
     const Eigen::VectorXd before = voronoi(mesh).cell_area;
-    const Points2 at = random_places(60, rectangle({-1, -1}, {6, 5}), 5);
+    const Points3 at = random_points(60, rectangle({-1, -1}, {6, 5}), {}, 5);
     check_rows(mesh, at);
     const Weights weights = interpolation_weights(mesh, at, natural);
     for (Eigen::Index i = 0; i < at.cols(); ++i) {
-      const Eigen::Vector2d home(at(0, i) - 4 * std::floor(at(0, i) / 4),
-                                 at(1, i) - 3 * std::floor(at(1, i) / 3));
-      const Eigen::VectorXd after =
-          voronoi(periodic_delaunay(joined(mesh.points, home), {4, 3})).cell_area;
+      const Eigen::Vector3d home(at(0, i) - 4 * std::floor(at(0, i) / 4),
+                                 at(1, i) - 3 * std::floor(at(1, i) / 3), 0);
+      const Eigen::VectorXd after = voronoi(delaunay(joined(mesh.points, home), box)).cell_area;
       CHECK((dense_row(weights, i) - stolen(before, after)).cwiseAbs().maxCoeff() < 1e-9);
     }
   }
 }
 
 TEST_CASE("in the plane both kinds are exact for linear functions, and say nothing outside") {
-  Points2 lattice(2, 36);
+  Points3 lattice(3, 36);
   for (int k = 0; k < 36; ++k)
-    lattice.col(k) << (k % 6) / 5.0, (k / 6) / 5.0;
-  for (const Points2& points : {random_places(300, rectangle({0, 0}, {1, 1})), lattice}) {
-    const PlanarMesh mesh = planar_delaunay(points);
-    Points2 at(2, 500);
-    at << random_places(400, rectangle({-0.2, -0.2}, {1.2, 1.2}), 2),
+    lattice.col(k) << (k % 6) / 5.0, (k / 6) / 5.0, 0;
+  for (const Points3& points : {random_points(300, rectangle({0, 0}, {1, 1})), lattice}) {
+    const Mesh mesh = delaunay(points, Surface::plane());
+    Points3 at(3, 500);
+    at << random_points(400, rectangle({-0.2, -0.2}, {1.2, 1.2}), {}, 2),
         (points.leftCols(36).replicate(1, 3).leftCols(100) +
          points.rightCols(36).replicate(1, 3).rightCols(100)) /
             2; // of a lattice on edges and sites
@@ -130,7 +127,7 @@ TEST_CASE("errors of a smooth function fall with the square of the spacing") {
     return (x.row(0).array() * x.row(1).array() + x.row(2).array().cube()).transpose();
   };
   const auto error = [&](std::int64_t sites, Interpolation kind) {
-    const Mesh mesh = spherical_delaunay(random_sphere(sites));
+    const Mesh mesh = delaunay(random_sphere(sites));
     return (interpolate(interpolation_weights(mesh, at, kind), smooth(mesh.points)) - smooth(at))
         .norm();
   };
@@ -142,7 +139,7 @@ TEST_CASE("weights near a site are near that of the site, down to the last bit")
   Random random(5);
   for (const Points3& points :
        {random_sphere(400, 3), bisected_icosahedron(3), fibonacci_sphere(5000)}) {
-    const Mesh mesh = spherical_delaunay(points);
+    const Mesh mesh = delaunay(points);
     Eigen::VectorXd gap = Eigen::VectorXd::Constant(mesh.points.cols(), 2); // to the nearest site
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
       for (int v = 0; v < 3; ++v) {
@@ -171,7 +168,7 @@ TEST_CASE("weights near a site are near that of the site, down to the last bit")
 }
 
 TEST_CASE("positions that are outside of an open mesh by rounding alone have its values") {
-  const Mesh whole = spherical_delaunay(fibonacci_sphere(3000));
+  const Mesh whole = delaunay(fibonacci_sphere(3000));
   const Mesh part = part_of(whole, [&](Eigen::Index t) {
     return std::sin(9 * whole.points(0, whole.triangles(0, t))) < 0.3;
   });
@@ -209,7 +206,7 @@ TEST_CASE("positions that are outside of an open mesh by rounding alone have its
 }
 
 TEST_CASE("weights are the same for any number of threads") {
-  const Mesh mesh = spherical_delaunay(random_sphere(5000));
+  const Mesh mesh = delaunay(random_sphere(5000));
   const Points3 at = random_sphere(8000, 9);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

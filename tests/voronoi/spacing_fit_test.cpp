@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "voronoi/spacing_fit.h"
 
 #include <calotte/delaunay.h>
@@ -48,7 +47,7 @@ Graded graded(int count, double stretch) {
     points.col(i).head<2>() *= std::sqrt((1 - z * z) / points.col(i).head<2>().squaredNorm());
     points(2, i) = z;
   }
-  Graded out{voronoi(spherical_delaunay(points)), Eigen::VectorXd(count), 0};
+  Graded out{voronoi(delaunay(points)), Eigen::VectorXd(count), 0};
   double finest = 1e9;
   for (Eigen::Index i = 0; i < count; ++i)
     finest = std::min(finest, factor_at(points(2, i), stretch));
@@ -86,11 +85,11 @@ TEST_CASE("the density that follows from the spacing is that of the map") {
 }
 
 TEST_CASE("meshes without a law of their spacing have none") {
-  CHECK(spacing_density(voronoi(spherical_delaunay(bisected_icosahedron(3)))).size() == 0);
-  CHECK(spacing_density(voronoi(spherical_delaunay(fibonacci_sphere(3000)))).size() == 0);
+  CHECK(spacing_density(voronoi(delaunay(bisected_icosahedron(3)))).size() == 0);
+  CHECK(spacing_density(voronoi(delaunay(fibonacci_sphere(3000)))).size() == 0);
   for (const int count : {60, 600, 6000})
-    CHECK(spacing_density(voronoi(spherical_delaunay(random_sphere(count, 3)))).size() == 0);
-  CHECK(spacing_density(voronoi(periodic_hexagons(12, 10, 0.5))).size() == 0);
+    CHECK(spacing_density(voronoi(delaunay(random_sphere(count, 3)))).size() == 0);
+  CHECK(spacing_density(voronoi(hexagonal_box(12, 10, 0.5))).size() == 0);
 }
 
 TEST_CASE("the nominal spacing is that of the map, and is that of the cells") {
@@ -119,7 +118,7 @@ TEST_CASE("a wrong nominal spacing, and a wrong density, are told apart") {
 
 TEST_CASE("independent random sites scatter, but fit a uniform density") {
   for (const int count : {40, 400, 4000}) {
-    const Voronoi cells = voronoi(spherical_delaunay(random_sphere(count, 8)));
+    const Voronoi cells = voronoi(delaunay(random_sphere(count, 8)));
     const SpacingFit fit = spacing_fit(cells, {}, voronoi_detail::nominal_spacing(cells, {}));
     CHECK(fit.median == doctest::Approx(1).epsilon(0.05));
     CHECK(fit.high / fit.low < 1.6);
@@ -130,17 +129,14 @@ TEST_CASE("cells along a boundary tell nothing of the spacing") {
   // A lattice with sites on the boundary of its domain, whose cells there are halves and quarters.
   constexpr double spacing = 0.25;
   constexpr std::int64_t columns = 20, last_row = 16;
-  const PlanarMesh box = periodic_hexagons(columns, 20, spacing);
+  const Mesh box = hexagonal_box(columns, 20, spacing);
   const Eigen::Vector2d upper(4, box.points(1, last_row * columns));
-  std::vector<Eigen::Vector2d> kept;
-  for (const auto& p : box.points.colwise())
-    if (p.x() <= upper.x() && p.y() <= upper.y())
-      kept.emplace_back(p);
-  Points2 points(2, std::ssize(kept));
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    points.col(i) = kept[static_cast<std::size_t>(i)];
-  const PlanarDomain domain = rectangle({0, 0}, upper);
-  const Voronoi cells = voronoi(in_domain(domain, planar_delaunay(points)));
+  const Surface domain = rectangle({0, 0}, upper);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < box.points.cols(); ++i)
+    if (domain.contains(box.points.col(i)))
+      kept.push_back(i);
+  const Voronoi cells = voronoi(delaunay(box.points(Eigen::all, kept), domain));
   CHECK(voronoi_detail::nominal_spacing(cells, {}) == doctest::Approx(spacing).epsilon(1e-9));
   CHECK(median_of_dc(cells) == doctest::Approx(spacing).epsilon(1e-9));
   CHECK(nominal_spacing(cell_fields(cells)) < 0.98 * spacing); // with the boundary's

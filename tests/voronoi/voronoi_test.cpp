@@ -5,7 +5,6 @@
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -47,29 +46,29 @@ std::vector<Case> sphere_cases() {
   for (const std::vector<Cloud>& clouds : {small_clouds(), large_clouds()})
     for (const Cloud& cloud : clouds)
       if (cloud.closed)
-        out.push_back({cloud.name, voronoi(spherical_delaunay(cloud.points))});
+        out.push_back({cloud.name, voronoi(delaunay(cloud.points))});
   const Points3 close = columns({{1, 1e-170, 2e-171}, {1, -3e-171, 1e-170}, {1, 1e-90, 0}});
-  out.push_back(
-      {"as near as squares vanish", voronoi(spherical_delaunay(joined(octahedron(), close)))});
+  out.push_back({"as near as squares vanish", voronoi(delaunay(joined(octahedron(), close)))});
   return out;
 }
 
 /// Hexagons whose sites are moved by up to a part of their spacing; still Delaunay for 0.1.
-PlanarMesh uneven_hexagons(std::int64_t columns, std::int64_t rows, double spacing, double part) {
-  PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
+Mesh uneven_hexagons(std::int64_t columns, std::int64_t rows, double spacing, double part) {
+  Mesh mesh = hexagonal_box(columns, rows, spacing);
   Random random(7);
-  for (double& x : mesh.points.reshaped())
-    x += random.real(0, 2 * part * spacing);
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
-    for (Eigen::Index axis = 0; axis < 2; ++axis)
-      if (mesh.points(axis, i) >= mesh.period[axis])
-        mesh.points(axis, i) -= mesh.period[axis];
+    for (Eigen::Index axis = 0; axis < 2; ++axis) {
+      double& x = mesh.points(axis, i);
+      x += random.real(0, 2 * part * spacing);
+      if (x >= mesh.surface.period()[axis])
+        x -= mesh.surface.period()[axis];
+    }
   return mesh;
 }
 
 std::vector<Case> plane_cases() {
-  return {{"smallest hexagons", voronoi(periodic_hexagons(3, 4, 1))},
-          {"hexagons", voronoi(periodic_hexagons(20, 16, 30e3))},
+  return {{"smallest hexagons", voronoi(hexagonal_box(3, 4, 1))},
+          {"hexagons", voronoi(hexagonal_box(20, 16, 30e3))},
           {"uneven hexagons", voronoi(uneven_hexagons(9, 8, 1e-3, 0.1))}};
 }
 
@@ -384,7 +383,7 @@ TEST_CASE("angles are those of the normal from east, or from x") {
 
 TEST_CASE("quality() gives the same spacings, areas, degrees and shapes") {
   for (const Points3& points : {random_sphere(300, 1), fibonacci_sphere(200), cubed_sphere(5)}) {
-    const Mesh mesh = spherical_delaunay(points);
+    const Mesh mesh = delaunay(points);
     const Voronoi v = voronoi(mesh);
     const CellFields fields = cell_fields(v);
     const Quality q = quality(mesh);
@@ -421,7 +420,7 @@ TEST_CASE("the edge between opposite cells lies at the vertex to its left") {
 
 TEST_CASE("regular hexagons are exact up to rounding") {
   for (const double spacing : {1e-3, 1.0, 30e3}) {
-    const PlanarMesh mesh = periodic_hexagons(8, 6, spacing);
+    const Mesh mesh = hexagonal_box(8, 6, spacing);
     const Voronoi v = voronoi(mesh);
     const double area = std::sqrt(3) / 2 * spacing * spacing;
     const auto check_all = [](const auto& values, double expected) {
@@ -442,9 +441,9 @@ TEST_CASE("regular hexagons are exact up to rounding") {
 TEST_CASE("a plane of hexagons is canonical, and its columns and rows are where they should be") {
   for (const auto& [columns, rows] :
        {std::pair<std::int64_t, std::int64_t>{3, 4}, {4, 4}, {7, 10}}) {
-    const PlanarMesh mesh = periodic_hexagons(columns, rows, 2);
+    const Mesh mesh = hexagonal_box(columns, rows, 2);
     CHECK(mesh.points.cols() == columns * rows);
-    CHECK(mesh.points.col(columns + 1).isApprox(Eigen::Vector2d(3, std::sqrt(3))));
+    CHECK(mesh.points.col(columns + 1).isApprox(Eigen::Vector3d(3, std::sqrt(3), 0)));
     CHECK(mesh.points.minCoeff() == 0);
     for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
       CHECK(mesh.triangles(0, t) == mesh.triangles.col(t).minCoeff());
@@ -454,17 +453,16 @@ TEST_CASE("a plane of hexagons is canonical, and its columns and rows are where 
             mesh.triangles.col(t).begin(), mesh.triangles.col(t).end()));
     }
   }
-  CHECK_THROWS_WITH_AS(periodic_hexagons(2, 4, 1), doctest::Contains("columns is 2"), Error);
-  CHECK_THROWS_WITH_AS(periodic_hexagons(3, 2, 1), doctest::Contains("rows is 2"), Error);
-  CHECK_THROWS_WITH_AS(periodic_hexagons(3, 5, 1), doctest::Contains("even"), Error);
-  CHECK_THROWS_WITH_AS(periodic_hexagons(1 << 20, 1 << 20, 1), doctest::Contains("fewer rows"),
-                       Error);
+  CHECK_THROWS_WITH_AS(hexagonal_box(2, 4, 1), doctest::Contains("columns is 2"), Error);
+  CHECK_THROWS_WITH_AS(hexagonal_box(3, 2, 1), doctest::Contains("rows is 2"), Error);
+  CHECK_THROWS_WITH_AS(hexagonal_box(3, 5, 1), doctest::Contains("even"), Error);
+  CHECK_THROWS_WITH_AS(hexagonal_box(1 << 20, 1 << 20, 1), doctest::Contains("fewer rows"), Error);
   for (const double spacing : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-    CHECK_THROWS_WITH_AS(periodic_hexagons(3, 4, spacing), doctest::Contains("spacing"), Error);
+    CHECK_THROWS_WITH_AS(hexagonal_box(3, 4, spacing), doctest::Contains("spacing"), Error);
 }
 
 TEST_CASE("flat triangles of equal sites give finite results that fill the box") {
-  PlanarMesh mesh = periodic_hexagons(6, 6, 1);
+  Mesh mesh = hexagonal_box(6, 6, 1);
   mesh.points.col(8) = mesh.points.col(7);
   const Voronoi v = voronoi(mesh);
   for (std::int32_t t = 0; t < v.vertices.cols(); ++t) { // the widest has sides of 1, sqrt 3 and 2
@@ -475,12 +473,12 @@ TEST_CASE("flat triangles of equal sites give finite results that fill the box")
   CHECK(v.kites.allFinite());
   CHECK(v.dv.allFinite());
   CHECK(tangential_weights(v, 0, v.dc.size()).weights.allFinite());
-  CHECK(sum(v.cell_area) == doctest::Approx(mesh.period.prod()));
+  CHECK(sum(v.cell_area) == doctest::Approx(mesh.surface.area()));
 }
 
 TEST_CASE("unit columns keep their bits, and norms have no effect") {
   const Points3 points = random_sphere(500, 3);
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   const Voronoi v = voronoi(mesh);
   CHECK(same(v.cells, mesh.points));
   Mesh scaled = mesh;
@@ -494,7 +492,7 @@ TEST_CASE("unit columns keep their bits, and norms have no effect") {
 }
 
 TEST_CASE("the same bits for any number of threads") {
-  const Mesh mesh = spherical_delaunay(random_sphere(40000, 5));
+  const Mesh mesh = delaunay(random_sphere(40000, 5));
   Voronoi one;
   TangentialWeights weights;
   with_threads(1, [&] {
@@ -595,7 +593,7 @@ TEST_CASE(
 }
 
 TEST_CASE("hexagons reconstruct a uniform field's tangential component") {
-  const Voronoi v = voronoi(periodic_hexagons(6, 8, 30e3));
+  const Voronoi v = voronoi(hexagonal_box(6, 8, 30e3));
   const TangentialWeights w = tangential_weights(v, 0, v.dc.size());
   for (Eigen::Index e = 0; e < v.dc.size(); ++e) {
     double tangential = 0;
@@ -608,7 +606,7 @@ TEST_CASE("hexagons reconstruct a uniform field's tangential component") {
 }
 
 TEST_CASE("chunks of weights are parts of the whole") {
-  const Voronoi v = voronoi(spherical_delaunay(random_sphere(300, 4)));
+  const Voronoi v = voronoi(delaunay(random_sphere(300, 4)));
   const TangentialWeights whole = tangential_weights(v, 0, v.dc.size());
   std::int64_t at = 0;
   for (const auto& [first, last] :
@@ -628,7 +626,7 @@ TEST_CASE("chunks of weights are parts of the whole") {
 
 TEST_CASE("cell fields use the edges of the cell, and the density is relative") {
   const Density density = tanh_bump({1, 2, 3}, 0.5, 0.3, 0.01);
-  const Voronoi v = voronoi(spherical_delaunay(random_sphere(400, 6)));
+  const Voronoi v = voronoi(delaunay(random_sphere(400, 6)));
   const CellFields fields = cell_fields(v, density), uniform = cell_fields(v);
   CHECK(same(fields.area, v.cell_area));
   CHECK(fields.density.maxCoeff() == 1);
@@ -708,7 +706,7 @@ TEST_CASE("sites in a hemisphere have bounded cells that fill the sphere") {
       {"half of the sphere", in_a_cap(500, 1.57, 6)}};
   for (const auto& [name, sites] : sets) {
     CAPTURE(name);
-    const Mesh mesh = spherical_delaunay(sites);
+    const Mesh mesh = delaunay(sites);
     REQUIRE(!mesh.closed());
     const Voronoi cells = voronoi(mesh);
     const Eigen::Index n = sites.cols();
@@ -733,7 +731,7 @@ TEST_CASE("sites in a hemisphere have bounded cells that fill the sphere") {
 TEST_CASE("the cells of sites in a hemisphere do not depend on the order of the sites") {
   const Points3 sites = in_a_cap(300, 0.4, 8);
   const Points3 turned = sites.rowwise().reverse();
-  const Voronoi a = voronoi(spherical_delaunay(sites)), b = voronoi(spherical_delaunay(turned));
+  const Voronoi a = voronoi(delaunay(sites)), b = voronoi(delaunay(turned));
   CHECK((a.cell_area - b.cell_area.reverse()).cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -754,9 +752,9 @@ TEST_CASE("an input that is no closed mesh is refused in one line that names the
       CHECK(message.find('\n') == std::string::npos);
     }
   };
-  const Mesh good = spherical_delaunay(random_sphere(50, 2));
+  const Mesh good = delaunay(random_sphere(50, 2));
   check_refused(Mesh{}, -1, "open");
-  Mesh bitten = spherical_delaunay(upper_half(50, 1)); // without a triangle of its boundary
+  Mesh bitten = delaunay(upper_half(50, 1)); // without a triangle of its boundary
   Eigen::Index outer = 0;
   while (bitten.neighbours.col(outer).minCoeff() >= 0)
     ++outer;
@@ -797,22 +795,22 @@ TEST_CASE("an input that is no closed mesh is refused in one line that names the
   pinched.neighbours << beside, beside.array() + 4;
   check_refused(pinched, 0, "one ring");
 
-  PlanarMesh plane = periodic_hexagons(4, 4, 1);
+  Mesh plane = hexagonal_box(4, 4, 1);
   plane.points(0, 5) = 4;
   check_refused(plane, 5, "outside the periodic box");
   plane.points(0, 5) = std::nan("");
   check_refused(plane, 5, "outside the periodic box");
-  plane.period[1] = 0;
+  plane.surface = Surface::periodic({4, 0});
   check_refused(plane, -1, "the box");
-  plane = periodic_hexagons(4, 4, 1);
+  plane = hexagonal_box(4, 4, 1);
   plane.triangles.conservativeResize(3, 31);
   check_refused(plane, -1, "31 triangles");
 }
 
 TEST_CASE("a box so narrow that neighbours meet twice is refused") {
-  PlanarMesh plane; // two by two squares, each of two triangles
-  plane.points = Points2{{0, 0.5, 0, 0.5}, {0, 0, 0.5, 0.5}};
-  plane.period = {1, 1};
+  Mesh plane; // two by two squares, each of two triangles
+  plane.points = Points3{{0, 0.5, 0, 0.5}, {0, 0, 0.5, 0.5}, {0, 0, 0, 0}};
+  plane.surface = Surface::periodic({1, 1});
   plane.triangles.resize(3, 8);
   plane.neighbours.resize(3, 8);
   for (Eigen::Index i = 0; i < 4; ++i) {
@@ -834,8 +832,8 @@ TEST_CASE("a box so narrow that neighbours meet twice is refused") {
 }
 
 TEST_CASE("densities that do not fit are refused") {
-  const Voronoi plane = voronoi(periodic_hexagons(3, 4, 1)),
-                sphere = voronoi(spherical_delaunay(random_sphere(20, 1)));
+  const Voronoi plane = voronoi(hexagonal_box(3, 4, 1)),
+                sphere = voronoi(delaunay(random_sphere(20, 1)));
   const Density bump = tanh_bump({1, 2, 3}, 0.5, 0.3, 0.01);
   CHECK_THROWS_WITH_AS(cell_fields(plane, bump), doctest::Contains("plane"), Error);
   CHECK_THROWS_WITH_AS(cell_fields(sphere, tanh_bump({0, 0, 0}, 0.5, 0.3, 0.01)),
