@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/outline.h"
-#include "support/planes.h"
 
 #include "support/random.h"
 
@@ -45,9 +44,9 @@ Points2 wavy(int corners) {
 
 Points2 reversed(const Points2& ring) { return ring.rowwise().reverse(); }
 
-std::string refusal(const PlanarDomain& domain) {
+std::string refusal(const Surface::Rings& rings) {
   try {
-    require_domain(domain);
+    Surface::plane().within(rings);
   } catch (const Error& error) {
     CHECK(error.code() == ErrorCode::invalid_argument);
     return error.what();
@@ -58,9 +57,7 @@ std::string refusal(const PlanarDomain& domain) {
 TEST_CASE("inside, outside and on the boundary, with a hole and an island, in any sense") {
   for (const bool turn : {false, true}) {
     const auto sense = [&](const Points2& ring) { return turn ? reversed(ring) : ring; };
-    const PlanarDomain domain{{sense(square(0, 0, 10)), square(2, 2, 6), sense(square(4, 4, 2))},
-                              {0, 0}};
-    const Outline outline(domain.rings);
+    const Outline outline({sense(square(0, 0, 10)), square(2, 2, 6), sense(square(4, 4, 2))});
     CHECK(outline.area() == doctest::Approx(100 - 36 + 4).epsilon(1e-15));
     CHECK(outline.side({1, 5}) == Side::inside);
     CHECK(outline.side({3, 5}) == Side::outside);
@@ -83,11 +80,11 @@ TEST_CASE("inside, outside and on the boundary, with a hole and an island, in an
 }
 
 TEST_CASE("a coastline of some thousand edges: sides and area as without strips") {
-  const PlanarDomain domain{{wavy(5000)}, {0, 0}};
-  const Outline outline(domain.rings);
+  const Points2 ring = wavy(5000);
+  const Outline outline({ring});
   double twice_area = 0;
   for (int i = 0; i < 5000; ++i) {
-    const auto a = domain.rings[0].col(i), b = domain.rings[0].col((i + 1) % 5000);
+    const auto a = ring.col(i), b = ring.col((i + 1) % 5000);
     twice_area += a.x() * b.y() - a.y() * b.x();
   }
   CHECK(outline.area() == doctest::Approx(twice_area / 2).epsilon(1e-13));
@@ -125,34 +122,29 @@ TEST_CASE("domains at the ends of the range") {
     CHECK(outline.side({unit / 2, unit / 3}) == Side::inside);
     CHECK(outline.area() == doctest::Approx(unit * unit));
   }
-  CHECK(area(periodic_box({3, 4})) == 12);
-  CHECK(contains(periodic_box({3, 4}), {0, 0}));
-  CHECK_FALSE(contains(periodic_box({3, 4}), {3, 0}));
+  CHECK(Surface::periodic({3, 4}).area() == 12);
+  CHECK(Surface::periodic({3, 4}).contains({0, 0, 0}));
+  CHECK_FALSE(Surface::periodic({3, 4}).contains({3, 0, 0}));
 }
 
 TEST_CASE("rings that do not bound a well-defined region are refused, with ring and corner") {
-  const auto domain = [](const std::vector<DoubleMatrix>& rings) {
-    return PlanarDomain{rings, {0, 0}};
-  };
-  CHECK(refusal(domain({square(0, 0, 1)})) == "");
-  CHECK(refusal(domain({square(0, 0, 3), square(1, 1, 1)})) == "");
-  CHECK(refusal(domain({})).find("no rings") != std::string::npos);
-  CHECK(refusal(domain({ring_of({{0, 0}, {1, 0}})})).find("ring 0 has 2 corners") !=
-        std::string::npos);
-  CHECK(refusal(domain({square(0, 0, 1), ring_of({{0, 0}, {1, 0}, {NAN, 1}})}))
+  CHECK(refusal({square(0, 0, 1)}) == "");
+  CHECK(refusal({square(0, 0, 3), square(1, 1, 1)}) == "");
+  CHECK(refusal({}).find("no rings") != std::string::npos);
+  CHECK(refusal({ring_of({{0, 0}, {1, 0}})}).find("ring 0 has 2 corners") != std::string::npos);
+  CHECK(refusal({square(0, 0, 1), ring_of({{0, 0}, {1, 0}, {NAN, 1}})})
             .find("ring 1, corner 2 is not finite") != std::string::npos);
-  CHECK(refusal(domain({ring_of({{0, 0}, {1, 0}, {1, 0}, {0, 1}})}))
+  CHECK(refusal({ring_of({{0, 0}, {1, 0}, {1, 0}, {0, 1}})})
             .find("ring 0, corner 1 and the next are one place") != std::string::npos);
-  CHECK(
-      refusal(domain({ring_of({{0, 0}, {2, 2}, {2, 0}, {0, 2}})})).find("corner 0 and from ring") !=
-      std::string::npos);                                                    // crosses itself
-  CHECK(refusal(domain({ring_of({{0, 0}, {2, 0}, {1, 0}, {1, 1}})})) != ""); // folds back
-  CHECK(refusal(domain({ring_of({{0, 0}, {2, 0}, {4, 0}})})) != "");         // no area
-  CHECK(refusal(domain({square(0, 0, 2), square(1, 1, 2)})) != "");          // cross
-  CHECK(refusal(domain({square(0, 0, 1), square(1, 1, 1)})) != "");          // touch in a corner
-  CHECK(refusal(domain({square(0, 0, 3), square(0, 1, 1)})) != "");          // share an edge
-  CHECK(refusal(domain({square(0, 0, 1), square(0, 0, 1)})) != "");          // twice the same
-  CHECK(refusal(domain({Points2(1e-31 * square(0, 0, 1))})).find("narrower") != std::string::npos);
+  CHECK(refusal({ring_of({{0, 0}, {2, 2}, {2, 0}, {0, 2}})}).find("corner 0 and from ring") !=
+        std::string::npos);                                          // crosses itself
+  CHECK(refusal({ring_of({{0, 0}, {2, 0}, {1, 0}, {1, 1}})}) != ""); // folds back
+  CHECK(refusal({ring_of({{0, 0}, {2, 0}, {4, 0}})}) != "");         // no area
+  CHECK(refusal({square(0, 0, 2), square(1, 1, 2)}) != "");          // cross
+  CHECK(refusal({square(0, 0, 1), square(1, 1, 1)}) != "");          // touch in a corner
+  CHECK(refusal({square(0, 0, 3), square(0, 1, 1)}) != "");          // share an edge
+  CHECK(refusal({square(0, 0, 1), square(0, 0, 1)}) != "");          // twice the same
+  CHECK(refusal({Points2(1e-31 * square(0, 0, 1))}).find("narrower") != std::string::npos);
 }
 
 } // namespace
