@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 
 #include "curve/traversal.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>
@@ -110,7 +109,7 @@ TEST_CASE("a traversal visits each triangle once, in cells' corners and beyond t
 }
 
 TEST_CASE("by a traversal most neighbours are visited soon after each other") {
-  const Mesh mesh = spherical_delaunay(random_sphere(100000, 9));
+  const Mesh mesh = delaunay(random_sphere(100000, 9));
   const auto square = [&](std::int64_t t) {
     const auto p = mesh.points.col(mesh.triangles(0, t));
     return to_cube({p[0], p[1], p[2]});
@@ -130,7 +129,7 @@ TEST_CASE("by a traversal most neighbours are visited soon after each other") {
 TEST_CASE("small meshes and those along a curve are not scattered, large ones of random sites are "
           "[slow]") {
   CHECK_FALSE(are_scattered(Triangles(3, 0)));
-  CHECK_FALSE(are_scattered(spherical_delaunay(random_sphere(70000, 9)).neighbours));
-  CHECK_FALSE(are_scattered(spherical_delaunay(spiral_sphere(550000)).neighbours));
-  CHECK(are_scattered(spherical_delaunay(random_sphere(550000, 9)).neighbours));
+  CHECK_FALSE(are_scattered(delaunay(random_sphere(70000, 9)).neighbours));
+  CHECK_FALSE(are_scattered(delaunay(spiral_sphere(550000)).neighbours));
+  CHECK(are_scattered(delaunay(random_sphere(550000, 9)).neighbours));
 }

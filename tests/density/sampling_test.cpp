@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/planes.h"
 
 #include <calotte/density.h>
 #include <calotte/error.h>
@@ -337,11 +336,11 @@ TEST_CASE("a region narrower than rounding is refused, not its density [slow]") 
 namespace {
 
 /// A long thin tilted ring: a parallelogram with one in it.
-PlanarDomain frame() {
+Surface frame() {
   Points2 outer(2, 4), inner(2, 4);
   outer << 0, 100, 103, 3, 0, 50, 51, 1;
   inner = (0.5 * outer).colwise() + Eigen::Vector2d(0.25 * 103, 0.25 * 51);
-  return {{outer, inner}, {0, 0}};
+  return Surface::plane().within({outer, inner});
 }
 
 /// Coordinates in the parallelogram: the position of a place along and across it, both from 0 to 1.
@@ -364,12 +363,12 @@ Density of_x(const std::function<double(double)>& rho) {
 } // namespace
 
 TEST_CASE("places of a domain are uniform, inside, and the first ones of more") {
-  const Points2 places = random_places(100000, frame(), 7);
+  const Points3 places = random_points(100000, frame(), {}, 7);
   REQUIRE(places.cols() == 100000);
   std::vector<std::int64_t> count(16, 0);
   for (const auto& place : places.colwise()) {
-    REQUIRE(contains(frame(), place));
-    const Eigen::Vector2d at = 4 * in_frame(place);
+    REQUIRE(frame().contains(place));
+    const Eigen::Vector2d at = 4 * in_frame(place.head<2>());
     ++count[static_cast<std::size_t>(std::floor(at.x()) + 4 * std::floor(at.y()))];
   }
   std::vector<double> share(16, 1.0 / 12);
@@ -385,28 +384,24 @@ TEST_CASE("places of a domain are uniform, inside, and the first ones of more") 
       in_cells.push_back(count[i]);
     }
   CHECK(fits(of_cells, in_cells));
-  CHECK(random_places(1000, frame(), 7) == places.leftCols(1000));
-  CHECK(random_places(1000, frame(), 8) != places.leftCols(1000));
+  CHECK(random_points(1000, frame(), {}, 7) == places.leftCols(1000));
+  CHECK(random_points(1000, frame(), {}, 8) != places.leftCols(1000));
 
-  const Points2 box = random_places(50000, periodic_box({3, 0.01}), 1);
+  const Surface box = Surface::periodic({3, 0.01});
+  const Points3 in_box = random_points(50000, box);
   std::vector<std::int64_t> quarters(4, 0);
-  for (const auto& place : box.colwise()) {
-    REQUIRE(contains(periodic_box({3, 0.01}), place));
+  for (const auto& place : in_box.colwise()) {
+    REQUIRE(box.contains(place));
     ++quarters[(place.x() < 1.5 ? 0U : 1U) + (place.y() < 0.005 ? 0U : 2U)];
   }
   CHECK(fits({0.25, 0.25, 0.25, 0.25}, quarters));
 }
 
 TEST_CASE("places of a domain follow a density, for any number of threads") {
-  const PlanarDomain square = rectangle({2, -1}, {3, 0});
+  const Surface square = rectangle({2, -1}, {3, 0});
   // rho = x^4 on a unit square from 2 to 3.
   const Density density = of_x([](double x) { return x * x * x * x; });
-  const auto draw = [&] {
-    const Points2 places = random_places(60000, square, density, 4);
-    Points3 out = Points3::Zero(3, places.cols());
-    out.topRows<2>() = places;
-    return out;
-  };
+  const auto draw = [&] { return random_points(60000, square, density, 4); };
   const Points3 places = with_threads(1, draw);
   CHECK(with_threads(4, draw) == places);
   std::vector<double> share;
@@ -418,11 +413,11 @@ TEST_CASE("places of a domain follow a density, for any number of threads") {
     ++count[static_cast<std::size_t>(std::min(9.0, 10 * (place.x() - 2)))];
   CHECK(fits(share, count));
   // All mass in a strip of a hundredth of the square.
-  const Points2 strip = random_places(
+  const Points3 strip = random_points(
       1000, square, of_x([](double x) { return x > 2.4 && x < 2.41 ? 1.0 : 0.0; }), 4);
   CHECK(strip.row(0).minCoeff() > 2.4);
   CHECK(strip.row(0).maxCoeff() < 2.41);
-  CHECK_THROWS_WITH_AS(random_places(10, square, of_x([](double) { return 0.0; })),
+  CHECK_THROWS_WITH_AS(random_points(10, square, of_x([](double) { return 0.0; })),
                        doctest::Contains("over the domain: make it positive"), Error);
-  CHECK_THROWS_AS(random_places(10, square, of_x([](double x) { return 2.5 - x; })), Error);
+  CHECK_THROWS_AS(random_points(10, square, of_x([](double x) { return 2.5 - x; })), Error);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "support/errors.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -36,7 +35,7 @@ std::int64_t count_of(std::int64_t b, std::int64_t c) { return 10 * (b * b + b *
 
 /// The number of points by their number of neighbours.
 std::map<int, std::int64_t> degrees(const Points3& points) {
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   REQUIRE(mesh.closed());
   std::vector<int> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
   for (const std::int32_t corner : mesh.triangles.reshaped())
@@ -71,7 +70,7 @@ bool same_set(const Points3& points, const Points3& others) {
 }
 
 double least_distance(const Points3& points) {
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   double least = 2;
   for (const auto& triangle : mesh.triangles.colwise())
     for (int i = 0; i < 3; ++i)

@@ -9,7 +9,6 @@
 #include "delaunay/delaunay.h"
 #include "support/directions.h"
 #include "support/gshhg.h"
-#include "support/planes.h"
 
 #include <doctest/doctest.h>
 
@@ -48,7 +47,7 @@ struct Earth {
   std::vector<std::uint8_t> land;
 
   explicit Earth(int bisections)
-      : cells(voronoi(spherical_delaunay(bisected_icosahedron(bisections)))),
+      : cells(voronoi(delaunay(bisected_icosahedron(bisections)))),
         fractions(land_fractions(cells, coast)) {
     for (const double fraction : fractions)
       land.push_back(fraction > 0.5 ? 1 : 0);

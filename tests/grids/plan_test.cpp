@@ -2,7 +2,6 @@
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include <calotte/calotte.h>
 #include <calotte/grid.h>
@@ -21,7 +20,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Region part() { return circle({1, 1, 1}, 20 * degree); }
+Surface part() { return circle({1, 1, 1}, 20 * degree); }
 
 /// Widths from 400 km at the equator to `poles` km at the poles.
 CellWidth widths(double poles) {
@@ -252,9 +251,8 @@ TEST_CASE("plan: values out of range are refused before any work") {
       },
       "longitude");
   CHECK_THROWS_AS(make_grid(Schedule{}), Error);
-  const Surface square = rectangle({0, 0}, {1, 1});
-  CHECK_THROWS_AS(random_points(100, Region(square)), Error);
-  CHECK_THROWS_AS(random_places(100, PlanarDomain(Surface::sphere())), Error);
+  CHECK_THROWS_AS(random_points(100, Surface::plane()), Error);
+  CHECK_THROWS_AS(hexagonal_lattice(100, Surface::sphere()), Error);
 }
 
 TEST_CASE("make_grid: a run that is stopped goes on from its state to the same bits") {

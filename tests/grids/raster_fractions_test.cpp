@@ -9,7 +9,6 @@
 #include "support/constants.h"
 #include "support/directions.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
@@ -41,7 +40,7 @@ LandRaster land_raster(int columns, int rows,
   return raster;
 }
 
-Voronoi voronoi_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
+Voronoi voronoi_of(const Points3& points) { return voronoi(delaunay(points)); }
 
 std::vector<Points3> clouds() {
   return {bisected_icosahedron(0), bisected_icosahedron(2), cubed_sphere(8), fibonacci_sphere(1000),
@@ -75,19 +74,20 @@ TEST_CASE("a raster of one value gives it to every cell; complements add up to 1
 }
 
 TEST_CASE("a fine raster of a region gives about the exact fractions") {
-  for (const Region& region : std::vector<Region>{circle(direction(30, 40), 50 * degree),
-                                                  circle(direction(0, 90), 20 * degree),
-                                                  circle(direction(180, -5), 30 * degree)}) {
-    const auto inside = containing(region);
-    const LandRaster raster = land_raster(
-        720, 360, [&](double lon, double lat) { return inside(direction(lon, lat)) ? 1 : 0; });
+  for (const Surface& region :
+       {circle(direction(30, 40), 50 * degree), circle(direction(0, 90), 20 * degree),
+        circle(direction(180, -5), 30 * degree)}) {
+    const LandRaster raster = land_raster(720, 360, [&](double lon, double lat) {
+      return region.contains(direction(lon, lat)) ? 1 : 0;
+    });
+    const Coast coast{{region.rings().begin(), region.rings().end()}, region.area()};
     for (const Points3& points : {fibonacci_sphere(400), bisected_icosahedron(3)}) {
       const Voronoi cells = voronoi_of(points);
       const Eigen::VectorXd sampled = land_fractions(cells, raster),
-                            exact = land_fractions(cells, Coast{region.rings, area(region)});
+                            exact = land_fractions(cells, coast);
       // Of a cell about 10 degrees wide, half of the rectangles along its boundary and the coast.
       CHECK((sampled - exact).cwiseAbs().maxCoeff() < 0.06);
-      CHECK(std::abs(sampled.dot(cells.cell_area) / area(region) - 1) < 0.01);
+      CHECK(std::abs(sampled.dot(cells.cell_area) / region.area() - 1) < 0.01);
     }
   }
 }

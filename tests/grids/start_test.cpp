@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 #include "support/densities.h"
 #include "support/errors.h"
-#include "support/planes.h"
 #include "support/sanitizer.h"
 #include "support/starts.h"
 
@@ -116,7 +115,7 @@ TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
     options.tolerance = 1e-3;
     const test::FirstGenerators from = test::continuation(cells, test::x8());
     options.bisections = from.bisections;
-    const Cvt grid = spherical_cvt(from.start, options);
+    const Cvt grid = cvt(from.start, {}, options);
     CHECK(!from.icosahedral);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
@@ -132,7 +131,7 @@ TEST_CASE("continuation: uniform grids of any number of cells have 12 defects af
     CvtOptions options;
     const test::FirstGenerators from = test::continuation(cells, {});
     options.bisections = from.bisections;
-    const Cvt grid = spherical_cvt(from.start, options);
+    const Cvt grid = cvt(from.start, {}, options);
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() <= 40);
     REQUIRE(grid.mesh.points.cols() == cells);
@@ -168,14 +167,14 @@ TEST_CASE(
       CAPTURE(seed);
       const test::FirstGenerators from = test::multilevel(3000, {}, steep(ratio), seed);
       CHECK(from.start.cols() >= 160);
-      CHECK(spherical_delaunay(from.start).closed());
+      CHECK(delaunay(from.start).closed());
       CvtOptions options;
       options.density = steep(ratio);
       options.bisections = from.bisections;
       options.insertion_rounds = 1;
       options.cells = 3000;
       options.tolerance = 1e-2;
-      const Cvt grid = spherical_cvt(from.start, options);
+      const Cvt grid = cvt(from.start, {}, options);
       CHECK(grid.mesh.closed());
       CHECK(grid.mesh.points.cols() == 3000);
     }
@@ -186,78 +185,75 @@ TEST_CASE(
 
 namespace {
 
-PlanarDomain polygon(const std::vector<std::vector<Eigen::Vector2d>>& rings) {
-  PlanarDomain domain;
+Surface polygon(const std::vector<std::vector<Eigen::Vector2d>>& rings) {
+  Surface::Rings matrices;
   for (const auto& corners : rings) {
     Points2 ring(2, static_cast<Eigen::Index>(corners.size()));
     for (std::size_t i = 0; i < corners.size(); ++i)
       ring.col(static_cast<Eigen::Index>(i)) = corners[i];
-    domain.rings.push_back(ring);
+    matrices.push_back(ring);
   }
-  return domain;
+  return Surface::plane().within(matrices);
 }
 
 /// An L with a hole, and a triangle beside it.
-PlanarDomain islands() {
+Surface islands() {
   return polygon({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}},
                   {{0.3, 0.4}, {0.7, 0.4}, {0.6, 2}},
                   {{2, 2}, {3, 2}, {2.5, 2.9}}});
 }
 
-void check_inside(const Points2& places, const PlanarDomain& domain) {
+void check_inside(const Points3& places, const Surface& domain) {
   for (const auto& place : places.colwise())
-    REQUIRE(contains(domain, place));
+    REQUIRE(domain.contains(place));
 }
 
 } // namespace
 
 TEST_CASE("hexagonal lattices: as near to n as the spacing allows, inside, at equal distances") {
-  for (const PlanarDomain& domain :
-       std::vector<PlanarDomain>{rectangle({-1, 2}, {0, 3}), rectangle({0, 0}, {0.1, 1}), islands(),
-                                 polygon({{{0, 0}, {1e8, 1e7}, {1.1e8, 3e7}}})})
+  for (const Surface& domain : {rectangle({-1, 2}, {0, 3}), rectangle({0, 0}, {0.1, 1}), islands(),
+                                polygon({{{0, 0}, {1e8, 1e7}, {1.1e8, 3e7}}})})
     for (const std::int64_t n : {100, 1000, 20000}) {
       CAPTURE(n);
-      const Points2 places = lattice_places(n, domain);
+      const Points3 places = hexagonal_lattice(n, domain);
       CHECK(std::abs(places.cols() - n) <= std::sqrt(static_cast<double>(n)));
       check_inside(places, domain);
     }
   // Whole rows and columns fill a rectangle evenly.
   const double rise = std::sqrt(3.0) / 2;
-  const Points2 even = lattice_places(60, rectangle({0, 0}, {10, 6 * rise}));
+  const Points3 even = hexagonal_lattice(60, rectangle({0, 0}, {10, 6 * rise}));
   REQUIRE(even.cols() == 60);
-  CHECK((even.col(0) - Eigen::Vector2d(0.25, rise / 2)).norm() < 1e-12);
-  CHECK((even.col(59) - Eigen::Vector2d(9.75, 5.5 * rise)).norm() < 1e-12);
-  CHECK(lattice_places(1, rectangle({0, 0}, {1, 1})).cols() == 1);
+  CHECK((even.col(0) - Eigen::Vector3d(0.25, rise / 2, 0)).norm() < 1e-12);
+  CHECK((even.col(59) - Eigen::Vector3d(9.75, 5.5 * rise, 0)).norm() < 1e-12);
+  CHECK(hexagonal_lattice(1, rectangle({0, 0}, {1, 1})).cols() == 1);
 }
 
 TEST_CASE("hexagonal lattices of periodic boxes: periodic_hexagons where these fit") {
   for (const auto& [columns, rows, spacing] :
        {std::tuple{3, 4, 1.0}, {10, 12, 1.0}, {8, 6, 0.1}, {100, 116, 30000.0}, {7, 40, 1.0 / 3}}) {
     CAPTURE(columns);
-    const PlanarMesh mesh = periodic_hexagons(columns, rows, spacing);
-    const Points2 places = lattice_places(columns * rows, periodic_box(mesh.period));
+    const Mesh mesh = hexagonal_box(columns, rows, spacing);
+    const Points3 places = hexagonal_lattice(columns * rows, mesh.surface);
     REQUIRE(places.cols() == mesh.points.cols());
-    CHECK((places - mesh.points).cwiseAbs().maxCoeff() <= 1e-15 * mesh.period.maxCoeff());
+    CHECK((places - mesh.points).cwiseAbs().maxCoeff() <= 1e-15 * mesh.surface.period().maxCoeff());
     if (spacing == 1)
       CHECK(places == mesh.points);
   }
-  for (const Eigen::Vector2d& period :
-       {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 1), Eigen::Vector2d(1e9, 3e9)})
+  for (const Surface& box :
+       {Surface::periodic({1, 1}), Surface::periodic({2, 1}), Surface::periodic({1e9, 3e9})})
     for (const std::int64_t n : {12, 100, 1000, 9973}) {
-      const Points2 places = lattice_places(n, periodic_box(period));
-      check_inside(places, periodic_box(period));
+      const Points3 places = hexagonal_lattice(n, box);
+      check_inside(places, box);
       CHECK(std::abs(places.cols() - n) <= std::max<double>(12, 0.05 * static_cast<double>(n)));
-      if (n >= 100) {
-        const PlanarMesh mesh = periodic_delaunay(places, period);
-        CHECK(mesh.triangles.cols() == 2 * places.cols());
-      }
+      if (n >= 100)
+        CHECK(delaunay(places, box).triangles.cols() == 2 * places.cols());
     }
 }
 
 TEST_CASE("bisection in the plane: midpoints inside the domain, in a box all of them") {
-  const PlanarDomain domain = islands();
-  const PlanarMesh mesh = planar_delaunay(random_places(300, domain, 3));
-  const Points2 finer = bisect(in_domain(domain, mesh)).topRows<2>();
+  const Surface domain = islands();
+  const Mesh mesh = delaunay(random_points(300, domain, {}, 3), domain);
+  const Points3 finer = bisect(mesh);
   CHECK(finer.leftCols(300) == mesh.points);
   CHECK(finer.cols() > 900);
   CHECK(finer.cols() < 300 + 3 * 300);
@@ -266,41 +262,41 @@ TEST_CASE("bisection in the plane: midpoints inside the domain, in a box all of 
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       if (mesh.neighbours(i, t) < t || mesh.neighbours(i, t) < 0)
-        inside += contains(domain, (mesh.points.col(mesh.triangles((i + 1) % 3, t)) +
-                                    mesh.points.col(mesh.triangles((i + 2) % 3, t))) /
-                                       2);
+        inside += domain.contains((mesh.points.col(mesh.triangles((i + 1) % 3, t)) +
+                                   mesh.points.col(mesh.triangles((i + 2) % 3, t))) /
+                                  2);
   CHECK(finer.cols() == 300 + inside);
 
-  const PlanarMesh hexagons = periodic_hexagons(6, 8, 1);
-  const Points2 fine = bisect(hexagons).topRows<2>();
+  const Mesh hexagons = hexagonal_box(6, 8, 1);
+  const Points3 fine = bisect(hexagons);
   REQUIRE(fine.cols() == 4 * 48);
-  check_inside(fine, periodic_box(hexagons.period));
+  check_inside(fine, hexagons.surface);
   // They are hexagons of half the spacing.
-  const PlanarMesh half = periodic_delaunay(fine, hexagons.period);
+  const Mesh half = delaunay(fine, hexagons.surface);
   for (Eigen::Index t = 0; t < half.triangles.cols(); ++t) {
-    Eigen::Vector2d way =
+    Eigen::Vector3d way =
         half.points.col(half.triangles(1, t)) - half.points.col(half.triangles(0, t));
     for (int i = 0; i < 2; ++i)
-      way[i] = std::remainder(way[i], half.period[i]);
+      way[i] = std::remainder(way[i], half.surface.period()[i]);
     CHECK(way.norm() == doctest::Approx(0.5).epsilon(1e-12));
   }
 }
 
 TEST_CASE("starts in the plane refuse what they cannot make in one line") {
-  const PlanarDomain square = rectangle({0, 0}, {1, 1}), box = periodic_box({1, 1});
+  const Surface square = rectangle({0, 0}, {1, 1}), box = Surface::periodic({1, 1});
   for (const std::int64_t n : {std::int64_t{0}, std::int64_t{-5}, (std::int64_t{1} << 30) + 1}) {
     CHECK(std::string(error_of([&] { hexagonal_lattice(n, square); }).what())
               .find("number of points") != std::string::npos);
-    CHECK(std::string(error_of([&] { random_places(n, box); }).what()).find("number of points") !=
+    CHECK(std::string(error_of([&] { random_points(n, box); }).what()).find("number of points") !=
           std::string::npos);
   }
-  CHECK(std::string(error_of([&] { lattice_places(11, box); }).what()).find("from 12") !=
+  CHECK(std::string(error_of([&] { hexagonal_lattice(11, box); }).what()).find("from 12") !=
         std::string::npos);
-  const PlanarDomain nothing;
-  CHECK(code_of([&] { random_places(10, nothing); }) == ErrorCode::invalid_argument);
+  const Surface nothing = Surface::plane();
+  CHECK(code_of([&] { random_points(10, nothing); }) == ErrorCode::invalid_argument);
   CHECK(code_of([&] { hexagonal_lattice(100, nothing); }) == ErrorCode::invalid_argument);
-  const PlanarMesh hexagons = periodic_hexagons(6, 8, 1);
-  PlanarMesh wrong = hexagons;
+  const Mesh hexagons = hexagonal_box(6, 8, 1);
+  Mesh wrong = hexagons;
   wrong.triangles.setConstant(48);
   CHECK(std::string(error_of([&] { bisect(wrong); }).what()).find("outside the mesh") !=
         std::string::npos);

@@ -3,7 +3,6 @@
 #include "integrals/moments.h"
 
 #include "base/points.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -32,12 +31,12 @@ struct Case {
 /// Random sets have many obtuse triangles, and the smallest sets have circumcaps near a hemisphere.
 std::vector<Case> cases() {
   std::vector<Case> out;
-  out.push_back({"icosahedron", spherical_delaunay(bisected_icosahedron(0))});
-  out.push_back({"642 bisected", spherical_delaunay(bisected_icosahedron(3))});
-  out.push_back({"lat-lon", spherical_delaunay(lat_lon_sphere(10, 20, true))});
-  out.push_back({"random 30", spherical_delaunay(random_sphere(30, 5))});
-  out.push_back({"random 3000", spherical_delaunay(random_sphere(3000, 5))});
-  out.push_back({"spiral 10000", spherical_delaunay(spiral_sphere(10000))});
+  out.push_back({"icosahedron", delaunay(bisected_icosahedron(0))});
+  out.push_back({"642 bisected", delaunay(bisected_icosahedron(3))});
+  out.push_back({"lat-lon", delaunay(lat_lon_sphere(10, 20, true))});
+  out.push_back({"random 30", delaunay(random_sphere(30, 5))});
+  out.push_back({"random 3000", delaunay(random_sphere(3000, 5))});
+  out.push_back({"spiral 10000", delaunay(spiral_sphere(10000))});
   return out;
 }
 
@@ -90,7 +89,7 @@ Mesh half_disturbed() {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (points(2, i) < 0)
       points.col(i) = (points.col(i) + 0.003 * moves.col(i)).normalized();
-  return renumbered(spherical_delaunay(points), Numbering::curve);
+  return renumbered(delaunay(points), Numbering::curve);
 }
 
 /// What integrate() gives for a patch of the whole mesh.
@@ -151,7 +150,7 @@ TEST_CASE("uniform moments of clusters of any size: cells are positive and add u
     for (const bool flat : {false, true}) {
       CAPTURE(size);
       CAPTURE(flat);
-      const Mesh mesh = spherical_delaunay(clusters(size, flat)); // equal points are merged
+      const Mesh mesh = delaunay(clusters(size, flat)); // equal points are merged
       const Moments moments = mesh_moments(mesh, Density{});
       CHECK(std::abs(sum(moments.mass) - 4 * pi) < 1e-10);
       CHECK(norm(sum(moments.first)) < 1e-10);
@@ -169,7 +168,7 @@ TEST_CASE("uniform moments beside antipodal sites and hemispherical circumcaps")
     points << 1, -1, 0, 0, 0.6, 0.6, //
         0, bend, 1, -1, 0.8, 0,      //
         0, bend, -bend, bend, 0, -0.8;
-    const Mesh mesh = spherical_delaunay(points.colwise().normalized());
+    const Mesh mesh = delaunay(points.colwise().normalized());
     REQUIRE(mesh.closed());
     const Moments moments = mesh_moments(mesh, Density{});
     // Near a hemisphere, the sine of an arc gives the arc to half of its digits.
@@ -196,7 +195,7 @@ TEST_CASE("the closed form agrees with quadrature, obtuse triangles included [sl
 }
 
 TEST_CASE("every rule converges at its order under division") {
-  const Mesh mesh = spherical_delaunay(spiral_sphere(150));
+  const Mesh mesh = delaunay(spiral_sphere(150));
   // Smooth everywhere; a bump is not: its distance to the centre has a kink there.
   Density density;
   density.kind = Density::Kind::callable;
@@ -225,7 +224,7 @@ TEST_CASE("moments of a density: mass against its integral in closed form") {
     integral += (s == 0 || s == steps ? 1 : s % 2 ? 4 : 2) * rho * std::sin(d);
   }
   integral *= 2 * pi * pi / steps / 3;
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(5));
+  const Mesh mesh = delaunay(bisected_icosahedron(5));
   const Density density = tanh_bump({0, 0, 2}, beta, alpha, gamma);
   const Moments moments = mesh_moments(mesh, density, 6);
   CHECK(std::abs(sum(moments.mass) - integral) < 1e-9);
@@ -238,7 +237,7 @@ TEST_CASE("a density at sites: exact where it is linear, in the plane") {
     for (int j = 0; j < 20; ++j)
       sites.col(20 * i + j) << j + 0.5 * (i % 2) + 0.03 * std::sin(7.0 * i + 3 * j),
           std::sqrt(0.75) * i + 0.03 * std::cos(5.0 * i - 2 * j);
-  const Mesh mesh = planar_delaunay(sites);
+  const Mesh mesh = delaunay(sites, Surface::plane());
   std::vector<Eigen::Index> inner_columns; // those along the hull are flat
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if (((mesh.triangles.col(t).array() / 20 - 10).abs() < 9).all() &&
@@ -277,7 +276,7 @@ TEST_CASE("a density at sites: second order on the sphere") {
   };
   double before = 0;
   for (const int level : {3, 4, 5}) {
-    const Mesh mesh = spherical_delaunay(bisected_icosahedron(level));
+    const Mesh mesh = delaunay(bisected_icosahedron(level));
     const Moments at_sites = mesh_moments(mesh, density, rule_at_sites),
                   exact = mesh_moments(mesh, density, 6, 4);
     double most = 0; // of centroids, in units of the spacing
@@ -298,7 +297,7 @@ TEST_CASE("a density at sites: second order on the sphere") {
 
 TEST_CASE("moments without masses, which take less work, have the same bits") {
   std::vector<Case> all = cases();
-  all.push_back({"163842 bisected", spherical_delaunay(bisected_icosahedron(7))});
+  all.push_back({"163842 bisected", delaunay(bisected_icosahedron(7))});
   all.push_back({"half disturbed", half_disturbed()});
   for (const Case& c : all)
     for (const Density& density : {Density{}, tanh_bump({1, 2, 3}, 0.6, 0.5, 0.1)}) {
@@ -317,7 +316,7 @@ TEST_CASE("moments without masses, which take less work, have the same bits") {
 }
 
 TEST_CASE("moments are the same bits for any number of threads") {
-  const Mesh mesh = spherical_delaunay(random_sphere(40000, 5));
+  const Mesh mesh = delaunay(random_sphere(40000, 5));
   const Density density = tanh_bump({1, 2, 3}, 0.6, 0.5, 0.1);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
