@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "support/constants.h"
 #include "support/directions.h"
-#include "support/planes.h"
 #include "support/starts.h"
 
 #include <calotte/check.h>
@@ -28,16 +27,17 @@ using namespace calotte::test;
 namespace {
 
 /// A polygon with a reflex corner, and a hole.
-Region holed() {
-  return {{directions({{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 15}, {0, 25}}),
-           directions({{28, 8}, {28, 16}, {35, 16}, {35, 8}})}};
+Surface holed() {
+  return Surface::sphere().within(
+      {directions({{0, 0}, {40, 0}, {40, 30}, {25, 30}, {20, 15}, {0, 25}}),
+       directions({{28, 8}, {28, 16}, {35, 16}, {35, 8}})});
 }
 
 Density bump_at_the_hole() { return tanh_bump(direction(30, 5), 8 * degree, 5 * degree, 1.0 / 81); }
 
 struct Case {
   std::string name;
-  Region region;
+  Surface region;
   Density density;
 };
 
@@ -49,9 +49,9 @@ std::vector<Case> cases() {
 }
 
 /// The arcs' distance from a place, as a sine.
-double distance(const Region& region, const Eigen::Vector3d& x) {
+double distance(const Surface& region, const Eigen::Vector3d& x) {
   double least = 4;
-  for (const Points3& ring : region.rings)
+  for (const DoubleMatrix& ring : region.rings())
     for (Eigen::Index k = 0; k < ring.cols(); ++k) {
       const Eigen::Vector3d a = ring.col(k).normalized(),
                             b = ring.col(k + 1 == ring.cols() ? 0 : k + 1).normalized(),
@@ -133,17 +133,16 @@ TEST_CASE("boundary: its generators lie on it, at the demanded distances, and ke
       CAPTURE(here.name);
       CAPTURE(cells);
       const Points3 points = boundary_points(here.region, cells, here.density);
-      const auto inside = containing(here.region);
       for (Eigen::Index i = 0; i < points.cols(); ++i) {
-        CHECK(inside(points.col(i)));
+        CHECK(here.region.contains(points.col(i)));
         CHECK(distance(here.region, points.col(i)) <= 1e-15);
       }
-      if (here.region.rings.size() == 2) // few enough corners, and sharp
-        for (const Points3& ring : here.region.rings)
+      if (here.region.rings().size() == 2) // few enough corners, and sharp
+        for (const DoubleMatrix& ring : here.region.rings())
           for (Eigen::Index k = 0; k < ring.cols(); ++k)
             CHECK((points.colwise() - ring.col(k)).colwise().norm().minCoeff() < 1e-15);
     }
-  CHECK(boundary_points(Region{}, 100).cols() == 0);
+  CHECK(boundary_points({}, 100).cols() == 0);
 }
 
 // Slow: a run of 1 500 cells for each region.
@@ -152,16 +151,15 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
     CAPTURE(here.name);
     const std::int64_t cells = 1500;
     const BoundaryRun run = run_of(here, cells);
-    const Cvt grid = spherical_cvt(run.start, here.region, run.options);
+    const Cvt grid = cvt(run.start, here.region, run.options);
     const Mesh& mesh = grid.mesh;
     const auto f = static_cast<std::int32_t>(run.options.fixed);
     CHECK(grid.report.converged);
     CHECK(mesh.points.cols() == cells);
     CHECK(mesh.points.leftCols(f) == run.start.leftCols(f));
     CHECK(check_surface(mesh).failure == "");
-    const auto inside = containing(here.region);
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
-      CHECK(inside(mesh.points.col(i)));
+      CHECK(here.region.contains(mesh.points.col(i)));
     // Each edge along the boundary joins a generator to the next one of its ring; rings close.
     const std::set<DirectedEdge> outer = outer_edges(mesh);
     CHECK(std::ssize(outer) == f);
@@ -176,14 +174,14 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
       shortest = std::min(shortest, ratio);
       longest = std::max(longest, ratio);
     }
-    CHECK(returns == here.region.rings.size());
+    CHECK(returns == here.region.rings().size());
     CHECK(shortest > 0.6); // 5/8 and 5/4, and rounding by the mean of the widths
     CHECK(longest < 1.3);
     // Every generator is in the mesh, whose Euler characteristic is that of the region.
     std::set<std::int32_t> used(mesh.triangles.data(),
                                 mesh.triangles.data() + mesh.triangles.size());
     CHECK(std::ssize(used) == cells);
-    CHECK(mesh.triangles.cols() == 2 * cells - f - 2 + 2 * (std::ssize(here.region.rings) - 1));
+    CHECK(mesh.triangles.cols() == 2 * cells - f - 2 + 2 * (std::ssize(here.region.rings()) - 1));
     CHECK(least_angle(mesh) > 35);
   }
 }
@@ -196,7 +194,7 @@ TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options = run.options;
     options.partition.regions = regions;
-    return spherical_cvt(run.start, here.region, options).mesh;
+    return cvt(run.start, here.region, options).mesh;
   };
   const Mesh one = with(1, 1), many = with(4, 12);
   CHECK(one.points == many.points);
@@ -237,7 +235,7 @@ TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow
     for (const DoubleMatrix& ring : recipe.surface.rings())
       for (const auto& corner : ring.colwise())
         CHECK((mesh.points.topRows<2>().colwise() - corner).colwise().norm().minCoeff() == 0);
-    CHECK(area_of_triangles(mesh) == doctest::Approx(recipe.surface.area()).epsilon(1e-12));
+    CHECK(check_surface(mesh).area == doctest::Approx(recipe.surface.area()).epsilon(1e-12));
     CHECK(std::ssize(outer_edges(mesh)) == b);
     CHECK(mesh.triangles.cols() == 2 * 1500 - b); // a ring: Euler's characteristic is 0
     CHECK(least_angle(mesh) > 33);

@@ -9,7 +9,6 @@
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/descent.h"
-#include "support/planes.h"
 #include "support/sanitizer.h"
 
 #include <calotte/check.h>
@@ -48,7 +47,7 @@ void check_random_start(const Density& density, Method method) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
     options.partition.overlap = overlap;
-    return spherical_cvt(random_sphere(1700, 4), options);
+    return cvt(random_sphere(1700, 4), {}, options);
   };
   const Cvt one = with(1, 1, Overlap::halo);
   CHECK(!one.report.converged);
@@ -80,7 +79,7 @@ TEST_CASE("every method takes uniform bisected grids to the known optimum withou
     for (const Method method : methods) {
       CAPTURE(static_cast<int>(method));
       options.method = method;
-      const Cvt grid = spherical_cvt(bisected_icosahedron(level), options);
+      const Cvt grid = cvt(bisected_icosahedron(level), {}, options);
       const double energy =
           grid.report.iterations.back().energy * static_cast<double>(grid.mesh.points.cols());
       CHECK(grid.report.converged);
@@ -115,7 +114,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     options.bisections = 1;
     options.tolerance = 1e-3; // the final rule takes over
     std::vector<CvtState> states;
-    const Cvt whole = spherical_cvt(random_sphere(300, 4), options, [&](const CvtProgress& now) {
+    const Cvt whole = cvt(random_sphere(300, 4), {}, options, [&](const CvtProgress& now) {
       states.push_back(now.state);
       return false;
     });
@@ -123,7 +122,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     if (method != Method::lloyd) // smaller than before
       CHECK(whole.report.iterations.back().rule == options.final_rule);
     for (std::size_t k = 0; k < states.size(); k += test::sanitized ? 27 : 9) {
-      const Cvt rest = spherical_cvt(states[k], options);
+      const Cvt rest = cvt(states[k], {}, options);
       CAPTURE(k);
       CHECK((rest.mesh.points == whole.mesh.points));
       CHECK((rest.mesh.triangles == whole.mesh.triangles));
@@ -146,22 +145,22 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
   CvtOptions options;
   options.method = Method::lloyd;
   options.max_iterations = 30;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 9742159583379483476U);
+  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 9742159583379483476U);
   options.density = x8();
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 4403101448020715688U);
+  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 4403101448020715688U);
   options.method = Method::lbfgs_laplacian;
-  CHECK(hash(spherical_cvt(random_sphere(1500, 6), options).mesh.points) == 11222898154665023123U);
+  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 11222898154665023123U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
   CvtOptions options;
   options.max_iterations = 1;
   CvtState good;
-  spherical_cvt(random_sphere(50), options, [&](const CvtProgress& now) {
+  cvt(random_sphere(50), {}, options, [&](const CvtProgress& now) {
     good = now.state;
     return true;
   });
-  CHECK_NOTHROW(spherical_cvt(good, options));
+  CHECK_NOTHROW(cvt(good, {}, options));
   std::vector<CvtState> bad(5, good);
   State::of(bad[0]).id[3] = State::of(bad[0]).id[4];
   State::of(bad[1]).id.pop_back();
@@ -169,12 +168,12 @@ TEST_CASE("a state that no run has left is refused") {
   State::of(bad[3]).points *= 2;
   State::of(bad[4]).site_of_input[0] = 50;
   for (const CvtState& state : bad)
-    CHECK_THROWS_AS(spherical_cvt(state, options), Error);
+    CHECK_THROWS_AS(cvt(state, {}, options), Error);
   CvtState few;
   State::of(few).points = good.points().leftCols(11);
   State::of(few).id = base_detail::themselves(11);
   CHECK_THROWS_WITH_AS(
-      spherical_cvt(few, options),
+      cvt(few, {}, options),
       "the state has 11 generators, and a run on the surface has at least 12; give "
       "the surface of the run that left it",
       Error);
@@ -187,7 +186,7 @@ TEST_CASE("each norm stops the run at its tolerance") {
   for (const Norm norm : {Norm::l2, Norm::linf, Norm::l2_scaled, Norm::linf_scaled}) {
     options.norm = norm;
     options.tolerance = 1e-5;
-    const Cvt grid = spherical_cvt(bisected_icosahedron(3), options);
+    const Cvt grid = cvt(bisected_icosahedron(3), {}, options);
     CHECK(grid.report.converged);
     const auto value = [&](const CvtIteration& it) {
       return norm == Norm::l2          ? it.l2
@@ -213,16 +212,16 @@ TEST_CASE("the gradient is the energy's slope") {
   options.norm = Norm::none;
   options.max_iterations = 1;
   const auto energy = [&](const Points3& points) {
-    return spherical_cvt(points, options).report.iterations.back().energy;
+    return cvt(points, {}, options).report.iterations.back().energy;
   };
-  const Moments moments = mesh_moments(spherical_delaunay(x), options.density, 6, 4);
+  const Moments moments = mesh_moments(delaunay(x), options.density, 6, 4);
   Points3 gradient(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Vec3 first = moments.first[i];
     const Eigen::Vector3d m(first.x, first.y, first.z);
     gradient.col(i) = -2 * (m - m.dot(x.col(i)) * x.col(i));
   }
-  CHECK(spherical_cvt(x, options).report.iterations.back().gradient ==
+  CHECK(cvt(x, {}, options).report.iterations.back().gradient ==
         doctest::Approx(gradient.norm()).epsilon(1e-12));
   const double step = 1e-4;
   const Points3 there = (x - step * gradient).colwise().normalized();
@@ -238,7 +237,7 @@ TEST_CASE("the report counts the regions' sites and their seconds") {
   const Points3 start = bisected_icosahedron(5);
   for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
     options.partition.overlap = overlap;
-    const CvtReport report = spherical_cvt(start, options).report;
+    const CvtReport report = cvt(start, {}, options).report;
     std::int64_t sites = 0;
     for (const CvtRegion& region : report.regions) {
       sites += region.sites;
@@ -255,7 +254,7 @@ TEST_CASE("generators stay in the order of the start") {
   const Points3 start = bisected_icosahedron(3);
   CvtOptions options;
   options.max_iterations = 20;
-  const Cvt grid = spherical_cvt(start, options);
+  const Cvt grid = cvt(start, {}, options);
   CHECK((grid.mesh.points - start).colwise().norm().maxCoeff() < 0.05);
 }
 
@@ -265,7 +264,7 @@ TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [sl
   options.density = x8();
   options.max_iterations = 1500;
   options.tolerance = 1e-5;
-  const Cvt grid = spherical_cvt(bisected_icosahedron(4), options);
+  const Cvt grid = cvt(bisected_icosahedron(4), {}, options);
   check_descent(grid.report, 2e-13);
   double shortest = 4, longest = 0;
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)
@@ -295,7 +294,7 @@ TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]")
   const auto fixed_point = [&](int rule, int divisions) {
     options.rule = options.final_rule = rule;
     options.divisions = divisions;
-    const Cvt grid = spherical_cvt(bisected_icosahedron(1), options);
+    const Cvt grid = cvt(bisected_icosahedron(1), {}, options);
     CHECK(grid.report.converged);
     return grid.mesh.points;
   };
@@ -316,7 +315,7 @@ TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [sl
   options.density = x8();
   options.tolerance = 1e-3;
   options.bisections = 2;
-  const Cvt grid = spherical_cvt(bisected_icosahedron(3), options);
+  const Cvt grid = cvt(bisected_icosahedron(3), {}, options);
   const double h = std::sqrt(4 * pi / 10242);
   CHECK(grid.mesh.points.cols() == 10242);
   CHECK(grid.report.converged);
@@ -335,19 +334,19 @@ TEST_CASE("directions that differ by less than rounding are one generator") {
   Points3 start = random_sphere(40, 3);
   start.col(20) = Eigen::Vector3d(5e-324, 1, 0);
   start.col(30) = Eigen::Vector3d(5e-324, 1 - 0x1p-53, 0); // exactly, another direction
-  const Cvt result = spherical_cvt(start, {.max_iterations = 3});
+  const Cvt result = cvt(start, {}, {.max_iterations = 3});
   CHECK(result.mesh.points.cols() == 39);
   CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
   CvtOptions refusing;
   refusing.duplicates = Duplicates::refuse;
-  CHECK_THROWS_AS(spherical_cvt(start, refusing), const Error&);
+  CHECK_THROWS_AS(cvt(start, {}, refusing), const Error&);
 }
 
 TEST_CASE("directions that are equal after normalisation are one generator, in whatever bits") {
   Points3 start = random_sphere(40, 3);
   start.col(20) = Eigen::Vector3d(0, 1, 0);
   start.col(30) = Eigen::Vector3d(1e-320, 3e150, 0); // normalised, (0, 1 - 2^-53, 0)
-  const Cvt result = spherical_cvt(start, {.max_iterations = 3});
+  const Cvt result = cvt(start, {}, {.max_iterations = 3});
   CHECK(result.mesh.points.cols() == 39);
   CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
 }
@@ -379,17 +378,17 @@ TEST_CASE("directions that are equal only when they are normalised twice are two
       points(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = given[i][row];
   CvtOptions options;
   options.max_iterations = 1;
-  const Cvt result = spherical_cvt(points, options); // once it did not end
+  const Cvt result = cvt(points, {}, options); // once it did not end
   CHECK(check(result.mesh).passed());
   options.partition.regions = 5; // some cells are smaller than rounding: slivers of other regions
-  CHECK(spherical_cvt(points, options).mesh.points == result.mesh.points);
+  CHECK(cvt(points, {}, options).mesh.points == result.mesh.points);
 }
 
 TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
   const auto code = [&](const Points3& points, const CvtOptions& options) {
     try {
-      spherical_cvt(points, options);
+      cvt(points, {}, options);
     } catch (const Error& e) {
       return e.code();
     }

@@ -9,7 +9,6 @@
 #include "support/files.h"
 #include "support/joined.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/starts.h"
 
 #include <doctest/doctest.h>
@@ -38,13 +37,6 @@ Points3 stations(std::int64_t cells) {
   return points;
 }
 
-/// With z = 0.
-Points3 spatial(const Points2& places) {
-  Points3 points = Points3::Zero(3, places.cols());
-  points.topRows<2>() = places;
-  return points;
-}
-
 CvtOptions fixing(std::int64_t fixed) {
   CvtOptions options;
   options.fixed = fixed;
@@ -52,7 +44,7 @@ CvtOptions fixing(std::int64_t fixed) {
 }
 
 /// Lloyd's map of generators, none of which is held.
-Points3 centroids(const Points3& points, const Region& region, CvtOptions options) {
+Points3 centroids(const Points3& points, const Surface& region, CvtOptions options) {
   options.fixed = options.insertion_rounds = 0;
   options.cells = options.bisections = 0;
   options.well_centred = false;
@@ -60,17 +52,17 @@ Points3 centroids(const Points3& points, const Region& region, CvtOptions option
   options.norm = Norm::none;
   options.max_iterations = 1;
   options.rule = options.final_rule;
-  return spherical_cvt(points, region, options).mesh.points;
+  return cvt(points, region, options).mesh.points;
 }
 
 /// The fixed generators keep their bits; the others are centroids within the tolerance of the run.
-void check_fixed_and_centroids(const Cvt& grid, const Points3& fixed, const Region& region,
+void check_fixed_and_centroids(const Cvt& grid, const Points3& fixed, const Surface& region,
                                const CvtOptions& options) {
   const Eigen::Index f = fixed.cols(), n = grid.mesh.points.cols();
   CHECK(grid.report.converged);
   CHECK(grid.mesh.points.leftCols(f) == fixed);
   const Points3 moved = centroids(grid.mesh.points, region, options);
-  const double h = std::sqrt(area(region) / static_cast<double>(n));
+  const double h = std::sqrt(region.area() / static_cast<double>(n));
   const double rms =
       std::sqrt((moved - grid.mesh.points).rightCols(n - f).squaredNorm() / static_cast<double>(n));
   CHECK(rms <= 1.5 * options.tolerance * h); // the last step goes to the centroids
@@ -86,9 +78,9 @@ CvtOptions graded_with_fixed(std::int64_t cells, std::int64_t fixed, int bisecti
   return options;
 }
 
-std::string message_of(const Points3& start, const Region& region, const CvtOptions& options) {
+std::string message_of(const Points3& start, const Surface& region, const CvtOptions& options) {
   try {
-    spherical_cvt(start, region, options);
+    cvt(start, region, options);
     return "";
   } catch (const Error& error) {
     return error.what() + (" @" + std::to_string(error.index()));
@@ -99,17 +91,17 @@ std::string message_of(const Points3& start, const Region& region, const CvtOpti
 
 TEST_CASE("fixed generators keep their bits, and all others are centroids") {
   const Points3 fixed = stations(400);
-  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
+  for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
     const Points3 start = joined(fixed, random_points(388, region));
     for (const Method method : {Method::automatic, Method::lloyd}) {
       CvtOptions options = fixing(12);
       options.method = method;
       options.tolerance = 1e-4;
       options.max_iterations = 20000;
-      const Cvt grid = spherical_cvt(start, region, options);
+      const Cvt grid = cvt(start, region, options);
       CHECK(grid.mesh.points.cols() == 400);
       check_fixed_and_centroids(grid, fixed, region, options);
-      if (region.whole())
+      if (region.is_whole_sphere())
         CHECK(check(grid.mesh).failure == "");
     }
   }
@@ -117,16 +109,16 @@ TEST_CASE("fixed generators keep their bits, and all others are centroids") {
 
 TEST_CASE("fixed generators of any norm are normalised once") {
   Points3 fixed = 7.3 * stations(400);
-  const Cvt once = spherical_cvt(joined(fixed, random_points(100, Region{})), fixing(12));
+  const Cvt once = cvt(joined(fixed, random_sphere(100)), {}, fixing(12));
   CHECK((once.mesh.points.leftCols(12) - fixed / 7.3).cwiseAbs().maxCoeff() < 1e-15);
   fixed = once.mesh.points.leftCols(12);
-  const Cvt again = spherical_cvt(once.mesh.points, fixing(12));
+  const Cvt again = cvt(once.mesh.points, {}, fixing(12));
   CHECK(again.mesh.points.leftCols(12) == fixed);
 }
 
 TEST_CASE("fixed generators only: nothing moves") {
   const Points3 all = random_sphere(50);
-  const Cvt grid = spherical_cvt(all, fixing(50));
+  const Cvt grid = cvt(all, {}, fixing(50));
   CHECK(grid.report.converged);
   CHECK(grid.mesh.points == all);
 }
@@ -135,18 +127,18 @@ TEST_CASE("fixed generators only: nothing moves") {
 TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") {
   const std::int64_t cells = 3000;
   const Points3 fixed = stations(cells);
-  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
+  for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
     CvtOptions options = graded_with_fixed(cells, 12, 0);
     const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
     CHECK(from.bisections > 0);
     options.bisections = from.bisections;
     const Points3 start = joined(fixed, from.start);
-    const Cvt grid = spherical_cvt(start, region, options);
+    const Cvt grid = cvt(start, region, options);
     CHECK(grid.mesh.points.cols() == cells);
     check_fixed_and_centroids(grid, fixed, region, options);
     options.well_centred = true;
     options.tolerance = 3e-4;
-    const Cvt finished = spherical_cvt(start, region, options);
+    const Cvt finished = cvt(start, region, options);
     CHECK(finished.mesh.points.leftCols(12) == fixed);
     CHECK(finished.mesh.points.cols() == cells);
   }
@@ -157,7 +149,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
   const std::int64_t cells = 1200;
   const Points3 fixed = stations(cells);
   const Scratch scratch;
-  for (const Region& region : {Region(), Region(circle(centre, 35 * degree))}) {
+  for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
     CvtOptions options = graded_with_fixed(cells, 12, 0);
     options.well_centred = true;
     options.tolerance = 3e-4;
@@ -168,36 +160,34 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
       CvtOptions here = options;
       here.partition.regions = regions;
-      return spherical_cvt(start, region, here);
+      return cvt(start, region, here);
     };
     const Cvt one = with(1, 1);
     CHECK(identical(one.mesh, with(2, 12).mesh));
     CHECK(identical(one.mesh, with(4, 42).mesh));
     std::vector<CvtState> states;
-    spherical_cvt(start, region, options, [&](const CvtProgress& now) {
+    cvt(start, region, options, [&](const CvtProgress& now) {
       states.push_back(now.state);
       return false;
     });
     for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
       write_checkpoint(scratch / "run.ckpt", states[k], "same");
       const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
-      CHECK(identical(spherical_cvt(state, region, options).mesh, one.mesh));
+      CHECK(identical(cvt(state, region, options).mesh, one.mesh));
     }
   }
 }
 
 TEST_CASE("fixed generators in the plane") {
-  for (const PlanarDomain& domain :
-       {PlanarDomain(rectangle({0, 0}, {4, 3})), periodic_box({4, 3})}) {
-    const Points2 fixed = random_places(9, domain, 3);
-    const test::FirstGenerators from = test::multilevel(900, domain, {}, 1, spatial(fixed));
+  for (const Surface& domain : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})}) {
+    const Points3 fixed = random_points(9, domain, {}, 3);
+    const test::FirstGenerators from = test::multilevel(900, domain, {}, 1, fixed);
     CvtOptions options = fixing(9);
     options.insertion_rounds = 1;
     options.cells = 900;
     options.bisections = from.bisections;
     options.tolerance = 1e-4;
-    const PlanarCvt grid =
-        planar_cvt(joined(spatial(fixed), from.start).topRows<2>(), domain, options);
+    const Cvt grid = cvt(joined(fixed, from.start), domain, options);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == 900);
     CHECK(grid.mesh.points.leftCols(9) == fixed);
@@ -205,16 +195,16 @@ TEST_CASE("fixed generators in the plane") {
     once.method = Method::lloyd;
     once.norm = Norm::none;
     once.max_iterations = 1;
-    Points2 apart = planar_cvt(grid.mesh.points, domain, once).mesh.points - grid.mesh.points;
-    for (int k = 0; k < 2 && domain.periodic(); ++k)
+    Points3 apart = cvt(grid.mesh.points, domain, once).mesh.points - grid.mesh.points;
+    for (int k = 0; k < 2 && domain.is_box(); ++k)
       apart.row(k) = apart.row(k).unaryExpr(
-          [&](double d) { return d - domain.period[k] * std::round(d / domain.period[k]); });
+          [&](double d) { return d - domain.period()[k] * std::round(d / domain.period()[k]); });
     CHECK(apart.rightCols(891).norm() <= 1.5 * options.tolerance * std::sqrt(12.0));
   }
 }
 
 TEST_CASE("fixed generators: bad input is one clear line with the index") {
-  const Region region = circle(centre, 35 * degree);
+  const Surface region = circle(centre, 35 * degree);
   Points3 start = random_points(60, region);
   CHECK(message_of(start, region, fixing(61)) ==
         "fixed is 61; give 0 to 60, the number of generators of the start @-1");
@@ -224,7 +214,7 @@ TEST_CASE("fixed generators: bad input is one clear line with the index") {
   few.cells = 15;
   CHECK(message_of(start, region, few).find("fixed generator 15 is beyond the 15 cells") == 0);
   start.col(7) = 2 * start.col(3);
-  for (const Region& place : {region, Region{}})
+  for (const Surface& place : {region, Surface{}})
     CHECK(message_of(start, place, fixing(10)) ==
           "fixed generator 7 merges with fixed generator 3: give it once @7");
   CHECK(message_of(start, region, fixing(7)) == ""); // a free one merges with a fixed one
@@ -241,7 +231,7 @@ Density quarter_widths() { return tanh_bump(centre, 12 * degree, 3 * degree, 1.0
 
 /// The cells of a uniform grid that are not near the centre.
 Points3 kept_cells(std::int64_t cells) {
-  const Points3 grid = spherical_cvt(geodesic_sphere(cells)).mesh.points;
+  const Points3 grid = cvt(geodesic_sphere(cells), {}).mesh.points;
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < grid.cols(); ++i)
     if (grid.col(i).dot(centre) < std::cos(24 * degree))
@@ -291,7 +281,7 @@ TEST_CASE("fixed generators: free ones start where these leave the density unmet
 }
 
 TEST_CASE("fixed generators: all free ones find a place where no gap is left") {
-  const Points3 fixed = spherical_cvt(geodesic_sphere(642)).mesh.points;
+  const Points3 fixed = cvt(geodesic_sphere(642), {}).mesh.points;
   const test::FirstGenerators from = test::multilevel(700, {}, Density{}, 1, fixed);
   CHECK(from.start.cols() == 58);
   CHECK(nearest(from.start, fixed) > 0); // the farthest places, which are distinct from them
@@ -311,7 +301,7 @@ TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   options.tolerance = 1e-4;
   const test::FirstGenerators from = test::multilevel(options.cells, {}, options.density, 1, fixed);
   options.bisections = from.bisections;
-  const Cvt grid = spherical_cvt(joined(fixed, from.start), options);
+  const Cvt grid = cvt(joined(fixed, from.start), {}, options);
   CHECK(grid.report.converged);
   CHECK(grid.mesh.points.leftCols(fixed.cols()) == fixed);
   CHECK(check(grid.mesh).passed());
@@ -353,23 +343,21 @@ TEST_CASE("fixed generators: rounds end where a hole has room for fewer than it 
 }
 
 TEST_CASE("fixed generators in the plane: free ones start where these leave room") {
-  for (const PlanarDomain& domain :
-       {PlanarDomain(rectangle({0, 0}, {4, 3})), periodic_box({4, 3})}) {
+  for (const Surface& domain : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})}) {
     CvtOptions once;
     once.tolerance = 1e-3;
-    const Points2 grid = planar_cvt(random_places(600, domain), domain, once).mesh.points;
+    const Points3 grid = cvt(random_points(600, domain), domain, once).mesh.points;
     std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < grid.cols(); ++i)
       if (grid(0, i) < 3)
         kept.push_back(i);
-    const Points2 fixed = grid(Eigen::all, kept);
-    const test::FirstGenerators from = test::multilevel(600, domain, {}, 1, spatial(fixed));
+    const Points3 fixed = grid(Eigen::all, kept);
+    const test::FirstGenerators from = test::multilevel(600, domain, {}, 1, fixed);
     CHECK(from.start.cols() == 600 - fixed.cols());
     const double inside = (from.start.row(0).array() > 2.9).cast<double>().sum();
     CHECK(inside > 0.9 * static_cast<double>(from.start.cols()));
     // The gap is a quarter of the domain; the fixed cells at its edge lie half outside of it.
-    CHECK(
-        std::abs(static_cast<double>(grids_detail::cells_beside(spatial(fixed), 600, {}, domain)) -
-                 600) < 20);
+    CHECK(std::abs(static_cast<double>(grids_detail::cells_beside(fixed, 600, {}, domain)) - 600) <
+          20);
   }
 }

@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 
 #include "cvt/functional.h"
 #include "cvt/shape.h"
@@ -16,6 +15,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/quality.h>
+#include <calotte/voronoi.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ Points3 with_dislocations(std::int64_t n, const Density& density, std::uint64_t 
   CvtOptions options;
   options.density = density;
   options.tolerance = 1e-4;
-  return spherical_cvt(random_sphere(n, site_density(density), seed), options).mesh.points;
+  return cvt(random_sphere(n, site_density(density), seed), {}, options).mesh.points;
 }
 
 /// The same with few dislocations.
@@ -47,12 +47,12 @@ Points3 with_few_dislocations(std::int64_t n, const Density& density, std::uint6
   options.bisections = start.bisections;
   options.insertion_rounds = 1;
   options.cells = n;
-  return spherical_cvt(start.start, options).mesh.points;
+  return cvt(start.start, {}, options).mesh.points;
 }
 
 /// The number of Voronoi edges that are too short for their Delaunay edges, from flat triangles.
 std::int64_t short_edges(const Points3& points) {
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   const auto cotangent = [&](Eigen::Index t, int v) {
     const Eigen::Vector3d at = mesh.points.col(mesh.triangles(v, t));
     const Eigen::Vector3d a = mesh.points.col(mesh.triangles((v + 1) % 3, t)) - at,
@@ -73,7 +73,7 @@ std::int64_t short_edges(const Points3& points) {
 }
 
 double energy_of(const Points3& points, const Density& density) {
-  return quality(spherical_delaunay(points), density).energy;
+  return quality(delaunay(points), density).energy;
 }
 
 /// The points after a glide, and the number of its steps.
@@ -118,7 +118,7 @@ TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
   REQUIRE(after.mesh);
   REQUIRE(after.steps > 0);
   mesh_detail::make_canonical(after.mesh->triangles, after.mesh->neighbours);
-  const Mesh mesh = spherical_delaunay(after.points);
+  const Mesh mesh = delaunay(after.points);
   CHECK((after.mesh->triangles == mesh.triangles));
   CHECK((after.mesh->neighbours == mesh.neighbours));
 }
@@ -136,7 +136,7 @@ TEST_CASE("glide: fixed generators keep their bits") {
 TEST_CASE("glide: a mesh without short edges stays") {
   CvtOptions options;
   options.tolerance = 1e-6;
-  const Points3 points = spherical_cvt(bisected_icosahedron(4), options).mesh.points;
+  const Points3 points = cvt(bisected_icosahedron(4), {}, options).mesh.points;
   const Glided after = glided(points, options);
   CHECK(after.steps == 0);
   CHECK((after.points == points));
@@ -158,28 +158,25 @@ TEST_CASE("glide: threads and regions have no effect") {
 }
 
 TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
-  PlanarDomain box;
-  box.period = {2, 1};
-  for (const PlanarDomain& domain : {PlanarDomain(rectangle({0, 0}, {2, 1})), box}) {
-    CAPTURE(domain.periodic());
+  for (const Surface& domain : {rectangle({0, 0}, {2, 1}), Surface::periodic({2, 1})}) {
+    CAPTURE(domain.is_box());
     CvtOptions options;
     options.tolerance = 1e-4;
-    const PlanarCvt pure = planar_cvt(random_places(900, domain, 5), domain, options);
+    const Cvt pure = cvt(random_points(900, domain, {}, 5), domain, options);
     options.well_centred = true;
-    const PlanarCvt grid = planar_cvt(pure.mesh.points, domain, options);
+    const Cvt grid = cvt(pure.mesh.points, domain, options);
     CHECK(check(grid.mesh).failure == "");
     CHECK(grid.report.well_centred);
-    const double energy = quality(in_domain(domain, pure.mesh)).energy;
-    CHECK(quality(in_domain(domain, grid.mesh)).energy < energy * (1 + 1e-3));
-    CHECK(quality(in_domain(domain, grid.mesh)).obtuse <=
-          quality(in_domain(domain, pure.mesh)).obtuse);
+    const double energy = quality(pure.mesh).energy;
+    CHECK(quality(grid.mesh).energy < energy * (1 + 1e-3));
+    CHECK(quality(grid.mesh).obtuse <= quality(pure.mesh).obtuse);
   }
-  const Region region = circle({0, 0, 1}, 0.6);
+  const Surface region = circle({0, 0, 1}, 0.6);
   CvtOptions options;
   options.tolerance = 1e-4;
   const Points3 start = random_points(900, region, Density{}, 5);
   options.well_centred = true;
-  const Cvt grid = spherical_cvt(start, region, options);
+  const Cvt grid = cvt(start, region, options);
   CHECK(grid.report.well_centred);
   CHECK(grid.report.iterations.back().shape_excess <= 0.03);
 }

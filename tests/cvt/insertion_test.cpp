@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/insertion.h"
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 
 #include "support/densities.h"
 
@@ -57,7 +56,7 @@ std::vector<EdgeLength> edge_lengths(const Mesh& mesh, const Density& density) {
 }
 
 Mesh graded_mesh(std::int64_t n, const Density& density) {
-  return spherical_delaunay(random_sphere(n, site_density(density), 3));
+  return delaunay(random_sphere(n, site_density(density), 3));
 }
 
 std::string message_of(const Mesh& mesh, const Density& density, std::int64_t inserted,
@@ -106,7 +105,7 @@ TEST_CASE("insertion: the longest edges are split and the shortest contracted") 
   // In a bisected icosahedron no site is odd, and the longest edge stands out once moved.
   Points3 points = bisected_icosahedron(3);
   points.col(100) = (points.col(100) + 0.03 * Eigen::Vector3d(1, 2, 3)).normalized();
-  const Mesh moved = spherical_delaunay(points);
+  const Mesh moved = delaunay(points);
   REQUIRE(odd_sites(moved) == 0);
   std::vector<EdgeLength> sorted = edge_lengths(moved, Density{});
   std::sort(sorted.begin(), sorted.end(),
@@ -126,7 +125,7 @@ TEST_CASE("insertion: the choice does not depend on the numbers of the points") 
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
   const Points3 shuffled = points(Eigen::all, order);
   const auto of = [](const Points3& start) {
-    const Points3 out = split_and_collapse(spherical_delaunay(start), x8(), 40, 40);
+    const Points3 out = split_and_collapse(delaunay(start), x8(), 40, 40);
     Points3 rounded = (out.array() * 1e12).round(); // a + b and b + a round alike; a midpoint's
     return places_in(rounded);                      // place in the sum may not
   };
@@ -134,7 +133,7 @@ TEST_CASE("insertion: the choice does not depend on the numbers of the points") 
 }
 
 TEST_CASE("insertion: small meshes give what they can") {
-  const Mesh icosahedron = spherical_delaunay(bisected_icosahedron(0));
+  const Mesh icosahedron = delaunay(bisected_icosahedron(0));
   for (const std::int64_t count : {1, 5, 1000}) {
     const std::int64_t more = split_and_collapse(icosahedron, Density{}, count, 0).cols(),
                        fewer = split_and_collapse(icosahedron, Density{}, 0, count).cols();
@@ -160,7 +159,7 @@ TEST_CASE("insertion: sites with 8 neighbours lose some") {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points.col(i) = kept[static_cast<std::size_t>(i)];
   const auto pole_of = [](const Mesh& mesh) { return (mesh.triangles.array() == 0).count(); };
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   REQUIRE(pole_of(mesh) == 8);
   const std::int64_t odd = odd_sites(mesh);
   REQUIRE(odd >= 1);
@@ -179,7 +178,7 @@ TEST_CASE("insertion: dislocations grow as the root of the number, and uniform m
 
 TEST_CASE("insertion: where the density is 0, nothing is demanded") {
   const Density half = rising(0);
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(1000));
+  const Mesh mesh = delaunay(fibonacci_sphere(1000));
   const double demanded = cvt_detail::dislocations(mesh, half);
   CHECK(demanded > 0);
   CHECK(demanded < 1000);
@@ -189,19 +188,18 @@ TEST_CASE("insertion: where the density is 0, nothing is demanded") {
 }
 
 TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") {
-  PlanarDomain corner; // with a reflex corner
-  corner.rings.push_back((Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished());
+  const Surface corner = Surface::plane().within( // with a reflex corner
+      {(Eigen::MatrixXd(2, 6) << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2).finished()});
   const Density fine = tanh_bump({0.5, 0.5, 0}, 0.3, 0.2, 1.0 / 256);
-  const PlanarMesh mesh = planar_delaunay(random_places(600, corner, 2));
-  const Points2 points = split_and_collapse(in_domain(corner, mesh), fine, 25, 15).topRows<2>();
+  const Mesh mesh = delaunay(random_points(600, corner, {}, 2), corner);
+  const Points2 points = split_and_collapse(mesh, fine, 25, 15).topRows<2>();
   CHECK(points.cols() == 610);
   for (const auto& x : points.colwise()) {
     CHECK(x.minCoeff() > 0);
     CHECK((x[0] < 1 || x[1] < 1));
   }
-  PlanarDomain box;
-  box.period = {3, 2};
-  const PlanarMesh periodic = periodic_delaunay(random_places(500, box, 2), box.period);
+  const Surface box = Surface::periodic({3, 2});
+  const Mesh periodic = delaunay(random_points(500, box, {}, 2), box);
   const Points2 inside = split_and_collapse(periodic, fine, 10, 10).topRows<2>();
   CHECK(inside.cols() == 500);
   CHECK(inside.minCoeff() >= 0);
@@ -210,7 +208,7 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
 }
 
 TEST_CASE("insertion: bad numbers and densities are errors") {
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(1));
+  const Mesh mesh = delaunay(bisected_icosahedron(1));
   CHECK(message_of(mesh, Density{}, -1, 0).find("give 0 or more") != std::string::npos);
   CHECK(message_of(mesh, Density{}, 0, -7).find("-7") != std::string::npos);
   CHECK(message_of(mesh, Density{}, std::int64_t{1} << 30, 0).find("at most") != std::string::npos);

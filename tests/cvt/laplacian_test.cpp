@@ -7,7 +7,6 @@
 #include "cvt/state.h"
 #include "support/constants.h"
 #include "support/densities.h"
-#include "support/planes.h"
 #include "support/starts.h"
 
 #include <calotte/cvt.h>
@@ -36,7 +35,7 @@ Points3 near_optimum(const Density& density, std::int64_t cells) {
   options.bisections = from.bisections;
   options.tolerance = 1e-2;
   Points3 points;
-  spherical_cvt(from.start, options, [&](const CvtProgress& now) {
+  cvt(from.start, {}, options, [&](const CvtProgress& now) {
     points = State::of(now.state).points;
     return false;
   });

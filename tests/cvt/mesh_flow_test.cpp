@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/densities.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -18,16 +17,14 @@ using test::x8;
 
 namespace {
 
-template <class AnyMesh> void check_same(const AnyMesh& mesh, const AnyMesh& anew) {
+void check_same(const Mesh& mesh, const Mesh& anew) {
   REQUIRE(anew.points == mesh.points);
   CHECK(anew.triangles == mesh.triangles);
   CHECK(anew.neighbours == mesh.neighbours);
   CHECK(anew.site_of_input == mesh.site_of_input);
 }
 
-void check_triangulated(const Cvt& grid) {
-  check_same(grid.mesh, spherical_delaunay(grid.mesh.points));
-}
+void check_triangulated(const Cvt& grid) { check_same(grid.mesh, delaunay(grid.mesh.points)); }
 
 } // namespace
 
@@ -40,7 +37,7 @@ TEST_CASE("the mesh of a continuation is the triangulation of its generators") {
       options.tolerance = 1e-3;
       options.bisections = 2;
       options.max_iterations = 60;
-      check_triangulated(spherical_cvt(start, options));
+      check_triangulated(cvt(start, {}, options));
     }
 }
 
@@ -53,7 +50,7 @@ TEST_CASE("the same if edges flip at every step, and if a run stops at any itera
   options.bisections = 2;
   for (std::size_t last = 1; last <= 18; ++last) {
     bool changed = false;
-    const Cvt grid = spherical_cvt(random_sphere(500, 9), options, [&](const CvtProgress& now) {
+    const Cvt grid = cvt(random_sphere(500, 9), {}, options, [&](const CvtProgress& now) {
       const CvtIteration& iteration = now.report.iterations.back();
       changed = changed || iteration.flips > 0 || iteration.rebuilt;
       return now.report.iterations.size() == last;
@@ -69,17 +66,17 @@ TEST_CASE("a run without iterations is the bisected start's triangulation") {
   CvtOptions options;
   options.max_iterations = 0;
   options.bisections = 2;
-  check_triangulated(spherical_cvt(random_sphere(300, 2), options));
+  check_triangulated(cvt(random_sphere(300, 2), {}, options));
 }
 
 TEST_CASE("in a periodic box, and in a bounded plane") {
   CvtOptions options;
   options.tolerance = 1e-3;
   options.bisections = 1;
-  const PlanarDomain box = periodic_box({2, 1});
-  const PlanarCvt periodic = planar_cvt(random_places(500, box), box, options);
-  check_same(periodic.mesh, periodic_delaunay(periodic.mesh.points, box.period));
-  const PlanarDomain basin = rectangle({0, 0}, {2, 1});
-  const PlanarCvt bounded = planar_cvt(random_places(300, basin), basin, options);
-  check_same(bounded.mesh, planar_delaunay(bounded.mesh.points));
+  const Surface box = Surface::periodic({2, 1});
+  const Cvt periodic = cvt(random_points(500, box), box, options);
+  check_same(periodic.mesh, delaunay(periodic.mesh.points, box));
+  const Surface basin = rectangle({0, 0}, {2, 1});
+  const Cvt bounded = cvt(random_points(300, basin), basin, options);
+  check_same(bounded.mesh, delaunay(bounded.mesh.points, basin));
 }

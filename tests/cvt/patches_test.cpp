@@ -2,7 +2,6 @@
 #include "cvt/repair.h"
 #include "delaunay/delaunay.h"
 #include "integrals/patches.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -99,7 +98,7 @@ Points3 shaken(const Points3& points, double amount) {
 }
 
 Connectivity connectivity(const Points3& points) {
-  Mesh mesh = spherical_delaunay(points);
+  Mesh mesh = delaunay(points);
   return {std::move(mesh.triangles), std::move(mesh.neighbours)};
 }
 
@@ -113,7 +112,7 @@ Faults all_faults(const Connectivity& mesh, const Points3& points) {
 } // namespace
 
 TEST_CASE("patches contain the sites of their regions, for any shape") {
-  const Mesh mesh = spherical_delaunay(random_sphere(600, 3));
+  const Mesh mesh = delaunay(random_sphere(600, 3));
   Triangles other = mesh.triangles.rowwise().reverse(); // another order, and another first corner
   for (const int row : {0, 1})
     other.row(row).swap(other.row(row + 1));
@@ -125,7 +124,7 @@ TEST_CASE("patches contain the sites of their regions, for any shape") {
 }
 
 TEST_CASE("patches of a mesh of several parts") {
-  const Mesh mesh = spherical_delaunay(random_sphere(40000, 4));
+  const Mesh mesh = delaunay(random_sphere(40000, 4));
   const Ownership ownership = random_ownership(40000, 3, 6);
   check_patches(make_patches(mesh.triangles, ownership), mesh.triangles, ownership);
 }
@@ -143,7 +142,7 @@ TEST_CASE("repair finds the Delaunay triangulation of moved points; patches are 
         CHECK(amount >= 0.3);
         continue;
       }
-      CHECK(all_triangles(mesh.triangles) == all_triangles(spherical_delaunay(points).triangles));
+      CHECK(all_triangles(mesh.triangles) == all_triangles(delaunay(points).triangles));
       CHECK(all_faults(mesh, points).none());
       if (amount == 0.0 || amount >= 0.3)
         CHECK((repaired->flips > 0) == (amount > 0));
@@ -186,7 +185,7 @@ TEST_CASE("repair turns triangles back where sites have crossed an opposite edge
       continue; // a triangle stayed overturned: the caller triangulates
     ++repairs;
     CHECK(faults.none());
-    CHECK(all_triangles(mesh.triangles) == all_triangles(spherical_delaunay(points).triangles));
+    CHECK(all_triangles(mesh.triangles) == all_triangles(delaunay(points).triangles));
   }
   CHECK(overturned > 40);
   CHECK(repairs > 10);

@@ -6,7 +6,6 @@
 #include "density/surface_density.h"
 #include "support/constants.h"
 #include "support/descent.h"
-#include "support/planes.h"
 
 #include "support/random.h"
 
@@ -60,14 +59,13 @@ Points2 coast(int corners, double r, Eigen::Vector2d at) {
 }
 
 /// A lake with islands, one of them with a pond: some thousand edges.
-PlanarDomain lake() {
-  return {{coast(3000, 1, {0, 0}), coast(500, 0.2, {0.35, 0.2}), coast(400, 0.15, {-0.4, -0.2}),
-           coast(100, 0.05, {0.35, 0.2})},
-          {0, 0}};
+Surface lake() {
+  return Surface::plane().within({coast(3000, 1, {0, 0}), coast(500, 0.2, {0.35, 0.2}),
+                                  coast(400, 0.15, {-0.4, -0.2}), coast(100, 0.05, {0.35, 0.2})});
 }
 
 /// A comb: its teeth are narrower than cells.
-PlanarDomain comb() {
+Surface comb() {
   std::vector<std::array<double, 2>> corners{{0, 0}, {10, 0}, {10, 3}};
   for (int tooth = 9; tooth > 0; --tooth) {
     corners.push_back({tooth + 0.02, 3});
@@ -76,20 +74,20 @@ PlanarDomain comb() {
     corners.push_back({tooth - 0.02, 3});
   }
   corners.push_back({0, 3});
-  return {{ring_of(corners)}, {0, 0}};
+  return Surface::plane().within({ring_of(corners)});
 }
 
-PlanarDomain unit_square() { return rectangle({0, 0}, {1, 1}); }
+Surface unit_square() { return rectangle({0, 0}, {1, 1}); }
 
-Points2 random_start(const PlanarDomain& domain, std::int64_t n, std::uint64_t seed) {
+Points2 random_start(const Surface& domain, std::int64_t n, std::uint64_t seed) {
   test::Random random(seed);
   Points2 points(2, n);
-  if (domain.periodic()) {
+  if (domain.is_box()) {
     for (Eigen::Index i = 0; i < n; ++i)
-      points.col(i) << random.real(0, domain.period.x()), random.real(0, domain.period.y());
+      points.col(i) << random.real(0, domain.period().x()), random.real(0, domain.period().y());
     return points;
   }
-  const Outline outline(domain.rings);
+  const Outline outline(domain.rings());
   for (Eigen::Index i = 0; i < n;) {
     const Vec2 place{random.real(outline.box().low.x, outline.box().high.x),
                      random.real(outline.box().low.y, outline.box().high.y)};
@@ -105,10 +103,9 @@ struct AllMoments {
   Points2 first;
 };
 
-AllMoments planar_moments(const Points2& points, const PlanarDomain& domain, const Density& density,
+AllMoments planar_moments(const Points2& points, const Surface& domain, const Density& density,
                           int regions = 1, int rule = 6) {
-  Points3 x = Points3::Zero(3, points.cols());
-  x.topRows<2>() = points;
+  const Points3 x = base_detail::with_z(points);
   Cells<Plane> cells(domain);
   cells.move(x);
   const Connectivity mesh = cells.triangulate();
@@ -156,22 +153,22 @@ constexpr std::array all_methods{Method::lloyd, Method::lbfgs, Method::lbfgs_lap
 } // namespace
 
 TEST_CASE("areas of clipped cells sum to the domain's, for any shape and generators") {
-  for (const PlanarDomain& domain : {unit_square(), lake(), comb()})
+  for (const Surface& domain : {unit_square(), lake(), comb()})
     for (const std::int64_t n : {1, 2, 3, 10, 100, 3000}) {
       CAPTURE(n);
       const Points2 points = random_start(domain, n, static_cast<std::uint64_t>(n));
       const AllMoments moments = planar_moments(points, domain, {});
-      CHECK(moments.mass.sum() == doctest::Approx(area(domain)).epsilon(1e-12));
+      CHECK(moments.mass.sum() == doctest::Approx(domain.area()).epsilon(1e-12));
       CHECK(moments.mass.minCoeff() > 0);
       CHECK(moments.energy.minCoeff() > 0);
     }
 }
 
 TEST_CASE("areas sum where the boundary runs along cells' sides and through their corners") {
-  PlanarDomain straight = rectangle({0, 0}, {4, 3});
-  straight.rings.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
-  straight.rings.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
-  straight.rings.push_back(ring_of({{3, 1}, {3.25, 1.5}, {3, 2}, {2.75, 1.5}}));
+  Surface::Rings straight = rectangle({0, 0}, {4, 3}).rings();
+  straight.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
+  straight.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
+  straight.push_back(ring_of({{3, 1}, {3.25, 1.5}, {3, 2}, {2.75, 1.5}}));
   for (const double angle : {0.0, 0.1, 0.3, 0.5, 0.7, 1.0, 2.0, 3.0})
     for (const double size : {1.0, 1e-3, 1e25})
       for (const double place : {0.0, 1e6}) {
@@ -186,14 +183,15 @@ TEST_CASE("areas sum where the boundary runs along cells' sides and through thei
         };
         if (size * place > 1e30)
           continue;
-        PlanarDomain domain;
-        for (const DoubleMatrix& ring : straight.rings)
-          domain.rings.push_back(moved(ring));
+        Surface::Rings rings;
+        for (const DoubleMatrix& ring : straight)
+          rings.emplace_back(moved(ring));
+        const Surface domain = Surface::plane().within(rings);
         Points2 lattice(2, 12);
         for (int i = 0; i < 12; ++i)
           lattice.col(i) << i % 4 + 0.5, i / 4 + 0.5;
         const double sum = planar_moments(moved(lattice), domain, {}).mass.sum();
-        CHECK(sum == doctest::Approx(area(domain)).epsilon(1e-10));
+        CHECK(sum == doctest::Approx(domain.area()).epsilon(1e-10));
       }
 }
 
@@ -206,8 +204,8 @@ TEST_CASE("a cell of one generator has the domain's own moments") {
 }
 
 TEST_CASE("cells agree with brute force by nearest generators") {
-  const PlanarDomain domain = lake();
-  const Outline outline(domain.rings);
+  const Surface domain = lake();
+  const Outline outline(domain.rings());
   const Points2 points = random_start(domain, 40, 3);
   const AllMoments moments = planar_moments(points, domain, {});
   const int side = 1200;
@@ -250,7 +248,7 @@ TEST_CASE("the quadrature is exact for polynomials of its degree") {
 
 TEST_CASE("moments have the same bits for any partition") {
   Density bump = tanh_bump({0.3, 0.4, 0}, 0.2, 0.1, 0.01);
-  for (const PlanarDomain& domain : {lake(), periodic_box({2, 1.5})})
+  for (const Surface& domain : {lake(), Surface::periodic({2, 1.5})})
     for (const Density& density : {Density{}, surface_density(bump, domain)}) {
       const Points2 points = random_start(domain, 2000, 9);
       const AllMoments one = planar_moments(points, domain, density),
@@ -262,23 +260,22 @@ TEST_CASE("moments have the same bits for any partition") {
 }
 
 TEST_CASE("a periodic lattice of regular hexagons is a fixed point, with the hexagons' energy") {
-  const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
-  const PlanarDomain box = periodic_box(lattice.period);
+  const Mesh lattice = hexagonal_box(24, 28, 0.37);
+  const Surface& box = lattice.surface;
   for (const Method method : all_methods) {
-    const PlanarCvt grid = planar_cvt(lattice.points, box, with_method(method));
+    const Cvt grid = cvt(lattice.points, box, with_method(method));
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() == 1);
     CHECK(grid.report.iterations.back().flips == 0);
     CHECK_FALSE(grid.report.iterations.back().rebuilt);
     CHECK(grid.report.residual < 1e-12);
-    CHECK(scaled_energy(grid.report, area(box)) == doctest::Approx(hexagons).epsilon(1e-12));
+    CHECK(scaled_energy(grid.report, box.area()) == doctest::Approx(hexagons).epsilon(1e-12));
     CHECK(grid.mesh.triangles == lattice.triangles);
   }
 }
 
 TEST_CASE("every method brings the energy down, in every kind of domain") {
-  for (const PlanarDomain& domain : {unit_square(), lake(), comb(), periodic_box({3, 1})}) {
-    const auto inside = containing(domain);
+  for (const Surface& domain : {unit_square(), lake(), comb(), Surface::periodic({3, 1})}) {
     for (const bool refined : {false, true})
       for (const Method method : all_methods) {
         CAPTURE(static_cast<int>(method));
@@ -286,31 +283,27 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
         options.max_iterations = 25;
         if (refined)
           options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 81);
-        const PlanarCvt grid = planar_cvt(random_start(domain, 300, 11), domain, options);
+        const Cvt grid = cvt(random_start(domain, 300, 11), domain, options);
         check_descent(grid.report, 1e-12);
         CHECK(grid.report.iterations.back().energy < 0.85 * grid.report.iterations.front().energy);
-        const Points2& x = grid.mesh.points;
-        REQUIRE(x.cols() == 300);
-        for (Eigen::Index i = 0; i < x.cols(); ++i)
-          REQUIRE(inside(x.col(i)));
-        const Points2 places = x;
-        const PlanarMesh again =
-            domain.periodic() ? periodic_delaunay(places, domain.period) : planar_delaunay(places);
-        CHECK(grid.mesh.triangles == again.triangles);
+        REQUIRE(grid.mesh.points.cols() == 300);
+        for (const auto& x : grid.mesh.points.colwise())
+          REQUIRE(domain.contains(x));
+        CHECK(grid.mesh.triangles == delaunay(grid.mesh.points, domain).triangles);
       }
   }
 }
 
 // Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE("the same bits for any threads and regions, and after any interruption [slow]") {
-  for (const PlanarDomain& domain : {lake(), periodic_box({1, 1})})
+  for (const Surface& domain : {lake(), Surface::periodic({1, 1})})
     for (const Method method : {Method::lloyd, Method::automatic}) {
       const Points2 start = random_start(domain, 800, 21);
       CvtOptions options = with_method(method, 1);
       options.max_iterations = 16;
       options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16);
       std::vector<CvtState> states;
-      const PlanarCvt reference = planar_cvt(start, domain, options, [&](const CvtProgress& now) {
+      const Cvt reference = cvt(start, domain, options, [&](const CvtProgress& now) {
         if (now.report.iterations.size() % 7 == 3)
           states.push_back(now.state);
         return false;
@@ -319,46 +312,45 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
         for (const int threads : {1, 4}) {
           options.partition.regions = regions;
           tbb::task_arena arena(threads);
-          const PlanarCvt other = arena.execute([&] { return planar_cvt(start, domain, options); });
+          const Cvt other = arena.execute([&] { return cvt(start, domain, options); });
           REQUIRE(other.mesh.points == reference.mesh.points);
           REQUIRE(other.mesh.triangles == reference.mesh.triangles);
         }
       REQUIRE(!states.empty());
       for (const CvtState& state : states)
-        REQUIRE(planar_cvt(state, domain, options).mesh.points == reference.mesh.points);
+        REQUIRE(cvt(state, domain, options).mesh.points == reference.mesh.points);
     }
 }
 
 TEST_CASE("a state may have generators outside of a periodic box, but not 2^30 periods away") {
-  const PlanarDomain box = periodic_box({1, 1});
+  const Surface box = Surface::periodic({1, 1});
   CvtOptions options = with_method(Method::lloyd, 1);
   options.max_iterations = 1;
   CvtState state;
-  planar_cvt(random_start(box, 50, 3), box, options, [&](const CvtProgress& now) {
+  cvt(random_start(box, 50, 3), box, options, [&](const CvtProgress& now) {
     state = now.state;
     return true;
   });
   State::of(state).points(0, 7) += 1;
-  CHECK_NOTHROW(planar_cvt(state, box, options));
+  CHECK_NOTHROW(cvt(state, box, options));
   State::of(state).points(0, 7) = 1e12;
-  CHECK_THROWS_AS(planar_cvt(state, box, options), Error);
+  CHECK_THROWS_AS(cvt(state, box, options), Error);
 }
 
 TEST_CASE("a generator of a piece around a corner stays inside, and the run converges there") {
   // A thin horseshoe: centroids of its cells lie in the bay.
-  const PlanarDomain horseshoe{
-      {ring_of({{0, 0}, {4, 0}, {4, 4}, {3.8, 4}, {3.8, 0.2}, {0.2, 0.2}, {0.2, 4}, {0, 4}})},
-      {0, 0}};
+  const Surface horseshoe = Surface::plane().within(
+      {ring_of({{0, 0}, {4, 0}, {4, 4}, {3.8, 4}, {3.8, 0.2}, {0.2, 0.2}, {0.2, 4}, {0, 4}})});
   for (const std::int64_t n : {3, 4, 9})
     for (const Method method : {Method::lloyd, Method::lbfgs}) {
       CvtOptions options = with_method(method, 1);
       options.tolerance = 1e-4;
-      const PlanarCvt grid = planar_cvt(random_start(horseshoe, n, 2), horseshoe, options);
+      const Cvt grid = cvt(random_start(horseshoe, n, 2), horseshoe, options);
       CAPTURE(n);
       CHECK(grid.report.converged);
       check_descent(grid.report, 1e-12);
       for (Eigen::Index i = 0; i < n; ++i)
-        CHECK(contains(horseshoe, grid.mesh.points.col(i)));
+        CHECK(horseshoe.contains(grid.mesh.points.col(i)));
     }
 }
 
@@ -406,39 +398,37 @@ TEST_CASE("bisection: periodic boxes have four times the cells, other domains th
   CvtOptions options;
   options.bisections = 2;
   options.tolerance = 1e-2;
-  const PlanarDomain box = periodic_box({1, 1});
-  const PlanarCvt periodic = planar_cvt(random_start(box, 100, 4), box, options);
+  const Surface box = Surface::periodic({1, 1});
+  const Cvt periodic = cvt(random_start(box, 100, 4), box, options);
   CHECK(periodic.mesh.points.cols() == 1600);
   CHECK(periodic.report.converged);
-  const PlanarCvt open = planar_cvt(random_start(lake(), 100, 4), lake(), options);
+  const Cvt open = cvt(random_start(lake(), 100, 4), lake(), options);
   CHECK(open.mesh.points.cols() > 1000);
-  const auto inside = containing(lake());
-  for (Eigen::Index i = 0; i < open.mesh.points.cols(); ++i)
-    REQUIRE(inside(open.mesh.points.col(i)));
+  for (const auto& x : open.mesh.points.colwise())
+    REQUIRE(open.mesh.surface.contains(x));
 }
 
 TEST_CASE(
     "the number of evaluations with the graph Laplacian does not grow with the number of cells") {
   std::vector<std::size_t> evaluations;
   for (const int columns : {16, 32, 64, 128}) {
-    const PlanarMesh lattice = periodic_hexagons(columns, columns, 1.0 / columns);
-    const PlanarDomain box = periodic_box(lattice.period);
+    const Mesh lattice = hexagonal_box(columns, columns, 1.0 / columns);
+    const Surface& box = lattice.surface;
     test::Random random(5);
-    Points2 start = lattice.points;
-    const Plane plane(box.period);
+    Points3 start = lattice.points;
+    const Plane plane(box.period());
     for (Eigen::Index i = 0; i < start.cols(); ++i) {
-      Eigen::Vector2d at = start.col(i);
+      Eigen::Vector2d at = start.col(i).head<2>();
       for (int k = 0; k < 2; ++k) // smooth, and rough
-        at[k] = start(k, i) + 0.02 * std::sin(2 * pi * at[1 - k] / box.period[1 - k]) +
+        at[k] = start(k, i) + 0.02 * std::sin(2 * pi * at[1 - k] / box.period()[1 - k]) +
                 0.1 / columns * random.real(-1, 1);
-      const Vec3 inside = plane.wrapped({at.x(), at.y(), 0});
-      start.col(i) << inside.x, inside.y;
+      base_detail::set_column(start, i, plane.wrapped({at.x(), at.y(), 0}));
     }
     CvtOptions options = with_method(Method::lbfgs_laplacian);
     options.tolerance = 1e-7;
-    const PlanarCvt grid = planar_cvt(start, box, options);
+    const Cvt grid = cvt(start, box, options);
     CHECK(grid.report.converged);
-    CHECK(scaled_energy(grid.report, area(box)) == doctest::Approx(hexagons).epsilon(1e-9));
+    CHECK(scaled_energy(grid.report, box.area()) == doctest::Approx(hexagons).epsilon(1e-9));
     evaluations.push_back(grid.report.iterations.size());
   }
   MESSAGE(evaluations[0] << " " << evaluations[1] << " " << evaluations[2] << " "
@@ -448,18 +438,18 @@ TEST_CASE(
 }
 
 TEST_CASE("the graph Laplacian works if the boundary faces away from generators") {
-  PlanarDomain domain = rectangle({0, 0}, {4, 3});
-  domain.rings.push_back(ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}));
-  domain.rings.push_back(ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}}));
+  const Surface domain = Surface::plane().within(
+      {rectangle({0, 0}, {4, 3}).rings()[0], ring_of({{1, 0.3}, {1.2, 0.3}, {1.2, 2.7}, {1, 2.7}}),
+       ring_of({{2, 1}, {2.2, 1}, {2.2, 2}, {2, 2}})});
   Points2 lattice(2, 48);
   for (int i = 0; i < 48; ++i)
     lattice.col(i) << i % 8 * 0.5 + 0.25, i / 8 * 0.5 + 0.25;
   CvtOptions options = with_method(Method::lloyd, 1);
   options.norm = Norm::none;
   options.max_iterations = 20;
-  const PlanarCvt by_lloyd = planar_cvt(lattice, domain, options);
+  const Cvt by_lloyd = cvt(lattice, domain, options);
   options.method = Method::lbfgs_laplacian;
-  const PlanarCvt by_laplacian = planar_cvt(lattice, domain, options);
+  const Cvt by_laplacian = cvt(lattice, domain, options);
   CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // the method that it falls back to
 }
 
@@ -471,21 +461,20 @@ TEST_CASE("clusters, and domains far from the origin or of any size") {
       CAPTURE(scale);
       CAPTURE(offset);
       const Eigen::Vector2d low(offset * scale, -offset * scale);
-      const PlanarDomain domain = rectangle(low, low + Eigen::Vector2d(scale, scale));
+      const Surface domain = rectangle(low, low + Eigen::Vector2d(scale, scale));
       const Points2 start =
           (scale * (offset == 0 ? cluster : random_start(unit_square(), 200, 6))).colwise() + low;
       CvtOptions options = with_method(Method::automatic);
       options.tolerance = 1e-4;
-      const PlanarCvt grid = planar_cvt(start, domain, options);
+      const Cvt grid = cvt(start, domain, options);
       CHECK(grid.report.converged);
-      CHECK(scaled_energy(grid.report, area(domain)) == doctest::Approx(hexagons).epsilon(0.08));
+      CHECK(scaled_energy(grid.report, domain.area()) == doctest::Approx(hexagons).epsilon(0.08));
     }
 }
 
 TEST_CASE("quality of hexagons in a box, and of clipped cells") {
-  const PlanarMesh lattice = periodic_hexagons(24, 28, 0.37);
-  const PlanarDomain box = periodic_box(lattice.period);
-  const Quality hexagonal = quality(in_domain(box, lattice));
+  const Mesh lattice = hexagonal_box(24, 28, 0.37);
+  const Quality hexagonal = quality(lattice);
   CHECK(hexagonal.triangles == 2 * 24 * 28);
   CHECK(hexagonal.degrees[6] == 24 * 28);
   CHECK(hexagonal.spacing.min == doctest::Approx(0.37));
@@ -496,9 +485,8 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
   CHECK(hexagonal.cells_area == doctest::Approx(1).epsilon(1e-12));
   CHECK(hexagonal.residual < 1e-12);
 
-  const PlanarCvt grid =
-      planar_cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
-  const Quality clipped = quality(in_domain(lake(), grid.mesh));
+  const Cvt grid = cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
+  const Quality clipped = quality(grid.mesh);
   CHECK(clipped.cells == 500);
   CHECK(clipped.cells_area == doctest::Approx(1).epsilon(1e-10));
   CHECK(clipped.residual < 1e-5);
@@ -528,10 +516,10 @@ TEST_CASE("a raster is bilinear, and constant beyond its rim") {
 }
 
 TEST_CASE("bad input ends in one clear error") {
-  const auto refusal = [](const Points2& start, const PlanarDomain& domain,
+  const auto refusal = [](const Points2& start, const Surface& domain,
                           const CvtOptions& options = {}) -> std::pair<ErrorCode, std::string> {
     try {
-      planar_cvt(start, domain, options);
+      cvt(start, domain, options);
     } catch (const Error& error) {
       return {error.code(), error.what()};
     }
@@ -542,7 +530,7 @@ TEST_CASE("bad input ends in one clear error") {
   CHECK(refusal(start, unit_square()).second.find("point 7 is outside of the domain") == 0);
   start.col(7) << NAN, 0.5;
   CHECK(refusal(start, unit_square()).first == ErrorCode::not_finite);
-  CHECK(refusal(start, PlanarDomain{}).first == ErrorCode::invalid_argument);
+  CHECK(refusal(start, Surface::plane()).first == ErrorCode::invalid_argument);
   const Points2 line = ring_of({{0.1, 0.5}, {0.5, 0.5}, {0.9, 0.5}});
   CHECK(refusal(line, unit_square()).first == ErrorCode::degenerate);
   CHECK(refusal(line.leftCols(2), unit_square()).first == ErrorCode::too_few_sites);
@@ -562,7 +550,7 @@ TEST_CASE("10 000 generators of the unit square come near the hexagons' energy [
   CvtOptions options;
   options.tolerance = 1e-4;
   options.max_iterations = 3000;
-  const PlanarCvt grid = planar_cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
+  const Cvt grid = cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
   const double energy = scaled_energy(grid.report, 1);
   MESSAGE("E n / area^2 over the hexagons': " << energy / hexagons << ", "
                                               << grid.report.iterations.size() << " evaluations");

@@ -11,7 +11,6 @@
 #include "support/files.h"
 #include "support/gshhg.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
 
@@ -36,14 +35,13 @@ constexpr double square_km = 1 / (6371.0 * 6371.0); ///< steradians
 } // namespace
 
 TEST_CASE("the land around a place: the smallest ring that contains it") {
-  const Region continent = circle(direction(20, 10), 30 * degree),
-               island = circle(direction(20, 10), degree);
-  Region lake = circle(direction(20, 10), 5 * degree);
-  lake.rings[0] = lake.rings[0].rowwise().reverse().eval();
-  const Coast coast{{continent.rings[0], lake.rings[0], island.rings[0]}, 0};
-  CHECK(land_around(coast, direction(20, 10)) == Surface(island));
-  CHECK(land_around(coast, direction(40, 10)) == Surface(continent));
-  CHECK(land_around(coast, direction(23, 10)) == Surface(continent)); // in the lake
+  const Surface continent = circle(direction(20, 10), 30 * degree),
+                island = circle(direction(20, 10), degree);
+  const Points3 lake = circle(direction(20, 10), 5 * degree).rings()[0].rowwise().reverse();
+  const Coast coast{{continent.rings()[0], lake, island.rings()[0]}, 0};
+  CHECK(land_around(coast, direction(20, 10)) == island);
+  CHECK(land_around(coast, direction(40, 10)) == continent);
+  CHECK(land_around(coast, direction(23, 10)) == continent); // in the lake
   for (const Eigen::Vector3d& sea : {direction(-160, -10), direction(60, 10)})
     CHECK(std::string(error_of([&] { land_around(coast, sea); }).what()) ==
           "no ring of the coast contains the place; give one on land");
@@ -54,26 +52,23 @@ TEST_CASE("the land around a place: the smallest ring that contains it") {
 }
 
 TEST_CASE("the land around a place is without the loops in which its coast crosses itself") {
-  const Region island = circle(direction(20, 10), degree, 100);
-  const double whole = area(island);
-  const auto around = [&](const std::vector<Eigen::Index>& order) -> Region {
-    Points3 ring(3, std::ssize(order));
-    for (std::size_t k = 0; k < order.size(); ++k)
-      ring.col(static_cast<Eigen::Index>(k)) = island.rings[0].col(order[k]);
-    return land_around({{ring}, 0}, direction(20, 10));
+  const Surface island = circle(direction(20, 10), degree, 100);
+  const double whole = island.area();
+  const auto around = [&](const std::vector<Eigen::Index>& order) {
+    return land_around({{island.rings()[0](Eigen::all, order)}, 0}, direction(20, 10));
   };
   std::vector<Eigen::Index> order(100);
   std::iota(order.begin(), order.end(), 0);
-  CHECK(around(order).rings == island.rings);
+  CHECK(around(order) == island);
   for (const Eigen::Index at : {0, 7, 50, 98}) { // corners in another order, or visited again
     auto crossed = order;
     std::swap(crossed[static_cast<std::size_t>(at)], crossed[static_cast<std::size_t>(at) + 1]);
-    const Region exchanged = around(crossed);
-    CHECK(std::abs(area(exchanged) / whole - 1) < 0.01);
-    CHECK(exchanged.rings[0].cols() >= 97);
+    const Surface exchanged = around(crossed);
+    CHECK(std::abs(exchanged.area() / whole - 1) < 0.01);
+    CHECK(exchanged.rings()[0].cols() >= 97);
     auto again = order;
     again.insert(again.begin() + at + 1, {(at + 2) % 100, (at + 1) % 100, at});
-    CHECK(std::abs(area(around(again)) / whole - 1) < 0.01);
+    CHECK(std::abs(around(again).area() / whole - 1) < 0.01);
   }
   std::swap(order[20], order[60]); // no small loop
   CHECK(std::string(error_of([&] { around(order); }).what()).find("meet; rings may neither") !=
@@ -106,9 +101,9 @@ TEST_CASE("GSHHG: the area of a continent hardly depends on the resolution") {
 }
 
 TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay inside") {
-  const Region australia = land_around(gshhg('l'), direction(134, -25));
-  REQUIRE(australia.rings[0].cols() > 1000);
-  const double whole = area(australia);
+  const Surface australia = land_around(gshhg('l'), direction(134, -25));
+  REQUIRE(australia.rings()[0].cols() > 1000);
+  const double whole = australia.area();
   const Points3 start = random_points(500, australia);
   CHECK(std::abs(sum_of_cells(australia, start) / whole - 1) < 1e-12);
   CvtOptions options;
@@ -116,15 +111,14 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
-    return spherical_cvt(start, australia, options);
+    return cvt(start, australia, options);
   };
   const Cvt grid = with(1, 1);
   CHECK(std::abs(sum_of_cells(australia, grid.mesh.points) / whole - 1) < 1e-12);
   CHECK(check_surface(grid.mesh).failure == "");
   check_descent(grid.report, 1e-9);
-  const auto inside = containing(australia);
-  for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
-    CHECK(inside(grid.mesh.points.col(i)));
+  for (const auto& x : grid.mesh.points.colwise())
+    CHECK(australia.contains(x));
   CHECK(identical(grid.mesh, with(2, 12).mesh));
   CHECK(identical(grid.mesh, with(1, 12).mesh));
   CHECK(identical(grid.mesh, with(2, 1).mesh));
@@ -132,7 +126,7 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
 
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("Australia: a graded grid has the same bits for all threads and regions [slow]") {
-  const Region australia = land_around(gshhg('i'), direction(134, -25));
+  const Surface australia = land_around(gshhg('i'), direction(134, -25));
   CvtOptions options;
   options.density = tanh_bump(direction(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
   const test::FirstGenerators from = test::multilevel(1500, australia, options.density);
@@ -144,12 +138,12 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     options.partition.regions = regions;
-    return spherical_cvt(from.start, australia, options);
+    return cvt(from.start, australia, options);
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
-  CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / area(australia) - 1) <
+  CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / australia.area() - 1) <
         1e-12);
   CHECK(identical(one.mesh, with(2, 12).mesh));
 }

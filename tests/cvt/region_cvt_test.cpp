@@ -10,7 +10,6 @@
 #include "support/directions.h"
 #include "support/files.h"
 #include "support/laws.h"
-#include "support/planes.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
 
@@ -30,24 +29,24 @@ using namespace calotte::test::region_laws;
 
 namespace {
 
-Region polygon(const std::vector<std::pair<double, double>>& corners) {
+Surface polygon(const std::vector<std::pair<double, double>>& corners) {
   Points3 ring(3, static_cast<Eigen::Index>(corners.size()));
   for (std::size_t k = 0; k < corners.size(); ++k)
     ring.col(static_cast<Eigen::Index>(k)) = direction(corners[k].first, corners[k].second);
-  return {{ring}};
+  return Surface::sphere().within({ring});
 }
 
-Region archipelago() {
-  Region region;
+Surface archipelago() {
+  Surface::Rings rings;
   for (int k = 0; k < 200; ++k)
-    region.rings.push_back(
+    rings.push_back(
         circle(direction(6.0 * (k % 20), -30 + 6.0 * (k / 20)), (1 + 0.1 * (k % 7)) * degree, 12)
             .rings()[0]);
-  return region;
+  return Surface::sphere().within(rings);
 }
 
 /// Walls of 0.2 degrees between bays.
-Region narrow_bays() {
+Surface narrow_bays() {
   std::vector<std::pair<double, double>> corners{{0, 0}, {20, 0}};
   for (int tooth = 9; tooth >= 0; --tooth) {
     corners.push_back({2.0 * tooth + 2, 10});
@@ -59,14 +58,13 @@ Region narrow_bays() {
   return polygon(corners);
 }
 
-Region with_hole() {
-  Region region = circle(direction(90, 85), 25 * degree); // holds the pole
-  const Points3 hole = circle(direction(0, 90), 8 * degree, 40).rings()[0];
-  region.rings.push_back(hole.rowwise().reverse());
-  return region;
+Surface with_hole() {
+  const Surface around = circle(direction(90, 85), 25 * degree); // holds the pole
+  const Points3 hole = circle(direction(0, 90), 8 * degree, 40).rings()[0].rowwise().reverse();
+  return Surface::sphere().within({around.rings()[0], hole});
 }
 
-std::vector<std::pair<std::string, Region>> regions() {
+std::vector<std::pair<std::string, Surface>> regions() {
   return {{"hemisphere", circle(direction(10, 20), 90 * degree)},
           {"a degree", circle(direction(10, 20), degree)},
           {"170 degrees", circle(direction(10, 20), 170 * degree)},
@@ -90,9 +88,9 @@ CvtOptions well_centred(std::int64_t cells, int bisections) {
   return options;
 }
 
-std::string message_of(const Points3& start, const Region& region) {
+std::string message_of(const Points3& start, const Surface& region) {
   try {
-    spherical_cvt(start, region);
+    cvt(start, region);
     return "";
   } catch (const Error& error) {
     return error.what();
@@ -105,92 +103,91 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
   for (const auto& [name, region] : regions()) {
     CAPTURE(name);
     const Points3 start = random_points(300, region);
-    const double whole = area(region);
+    const double whole = region.area();
     CHECK(std::abs(sum_of_cells(region, start) / whole - 1) < 1e-12);
     CvtOptions options;
     options.max_iterations = 25;
-    const Cvt grid = spherical_cvt(start, region, options);
+    const Cvt grid = cvt(start, region, options);
     CHECK(grid.mesh.points.cols() == 300);
     CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / whole - 1) < 1e-12);
     CHECK(check_surface(grid.mesh).failure == "");
     check_descent(grid.report, 1e-9);
-    const auto inside = containing(region);
-    for (Eigen::Index i = 0; i < grid.mesh.points.cols(); ++i)
-      CHECK(inside(grid.mesh.points.col(i)));
+    for (const auto& x : grid.mesh.points.colwise())
+      CHECK(region.contains(x));
   }
 }
 
 TEST_CASE("region: generators that start in a corner spread over all of it") {
-  const Region region = circle(direction(10, 20), 30 * degree);
+  const Surface region = circle(direction(10, 20), 30 * degree);
   const Points3 corner = random_points(150, circle(direction(30, 20), degree));
   CvtOptions options;
   options.tolerance = 1e-3;
-  const Cvt grid = spherical_cvt(corner, region, options);
+  const Cvt grid = cvt(corner, region, options);
   CHECK(grid.report.converged);
-  CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / area(region) - 1) < 1e-12);
+  CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / region.area() - 1) < 1e-12);
 }
 
 TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
-  const Region region = circle(direction(10, 20), 30 * degree);
+  const Surface region = circle(direction(10, 20), 30 * degree);
   CvtOptions options;
   options.tolerance = 1e-6;
-  const Cvt grid = spherical_cvt(random_points(300, region), region, options);
+  const Cvt grid = cvt(random_points(300, region), region, options);
   CHECK(grid.report.converged);
-  const double whole = area(region), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
+  const double whole = region.area(), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
                energy = grid.report.iterations.back().energy;
   CHECK(energy > 0.99 * hexagons); // the limit holds for flat cells
   CHECK(energy < 1.05 * hexagons);
 }
 
 TEST_CASE("region: uniform density by closed forms and by quadrature") {
-  const Region region = circle(direction(200, -70), 5 * degree);
+  const Surface region = circle(direction(200, -70), 5 * degree);
   const Points3 start = random_points(200, region);
   CvtOptions options;
   options.norm = Norm::none;
   options.max_iterations = 1;
   options.method = Method::lloyd;
-  const Cvt exact = spherical_cvt(start, region, options);
+  const Cvt exact = cvt(start, region, options);
   options.density.kind = Density::Kind::callable;
   options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setOnes();
   };
   options.rule = options.final_rule = 6;
   options.divisions = 2;
-  const Cvt ruled = spherical_cvt(start, region, options);
+  const Cvt ruled = cvt(start, region, options);
   CHECK((exact.mesh.points - ruled.mesh.points).cwiseAbs().maxCoeff() < 1e-11);
 }
 
 // Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE(
     "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
-  const Region region = circle(direction(20, 40), 14 * degree);
+  const Surface region = circle(direction(20, 40), 14 * degree);
   const test::FirstGenerators from = test::multilevel(1500, region, well_centred(1500, 0).density);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options = well_centred(1500, from.bisections);
     options.partition.regions = regions;
-    return spherical_cvt(from.start, region, options);
+    return cvt(from.start, region, options);
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(one.report.well_centred);
-  CHECK(
-      std::abs(sum_of_cells(region, one.mesh.points, well_centred(1500, 0).density) / area(region) -
-               1) < 1e-12);
+  CHECK(std::abs(sum_of_cells(region, one.mesh.points, well_centred(1500, 0).density) /
+                     region.area() -
+                 1) < 1e-12);
   CHECK(identical(one.mesh, with(2, 12).mesh));
   CHECK(identical(one.mesh, with(4, 42).mesh));
   const Scratch scratch;
   std::vector<CvtState> states;
   const CvtOptions options = well_centred(1500, from.bisections);
-  spherical_cvt(from.start, region, options, [&](const CvtProgress& now) {
+  cvt(from.start, region, options, [&](const CvtProgress& now) {
     states.push_back(now.state);
     return false;
   });
   for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
     const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
-    CHECK(identical(spherical_cvt(state, region, options).mesh, one.mesh));
+    CHECK(identical(cvt(state, region, options).mesh, one.mesh));
   }
 }
 
@@ -199,18 +196,18 @@ TEST_CASE("region: a wider one holds all places within the distance") {
     if (name == "170 degrees" || name == "hemisphere")
       continue;
     CAPTURE(name);
-    const Region wide = widened(region, 3 * degree);
-    REQUIRE(!wide.whole());
-    CHECK(area(wide) > area(region));
-    const auto inside = containing(wide);
-    for (const Points3& ring : region.rings)
+    const Surface wide = widened(region, 3 * degree);
+    REQUIRE(!wide.is_whole_sphere());
+    CHECK(wide.area() > region.area());
+    for (const DoubleMatrix& ring : region.rings())
       for (Eigen::Index k = 0; k < ring.cols(); ++k)
         for (int a = 0; a < 8; ++a) {
           const Eigen::Vector3d x = ring.col(k).normalized(), east = x.unitOrthogonal(),
                                 north = x.cross(east);
           const double angle = a * std::numbers::pi / 4;
-          CHECK(inside(std::cos(3 * degree) * x +
-                       std::sin(3 * degree) * (std::cos(angle) * east + std::sin(angle) * north)));
+          CHECK(wide.contains(std::cos(3 * degree) * x +
+                              std::sin(3 * degree) *
+                                  (std::cos(angle) * east + std::sin(angle) * north)));
         }
   }
   CHECK(widened(circle(direction(0, 0), 170 * degree), 0.1).is_whole_sphere());
@@ -218,11 +215,12 @@ TEST_CASE("region: a wider one holds all places within the distance") {
 }
 
 TEST_CASE("region: bad input is an error") {
-  const Region region = circle(direction(0, 0), 10 * degree);
+  const Surface region = circle(direction(0, 0), 10 * degree);
   Points3 start = random_points(20, region);
   start.col(7) = direction(90, 0);
   CHECK(message_of(start, region).find("generator 7 is outside the region") == 0);
   CHECK(message_of(random_points(3, region), region).find("at least 4") != std::string::npos);
-  CHECK(message_of(start, Region{{region.rings[0].leftCols(2)}}).find("corners") !=
-        std::string::npos);
+  CHECK(
+      message_of(start, domain_detail::UncheckedSurface::of_sphere({region.rings()[0].leftCols(2)}))
+          .find("corners") != std::string::npos);
 }

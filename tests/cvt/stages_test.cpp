@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "cvt/stages.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include "support/densities.h"
 #include "support/files.h"
@@ -86,7 +85,7 @@ bool same_run(const Cvt& a, const Cvt& b) {
 
 std::string message_of(const CvtOptions& options) {
   try {
-    spherical_cvt(fibonacci_sphere(20), options);
+    cvt(fibonacci_sphere(20), {}, options);
   } catch (const Error& error) {
     return error.what();
   }
@@ -106,7 +105,7 @@ TEST_CASE("stages: insertion reaches any number of cells, from any start") {
     CAPTURE(cells);
     CvtOptions options = graded(cells, bisections, two_bumps());
     options.well_centred = false;
-    const Cvt grid = spherical_cvt(random_start(start, Density{}), options);
+    const Cvt grid = cvt(random_start(start, Density{}), {}, options);
     CHECK(grid.mesh.points.cols() == cells);
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
@@ -119,10 +118,10 @@ TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]")
   CvtOptions options = graded(4000, 2, x8());
   options.well_centred = false;
   const Points3 start = random_start(252, x8());
-  const double with = excess(spherical_cvt(start, options), x8());
+  const double with = excess(cvt(start, {}, options), x8());
   options.insertion_rounds = 0;
   options.cells = 0;
-  const Cvt plain = spherical_cvt(start, options);
+  const Cvt plain = cvt(start, {}, options);
   CHECK(with < 0.85 * excess(plain, x8()));
   CHECK(with > 0);
 }
@@ -132,7 +131,7 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
   for (const Density& density : {x8(), stretched_bump(), two_bumps(), Density{}})
     for (const std::uint64_t seed : {1, 2}) {
       CAPTURE(seed);
-      const Cvt grid = spherical_cvt(random_start(190, density, seed), graded(3001, 2, density));
+      const Cvt grid = cvt(random_start(190, density, seed), {}, graded(3001, 2, density));
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
       CHECK(grid.report.well_centred);
@@ -149,7 +148,7 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   int descents = 0, steps = 0;
   double before = 0;
   std::tuple<int, int, int, int> rule_and_stage;
-  spherical_cvt(random_start(160, x8()), options, [&](const CvtProgress& now) {
+  cvt(random_start(160, x8()), {}, options, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
     const cvt_detail::State& state = cvt_detail::State::of(now.state);
     if (state.penalty > 0 || !here.accepted) // a polish minimises another function
@@ -168,7 +167,7 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
 }
 
 TEST_CASE("stages: a density of 0 on a part of the sphere leaves its edges without a demand") {
-  const Cvt grid = spherical_cvt(fibonacci_sphere(600), graded(900, 0, rising(0.999)));
+  const Cvt grid = cvt(fibonacci_sphere(600), {}, graded(900, 0, rising(0.999)));
   CHECK(grid.mesh.points.cols() == 900);
   CHECK(grid.mesh.points.allFinite());
   CHECK(check(grid.mesh).failure == "");
@@ -178,7 +177,7 @@ TEST_CASE("stages: a density is evaluated at the sites only where cells are smal
   const auto at_sites = [](const Points3& start, const Density& density) {
     CvtOptions options = graded(2600, 0, density);
     options.max_iterations = 4;
-    const Cvt grid = spherical_cvt(start, options);
+    const Cvt grid = cvt(start, {}, options);
     return grid.report.iterations.front().linear_density;
   };
   CHECK(at_sites(random_start(2500, x8()), x8()));
@@ -193,7 +192,7 @@ TEST_CASE("stages: threads and regions have no effect on insertion and finish") 
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CvtOptions options = graded(2500, 2, x8());
     options.partition.regions = regions;
-    return spherical_cvt(start, options);
+    return cvt(start, {}, options);
   };
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);
@@ -208,7 +207,7 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
   const CvtOptions options = graded(700, 1, two_bumps());
   const Points3 start = random_start(177, two_bumps(), 4);
   std::vector<CvtState> states;
-  const Cvt whole = spherical_cvt(start, options, [&](const CvtProgress& now) {
+  const Cvt whole = cvt(start, {}, options, [&](const CvtProgress& now) {
     states.push_back(now.state);
     return false;
   });
@@ -218,15 +217,15 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
   for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? stride : 1) {
     CAPTURE(k);
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
-    CHECK(same_run(spherical_cvt(read_checkpoint(scratch / "run.ckpt", "same"), options), whole));
+    CHECK(same_run(cvt(read_checkpoint(scratch / "run.ckpt", "same"), {}, options), whole));
   }
 }
 
 TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
   CvtOptions options;
-  const Cvt pure = spherical_cvt(bisected_icosahedron(3), options);
+  const Cvt pure = cvt(bisected_icosahedron(3), {}, options);
   options.well_centred = true;
-  const Cvt finished = spherical_cvt(bisected_icosahedron(3), options);
+  const Cvt finished = cvt(bisected_icosahedron(3), {}, options);
   CHECK((pure.mesh.points == finished.mesh.points));
   CHECK(finished.report.converged);
   CHECK(finished.report.well_centred);
@@ -238,31 +237,29 @@ TEST_CASE("stages: a least spacing is kept, or the report says that it is not") 
   const auto least = [](const Cvt& grid) { return quality(grid.mesh, x8()).dc_over_h.min; };
   CvtOptions options = graded(3001, 2, x8());
   const Points3 start = random_start(190, x8());
-  const Cvt usual = spherical_cvt(start, options);
+  const Cvt usual = cvt(start, {}, options);
   options.least_spacing = 0.9;
-  const Cvt wider = spherical_cvt(start, options);
+  const Cvt wider = cvt(start, {}, options);
   CHECK(least(usual) < 0.86);
   if (wider.report.well_centred)
     CHECK(least(wider) > 0.9 - 0.03 - 0.01); // the demanded spacing follows from the energy
   else
     CHECK(wider.report.iterations.back().shape_excess > 0.03);
   options.least_spacing = 0.97;
-  CHECK_THROWS_AS(spherical_cvt(start, options), Error);
+  CHECK_THROWS_AS(cvt(start, {}, options), Error);
 }
 
 // Slow: descents with a finish in two domains.
 TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
-  PlanarDomain box;
-  box.period = {2, 1};
-  for (const PlanarDomain& domain : {PlanarDomain(rectangle({0, 0}, {2, 1})), box}) {
-    CAPTURE(domain.periodic());
-    const Points2 start = random_places(120, domain, site_density(fine, domain), 3);
-    const PlanarCvt grid = planar_cvt(start, domain, graded(1900, 2, fine));
+  for (const Surface& domain : {rectangle({0, 0}, {2, 1}), Surface::periodic({2, 1})}) {
+    CAPTURE(domain.is_box());
+    const Points3 start = random_points(120, domain, site_density(fine, domain), 3);
+    const Cvt grid = cvt(start, domain, graded(1900, 2, fine));
     CHECK(grid.mesh.points.cols() == 1900);
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
-    const Quality q = quality(in_domain(domain, grid.mesh), fine);
+    const Quality q = quality(grid.mesh, fine);
     CHECK(q.angles.min > 36.9);
     CHECK(q.obtuse == 0);
   }
@@ -289,7 +286,7 @@ TEST_CASE("stages: a round after a descent of more than 25 evaluations counts fo
     options.insertion_rounds = 6;
     options.well_centred = false;
     int left = 6, evaluations = 0, count = 0;
-    spherical_cvt(random_start(3000, density), options, [&](const CvtProgress& now) {
+    cvt(random_start(3000, density), {}, options, [&](const CvtProgress& now) {
       if (now.rounds_left != left) {
         CHECK(now.rounds_left == std::max(left - (evaluations > 25 ? 2 : 1), 0));
         left = now.rounds_left;

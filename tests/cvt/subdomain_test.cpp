@@ -5,7 +5,6 @@
 #include "density/hexagons.h"
 #include "mesh/canonical_order.h"
 #include "support/densities.h"
-#include "support/planes.h"
 #include "support/starts.h"
 
 #include <calotte/cvt.h>
@@ -82,18 +81,16 @@ bool descend_some(const LocalInput& input, Subdomain<Sphere>& part) {
 bool is_delaunay(const Moving& run) {
   Connectivity mesh = run.tessellation.mesh();
   mesh_detail::make_canonical(mesh.triangles, mesh.neighbours);
-  const Mesh whole = spherical_delaunay(run.points);
+  const Mesh whole = delaunay(run.points);
   return (mesh.triangles == whole.triangles) && (mesh.neighbours == whole.neighbours);
 }
 
-double energy_of(const Moving& run) {
-  return quality(spherical_delaunay(run.points), run.density).energy;
-}
+double energy_of(const Moving& run) { return quality(delaunay(run.points), run.density).energy; }
 
 } // namespace
 
 TEST_CASE("subdomains: the chosen ones have no common triangle, and those left are outside") {
-  const Mesh whole = spherical_delaunay(random_sphere(3000, {}, 1));
+  const Mesh whole = delaunay(random_sphere(3000, {}, 1));
   const Connectivity mesh{whole.triangles, whole.neighbours};
   const Seeds seeds = seeds_of(mesh, 7);
   const ChosenSurroundings around = choose_surroundings(mesh, seeds);
@@ -203,10 +200,9 @@ TEST_CASE("subdomains: a polish leaves fewer shapes beyond the limits") {
   CvtOptions options;
   options.density = x8();
   options.tolerance = 1e-3;
-  const Points3 pure =
-      spherical_cvt(random_sphere(4000, site_density(x8()), 3), options).mesh.points;
+  const Points3 pure = cvt(random_sphere(4000, site_density(x8()), 3), {}, options).mesh.points;
   Moving run(pure, x8());
-  const Quality before = quality(spherical_delaunay(pure), x8());
+  const Quality before = quality(delaunay(pure), x8());
   const double cell = before.energy / 4000;
   ShapePenalty penalty;
   penalty.factor = 60 * cell;
@@ -215,5 +211,5 @@ TEST_CASE("subdomains: a polish leaves fewer shapes beyond the limits") {
   REQUIRE(before.obtuse > 5);
   CHECK(polish(run.tessellation, run.points, run.input(), penalty) > 0);
   CHECK(is_delaunay(run));
-  CHECK(quality(spherical_delaunay(run.points), x8()).obtuse < before.obtuse / 3);
+  CHECK(quality(delaunay(run.points), x8()).obtuse < before.obtuse / 3);
 }
