@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 #include "io/cells/cell_outline.h"
 #include "io/cells/polygons.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -51,7 +50,7 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
   for (std::size_t s = 0; s < sets.size(); ++s) {
     CAPTURE(s);
     const Points3& sites = sets[s];
-    Voronoi voronoi = calotte::voronoi(spherical_delaunay(sites));
+    Voronoi voronoi = calotte::voronoi(delaunay(sites));
     const Eigen::VectorXd areas = voronoi.cell_area; // lattices have corners an ulp apart
     const Polygons cells =
         io_detail::with_merged_corners(io_detail::polygons_of(std::move(voronoi)), areas);

@@ -10,7 +10,6 @@
 #include "io/netcdf/netcdf_writer.h"
 #include "support/constants.h"
 #include "support/files.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/cvt.h>
@@ -394,7 +393,7 @@ TEST_CASE("widths cover a region with half of a step to spare") {
     width.widths.setConstant(columns, rows, 60);
     return width;
   };
-  const auto refusal_of = [](const CellWidth& width, const Region& region) -> std::string {
+  const auto refusal_of = [](const CellWidth& width, const Surface& region) -> std::string {
     try {
       require_covering(width, region);
     } catch (const Error& error) {
@@ -420,9 +419,8 @@ TEST_CASE("widths cover a region with half of a step to spare") {
   // A region around all that is covered, whose boundary is not.
   CHECK(refusal_of(america, disc(-90, 35, 80)) != "");
   // Its boundary is covered, but it holds what lies outside it.
-  Region outside = disc(-90, 35, 20);
-  for (Points3& ring : outside.rings)
-    ring.rowwise().reverseInPlace();
+  const Points3 ring = disc(-90, 35, 20).rings()[0].rowwise().reverse();
+  const Surface outside = Surface::sphere().within({ring});
   CHECK(refusal_of(america, outside) != "");
   const CellWidth arctic = part(-180, 179, 60, 90, 1);
   CHECK(refusal_of(arctic, disc(0, 90, 25)) == "");
@@ -531,7 +529,7 @@ TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
   const CellWidth width = read_cell_width(path, {}, disc(10));
   CHECK(width.longitudes.size() == 41);
   CHECK(implied_cells(width, disc(10)) ==
-        doctest::Approx(area(disc(10)) * earth_radius_km * earth_radius_km * 2 / std::sqrt(3.0) /
+        doctest::Approx(disc(10).area() * earth_radius_km * earth_radius_km * 2 / std::sqrt(3.0) /
                         2500)
             .epsilon(1e-6));
   CHECK_THROWS_WITH_AS(read_cell_width(path, {}, disc(20)),
@@ -546,7 +544,7 @@ TEST_CASE("widths of the plane: from a file, their density and their number of c
   CHECK(read.x == Eigen::Vector3d(0, 1, 4));
   CHECK(read.widths(0, 1) == 0.4);
   CHECK(read.widths(2, 0) == 0.1);
-  const PlanarDomain box = rectangle({0, 0}, {4, 3});
+  const Surface box = rectangle({0, 0}, {4, 3});
   const Eigen::VectorXd rho = evaluate(density_of(read), Points2(Eigen::Vector2d(2.5, 1)), box);
   CHECK(rho[0] == doctest::Approx(std::pow(0.1 / 0.15, 4)));
   // The integral of 1/h^2 of a linear h from a to b over a length is the length over a b.
@@ -554,7 +552,7 @@ TEST_CASE("widths of the plane: from a file, their density and their number of c
   CHECK(implied_cells(read, box) == doctest::Approx(2 / std::sqrt(3.0) * integral).epsilon(5e-3));
   CHECK_NOTHROW(require_covering(read, rectangle({0, 0}, {4, 3})));
   CHECK_NOTHROW(require_covering(read, rectangle({-1.4, -1.4}, {5.4, 4.4}))); // half a step
-  CHECK_THROWS_WITH_AS(require_covering(read, periodic_box({6, 3})),
+  CHECK_THROWS_WITH_AS(require_covering(read, Surface::periodic({6, 3})),
                        "cell width: x runs from 0 to 4, but the domain from 0 to 6; give widths "
                        "that cover the domain",
                        Error);
@@ -975,9 +973,8 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
   REQUIRE(cells > 1500);
   REQUIRE(cells < 6000);
   const Density density = density_of(width);
-  const Cvt grid =
-      spherical_cvt(random_sphere(cells, site_density(density)),
-                    {.density = density, .tolerance = 1e-3, .rule = 3, .final_rule = 3});
+  const Cvt grid = cvt(random_sphere(cells, site_density(density)), {},
+                       {.density = density, .tolerance = 1e-3, .rule = 3, .final_rule = 3});
   std::vector<double> ratios;
   const Eigen::VectorXd asked = evaluate(width, grid.mesh.points);
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)

@@ -5,7 +5,6 @@
 #include "support/constants.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/check_file.h>
@@ -52,7 +51,7 @@ WriteOptions options_with_density(const Mesh& mesh, double radius, Format format
 
 void check_corruptions(int sites, std::size_t picks) {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(sites, 7));
+  const Mesh mesh = delaunay(random_sphere(sites, 7));
   for (const auto& [name, format] : netcdf_files) {
     if (format == Format::mpas_minimal)
       continue; // nothing else tells of the density there
@@ -162,7 +161,7 @@ TEST_CASE("a periodic plane has no deviation, and one that is spoilt is found") 
   Points2 points = 5 * Points2::Random(2, 150).array().abs();
   points.row(0) *= 2;
   for (const double shift : {0.0, 7.5}) {
-    const PlanarMesh mesh = periodic_delaunay(points, {10, 5});
+    const Mesh mesh = delaunay(points, Surface::periodic({10, 5}));
     WriteOptions options{.format = Format::mpas};
     options.site_density = Eigen::VectorXd::LinSpaced(150, 1, 2);
     write(path, mesh, options);
@@ -184,7 +183,7 @@ TEST_CASE("a periodic plane has no deviation, and one that is spoilt is found") 
 TEST_CASE("faults of MpasMeshConverter are known, where all values follow them") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc";
-  const Mesh mesh = spherical_delaunay(random_sphere(100, 3));
+  const Mesh mesh = delaunay(random_sphere(100, 3));
   write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
   Mpas file(path);
   file["gridSpacing"].values = file["cellQuality"].values;
@@ -214,7 +213,7 @@ TEST_CASE("faults of MpasMeshConverter are known, where all values follow them")
 TEST_CASE("a deviation names the variable, the place, both values and the rule") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc";
-  const Mesh mesh = spherical_delaunay(test::octahedron());
+  const Mesh mesh = delaunay(test::octahedron());
   write(path, mesh, {.format = Format::mpas});
   Mpas file(path);
   file.at("areaCell", 2) *= 1.5;
@@ -234,7 +233,7 @@ TEST_CASE("attributes of an MPAS file are checked") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc";
   const auto first = [&](const std::function<void(const Patch&)>& spoil) {
-    write(path, spherical_delaunay(octahedron()), {.format = Format::mpas});
+    write(path, delaunay(octahedron()), {.format = Format::mpas});
     spoil(Patch(path));
     return deviations_of(path).at(0).variable;
   };
@@ -250,7 +249,7 @@ TEST_CASE("attributes of an MPAS file are checked") {
 TEST_CASE("coordinates in single precision have no deviation") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc", rounded = scratch / "float.nc";
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(500));
+  const Mesh mesh = delaunay(fibonacci_sphere(500));
   write(path, mesh, options_with_density(mesh, 6371229, Format::mpas));
   Mpas(path).create(rounded, NC_FLOAT, [](int id) {
     const double radius = 6371229;
@@ -296,7 +295,7 @@ MeshFile file_of_cells(const Mesh& mesh, int every) {
 
 TEST_CASE("cells that are no Voronoi cells, and some of a mesh's cells, have no deviation") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(150, 4));
+  const Mesh mesh = delaunay(random_sphere(150, 4));
   for (const int every : {0, 3})
     for (const Format format : {Format::ugrid, Format::scrip, Format::esmf}) {
       CAPTURE(every);
@@ -310,7 +309,7 @@ TEST_CASE("cells that are no Voronoi cells, and some of a mesh's cells, have no 
 TEST_CASE("a file whose cells are all clockwise deviates") {
   const Scratch scratch;
   const std::string path = scratch / "cells.nc";
-  write(path, spherical_delaunay(cubed_sphere(3)), {.format = Format::scrip});
+  write(path, delaunay(cubed_sphere(3)), {.format = Format::scrip});
   for (const char* name : {"grid_corner_lon", "grid_corner_lat"}) {
     Variable corners = Patch(path).get(name);
     for (std::size_t i = 0; i < corners.shape[0]; ++i)
@@ -328,7 +327,7 @@ TEST_CASE("attributes of a UGRID file are checked") {
   const Scratch scratch;
   const std::string path = scratch / "cells.nc";
   const auto deviates = [&](const std::function<void(const Patch&)>& spoil) {
-    write(path, spherical_delaunay(octahedron()), {.format = Format::ugrid});
+    write(path, delaunay(octahedron()), {.format = Format::ugrid});
     spoil(Patch(path));
     return is_found(path);
   };
@@ -349,7 +348,7 @@ TEST_CASE("attributes of a UGRID file are checked") {
 TEST_CASE("optional lists of a UGRID file are checked") {
   const Scratch scratch;
   const std::string path = scratch / "cells.nc";
-  const Mesh mesh = spherical_delaunay(random_sphere(40, 9));
+  const Mesh mesh = delaunay(random_sphere(40, 9));
   write(path, mesh, {.format = Format::ugrid, .numbering = Numbering::input});
   const Voronoi cells = voronoi(mesh);
   const auto edges = static_cast<std::size_t>(cells.cells_on_edge.cols());
@@ -392,7 +391,7 @@ TEST_CASE("optional lists of a UGRID file are checked") {
 
 TEST_CASE("files of other formats have no variables to check") {
   const Scratch scratch;
-  write(scratch / "mesh.off", spherical_delaunay(test::octahedron()));
+  write(scratch / "mesh.off", delaunay(test::octahedron()));
   check_none(scratch / "mesh.off");
 }
 

@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/error.h>
@@ -180,16 +179,16 @@ TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") 
   options.norm = Norm::none;
   options.max_iterations = 12;
   options.bisections = 1;
-  const Cvt whole = spherical_cvt(start, options);
+  const Cvt whole = cvt(start, {}, options);
   for (const std::size_t last : {1, 11, 12, 13, 24}) { // 12 end the coarse level, 24 the fine one
     CAPTURE(last);
-    spherical_cvt(start, options, [&](const CvtProgress& now) {
+    cvt(start, {}, options, [&](const CvtProgress& now) {
       const bool stop = now.report.iterations.size() == last;
       if (stop)
         write_checkpoint(scratch.path, now.state, configuration);
       return stop;
     });
-    const Cvt resumed = spherical_cvt(read_checkpoint(scratch.path, configuration), options);
+    const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), {}, options);
     CHECK((resumed.mesh.points == whole.mesh.points));
     CHECK((resumed.mesh.triangles == whole.mesh.triangles));
     CHECK(resumed.mesh.site_of_input == whole.mesh.site_of_input);
@@ -211,7 +210,7 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
     CAPTURE(method);
     options.method = method;
     std::vector<CvtState> states; // after each step
-    const Cvt whole = spherical_cvt(start, options, [&](const CvtProgress& now) {
+    const Cvt whole = cvt(start, {}, options, [&](const CvtProgress& now) {
       states.push_back(now.state);
       return false;
     });
@@ -228,7 +227,7 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
       if (place < 0 || place >= std::ssize(states))
         continue;
       write_checkpoint(scratch.path, states[static_cast<std::size_t>(place)], configuration);
-      const Cvt resumed = spherical_cvt(read_checkpoint(scratch.path, configuration), options);
+      const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), {}, options);
       CHECK(equal(resumed.mesh.points, whole.mesh.points));
       CHECK((resumed.mesh.triangles == whole.mesh.triangles));
       CHECK(resumed.report.converged == whole.report.converged);

@@ -8,7 +8,6 @@
 #include "support/full_disk.h"
 #include "support/global_file.h"
 #include "support/gshhg.h"
-#include "support/planes.h"
 
 #include <calotte/cull.h>
 #include <calotte/cut.h>
@@ -200,8 +199,8 @@ TEST_CASE("the sea by a raster: cells with their generator well inside are land"
       REQUIRE((masks.at("cullCell", i) == 0 && masks.at("landFraction", i) == 0));
   }
   // With a coast, the greater fraction counts.
-  const Region region = circle({-1, 0, 0}, 0.3);
-  options.coast = {region.rings, area(region)};
+  const Surface region = circle({-1, 0, 0}, 0.3);
+  options.coast = {{region.rings().begin(), region.rings().end()}, region.area()};
   const CullReport both = cull(source, target, options);
   CHECK(both.land > report.land + 40);
 }
@@ -236,7 +235,7 @@ TEST_CASE("an ocean can be cut, and a regional file loses land by a field") {
   const Scratch scratch;
   const std::string global = scratch / "global.nc", ocean = scratch / "ocean.nc",
                     target = scratch / "target.nc";
-  Mesh mesh = spherical_delaunay(fibonacci_sphere(2000));
+  Mesh mesh = delaunay(fibonacci_sphere(2000));
   WriteOptions written;
   written.fields = {{.name = "height", .values = mesh.points.row(0).transpose()}};
   write(global, mesh, written);
@@ -276,7 +275,7 @@ TEST_CASE("an ocean can be cut, and a regional file loses land by a field") {
 TEST_CASE("a cull that fails leaves no file, whichever output fails") {
   const Scratch scratch;
   const std::string source = scratch / "global.nc";
-  write(source, spherical_delaunay(fibonacci_sphere(1000)));
+  write(source, delaunay(fibonacci_sphere(1000)));
   const Scratch out;
   CullOptions options;
   options.field = {"", "zCell", 0.1, 0.9};
@@ -315,7 +314,7 @@ TEST_CASE(
   WriteOptions written;
   written.format = Format::mpas;
   written.sphere_radius = 6371000;
-  write(source, spherical_delaunay(bisected_icosahedron(7)), written);
+  write(source, delaunay(bisected_icosahedron(7)), written);
   CullOptions options;
   options.coast = gshhg('i');
   options.mask_path = mask;

@@ -3,7 +3,6 @@
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/cull.h>
@@ -29,11 +28,11 @@ using namespace calotte::test::cut_laws;
 
 namespace {
 
-Coast coast_of(const std::vector<Region>& regions) {
+Coast coast_of(const std::vector<Surface>& regions) {
   Coast coast;
-  for (const Region& region : regions) {
-    coast.area += area(region);
-    coast.rings.insert(coast.rings.end(), region.rings.begin(), region.rings.end());
+  for (const Surface& region : regions) {
+    coast.area += region.area();
+    coast.rings.insert(coast.rings.end(), region.rings().begin(), region.rings().end());
   }
   return coast;
 }
@@ -42,8 +41,8 @@ Coast coast_of(const std::vector<Region>& regions) {
 Coast world() {
   const Eigen::Vector3d wide = Eigen::Vector3d(1, 0.1, 0.2).normalized(),
                         narrow = Eigen::Vector3d(-1, 0.3, 0.4).normalized();
-  std::vector<Region> regions{channel(-std::numbers::pi / 2, -1.2), circle(wide, 0.5),
-                              ellipse(narrow, 0.9, 0.05, 0.3)};
+  std::vector<Surface> regions{channel(-std::numbers::pi / 2, -1.2), circle(wide, 0.5),
+                               ellipse(narrow, 0.9, 0.05, 0.3)};
   std::vector<Eigen::Vector3d> islands;
   Random random(7);
   for (int k = 0; k < 400; ++k) {
@@ -60,11 +59,10 @@ Coast world() {
   return coast_of(regions);
 }
 
-Voronoi tessellation_of(const Points3& points) { return voronoi(spherical_delaunay(points)); }
+Voronoi tessellation_of(const Points3& points) { return voronoi(delaunay(points)); }
 
 /// The fraction of a cell by points in it, for a region that is one circle.
-double sampled_fraction(const Voronoi& cells, Eigen::Index i, const Region& region) {
-  const auto inside = containing(region);
+double sampled_fraction(const Voronoi& cells, Eigen::Index i, const Surface& region) {
   double all = 0, land = 0;
   const Eigen::Vector3d c = cells.cells.col(i);
   const auto corners = cells.vertices_on_cell[i];
@@ -78,7 +76,7 @@ double sampled_fraction(const Voronoi& cells, Eigen::Index i, const Region& regi
         const Eigen::Vector3d p = c + u * (a - c) + v * (b - c);
         const double weight = (a - c).cross(b - c).norm() / std::pow(p.norm(), 3);
         all += weight;
-        land += inside(p) ? weight : 0;
+        land += region.contains(p) ? weight : 0;
       }
   }
   return land / all;
@@ -101,7 +99,7 @@ TEST_CASE("fractions of land sum to its area, for coasts and cells of any size")
 }
 
 TEST_CASE("a fraction is that of points in the cell") {
-  const Region region = circle({0.2, -0.4, 0.5}, 0.7);
+  const Surface region = circle({0.2, -0.4, 0.5}, 0.7);
   const Voronoi cells = tessellation_of(fibonacci_sphere(60));
   const Eigen::VectorXd fractions = land_fractions(cells, coast_of({region}));
   for (Eigen::Index i = 0; i < cells.cells.cols(); ++i)
@@ -111,10 +109,9 @@ TEST_CASE("a fraction is that of points in the cell") {
 
 TEST_CASE("fractions: complements, adjoining polygons, islands in a cell, threads") {
   const Voronoi cells = tessellation_of(fibonacci_sphere(2000));
-  const Region cap = circle({0, 0.1, 1}, 0.8);
-  Region outside = cap;
-  for (Points3& ring : outside.rings)
-    ring = ring.rowwise().reverse().eval();
+  const Surface cap = circle({0, 0.1, 1}, 0.8);
+  const Points3 ring = cap.rings()[0].rowwise().reverse();
+  const Surface outside = Surface::sphere().within({ring});
   const Eigen::VectorXd in = land_fractions(cells, coast_of({cap})),
                         out = land_fractions(cells, coast_of({outside}));
   CHECK((in + out - Eigen::VectorXd::Ones(in.size())).cwiseAbs().maxCoeff() <= 1e-10);
@@ -122,16 +119,16 @@ TEST_CASE("fractions: complements, adjoining polygons, islands in a cell, thread
   Points3 west(3, 4), east(3, 4); // share the arc from 0 to 1
   west << 1, 0.6, 0.2, 0.8, 0, 0, -0.5, -0.5, 0.1, 0.8, 0.8, 0.1;
   east << 0.6, 1, 0.8, 0.2, 0, 0, 0.5, 0.5, 0.8, 0.1, 0.1, 0.8;
-  const Region a = enclosed_region({west.colwise().normalized()}),
-               b = enclosed_region({east.colwise().normalized()});
+  const Surface a = enclosed_region({west.colwise().normalized()}),
+                b = enclosed_region({east.colwise().normalized()});
   const Eigen::VectorXd both = land_fractions(cells, coast_of({a, b}));
   CHECK((both - land_fractions(cells, coast_of({a})) - land_fractions(cells, coast_of({b})))
             .cwiseAbs()
             .maxCoeff() <= 1e-10);
 
-  const Region island = circle(cells.cells.col(17), 1e-4, 16);
+  const Surface island = circle(cells.cells.col(17), 1e-4, 16);
   const Eigen::VectorXd dot = land_fractions(cells, coast_of({island}));
-  CHECK(dot[17] * cells.cell_area[17] == doctest::Approx(area(island)).epsilon(1e-9));
+  CHECK(dot[17] * cells.cell_area[17] == doctest::Approx(island.area()).epsilon(1e-9));
   CHECK(dot.sum() == doctest::Approx(dot[17]).epsilon(1e-9));
 
   for (const int threads : {1, 3}) {

@@ -4,7 +4,6 @@
 #include "support/cut_laws.h"
 #include "support/files.h"
 #include "support/global_file.h"
-#include "support/planes.h"
 
 #include <calotte/check_file.h>
 #include <calotte/cut.h>
@@ -320,13 +319,12 @@ TEST_CASE("sources without a mesh of the sphere with connectivity are refused") 
     return std::string(error.what());
   };
   CHECK(refusal().starts_with("cannot read " + source));
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(100));
+  const Mesh mesh = delaunay(fibonacci_sphere(100));
   write(source, mesh, {.format = Format::mpas_minimal});
   CHECK(refusal() == source + " holds no nEdgesOnCell; complete it with calotte convert IN OUT.nc");
   write(source, mesh, {.format = Format::ugrid});
   CHECK(refusal() == source + " holds no MPAS mesh; convert it with calotte convert");
-  write(source, periodic_delaunay(lattice_places(100, periodic_box({1, 1})), {1, 1}),
-        {.format = Format::mpas});
+  write(source, hexagonal_box(10, 12, 0.1), {.format = Format::mpas});
   CHECK(refusal() == source + " holds a mesh of the plane, not of the sphere; give another");
   write(source, mesh, {.format = Format::mpas});
   Patch(source).attribute("", "sphere_radius", 2);
@@ -355,19 +353,16 @@ TEST_CASE("a cancelled run leaves no file") {
 
 TEST_CASE("a grid made in a region keeps all rules, and is that cut from a global mesh") {
   const Scratch scratch;
-  const Region region = circle(centre_of_cut, 0.14), meshed = widened(region, 11 * 0.012);
+  const Surface region = circle(centre_of_cut, 0.14), meshed = widened(region, 11 * 0.012);
   CvtOptions options;
   options.max_iterations = 60;
-  const Points3 generators =
-      spherical_cvt(random_points(1900, meshed), meshed, options).mesh.points;
+  const Points3 generators = cvt(random_points(1900, meshed), meshed, options).mesh.points;
   const std::string made = scratch / "made.nc", global = scratch / "global.nc",
                     cut_out = scratch / "cut.nc";
-  Mesh run;
-  run.points = generators;
-  run.surface = meshed;
-  write_limited_area(made, run, region);
+  write_limited_area(made, {.points = generators, .surface = meshed}, region);
   const Contents file = contents_of(made);
-  const std::vector<int> distance = distances(file, flags_of(file, containing(region)));
+  const std::vector<int> distance =
+      distances(file, flags_of(file, [&](const auto& x) { return region.contains(x); }));
   for (std::size_t i = 0; i < distance.size(); ++i)
     REQUIRE(file.at("bdyMaskCell", i) == distance[i]);
   CHECK(*std::max_element(distance.begin(), distance.end()) == 7);
@@ -380,13 +375,13 @@ TEST_CASE("a grid made in a region keeps all rules, and is that cut from a globa
     CHECK(file.at("dvEdge", e) < 0.02); // whole cells, none that reaches beyond the meshed region
   Points3 all(3, generators.cols() + 300);
   all.leftCols(generators.cols()) = generators;
-  const Region far = widened(meshed, 0.1);
+  const Surface far = widened(meshed, 0.1);
   Eigen::Index next = generators.cols();
   const Points3 others = random_sphere(400, 7);
   for (const auto& x : others.colwise())
-    if (next < all.cols() && !contains(far, x))
+    if (next < all.cols() && !far.contains(x))
       all.col(next++) = x;
-  write(global, spherical_delaunay(Points3(all.leftCols(next))));
+  write(global, delaunay(Points3(all.leftCols(next))));
   cut(global, cut_out, region);
   CHECK((neighbours_of(file) == neighbours_of(contents_of(cut_out))));
   CHECK(!std::filesystem::exists(made + ".whole.nc"));

@@ -3,7 +3,6 @@
 #include "mesh/adjacency.h"
 #include "support/files.h"
 #include "support/oracle.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/delaunay.h>
@@ -58,7 +57,7 @@ std::set<Triple> left_by_the_rule(std::set<Triple> all) {
 
 /// A mesh that has lost triangles at random, with values that tell its sites and triangles.
 MeshFile ragged(int sites, double share, std::uint64_t seed) {
-  const Mesh whole = spherical_delaunay(fibonacci_sphere(sites));
+  const Mesh whole = delaunay(fibonacci_sphere(sites));
   Random random(seed);
   std::vector<std::int32_t> kept;
   for (std::int32_t t = 0; t < whole.triangles.cols(); ++t)
@@ -128,14 +127,13 @@ TEST_CASE("density and fields follow") {
 
 TEST_CASE("a closed mesh stays, and a mesh of ears alone is refused") {
   MeshFile closed;
-  closed.mesh = spherical_delaunay(fibonacci_sphere(50));
+  closed.mesh = delaunay(fibonacci_sphere(50));
   const auto [file, removed] = without_ears(closed);
   CHECK(file.mesh->triangles == closed.mesh->triangles);
   CHECK(removed.triangles == 0);
   CHECK(removed.sites == 0);
   MeshFile strip; // three triangles in a row
-  strip.mesh =
-      spherical_delaunay(Points3{{1, 1, 1, 1, 1}, {0, 0.1, 0.2, 0.05, 0.15}, {0, 0, 0, 0.1, 0.1}});
+  strip.mesh = delaunay(Points3{{1, 1, 1, 1, 1}, {0, 0.1, 0.2, 0.05, 0.15}, {0, 0, 0, 0.1, 0.1}});
   REQUIRE(strip.mesh->triangles.cols() == 3);
   CHECK(error_of([&] { without_ears(strip); }).code() == ErrorCode::invalid_argument);
   CHECK(error_of([] { without_ears(MeshFile{}); }).code() == ErrorCode::invalid_argument);
@@ -143,7 +141,7 @@ TEST_CASE("a closed mesh stays, and a mesh of ears alone is refused") {
 
 TEST_CASE("FESOM's depths: levels and bottoms below 0, in the order of the nodes") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(40));
+  const Mesh mesh = delaunay(fibonacci_sphere(40));
   for (const double sign : {1.0, -1.0})
     for (const Numbering numbering : {Numbering::input, Numbering::curve}) {
       WriteOptions options{.format = Format::fesom, .numbering = numbering};
@@ -171,7 +169,7 @@ TEST_CASE("FESOM's depths: levels and bottoms below 0, in the order of the nodes
 
 TEST_CASE("depths that FESOM refuses are refused before any file is written") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(40));
+  const Mesh mesh = delaunay(fibonacci_sphere(40));
   WriteOptions good{.format = Format::fesom};
   good.depth_levels = Eigen::Vector3d(0, 10, 100);
   good.site_depth = Eigen::VectorXd::Constant(40, 50);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/constants.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include "io/netcdf/netcdf_writer.h"
 
@@ -250,9 +249,9 @@ TEST_CASE("a part of the sphere: cells outside have no weights") {
 TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
   const Scratch scratch;
   const auto box = [&](const std::string& name, std::uint64_t seed) {
-    return written_grid(
-        in_folder(scratch, name),
-        delaunay(random_places(200, periodic_box({3, 2}), seed), Surface::periodic({3, 2})));
+    const Surface surface = Surface::periodic({3, 2});
+    return written_grid(in_folder(scratch, name),
+                        delaunay(random_points(200, surface, {}, seed), surface));
   };
   const FieldGrid a = box("a.nc", 1), b = box("b.nc", 2);
   for (const Interpolation kind :
@@ -262,9 +261,9 @@ TEST_CASE("planes: linear is exact for linear fields, and periods are kept") {
           1e-12);
   }
   const auto open = [&](const std::string& name, std::int64_t n, std::uint64_t seed) {
-    return written_grid(in_folder(scratch, name),
-                        delaunay(random_places(n, PlanarDomain(rectangle({0, 0}, {1, 1})), seed),
-                                 Surface::plane()));
+    return written_grid(
+        in_folder(scratch, name),
+        delaunay(random_points(n, rectangle({0, 0}, {1, 1}), {}, seed), Surface::plane()));
   };
   const FieldGrid from = open("from.vtp", 400, 3), to = open("to.vtp", 200, 4);
   const auto linear = [](const FieldGrid& grid) {

@@ -6,7 +6,6 @@
 #include "support/constants.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -144,7 +143,7 @@ TEST_CASE("GeoJSON: a ring around a pole, from any of its places on") {
 
 TEST_CASE("GeoJSON: cells with a place are compared with the Voronoi cells of their places") {
   const Scratch scratch;
-  const calotte::Mesh mesh = calotte::spherical_delaunay(
+  const calotte::Mesh mesh = calotte::delaunay(
       columns({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}));
   // The faces of a cube, of which two are cut by the meridian of 180 degrees, in whole rings.
   const double latitude = 180 / pi * std::asin(1 / std::sqrt(3.0));
@@ -177,7 +176,7 @@ TEST_CASE("GeoJSON: cells with a place are compared with the Voronoi cells of th
 
 TEST_CASE("GeoJSON: Voronoi cells that calotte writes come back with density and fields") {
   const Scratch scratch;
-  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(60, 2));
+  const calotte::Mesh mesh = calotte::delaunay(calotte::random_sphere(60, 2));
   calotte::WriteOptions options;
   options.site_density = 1 + mesh.points.row(0).transpose().array();
   options.fields = {{.name = "height", .values = mesh.points.row(1).transpose()}};

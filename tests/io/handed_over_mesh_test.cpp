@@ -4,7 +4,6 @@
 #include "io/formats/formats.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -40,7 +39,7 @@ WriteOptions options_with_bump(Format format, Numbering numbering) {
 
 TEST_CASE("a mesh that is handed over gives the same file, and is empty then") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(3'000, 1));
+  const Mesh mesh = delaunay(random_sphere(3'000, 1));
   for (const auto& [format, suffix] :
        {std::pair{Format::mpas, ".nc"}, std::pair{Format::mpas_minimal, ".nc"},
         std::pair{Format::ugrid, ".nc"}, std::pair{Format::scrip, ".nc"},
@@ -62,7 +61,7 @@ TEST_CASE("a mesh that is handed over gives the same file, and is empty then") {
 
 TEST_CASE("a mesh that is refused remains") {
   const Scratch scratch;
-  Mesh mesh = spherical_delaunay(random_sphere(100, 1));
+  Mesh mesh = delaunay(random_sphere(100, 1));
   const Points3 points = mesh.points;
   CHECK(error_of([&] { write(scratch / "mesh.unknown", std::move(mesh)); }).code() ==
         ErrorCode::invalid_argument);
@@ -73,7 +72,7 @@ TEST_CASE("a mesh that is refused remains") {
 TEST_CASE("an MPAS file that is computed while it is written has the bits of the tessellation") {
   const Scratch scratch;
   std::vector<NamedMesh> meshes = closed_meshes();
-  meshes.push_back({"many", spherical_delaunay(random_sphere(20'000, 2))});
+  meshes.push_back({"many", delaunay(random_sphere(20'000, 2))});
   const WriteOptions options = options_with_bump(Format::mpas, Numbering::input);
   for (auto& [name, mesh] : meshes) {
     CAPTURE(name);
@@ -82,7 +81,8 @@ TEST_CASE("an MPAS file that is computed while it is written has the bits of the
     io_detail::write_mpas(scratch / "stored.nc", voronoi(mesh), mesh.points, options);
     CHECK(test::read_file(scratch / "computed.nc") == test::read_file(scratch / "stored.nc"));
   }
-  const PlanarMesh plane = periodic_delaunay(lattice_places(100, periodic_box({1, 1})), {1, 1});
+  const Surface box = Surface::periodic({1, 1});
+  const Mesh plane = delaunay(hexagonal_lattice(100, box), box);
   io_detail::write_mpas(scratch / "computed.nc", plane, {});
   io_detail::write_mpas(scratch / "stored.nc", voronoi(plane), {}, {});
   CHECK(test::read_file(scratch / "computed.nc") == test::read_file(scratch / "stored.nc"));

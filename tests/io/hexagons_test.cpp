@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/check_file.h>
@@ -69,16 +68,16 @@ TEST_CASE("hexagons of a box lie where planar_hex puts them, moved into the peri
   const double d = 1234.5;
   const MeshFile file = planar_hexagons(6, 8, d);
   REQUIRE(file.plane());
-  const PlanarMesh mesh = PlanarMesh(*file.plane());
-  CHECK(mesh.period.x() == 6 * d);
-  CHECK(mesh.period.y() == doctest::Approx(8 * d * root3 / 2).epsilon(1e-15));
+  const Mesh& mesh = *file.plane();
+  const Eigen::Vector2d& period = mesh.surface.period();
+  CHECK(period.x() == 6 * d);
+  CHECK(period.y() == doctest::Approx(8 * d * root3 / 2).epsilon(1e-15));
   CHECK(check(mesh).failure == "");
   for (int row = 0; row < 8; ++row)
     for (int column = 0; column < 6; ++column) {
       const Eigen::Vector3d expected(d * (column + (row % 2 == 0 ? 0.5 : 1)),
                                      d * (row + 1) * root3 / 2, 0);
-      const Eigen::Vector2d place = mesh.points.col(6 * row + column);
-      CHECK(apart({place.x(), place.y(), 0}, expected, mesh.period) < 1e-9);
+      CHECK(apart(mesh.points.col(6 * row + column), expected, period) < 1e-9);
     }
   const Voronoi cells = voronoi(mesh);
   CHECK((cells.dc.array() - d).abs().maxCoeff() < 1e-9 * d);
@@ -162,23 +161,22 @@ TEST_CASE("hexagons out of range are refused") {
 }
 
 TEST_CASE("between walls stay the cells whose sites are there, with corners beside them") {
-  const PlanarDomain box = periodic_box({10, 8});
-  const PlanarMesh mesh = periodic_delaunay(random_places(400, box, 3), box.period);
-  const Mesh spatial = mesh.in(box);
+  const Surface box = Surface::periodic({10, 8});
+  const Mesh mesh = delaunay(random_points(400, box, {}, 3), box);
   const Voronoi cells = voronoi(mesh);
-  const MeshFile file = walled(spatial, {10, 6}, {.y = true});
+  const MeshFile file = walled(mesh, {10, 6}, {.y = true});
   REQUIRE(file.polygons);
   CHECK(file.polygons->period == Eigen::Vector2d(10, 0));
   std::int64_t next = 0;
   const Eigen::VectorXd found = areas(*file.polygons);
   for (Eigen::Index i = 0; i < 400; ++i)
     if (mesh.points(1, i) <= 6) {
-      CHECK(file.polygons->centres.col(next).head<2>() == mesh.points.col(i));
+      CHECK(file.polygons->centres.col(next) == mesh.points.col(i));
       CHECK(found[next] == doctest::Approx(cells.cell_area[i]).epsilon(1e-9));
       ++next;
     }
   CHECK(next == file.polygons->size());
   CHECK(file.polygons->corners.row(1).minCoeff() < 0); // beside the cells at the lower wall
-  CHECK_THROWS_AS(walled(spatial, {10, 6}, {}), Error);
-  CHECK_THROWS_AS(walled(spatial, {10, 8}, {.y = true}), Error);
+  CHECK_THROWS_AS(walled(mesh, {10, 6}, {}), Error);
+  CHECK_THROWS_AS(walled(mesh, {10, 8}, {.y = true}), Error);
 }

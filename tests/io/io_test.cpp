@@ -3,7 +3,6 @@
 #include "support/files.h"
 #include "support/full_disk.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/error.h>

@@ -2,7 +2,6 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>
@@ -29,7 +28,6 @@ using calotte::Mesh;
 using calotte::MeshField;
 using calotte::MeshFile;
 using calotte::Numbering;
-using calotte::PlanarMesh;
 using namespace calotte::test;
 using Names = std::vector<std::string>;
 
@@ -197,7 +195,7 @@ int type_in(const std::string& path, const std::string& name) {
 TEST_CASE("fields at edges, of levels and of times follow their places to another numbering") {
   const Scratch scratch;
   const std::string path = scratch / "foreign.nc", copy = scratch / "copy.nc";
-  write_foreign(path, calotte::spherical_delaunay(calotte::random_sphere(150, 4)));
+  write_foreign(path, calotte::delaunay(calotte::random_sphere(150, 4)));
   const MeshFile file = calotte::read_mesh_file(path);
   CHECK(names_of(file.fields) == Names{"u", "gradient", "height", "warmth", "spin", "zone"});
   CHECK(file.ignored == Names{"advCells", "slope", "depth"});
@@ -221,7 +219,7 @@ TEST_CASE("fields at edges, of levels and of times follow their places to anothe
 TEST_CASE("integers stay integers, and a missing one is missing; packed values are unpacked") {
   const Scratch scratch;
   const std::string path = scratch / "foreign.nc", copy = scratch / "copy.nc";
-  write_foreign(path, calotte::spherical_delaunay(calotte::random_sphere(60, 5)));
+  write_foreign(path, calotte::delaunay(calotte::random_sphere(60, 5)));
   Patch(path).attribute("height", "scale_factor", 2.0);
   Patch(path).attribute("height", "add_offset", 1.0);
   const MeshFile file = calotte::read_mesh_file(path);
@@ -244,7 +242,7 @@ TEST_CASE("integers stay integers, and a missing one is missing; packed values a
 TEST_CASE("formats of cells hold levels and times; those at edges are named") {
   const Scratch scratch;
   const std::string path = scratch / "foreign.nc", copy = scratch / "copy.nc";
-  write_foreign(path, calotte::spherical_delaunay(calotte::random_sphere(80, 6)));
+  write_foreign(path, calotte::delaunay(calotte::random_sphere(80, 6)));
   const MeshFile file = calotte::read_mesh_file(path);
   const Names edges{"u", "gradient", "height"};
   const auto dropped = [&](const std::string& to, Format format) {
@@ -280,7 +278,7 @@ TEST_CASE("formats of cells hold levels and times; those at edges are named") {
 
 TEST_CASE("UGRID tells where each field is") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   calotte::WriteOptions options{.format = Format::ugrid};
   options.fields = {
       {.name = "c", .values = Eigen::VectorXd::Ones(6)},
@@ -306,8 +304,8 @@ TEST_CASE("UGRID tells where each field is") {
 TEST_CASE("a periodic plane's fields at edges follow them") {
   const Scratch scratch;
   const std::string path = scratch / "box.nc", copy = scratch / "copy.nc";
-  const calotte::PlanarDomain box = calotte::periodic_box({10, 8});
-  const PlanarMesh mesh = calotte::periodic_delaunay(calotte::random_places(120, box, 3), {10, 8});
+  const calotte::Surface box = calotte::Surface::periodic({10, 8});
+  const Mesh mesh = calotte::delaunay(calotte::random_points(120, box, {}, 3), box);
   calotte::write(path, mesh);
   shuffle_edges(path);
   const auto value = [](const std::vector<double>& edges, std::size_t e) {
@@ -325,7 +323,7 @@ TEST_CASE("a periodic plane's fields at edges follow them") {
 
 TEST_CASE("names that NetCDF refuses are replaced, and each is named") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   MeshFile file;
   file.mesh = mesh;
   for (const char* name :
@@ -354,7 +352,7 @@ TEST_CASE("names that NetCDF refuses are replaced, and each is named") {
 
 TEST_CASE("fields that do not fit are refused by name") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   const auto problem = [&](const MeshField& field, const Mesh& of) {
     calotte::WriteOptions options{.format = Format::ugrid_triangles};
     options.fields = {field};

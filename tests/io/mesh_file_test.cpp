@@ -3,7 +3,6 @@
 #include "io/command.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -92,8 +91,8 @@ TEST_CASE("a name tells its format, in any case; an option tells it too, and mus
 TEST_CASE("every format's file is read as the mesh that was written") {
   const Scratch scratch;
   for (const auto& [name, mesh] :
-       {NamedMesh{"random", calotte::spherical_delaunay(calotte::random_sphere(200, 1))},
-        NamedMesh{"cubed sphere", calotte::spherical_delaunay(calotte::cubed_sphere(4))}})
+       {NamedMesh{"random", calotte::delaunay(calotte::random_sphere(200, 1))},
+        NamedMesh{"cubed sphere", calotte::delaunay(calotte::cubed_sphere(4))}})
     for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(name);
       CAPTURE(int(kind.format));
@@ -116,7 +115,7 @@ TEST_CASE("every format's file is read as the mesh that was written") {
 
 TEST_CASE("numbering: along the curve for NetCDF by default, as selected in every format") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(120, 2));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(120, 2));
   for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})
     for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(int(kind.format));
@@ -134,7 +133,7 @@ TEST_CASE("numbering: along the curve for NetCDF by default, as selected in ever
 
 TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(100, 3));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(100, 3));
   for (const ExpectedFormat& kind : expected_formats)
     if (kind.netcdf()) {
       calotte::write(scratch / "grid.data", mesh, {.format = kind.format});
@@ -151,7 +150,7 @@ TEST_CASE("a NetCDF file's contents tell its kind, whatever its name") {
 
 TEST_CASE("options out of range are refused before any file is touched") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   const auto refused = [&](const ExpectedFormat& kind, calotte::WriteOptions options) {
     options.format = kind.format;
     CHECK(error_of([&] { calotte::write(scratch / kind.file, mesh, options); }).code() ==
@@ -184,7 +183,7 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
       else
         write();
     }
-  const Mesh good = calotte::spherical_delaunay(octahedron());
+  const Mesh good = calotte::delaunay(octahedron());
   for (const std::int32_t id : {-1, 6, std::numeric_limits<std::int32_t>::max()})
     for (const ExpectedFormat& kind : expected_formats) {
       Mesh bad = good;
@@ -205,7 +204,7 @@ TEST_CASE("cells need a closed mesh, triangles none; ids must be the mesh's") {
 TEST_CASE(
     "a raw mesh is written as triangles without fields; reading refuses triangles that overlap") {
   const Scratch scratch;
-  Mesh raw = calotte::spherical_delaunay(octahedron());
+  Mesh raw = calotte::delaunay(octahedron());
   raw.triangles.col(7) = raw.triangles.col(0); // as many as a closed mesh has, but open edges
   raw.neighbours.setConstant(-1);
   for (const char* file : {"mesh.vtp", "mesh.vtu", "mesh.off", "mesh.ply", "mesh.msh"}) {
@@ -244,7 +243,7 @@ TEST_CASE("region centres: RegionList, and RegionTriangulation by the list besid
     CHECK(equal_bits(calotte::read_sites(scratch / ("RegionList" + rest)), centres));
     CHECK(equal_bits(calotte::read_sites(scratch / ("RegionTriangulation" + rest)), centres));
     check_equal(calotte::read_mesh(scratch / ("RegionTriangulation" + rest)),
-                calotte::spherical_delaunay(centres));
+                calotte::delaunay(centres));
   }
   write_text(scratch / "RegionTriangulation.4", "0 1 2\n0 2 3\n");
   const calotte::Error alone =
@@ -257,7 +256,7 @@ TEST_CASE("region centres: RegionList, and RegionTriangulation by the list besid
 
 TEST_CASE("triangles alone are no sites") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   for (const char* file : {"mesh.txt", "mesh.tri"}) {
     calotte::write(scratch / file, mesh);
     CHECK(error_of([&] { calotte::read_sites(scratch / file); }).code() ==
@@ -269,7 +268,7 @@ TEST_CASE("triangles alone are no sites") {
 
 TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers") {
   const Scratch scratch;
-  const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 8, 1000);
+  const calotte::Mesh plane = calotte::hexagonal_box(6, 8, 1000);
   for (const ExpectedFormat& kind : expected_formats) {
     if (kind.format == Format::triangles)
       continue;
@@ -286,26 +285,23 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
     CHECK(error_of([&] { write(Numbering::curve); }).code() == ErrorCode::invalid_argument);
     CHECK(error_of([&] { write(Numbering::rcm); }).code() == ErrorCode::invalid_argument);
     write(Numbering::by_format);
-    const calotte::PlanarMesh read = calotte::test::read_planar_mesh(path);
+    const calotte::Mesh read = calotte::read_mesh(path);
     CHECK(equal_bits(read.points, plane.points));
     CHECK(equal_bits(read.triangles, plane.triangles));
-    CHECK(read.period == plane.period);
-    CHECK(calotte::read_mesh(path).surface.period() == plane.period);
+    CHECK(read.surface == plane.surface);
   }
-  const Mesh sphere = calotte::spherical_delaunay(octahedron());
+  const Mesh sphere = calotte::delaunay(octahedron());
   calotte::write(scratch / "mesh.nc", sphere);
-  CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.nc"); }).code() ==
-        ErrorCode::invalid_argument);
+  CHECK(calotte::read_mesh(scratch / "mesh.nc").surface.is_sphere());
   calotte::write(scratch / "mesh.off", sphere);
-  CHECK(error_of([&] { calotte::test::read_planar_mesh(scratch / "mesh.off"); }).code() ==
-        ErrorCode::invalid_argument);
+  CHECK(calotte::read_mesh(scratch / "mesh.off").surface.is_sphere());
 }
 
 TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as cells") {
   const Scratch scratch;
-  calotte::Points2 points(2, 5);
-  points << 1, 3, 3, 1, 2, 1, 1, 2, 2, 1.5;
-  const calotte::PlanarMesh plane = calotte::planar_delaunay(points);
+  Points3 points(3, 5);
+  points << 1, 3, 3, 1, 2, 1, 1, 2, 2, 1.5, 0, 0, 0, 0, 0;
+  const calotte::Mesh plane = calotte::delaunay(points, calotte::Surface::plane());
   for (const ExpectedFormat& kind : expected_formats) {
     CAPTURE(int(kind.format));
     const std::string path = scratch / kind.file;
@@ -317,9 +313,9 @@ TEST_CASE("a plane that does not repeat itself is written with z = 0, but not as
     write();
     if (kind.format == Format::triangles)
       continue;
-    const calotte::PlanarMesh read = calotte::test::read_planar_mesh(path);
+    const calotte::Mesh read = calotte::read_mesh(path);
     CHECK(equal_bits(read.triangles, plane.triangles));
     CHECK(read.points == points);
-    CHECK(calotte::read_mesh(path).surface == calotte::Surface::plane());
+    CHECK(read.surface == calotte::Surface::plane());
   }
 }

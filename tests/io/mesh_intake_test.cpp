@@ -4,7 +4,6 @@
 #include "io/polygon_file.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/check.h>
@@ -148,7 +147,7 @@ TEST_CASE("triangles in any order, from any vertex on, and all clockwise give th
 
 TEST_CASE("triangles of both orientations are refused, and the first of the rarer is named") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(60, 5));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(60, 5));
   Triangles mixed = mesh.triangles;
   std::swap(mixed(1, 17), mixed(2, 17));
   const auto refused = [&](const Triangles& triangles) {
@@ -281,7 +280,7 @@ TEST_CASE("polygons: all clockwise are turned, both orientations and overlaps ar
 
 TEST_CASE("fields and densities go from format to format in the order of the cells") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(300, 6));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(300, 6));
   calotte::WriteOptions options;
   options.site_density = 1 + mesh.points.row(0).transpose().array();
   options.fields = {{.name = "height", .units = "m", .values = mesh.points.row(1).transpose()},
@@ -325,7 +324,7 @@ TEST_CASE("fields and densities go from format to format in the order of the cel
 
 TEST_CASE("values of another number than the mesh's sites are refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   const auto refused = [&](const calotte::WriteOptions& options) {
     CHECK(error_of([&] { calotte::write(scratch / "mesh.nc", mesh, options); }).code() ==
           ErrorCode::invalid_argument);
@@ -338,10 +337,10 @@ TEST_CASE("values of another number than the mesh's sites are refused") {
 }
 
 TEST_CASE("edges: cocircular diagonals are no fault, others are counted and named") {
-  const Mesh mesh = calotte::spherical_delaunay(signs_of({1, 1, 1})); // a cube's corners
+  const Mesh mesh = calotte::delaunay(signs_of({1, 1, 1})); // a cube's corners
   CHECK(calotte::count_edges(mesh).not_delaunay == 0);
   CHECK(calotte::count_edges(mesh).cocircular == 0);
-  const Mesh random = calotte::spherical_delaunay(calotte::random_sphere(100, 7));
+  const Mesh random = calotte::delaunay(calotte::random_sphere(100, 7));
   const Scratch scratch;
   // The other diagonal of two triangles.
   const auto flipped = [&](const Mesh& from, Eigen::Index t, int i) {
@@ -390,7 +389,7 @@ TEST_CASE("edges: cocircular diagonals are no fault, others are counted and name
 
 TEST_CASE("an open mesh that is not convex is a surface with counted boundaries") {
   const Scratch scratch;
-  const Mesh whole = calotte::spherical_delaunay(calotte::random_sphere(400, 8));
+  const Mesh whole = calotte::delaunay(calotte::random_sphere(400, 8));
   std::vector<std::int32_t> kept;
   for (std::int32_t t = 0; t < whole.triangles.cols(); ++t) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -418,7 +417,7 @@ TEST_CASE("an open mesh that is not convex is a surface with counted boundaries"
 }
 
 TEST_CASE("an interpolated density has the values of its sites, and lies between them elsewhere") {
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(500, 9));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(500, 9));
   const calotte::Density bump =
       calotte::tanh_bump(Eigen::Vector3d(0.2, 0.5, 0.7), 0.5, 0.3, 1.0 / 256);
   const Eigen::VectorXd rho = calotte::evaluate(bump, mesh.points);

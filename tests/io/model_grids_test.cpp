@@ -14,7 +14,6 @@
 #include "io/formats/formats.h"
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
-#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/delaunay.h>
@@ -49,7 +48,7 @@ namespace {
 
 std::vector<NamedMesh> tessellated_meshes() {
   std::vector<NamedMesh> all = uneven_meshes();
-  all.push_back({"bisected", spherical_delaunay(bisected_icosahedron(2))}); // with pentagons
+  all.push_back({"bisected", delaunay(bisected_icosahedron(2))}); // with pentagons
   return all;
 }
 
@@ -393,7 +392,7 @@ TEST_CASE("UGRID, SCRIP and ESMF hold the Voronoi tessellation") {
 
 TEST_CASE("UGRID says what its variables are") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(40));
+  const Mesh mesh = delaunay(random_sphere(40));
   for (const Write write : {write_ugrid, io_detail::write_ugrid_triangles}) {
     write(scratch / "grid.nc", mesh, {});
     const NetcdfReader file(scratch / "grid.nc");
@@ -441,7 +440,7 @@ TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
 
 TEST_CASE("SCRIP and ESMF describe their cells") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(40));
+  const Mesh mesh = delaunay(random_sphere(40));
   write_scrip(scratch / "scrip.nc", mesh, {});
   write_esmf(scratch / "esmf.nc", mesh, {});
   const NetcdfReader scrip(scratch / "scrip.nc"), esmf(scratch / "esmf.nc");
@@ -593,7 +592,7 @@ TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no
 
 TEST_CASE("cells need a closed mesh, triangles do not") {
   const Scratch scratch;
-  const Mesh open = spherical_delaunay(test::upper_half(30, 1));
+  const Mesh open = delaunay(test::upper_half(30, 1));
   for (const Format format : {Format::ugrid, Format::scrip, Format::esmf})
     CHECK_THROWS_AS(write(scratch / "a.nc", open, {.format = format}), Error);
   CHECK(scratch.files() == 0);
@@ -605,7 +604,7 @@ TEST_CASE("cells need a closed mesh, triangles do not") {
 
 TEST_CASE("each kind is known by its contents") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(test::octahedron());
+  const Mesh mesh = delaunay(test::octahedron());
   const auto kinds = [&](Write write) {
     write(scratch / "a.nc", mesh, {});
     const NetcdfReader file(scratch / "a.nc");
@@ -620,7 +619,7 @@ TEST_CASE("each kind is known by its contents") {
 
 TEST_CASE("UGRID of others") {
   const Scratch scratch;
-  Mesh mesh = spherical_delaunay(random_sphere(30));
+  Mesh mesh = delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   const auto check_read = [&](const Foreign& foreign, const Triangles& triangles) {
     foreign.write(path, mesh.points);
@@ -650,7 +649,7 @@ TEST_CASE("UGRID of others") {
   CHECK(cells.polygons.ids.count(5) == 4);
 
   SUBCASE("poles in radians") {
-    mesh = spherical_delaunay(test::octahedron());
+    mesh = delaunay(test::octahedron());
     check_read({.faces = foreign_faces(mesh, 0), .radians = true}, mesh.triangles);
   }
 }
@@ -658,7 +657,7 @@ TEST_CASE("UGRID of others") {
 TEST_CASE("ICON's triangles, with their vertices in radians") {
   const Scratch scratch;
   const std::string path = scratch / "a.nc";
-  const Mesh mesh = spherical_delaunay(random_sphere(30));
+  const Mesh mesh = delaunay(random_sphere(30));
   const auto write_icon = [&](std::int32_t first) {
     io_detail::NetcdfWriter file(path);
     using Fill = io_detail::NetcdfWriter::Fill<double>;
@@ -701,7 +700,7 @@ TEST_CASE("ICON's triangles, with their vertices in radians") {
 
 TEST_CASE("bad UGRID files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(30));
+  const Mesh mesh = delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   const auto check_patched = [&](const auto& patch, const std::string& words) {
     write_ugrid(path, mesh, {});
@@ -760,7 +759,7 @@ TEST_CASE("bad UGRID files end in one line") {
 
 TEST_CASE("bad SCRIP and ESMF files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(30));
+  const Mesh mesh = delaunay(random_sphere(30));
   const std::string path = scratch / "a.nc";
   write_scrip(path, mesh, {});
   EditedFile(path).put("grid_center_lat", {3}, std::numeric_limits<double>::quiet_NaN());
@@ -789,7 +788,7 @@ TEST_CASE("bad SCRIP and ESMF files end in one line") {
 
 TEST_CASE("truncated files end in one line") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(12));
+  const Mesh mesh = delaunay(random_sphere(12));
   const std::vector<std::pair<Write, Read>> formats{
       {write_ugrid, io_detail::read_ugrid},
       {io_detail::write_ugrid_triangles, io_detail::read_ugrid},

@@ -2,7 +2,6 @@
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/files.h"
-#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/cull.h>
@@ -108,7 +107,7 @@ TEST_CASE("files hold the dimensions that a model looks for") {
   const std::string whole = scratch / "whole.nc", part = scratch / "part.nc",
                     sea = scratch / "sea.nc";
   const std::vector<FieldDimension>& wanted = model("mpas-sw").dimensions;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(400));
+  const Mesh mesh = delaunay(fibonacci_sphere(400));
   write(whole, mesh, {.format = Format::mpas, .dimensions = wanted});
   CHECK(dimension_of(whole, "nVertLevels") == 1);
   CHECK(dimension_of(whole, "nTracers") == 1);
@@ -132,7 +131,7 @@ TEST_CASE("cull converts lengths and areas to another radius") {
   const Scratch scratch;
   const std::string whole = scratch / "whole.nc", same = scratch / "same.nc",
                     sea = scratch / "sea.nc";
-  write(whole, spherical_delaunay(fibonacci_sphere(400)), {.format = Format::mpas});
+  write(whole, delaunay(fibonacci_sphere(400)), {.format = Format::mpas});
   CullOptions options;
   options.field = {{}, "latCell", -10, 0};
   const double radius = model("mpas-ocean").sphere_radius;
@@ -153,13 +152,13 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
   const Scratch scratch;
   const std::string path = scratch / "area.nc";
   // Random sites as a CVT in a disc of 0.5 radians; the grid's region is the inner one.
-  const Region meshed = circle({0, 0, 1}, 0.5), region = circle({0, 0, 1}, 0.3);
+  const Surface meshed = circle({0, 0, 1}, 0.5), region = circle({0, 0, 1}, 0.3);
   const Points3 generators = random_sphere(100'000, 4);
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < generators.cols() && inside.size() < 3000; ++i)
     if (generators(2, i) > std::cos(0.5))
       inside.push_back(i);
-  Cvt grid = spherical_cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
+  Cvt grid = cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
   grid.mesh.surface = meshed;
   for (const double radius : {1.0, 6371229.0}) {
     CutOptions options;
@@ -177,7 +176,7 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
 TEST_CASE("check finds a nominal spacing that is not that of an open mesh") {
   const Scratch scratch;
   const std::string whole = scratch / "whole.nc", part = scratch / "part.nc";
-  write(whole, spherical_delaunay(bisected_icosahedron(4)), {.format = Format::mpas});
+  write(whole, delaunay(bisected_icosahedron(4)), {.format = Format::mpas});
   const auto near = [](const Eigen::Vector3d& p) { return p.z() > 0.8; };
   for (const auto& [factor, found] : std::vector<std::pair<double, bool>>{{6, true},
                                                                           {1.3, true},
@@ -200,7 +199,7 @@ TEST_CASE("check finds a density of 1 on a mesh that is not uniform, closed or o
   const Scratch scratch;
   const std::string whole = scratch / "whole.nc", part = scratch / "part.nc";
   const Density density = tanh_bump({0, 0, 1}, 0.6, 0.3, 1.0 / 4096);
-  const Cvt grid = spherical_cvt(fibonacci_sphere(2500), {.density = density, .tolerance = 1e-3});
+  const Cvt grid = cvt(fibonacci_sphere(2500), {}, {.density = density, .tolerance = 1e-3});
   const auto near = [](const Eigen::Vector3d& p) { return p.z() > 0.2; };
   CutOptions cutting;
   cutting.rings = 1;

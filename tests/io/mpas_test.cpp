@@ -9,7 +9,6 @@
 #include "support/constants.h"
 #include "support/files.h"
 #include "support/full_disk.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -570,7 +569,7 @@ Mesh x8_mesh(std::int64_t cells, int bisections, int iterations) {
   options.density = oblique_x8();
   options.max_iterations = iterations;
   options.bisections = bisections;
-  return spherical_cvt(random_sphere(cells, site_density(oblique_x8()), 5), options).mesh;
+  return cvt(random_sphere(cells, site_density(oblique_x8()), 5), {}, options).mesh;
 }
 
 struct Case {
@@ -587,15 +586,14 @@ std::vector<Case> cases() {
     of.history = std::move(history);
     return of;
   };
-  return {{"icosahedral", spherical_delaunay(bisected_icosahedron(4)),
-           options(1, {}, "seed 1\ntwo lines")},
-          {"icosahedral, of the Earth", spherical_delaunay(bisected_icosahedron(3)),
+  return {{"icosahedral", delaunay(bisected_icosahedron(4)), options(1, {}, "seed 1\ntwo lines")},
+          {"icosahedral, of the Earth", delaunay(bisected_icosahedron(3)),
            options(6371229, {}, "Earth")},
           {"x8", x8_mesh(2562, 0, 12), options(6371229, oblique_x8(), "x8")},
-          {"random", spherical_delaunay(random_sphere(1500, 7)), options(1, {}, "random")},
-          {"longitudes and latitudes", spherical_delaunay(lat_lon_sphere(19, 40, true)),
+          {"random", delaunay(random_sphere(1500, 7)), options(1, {}, "random")},
+          {"longitudes and latitudes", delaunay(lat_lon_sphere(19, 40, true)),
            options(1, {}, "lat-lon")},
-          {"octahedron, of any norm", spherical_delaunay(5 * lat_lon_sphere(1, 4, true)),
+          {"octahedron, of any norm", delaunay(5 * lat_lon_sphere(1, 4, true)),
            options(0.1, {}, "six cells")}};
 }
 
@@ -623,7 +621,7 @@ TEST_CASE("so does that of a periodic plane") {
   const Scratch scratch;
   WriteOptions options;
   options.history = "hexagons";
-  const PlanarMesh mesh = periodic_hexagons(7, 10, 1000);
+  const Mesh mesh = hexagonal_box(7, 10, 1000);
   io_detail::write_mpas(scratch / "a.nc", mesh, options);
   mpas_laws::check_file(scratch / "a.nc", options);
 
@@ -702,18 +700,18 @@ TEST_CASE("a mesh keeps its bits in a round trip, and so does its file") {
 
 TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file") {
   const Scratch scratch;
-  const PlanarMesh mesh = periodic_hexagons(5, 6, 0.3);
+  const Mesh mesh = hexagonal_box(5, 6, 0.3);
   for (const bool full : {true, false}) {
-    const auto write = [&](const std::string& name, const PlanarMesh& of) {
+    const auto write = [&](const std::string& name, const Mesh& of) {
       full ? io_detail::write_mpas(scratch / name, of, {})
            : io_detail::write_mpas_minimal(scratch / name, of, {});
     };
     write("a.nc", mesh);
-    const PlanarMesh back = PlanarMesh(*read_mesh_file(scratch / "a.nc").plane());
+    const Mesh back = read_mesh(scratch / "a.nc");
     CHECK(back.points == mesh.points);
     CHECK(back.triangles == mesh.triangles);
     CHECK(back.neighbours == mesh.neighbours);
-    CHECK(back.period == mesh.period);
+    CHECK(back.surface == mesh.surface);
     write("b.nc", back);
     CHECK(test::read_file(scratch / "b.nc") == test::read_file(scratch / "a.nc"));
   }
@@ -721,7 +719,7 @@ TEST_CASE("a periodic plane keeps its bits in a round trip, and so does its file
 
 TEST_CASE("the same bytes for any number of threads, another file_id for another mesh") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(random_sphere(20'000, 3));
+  const Mesh mesh = delaunay(random_sphere(20'000, 3));
   for (const int threads : {1, 3})
     tbb::task_arena(threads).execute(
         [&] { io_detail::write_mpas(scratch / (std::to_string(threads) + ".nc"), mesh, {}); });
@@ -730,8 +728,7 @@ TEST_CASE("the same bytes for any number of threads, another file_id for another
 
   std::set<std::string> ids;
   for (int seed = 0; seed < 4; ++seed) {
-    io_detail::write_mpas_minimal(scratch / "a.nc", spherical_delaunay(random_sphere(20, seed)),
-                                  {});
+    io_detail::write_mpas_minimal(scratch / "a.nc", delaunay(random_sphere(20, seed)), {});
     ids.insert(NetcdfReader(scratch / "a.nc").text("", "file_id"));
   }
   CHECK(ids.size() == 4);
@@ -739,8 +736,8 @@ TEST_CASE("the same bytes for any number of threads, another file_id for another
 
 TEST_CASE("a full disk leaves the old mesh and its graph") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(3));
-  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
+  const Mesh mesh = delaunay(bisected_icosahedron(3));
+  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
   const std::string before = test::read_file(scratch / "a.nc"),
                     graph = test::read_file(scratch / "a.graph.info");
   for (const rlim_t bytes : {rlim_t{1'000}, rlim_t{30'000}, rlim_t{400'000}}) {
@@ -762,8 +759,8 @@ TEST_CASE("a full disk leaves the old mesh and its graph") {
 
 TEST_CASE("an error while a file is written leaves the old mesh and its graph") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(bisected_icosahedron(5)); // of several blocks
-  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
+  const Mesh mesh = delaunay(bisected_icosahedron(5)); // of several blocks
+  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
   const std::string before = test::read_file(scratch / "a.nc"),
                     graph = test::read_file(scratch / "a.graph.info");
   WriteOptions options;
@@ -783,9 +780,8 @@ TEST_CASE("meshes that make no such file are refused") {
   const Scratch scratch;
   Points3 half = random_sphere(50, 1);
   half.row(2) = half.row(2).cwiseAbs().array() + 0.01;
-  CHECK(error_of([&] {
-          io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(half), {});
-        }).code() == ErrorCode::invalid_argument);
+  CHECK(error_of([&] { io_detail::write_mpas(scratch / "a.nc", delaunay(half), {}); }).code() ==
+        ErrorCode::invalid_argument);
   CHECK(scratch.files() == 0);
 }
 
@@ -858,7 +854,7 @@ TEST_CASE("files that are not as they should be end in one line") {
 
 TEST_CASE("a file cut short anywhere is refused") {
   const Scratch scratch;
-  io_detail::write_mpas(scratch / "a.nc", spherical_delaunay(bisected_icosahedron(1)), {});
+  io_detail::write_mpas(scratch / "a.nc", delaunay(bisected_icosahedron(1)), {});
   const std::string whole = test::read_file(scratch / "a.nc");
   for (std::size_t length = 0; length < whole.size(); length += 197) {
     CAPTURE(length);

@@ -6,7 +6,6 @@
 #include "io/netcdf/netcdf_writer.h"
 #include "support/files.h"
 #include "support/full_disk.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/error.h>

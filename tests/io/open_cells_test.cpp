@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
-#include "support/planes.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/cvt.h>
@@ -38,8 +37,7 @@ namespace {
 
 struct Plane {
   std::string name;
-  PlanarDomain domain;
-  PlanarMesh mesh;
+  Mesh mesh; ///< in its domain
 };
 
 Eigen::MatrixXd ring_matrix(const std::vector<Eigen::Vector2d>& corners) {
@@ -49,23 +47,22 @@ Eigen::MatrixXd ring_matrix(const std::vector<Eigen::Vector2d>& corners) {
   return matrix;
 }
 
-PlanarMesh relaxed(std::int64_t n, const PlanarDomain& domain) {
+Mesh relaxed(std::int64_t n, const Surface& domain) {
   CvtOptions options;
   options.max_iterations = 30;
-  return planar_cvt(random_places(n, domain, 5), domain, options).mesh;
+  return cvt(random_points(n, domain, {}, 5), domain, options).mesh;
 }
 
 std::vector<Plane> planes() {
-  const PlanarDomain box = rectangle({-3, 10}, {2, 12}),
-                     bent{{ring_matrix({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}),
-                           ring_matrix({{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}})},
-                          {0, 0}},
-                     lake = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson");
-  std::vector<Plane> planes{{"rectangle", box, relaxed(100, box)},
-                            {"bent", bent, relaxed(60, bent)},
-                            {"lake", lake, relaxed(300, lake)}};
+  const Surface box = rectangle({-3, 10}, {2, 12}),
+                bent = Surface::plane().within(
+                    {ring_matrix({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}),
+                     ring_matrix({{0.3, 0.3}, {0.7, 0.3}, {0.7, 0.7}, {0.3, 0.7}})}),
+                lake = read_domain(CALOTTE_FIXTURES "/../../tools/examples/lake.geojson");
+  std::vector<Plane> planes{
+      {"rectangle", relaxed(100, box)}, {"bent", relaxed(60, bent)}, {"lake", relaxed(300, lake)}};
   for (const std::int64_t n : {3, 4, 5})
-    planes.push_back({"few", box, planar_delaunay(random_places(n, box, 1))});
+    planes.push_back({"few", delaunay(random_points(n, box, {}, 1), box)});
   return planes;
 }
 
@@ -102,14 +99,14 @@ double edge_length(Mpas& file, std::size_t e, const std::string& kind, const std
 }
 
 /// The laws of the format, by its definitions.
-void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
+void check_mpas_laws(const std::string& path, const Surface& domain) {
   Mpas file(path);
   double area_of_cells = 0, area_of_triangles = 0, boundary = 0;
   for (const double a : file["areaCell"].values)
     area_of_cells += a;
   for (const double a : file["areaTriangle"].values)
     area_of_triangles += a;
-  const double whole = area(domain);
+  const double whole = domain.area();
   CHECK(std::abs(area_of_cells - whole) <= 1e-12 * whole);
   CHECK(std::abs(area_of_triangles - whole) <= 1e-12 * whole);
   std::set<std::size_t> on_boundary;
@@ -128,7 +125,7 @@ void check_mpas_laws(const std::string& path, const PlanarDomain& domain) {
       on_boundary.insert(file.id("verticesOnEdge", e, k));
   }
   double perimeter = 0;
-  for (const DoubleMatrix& line : domain.rings)
+  for (const DoubleMatrix& line : domain.rings())
     for (Eigen::Index k = 0; k < line.cols(); ++k)
       perimeter += (line.col((k + 1) % line.cols()) - line.col(k)).norm();
   CHECK(boundary == doctest::Approx(perimeter).epsilon(1e-12));
@@ -155,18 +152,18 @@ TEST_CASE("a bounded plane as MPAS: the file keeps all laws and gives the same c
     const MeshField depth{.name = "depth", .values = plane.mesh.points.row(0).transpose()};
     WriteOptions options;
     options.fields = {depth};
-    write(path, in_domain(plane.domain, plane.mesh), options);
+    write(path, plane.mesh, options);
     CHECK(text_attribute(path, "on_a_sphere") == "NO");
     CHECK(text_attribute(path, "is_periodic") == "NO");
     check_none(path);
-    check_mpas_laws(path, plane.domain);
+    check_mpas_laws(path, plane.mesh.surface);
     const MeshFile file = read_mesh_file(path);
     REQUIRE(file.plane());
-    CHECK(file.mesh->points.topRows<2>() == plane.mesh.points);
+    CHECK(file.mesh->points == plane.mesh.points);
     CHECK(file.mesh->triangles == plane.mesh.triangles);
     REQUIRE(file.polygons.has_value());
-    CHECK(same_cells(*file.polygons, polygons_of(voronoi(in_domain(plane.domain, plane.mesh)))));
-    CHECK(std::abs(areas(*file.polygons).sum() / area(plane.domain) - 1) <= 1e-12);
+    CHECK(same_cells(*file.polygons, polygons_of(voronoi(plane.mesh))));
+    CHECK(std::abs(areas(*file.polygons).sum() / plane.mesh.surface.area() - 1) <= 1e-12);
     REQUIRE(file.fields.size() == 1);
     CHECK(file.fields[0].values == depth.values);
 
@@ -180,11 +177,10 @@ TEST_CASE("a bounded plane as MPAS: the file keeps all laws and gives the same c
 
 TEST_CASE("graph.info lists the neighbours that are there") {
   const Scratch scratch;
-  const PlanarDomain domain = rectangle({0, 0}, {1, 1});
-  const PlanarMesh mesh = relaxed(40, domain);
-  write(scratch / "plane.nc", in_domain(domain, mesh));
+  const Mesh mesh = relaxed(40, rectangle({0, 0}, {1, 1}));
+  write(scratch / "plane.nc", mesh);
   std::ifstream graph(scratch / "plane.graph.info");
-  const Voronoi cells = voronoi(in_domain(domain, mesh));
+  const Voronoi cells = voronoi(mesh);
   std::int64_t n = 0, edges = 0, listed = 0;
   std::string line;
   graph >> n >> edges;
@@ -206,8 +202,8 @@ TEST_CASE("graph.info lists the neighbours that are there") {
 TEST_CASE("a variable of a bounded plane's MPAS file that is spoilt alone is found") {
   const Scratch scratch;
   const std::string path = scratch / "plane.nc";
-  const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  write(path, in_domain(domain, relaxed(30, domain)));
+  const Surface domain = rectangle({0, 0}, {3, 2});
+  write(path, relaxed(30, domain));
   check_none(path);
   for (const Variable& variable : Patch(path).all())
     for (const Corruption& corruption : corruptions()) {
@@ -230,7 +226,7 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
   const std::string path = scratch / "plane.nc";
   for (const Plane& plane : planes()) {
     CAPTURE(plane.name);
-    write(path, in_domain(plane.domain, plane.mesh), {.format = Format::ugrid});
+    write(path, plane.mesh, {.format = Format::ugrid});
     const Patch file(path);
     const Variable x = file.get("mesh_node_x"), y = file.get("mesh_node_y"),
                    faces = file.get("mesh_face_nodes"), areas = file.get("cell_area");
@@ -249,12 +245,12 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
       CHECK(twice / 2 == doctest::Approx(areas.values[i]).epsilon(1e-9));
       total += twice / 2;
     }
-    CHECK(std::abs(total / area(plane.domain) - 1) <= 1e-12);
+    CHECK(std::abs(total / plane.mesh.surface.area() - 1) <= 1e-12);
     CHECK(file.get("mesh_face_x").values.size() == faces.shape[0]);
     check_none(path);
     const MeshFile copy = read_mesh_file(path);
-    CHECK(copy.mesh->points.topRows<2>() == plane.mesh.points);
-    CHECK(same_cells(*copy.polygons, polygons_of(voronoi(in_domain(plane.domain, plane.mesh)))));
+    CHECK(copy.mesh->points == plane.mesh.points);
+    CHECK(same_cells(*copy.polygons, polygons_of(voronoi(plane.mesh))));
     CHECK(write(scratch / "back.nc", copy).dropped.empty());
     check_none(scratch / "back.nc");
   }
@@ -262,8 +258,8 @@ TEST_CASE("a bounded plane as UGRID: places in the plane, and areas that sum to 
 
 TEST_CASE("a variable of a bounded plane's UGRID file that is spoilt alone is found") {
   const Scratch scratch;
-  const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  write(scratch / "plane.nc", in_domain(domain, relaxed(30, domain)), {.format = Format::ugrid});
+  const Surface domain = rectangle({0, 0}, {3, 2});
+  write(scratch / "plane.nc", relaxed(30, domain), {.format = Format::ugrid});
   check_each_variable(scratch / "plane.nc", Format::ugrid, 3);
 }
 
@@ -271,20 +267,20 @@ TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {
   const Scratch scratch;
   for (const Plane& plane : planes()) {
     CAPTURE(plane.name);
-    const Polygons cells = polygons_of(voronoi(in_domain(plane.domain, plane.mesh)));
+    const Polygons cells = polygons_of(voronoi(plane.mesh));
     for (const auto& [name, format] :
          {std::pair("a.vtp", Format::vtp_cells), std::pair("a.vtu", Format::vtu_cells)}) {
-      write(scratch / name, in_domain(plane.domain, plane.mesh), {.format = format});
+      write(scratch / name, plane.mesh, {.format = format});
       const MeshFile file = read_mesh_file(scratch / name);
       REQUIRE(file.polygons.has_value());
       CHECK(same_cells(*file.polygons, cells));
-      CHECK(file.mesh->points.topRows<2>() == plane.mesh.points);
+      CHECK(file.mesh->points == plane.mesh.points);
       CHECK(write(scratch / "copy.nc", file).dropped.empty());
       check_none(scratch / "copy.nc");
     }
-    write(scratch / "a.geojson", in_domain(plane.domain, plane.mesh));
+    write(scratch / "a.geojson", plane.mesh);
     const MeshFile file = read_mesh_file(scratch / "a.geojson");
-    CHECK(file.mesh->points.topRows<2>() == plane.mesh.points);
+    CHECK(file.mesh->points == plane.mesh.points);
     const std::string text = test::read_file(scratch / "a.geojson");
     for (const char* property : {"\"area\"", "\"spacing\"", "\"degree\""})
       CHECK(text.find(property) != std::string::npos);
@@ -293,23 +289,18 @@ TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {
 
 TEST_CASE("what a bounded plane cannot be written as is refused, naming the remedy") {
   const Scratch scratch;
-  const PlanarDomain domain = rectangle({0, 0}, {1, 1});
-  const PlanarMesh mesh = planar_delaunay(random_places(20, domain, 1));
+  const Surface domain = rectangle({0, 0}, {1, 1});
+  const Points3 points = random_points(20, domain, {}, 1);
   const auto problem = [&](const std::string& name, Format format, bool bounded) {
-    const WriteOptions options{.format = format};
-    return std::string(error_of([&] {
-                         bounded ? write(scratch / name, in_domain(domain, mesh), options)
-                                 : write(scratch / name, mesh, options);
-                       }).what());
+    const Mesh mesh = delaunay(points, bounded ? domain : Surface::plane());
+    return std::string(error_of([&] { write(scratch / name, mesh, {.format = format}); }).what());
   };
   CHECK(problem("a.nc", Format::by_name, false).find("with its domain") != std::string::npos);
   for (const Format format : {Format::scrip, Format::esmf, Format::mpas_minimal})
     CHECK(problem("a.nc", format, true).find("written as mpas, ugrid, vtp-cells") !=
           std::string::npos);
-  const Points2 far = random_places(20, rectangle({2, 2}, {3, 3}), 1);
-  CHECK(std::string(error_of([&] {
-                      write(scratch / "a.nc", in_domain(domain, planar_delaunay(far)));
-                    }).what())
+  const Points3 far = random_points(20, rectangle({2, 2}, {3, 3}), {}, 1);
+  CHECK(std::string(error_of([&] { write(scratch / "a.nc", delaunay(far, domain)); }).what())
             .find("is outside of the domain") != std::string::npos);
   CHECK(scratch.files() == 0);
 }

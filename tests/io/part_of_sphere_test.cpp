@@ -5,7 +5,6 @@
 #include "support/constants.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -117,7 +116,7 @@ TEST_CASE("an open MPAS mesh has its triangles and cells in each format of cells
     REQUIRE(source.mesh);
     const Eigen::VectorXd area = areas(*source.polygons);
     const double count = static_cast<double>(source.mesh->triangles.cols());
-    CHECK(spherical_delaunay(source.mesh->points).triangles.cols() > count); // what it is not
+    CHECK(delaunay(source.mesh->points).triangles.cols() > count); // what it is not
     for (const FormatFile& target : targets) {
       CAPTURE(target.name);
       CHECK(write(scratch / target.name, source, {.format = target.format}).dropped.empty());
@@ -136,7 +135,7 @@ TEST_CASE("an open MPAS mesh has its triangles and cells in each format of cells
 
 TEST_CASE("GeoJSON of Voronoi cells of which some were left out holds a part of the sphere") {
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(fibonacci_sphere(500));
+  const Mesh mesh = delaunay(fibonacci_sphere(500));
   write(scratch / "whole.geojson", mesh);
   CHECK(!read_mesh_file(scratch / "whole.geojson").polygons);
   nlohmann::json all = nlohmann::json::parse(test::read_file(scratch / "whole.geojson"));
@@ -272,9 +271,9 @@ TEST_CASE("cells without area are counted, and no neighbour overlaps them") {
 
 TEST_CASE("clipped cells of a plane are written as their own triangles, not as those of the hull") {
   const Scratch scratch;
-  const PlanarDomain domain = rectangle({0, 0}, {3, 2});
-  const PlanarMesh mesh = planar_delaunay(random_places(60, domain, 4));
-  write(scratch / "plane.nc", in_domain(domain, mesh));
+  const Surface domain = rectangle({0, 0}, {3, 2});
+  const Mesh mesh = delaunay(random_points(60, domain, {}, 4), domain);
+  write(scratch / "plane.nc", mesh);
   const MeshFile file = read_mesh_file(scratch / "plane.nc");
   REQUIRE(file.polygons);
   std::vector<int> cells_at(static_cast<std::size_t>(file.polygons->corners.cols()));

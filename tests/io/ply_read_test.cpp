@@ -4,7 +4,6 @@
 #include "io/vtk_types.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/polyhedra.h"
 
 #include <calotte/mesh_file.h>
@@ -145,7 +144,7 @@ TEST_CASE("PLY: polygons are cells with unit corners") {
 
 TEST_CASE("PLY: what is not a mesh is refused by name") {
   const Scratch scratch;
-  const std::string text = ply_text(faces_of(calotte::spherical_delaunay(octahedron())), {});
+  const std::string text = ply_text(faces_of(calotte::delaunay(octahedron())), {});
   const std::vector<std::array<std::string, 2>> cases{
       {"plx\n" + text, "does not start with the line \"ply\""},
       {replaced(text, "ascii", "ebcdic"), "format \"ebcdic\""},
@@ -172,19 +171,19 @@ TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face"
   const Scratch scratch;
   for (const std::string& format : ply_formats) {
     const auto error = [&](std::size_t place, double value) {
-      Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
+      Faces faces = faces_of(calotte::delaunay(octahedron()));
       faces.ids[place] = value;
       write_text(scratch / "mesh.ply", ply_text(faces, {.format = format}));
       return error_of([&] { calotte::read_mesh_file(scratch / "mesh.ply"); });
     };
     for (const double bad : {6., -1., 2147483647.})
       CHECK(error(16, bad).index() == 5);
-    Faces two = faces_of(calotte::spherical_delaunay(octahedron()));
+    Faces two = faces_of(calotte::delaunay(octahedron()));
     two.ends[4] -= 1;
     const std::string problem = problem_of(scratch / "mesh.ply", ply_text(two, {.format = format}));
     CHECK(problem.find("array \"face\": polygon 4 runs from 12 to 14") != std::string::npos);
     for (const char* count : {"char", "int"}) {
-      Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
+      Faces faces = faces_of(calotte::delaunay(octahedron()));
       std::string text = ply_text(faces, {.format = format, .count = count});
       const bool big = format == "binary_big_endian";
       const std::string three = number_text({.format = format}, count, 3);
@@ -205,7 +204,7 @@ TEST_CASE("PLY: a file that is cut anywhere, or whose bytes change, is read or r
   for (const std::string& format : ply_formats)
     for (const bool extra : {false, true}) {
       const std::string path = scratch / "mesh.ply",
-                        text = ply_text(faces_of(calotte::spherical_delaunay(octahedron())),
+                        text = ply_text(faces_of(calotte::delaunay(octahedron())),
                                         {.format = format, .extra = extra});
       write_text(path, text);
       const int done = done_when_cut(path, [&] { calotte::read_mesh(path); });

@@ -5,7 +5,6 @@
 #include "io/messages.h"
 #include "support/files.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/cell_width.h>
 #include <calotte/cvt.h>
@@ -50,8 +49,8 @@ CellWidth wide_cells() {
 }
 
 std::vector<Call> calls_on_sphere() {
-  return {{"spherical_delaunay", [](const PointsRef& x) { spherical_delaunay(x); }},
-          {"spherical_cvt", [](const PointsRef& x) { spherical_cvt(x, one_step()); }},
+  return {{"delaunay", [](const PointsRef& x) { delaunay(x); }},
+          {"cvt", [](const PointsRef& x) { cvt(x, {}, one_step()); }},
           {"evaluate a density",
            [](const PointsRef& x) {
              evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), x);
@@ -61,26 +60,24 @@ std::vector<Call> calls_on_sphere() {
           {"given centres", [](const PointsRef& x) {
              DelaunayOptions options;
              options.partition.given_centres = x;
-             spherical_delaunay(random_sphere(100), options);
+             delaunay(random_sphere(100), {}, options);
            }}};
 }
 
-PlanarDomain unit_square() { return rectangle({0, 0}, {1, 1}); }
+Surface unit_square() { return rectangle({0, 0}, {1, 1}); }
 
 std::vector<Call> calls_in_plane() {
-  return {{"planar_delaunay", [](const PointsRef& x) { planar_delaunay(x); }},
-          {"periodic_delaunay",
-           [](const PointsRef& x) { periodic_delaunay(x, Eigen::Vector2d(1, 1)); }},
-          {"planar_cvt", [](const PointsRef& x) { planar_cvt(x, unit_square(), one_step()); }},
-          {"planar_cvt in a box",
+  return {{"delaunay in the plane", [](const PointsRef& x) { delaunay(x, Surface::plane()); }},
+          {"delaunay in a box",
            [](const PointsRef& x) {
-             planar_cvt(x, periodic_box({1, 1}), one_step());
+             delaunay(x, Surface::periodic({1, 1}));
            }},
-          {"a domain's rings", [](const PointsRef& x) {
-             PlanarDomain domain;
-             domain.rings.emplace_back(x);
-             require_domain(domain);
-           }}};
+          {"cvt in a rectangle", [](const PointsRef& x) { cvt(x, unit_square(), one_step()); }},
+          {"cvt in a box",
+           [](const PointsRef& x) {
+             cvt(x, Surface::periodic({1, 1}), one_step());
+           }},
+          {"a domain's rings", [](const PointsRef& x) { Surface::plane().within({x}); }}};
 }
 
 void check_refused(const Call& call, Eigen::Index rows, Eigen::Index columns) {
@@ -95,8 +92,8 @@ void check_refused(const Call& call, Eigen::Index rows, Eigen::Index columns) {
   CHECK(what.find('\n') == what.npos);
 }
 
-bool identical_planes(const PlanarMesh& a, const PlanarMesh& b) {
-  return identical(a, b) && a.period == b.period;
+bool identical_planes(const Mesh& a, const Mesh& b) {
+  return identical(a, b) && a.surface == b.surface;
 }
 
 /// Calls `check` with the same points as matrices of all kinds.
@@ -145,40 +142,40 @@ TEST_CASE("in the plane a third row that is not 0 is refused") {
 
 TEST_CASE("a matrix of another number of rows that is handed over is refused, too") {
   const auto code = [](const auto& act) { return error_of(act).code(); };
-  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { spherical_delaunay(Points2(2, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { spherical_cvt(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { planar_delaunay(Eigen::MatrixXd::Ones(3, 1000)); }) ==
+  CHECK(code([] { delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { delaunay(Points2(2, 1000)); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { cvt(Eigen::MatrixXd(2, 1000), {}); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { delaunay(Eigen::MatrixXd::Ones(3, 1000), Surface::plane()); }) ==
         ErrorCode::invalid_argument);
-  CHECK(code([] { planar_delaunay(Points3::Ones(3, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { planar_cvt(Points3::Ones(3, 1000), unit_square()); }) ==
+  CHECK(code([] { delaunay(Points3::Ones(3, 1000), Surface::plane()); }) ==
         ErrorCode::invalid_argument);
+  CHECK(code([] { cvt(Points3::Ones(3, 1000), unit_square()); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("the message names the rows and the remedy") {
   const Eigen::MatrixXd two(2, 9), three = Eigen::MatrixXd::Constant(3, 9, 0.5), none;
-  CHECK(message_of([&] { spherical_delaunay(two); }) ==
+  CHECK(message_of([&] { delaunay(two); }) ==
         "the points have 2 rows; give 3 x n columns x y z, or call triangulate() with a surface of "
         "the plane");
-  CHECK(message_of([&] { spherical_delaunay(none); }) ==
-        "the points have 0 rows; give 3 x n columns x y z");
-  CHECK(message_of([&] { spherical_cvt(two); }) ==
+  CHECK(message_of([&] { delaunay(none); }) == "the points have 0 rows; give 3 x n columns x y z");
+  CHECK(message_of([&] { cvt(two, {}); }) ==
         "the points have 2 rows; give 3 x n columns x y z, or a surface of the plane");
-  CHECK(message_of([&] { planar_delaunay(three); }) ==
+  CHECK(message_of([&] { delaunay(three, Surface::plane()); }) ==
         "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
-  CHECK(message_of([&] { planar_cvt(three, unit_square()); }) ==
+  CHECK(message_of([&] { cvt(three, unit_square()); }) ==
         "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
 }
 
 TEST_CASE("empty matrices are refused, or give nothing") {
   const auto code = [](const auto& act) { return error_of(act).code(); };
-  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd()); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(0, 9)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { spherical_delaunay(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
-  CHECK(code([] { spherical_delaunay(Points3()); }) == ErrorCode::too_few_sites);
-  CHECK(code([] { spherical_cvt(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
-  CHECK(code([] { planar_delaunay(Eigen::MatrixXd(2, 0)); }) == ErrorCode::too_few_sites);
-  CHECK(code([] { planar_cvt(Points2(), unit_square()); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { delaunay(Eigen::MatrixXd()); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { delaunay(Eigen::MatrixXd(0, 9)); }) == ErrorCode::invalid_argument);
+  CHECK(code([] { delaunay(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { delaunay(Points3()); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { cvt(Eigen::MatrixXd(3, 0), {}); }) == ErrorCode::too_few_sites);
+  CHECK(code([] { delaunay(Eigen::MatrixXd(2, 0), Surface::plane()); }) ==
+        ErrorCode::too_few_sites);
+  CHECK(code([] { cvt(Points2(), unit_square()); }) == ErrorCode::too_few_sites);
   CHECK(evaluate(Density(), Eigen::MatrixXd(3, 0)).size() == 0);
   CHECK(evaluate(Density(), Eigen::MatrixXd(2, 0), unit_square()).size() == 0);
   CHECK(evaluate(wide_cells(), Eigen::MatrixXd(3, 0)).size() == 0);
@@ -214,68 +211,68 @@ TEST_CASE("matrices of any options are read in place, and take results") {
   Eigen::VectorXd values = evaluate(density, aligned);
   CHECK(values == evaluate(density, points));
   values = evaluate(wide_cells(), fixed);
-  const Mesh mesh = spherical_delaunay(random_sphere(50, 3));
+  const Mesh mesh = delaunay(random_sphere(50, 3));
   CHECK_NOTHROW(interpolated_density(mesh, Eigen::VectorXd::Ones(50)));
 }
 
 TEST_CASE("any kind of matrix gives the same mesh of the sphere") {
   const Points3 points = random_sphere(5000, 3);
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   const Eigen::VectorXd rho = evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), points),
                         widths = evaluate(wide_cells(), points);
   for_each_kind(points, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(identical(spherical_delaunay(other), mesh));
+    CHECK(identical(delaunay(other), mesh));
     CHECK(evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), other) == rho);
     CHECK(evaluate(wide_cells(), other) == widths);
   });
 }
 
 TEST_CASE("any kind of matrix gives the same mesh of the plane") {
-  const PlanarDomain box = periodic_box({1, 1});
-  const Points2 places = random_places(5000, unit_square(), 3);
-  const PlanarMesh mesh = planar_delaunay(places),
-                   periodic = periodic_delaunay(places, Eigen::Vector2d(1, 1));
+  const Surface box = Surface::periodic({1, 1});
+  const Points2 places = random_points(5000, unit_square(), {}, 3).topRows<2>();
+  const Mesh mesh = delaunay(places, Surface::plane()), periodic = delaunay(places, box);
   const Density bump = tanh_bump({0.5, 0.5, 0}, 0.2, 0.1, 0.1);
   const Eigen::VectorXd rho = evaluate(bump, places, box);
   for_each_kind(places, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(identical_planes(planar_delaunay(other), mesh));
-    CHECK(identical_planes(periodic_delaunay(other, Eigen::Vector2d(1, 1)), periodic));
+    CHECK(identical_planes(delaunay(other, Surface::plane()), mesh));
+    CHECK(identical_planes(delaunay(other, box), periodic));
     CHECK(evaluate(bump, other, box) == rho);
   });
 }
 
 TEST_CASE("any kind of matrix starts the same CVT") {
   const Points3 points = random_sphere(300, 3);
-  const Cvt grid = spherical_cvt(points, one_step());
+  const Cvt grid = cvt(points, {}, one_step());
   for_each_kind(points, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(identical(spherical_cvt(other, one_step()).mesh, grid.mesh));
+    CHECK(identical(cvt(other, {}, one_step()).mesh, grid.mesh));
   });
-  CHECK(identical(spherical_cvt(Points3(points), one_step()).mesh, grid.mesh));
-  const Points2 places = random_places(300, unit_square(), 3);
-  const PlanarCvt plane = planar_cvt(places, unit_square(), one_step());
+  CHECK(identical(cvt(Points3(points), {}, one_step()).mesh, grid.mesh));
+  const Points2 places = random_points(300, unit_square(), {}, 3).topRows<2>();
+  const Cvt plane = cvt(places, unit_square(), one_step());
   for_each_kind(places, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
-    CHECK(identical_planes(planar_cvt(other, unit_square(), one_step()).mesh, plane.mesh));
+    CHECK(identical_planes(cvt(other, unit_square(), one_step()).mesh, plane.mesh));
   });
 }
 
 TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   const Points3 points = random_sphere(2000, 3);
   DelaunayOptions options;
-  DelaunayReport report;
   options.partition.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
-  CHECK(identical(spherical_delaunay(points, options, &report), spherical_delaunay(points)));
-  CHECK(report.regions == 9);
-  const Points2 places = random_places(2000, unit_square(), 3);
+  const Triangulation sphere = triangulate(points, {}, options);
+  CHECK(identical(sphere.mesh, delaunay(points)));
+  CHECK(sphere.report.regions == 9);
+  const Points2 places = random_points(2000, unit_square(), {}, 3).topRows<2>();
   for (const Eigen::Index rows : {2, 3}) {
     Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
-    centres.topRows(2) = random_places(9, unit_square(), 4);
+    centres.topRows(2) = random_points(9, unit_square(), {}, 4).topRows<2>();
     options.partition.given_centres = centres;
-    CHECK(identical_planes(planar_delaunay(places, options, &report), planar_delaunay(places)));
-    CHECK(report.regions == 9);
+    const Triangulation plane = triangulate(places, Surface::plane(), options);
+    CHECK(identical_planes(plane.mesh, delaunay(places, Surface::plane())));
+    CHECK(plane.report.regions == 9);
   }
 }
 
@@ -293,7 +290,7 @@ TEST_CASE("columns of contiguous coordinates are read in place") {
 TEST_CASE("points that are handed over become the mesh's") {
   Points3 points = random_sphere(5000, 3);
   const double* data = points.data();
-  const Mesh mesh = spherical_delaunay(std::move(points));
+  const Mesh mesh = delaunay(std::move(points));
   CHECK(mesh.points.data() == data);
 }
 

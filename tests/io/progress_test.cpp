@@ -3,7 +3,6 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/laws.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -107,31 +106,32 @@ const std::vector<std::string> stages_of_delaunay{"sites", "regions", "triangula
 
 TEST_CASE("a triangulation reports progress and gives the same bits") {
   const Points3 points = random_sphere(200'000, 4);
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   const std::vector<std::string> stages = check_told([&](const ProgressCallback& progress) {
-    CHECK(identical(spherical_delaunay(points, with(progress)), mesh));
+    CHECK(identical(delaunay(points, {}, with(progress)), mesh));
   });
   CHECK(stages == stages_of_delaunay);
 }
 
 TEST_CASE("a triangulation is cancelled in any stage, and the next one is whole") {
   const Points3 points = random_sphere(200'000, 4);
-  const Mesh mesh = spherical_delaunay(points);
-  check_cancelled(
-      [&](const ProgressCallback& progress) { spherical_delaunay(points, with(progress)); },
-      stages_of_delaunay, [] {});
-  CHECK(identical(spherical_delaunay(points), mesh));
+  const Mesh mesh = delaunay(points);
+  check_cancelled([&](const ProgressCallback& progress) { delaunay(points, {}, with(progress)); },
+                  stages_of_delaunay, [] {});
+  CHECK(identical(delaunay(points), mesh));
 }
 
 TEST_CASE("triangulations of the plane, of a box and of few sites report progress") {
-  const PlanarDomain square = rectangle({0, 0}, {1, 1});
-  const Points2 places = random_places(20'000, square, 3);
+  const Surface square = rectangle({0, 0}, {1, 1});
+  const Points2 places = random_points(20'000, square, {}, 3).topRows<2>();
   const Points3 few = random_sphere(50, 3);
-  check_told([&](const ProgressCallback& progress) { planar_delaunay(places, with(progress)); });
   check_told([&](const ProgressCallback& progress) {
-    periodic_delaunay(places, Eigen::Vector2d(1, 1), with(progress));
+    delaunay(places, Surface::plane(), with(progress));
   });
-  check_told([&](const ProgressCallback& progress) { spherical_delaunay(few, with(progress)); });
+  check_told([&](const ProgressCallback& progress) {
+    delaunay(places, Surface::periodic({1, 1}), with(progress));
+  });
+  check_told([&](const ProgressCallback& progress) { delaunay(few, {}, with(progress)); });
 }
 
 TEST_CASE("an exception of the callback reaches the caller") {
@@ -142,12 +142,12 @@ TEST_CASE("an exception of the callback reaches the caller") {
         throw std::out_of_range("mine");
       return Next::proceed;
     };
-    CHECK_THROWS_WITH_AS(spherical_delaunay(points, with(callback)), "mine", std::out_of_range);
+    CHECK_THROWS_WITH_AS(delaunay(points, {}, with(callback)), "mine", std::out_of_range);
   }
 }
 
 TEST_CASE("check reports progress and can be cancelled") {
-  const Mesh mesh = spherical_delaunay(random_sphere(100'000, 4));
+  const Mesh mesh = delaunay(random_sphere(100'000, 4));
   const Check alone = check(mesh);
   const Work work = [&](const ProgressCallback& progress) {
     const Check watched = check(mesh, progress);
@@ -164,7 +164,7 @@ TEST_CASE("check reports progress and can be cancelled") {
 }
 
 TEST_CASE("write reports progress; if cancelled, it leaves no file") {
-  const Mesh mesh = spherical_delaunay(random_sphere(20'000, 4));
+  const Mesh mesh = delaunay(random_sphere(20'000, 4));
   for (const char* name :
        {"a.nc", "a.off", "a.vtu", "a.ply", "a.tri", "a.geojson", "SaveVertices"}) {
     CAPTURE(name);
@@ -188,16 +188,16 @@ TEST_CASE("outside of make_grid() stop is as cancel") {
     return progress.fraction > 0.1 ? Next::stop : Next::proceed;
   };
   const Points3 points = random_sphere(20'000, 4);
-  CHECK(error_of([&] { spherical_delaunay(points, with(stop)); }).code() == ErrorCode::cancelled);
+  CHECK(error_of([&] { delaunay(points, {}, with(stop)); }).code() == ErrorCode::cancelled);
   const Scratch scratch;
-  const Mesh mesh = spherical_delaunay(points);
+  const Mesh mesh = delaunay(points);
   CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(stop)); }).code() ==
         ErrorCode::cancelled);
   CHECK(scratch.files() == 0);
 }
 
 TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
-  const Mesh mesh = spherical_delaunay(random_sphere(20'000, 4));
+  const Mesh mesh = delaunay(random_sphere(20'000, 4));
   const Scratch scratch;
   test::write_text(scratch / "a.nc", "older");
   const auto cancel = [](const Progress& progress) {

@@ -2,7 +2,6 @@
 #include "base/lonlat.h"
 #include "io/geojson_text.h"
 #include "support/constants.h"
-#include "support/planes.h"
 
 #include "support/files.h"
 
@@ -29,12 +28,12 @@ Eigen::Vector3d lonlat(double longitude, double latitude) {
   return {p.x, p.y, p.z};
 }
 
-Region region_from(const std::string& name, const std::string& text) {
+Surface region_from(const std::string& name, const std::string& text) {
   std::istringstream in(text);
   return read_region(in, name);
 }
 
-Region geojson(const std::string& text) { return region_from("R.geojson", text); }
+Surface geojson(const std::string& text) { return region_from("R.geojson", text); }
 
 /// A polygon of positions "[0,0],[1,0],[1,1]" for each ring.
 std::string polygon_of(const std::vector<std::string>& rings) {
@@ -64,74 +63,75 @@ const std::string square = "[0,0],[20,0],[20,20],[0,20],[0,0]",
 
 TEST_CASE("GeoJSON: a polygon with a hole, of any winding of the hole") {
   for (const std::string& hole : {inner, inner_clockwise}) {
-    const Region region = geojson(polygon_of({square, hole}));
-    CHECK(region.rings.size() == 2);
-    CHECK(region.rings[0].cols() == 4);
-    CHECK(contains(region, lonlat(2, 3)));
-    CHECK_FALSE(contains(region, lonlat(7, 8)));
-    CHECK(contains(region, lonlat(5, 5)));
-    CHECK_FALSE(contains(region, lonlat(-100, 8)));
+    const Surface region = geojson(polygon_of({square, hole}));
+    CHECK(region.rings().size() == 2);
+    CHECK(region.rings()[0].cols() == 4);
+    CHECK(region.contains(lonlat(2, 3)));
+    CHECK_FALSE(region.contains(lonlat(7, 8)));
+    CHECK(region.contains(lonlat(5, 5)));
+    CHECK_FALSE(region.contains(lonlat(-100, 8)));
   }
-  const double whole = area(geojson(polygon_of({square}))),
-               hole = area(geojson(polygon_of({inner})));
-  CHECK(area(geojson(polygon_of({square, inner}))) == doctest::Approx(whole - hole).epsilon(1e-14));
+  const double whole = geojson(polygon_of({square})).area(),
+               hole = geojson(polygon_of({inner})).area();
+  CHECK(geojson(polygon_of({square, inner})).area() ==
+        doctest::Approx(whole - hole).epsilon(1e-14));
 }
 
 TEST_CASE("GeoJSON: over the date line in each style, and round a pole") {
   for (const std::string& text : {std::string("[170,-10],[-170,-10],[-170,10],[170,10]"),
                                   std::string("[170,-10],[190,-10],[190,10],[170,10]"),
                                   std::string("[-190,-10],[-170,-10],[-170,10],[-190,10]")}) {
-    const Region region = geojson(polygon_of({text}));
-    CHECK(region.rings == geojson(polygon_of({"[170,-10],[190,-10],[190,10],[170,10]"})).rings);
-    CHECK(contains(region, lonlat(180, 0)));
-    CHECK_FALSE(contains(region, lonlat(0, 0)));
+    const Surface region = geojson(polygon_of({text}));
+    CHECK(region.rings() == geojson(polygon_of({"[170,-10],[190,-10],[190,10],[170,10]"})).rings());
+    CHECK(region.contains(lonlat(180, 0)));
+    CHECK_FALSE(region.contains(lonlat(0, 0)));
   }
   const std::string east = "[170,-10],[180,-11],[180,11],[170,10]",
                     west = "[-180,-11],[-170,-10],[-170,10],[-180,11]";
-  const Region cut =
+  const Surface cut =
       geojson(collection({feature(polygon_of({east})), feature(polygon_of({west}))}));
-  CHECK(cut.rings.size() == 1);
-  CHECK(cut.rings[0].cols() == 6);
-  CHECK(contains(cut, lonlat(180, 0)));
-  CHECK(area(cut) ==
-        doctest::Approx(area(geojson(polygon_of({east}))) + area(geojson(polygon_of({west}))))
+  CHECK(cut.rings().size() == 1);
+  CHECK(cut.rings()[0].cols() == 6);
+  CHECK(cut.contains(lonlat(180, 0)));
+  CHECK(cut.area() ==
+        doctest::Approx(geojson(polygon_of({east})).area() + geojson(polygon_of({west})).area())
             .epsilon(1e-14));
 
-  const Region pole =
+  const Surface pole =
       geojson(polygon_of({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61],[-180,-60]"}));
-  CHECK_FALSE(contains(pole, lonlat(0, 90)));
-  CHECK(contains(pole, lonlat(0, -90)));
-  const Region spiked =
+  CHECK_FALSE(pole.contains(lonlat(0, 90)));
+  CHECK(pole.contains(lonlat(0, -90)));
+  const Surface spiked =
       geojson(polygon_of({"[180,-60],[120,-61],[60,-60],[0,-62],[-60,-60],[-120,-61]"
                           ",[-180,-60],[-180,-90],[180,-90]"}));
-  CHECK(spiked.rings.size() == 1);
-  CHECK(area(spiked) == doctest::Approx(area(pole)).epsilon(1e-14));
-  CHECK(contains(spiked, lonlat(180, -80)));
+  CHECK(spiked.rings().size() == 1);
+  CHECK(spiked.area() == doctest::Approx(pole.area()).epsilon(1e-14));
+  CHECK(spiked.contains(lonlat(180, -80)));
 
   // A channel whose sides meet at 180 degrees.
-  const Region tropics = geojson(
+  const Surface tropics = geojson(
       polygon_of({"[-180,-10],[-60,-10],[60,-10],[180,-10],[180,10],[60,10],[-60,10],[-180,10]"}));
-  CHECK(tropics.rings.size() == 2);
-  CHECK(contains(tropics, lonlat(180, 0)));
-  CHECK_FALSE(contains(tropics, lonlat(0, 90)));
+  CHECK(tropics.rings().size() == 2);
+  CHECK(tropics.contains(lonlat(180, 0)));
+  CHECK_FALSE(tropics.contains(lonlat(0, 90)));
 }
 
 TEST_CASE("GeoJSON: a hemisphere is to the left of its ring, whichever way it runs") {
-  CHECK(contains(geojson(polygon_of({"[0,0],[120,0],[-120,0]"})), lonlat(0, 90)));
-  CHECK(contains(geojson(polygon_of({"[0,0],[-120,0],[120,0]"})), lonlat(0, -90)));
-  CHECK(contains(geojson(polygon_of({"[10,-30],[10,50],[-170,40],[-170,-50]"})), lonlat(-80, 0)));
+  CHECK(geojson(polygon_of({"[0,0],[120,0],[-120,0]"})).contains(lonlat(0, 90)));
+  CHECK(geojson(polygon_of({"[0,0],[-120,0],[120,0]"})).contains(lonlat(0, -90)));
+  CHECK(geojson(polygon_of({"[10,-30],[10,50],[-170,40],[-170,-50]"})).contains(lonlat(-80, 0)));
 }
 
 TEST_CASE("GeoJSON: several polygons, and what is not one region") {
   const std::string other = "[30,0],[40,0],[40,10],[30,10]";
-  const Region two =
+  const Surface two =
       geojson(R"({"type":"MultiPolygon","coordinates":[[[)" + square + "]],[[" + other + "]]]}");
-  CHECK(two.rings.size() == 2);
-  CHECK(contains(two, lonlat(35, 5)));
+  CHECK(two.rings().size() == 2);
+  CHECK(two.contains(lonlat(35, 5)));
   // An island in a lake.
-  const Region island = geojson(collection(
+  const Surface island = geojson(collection(
       {feature(polygon_of({square, inner})), feature(polygon_of({"[6,6],[8,6],[8,8]"}))}));
-  CHECK(contains(island, lonlat(7.5, 6.5)));
+  CHECK(island.contains(lonlat(7.5, 6.5)));
   CHECK(refusal_of_region("R.geojson",
                           collection({feature(polygon_of({square})), feature(polygon_of({inner}))}),
                           ErrorCode::invalid_argument) ==
@@ -160,19 +160,19 @@ TEST_CASE("GeoJSON: several polygons, and what is not one region") {
 
 TEST_CASE("GeoJSON: a place inside decides, otherwise rings of either orientation enclose") {
   const std::string clockwise = "[0,20],[20,20],[20,0],[0,0]";
-  CHECK(area(geojson(polygon_of({clockwise}))) == area(geojson(polygon_of({square}))));
-  CHECK(contains(geojson(polygon_of({clockwise, inner})), lonlat(2, 3)));
-  CHECK_FALSE(contains(geojson(polygon_of({clockwise, inner})), lonlat(7, 8)));
+  CHECK(geojson(polygon_of({clockwise})).area() == geojson(polygon_of({square})).area());
+  CHECK(geojson(polygon_of({clockwise, inner})).contains(lonlat(2, 3)));
+  CHECK_FALSE(geojson(polygon_of({clockwise, inner})).contains(lonlat(7, 8)));
   for (const std::string& outer : {square, clockwise})
     for (const std::string& hole : {inner, inner_clockwise}) {
-      const Region land = geojson(feature(polygon_of({outer, hole}), R"({"inside":[2,3]})"));
-      CHECK(contains(land, lonlat(2, 3)));
-      CHECK_FALSE(contains(land, lonlat(7, 8)));
-      CHECK_FALSE(contains(land, lonlat(90, 8)));
-      const Region water = geojson(feature(polygon_of({outer, hole}), R"({"inside":[90,8]})"));
-      CHECK_FALSE(contains(water, lonlat(2, 3)));
-      CHECK(contains(water, lonlat(7, 8)));
-      CHECK(area(land) + area(water) == doctest::Approx(4 * pi).epsilon(1e-15));
+      const Surface land = geojson(feature(polygon_of({outer, hole}), R"({"inside":[2,3]})"));
+      CHECK(land.contains(lonlat(2, 3)));
+      CHECK_FALSE(land.contains(lonlat(7, 8)));
+      CHECK_FALSE(land.contains(lonlat(90, 8)));
+      const Surface water = geojson(feature(polygon_of({outer, hole}), R"({"inside":[90,8]})"));
+      CHECK_FALSE(water.contains(lonlat(2, 3)));
+      CHECK(water.contains(lonlat(7, 8)));
+      CHECK(land.area() + water.area() == doctest::Approx(4 * pi).epsilon(1e-15));
     }
   CHECK(holds(refusal_of_region("R.geojson", feature(polygon_of({square}), R"({"inside":[0,5]})"),
                                 ErrorCode::invalid_argument),
@@ -189,23 +189,23 @@ TEST_CASE("GeoJSON: the whole band between two parallels, cut at 180 degrees") {
     south += "[" + std::to_string(longitude) + ",-60],";
     north += "[" + std::to_string(-longitude) + ",60.00000000000001],";
   }
-  const Region band = geojson(polygon_of({south + north + "[-180,-60]"}));
-  CHECK(band.rings.size() == 2);
-  CHECK(contains(band, lonlat(180, 0)));
-  CHECK_FALSE(contains(band, lonlat(0, 90)));
-  CHECK_FALSE(contains(band, lonlat(0, -90)));
+  const Surface band = geojson(polygon_of({south + north + "[-180,-60]"}));
+  CHECK(band.rings().size() == 2);
+  CHECK(band.contains(lonlat(180, 0)));
+  CHECK_FALSE(band.contains(lonlat(0, 90)));
+  CHECK_FALSE(band.contains(lonlat(0, -90)));
   // Arcs of 10 degrees rise above the parallels.
-  CHECK(area(band) == doctest::Approx(4 * pi * std::sin(60 * degree)).epsilon(0.01));
+  CHECK(band.area() == doctest::Approx(4 * pi * std::sin(60 * degree)).epsilon(0.01));
 }
 
 TEST_CASE("GeoJSON: an ocean around a pole whose cut differs by rounding") {
   const std::string around = "[-180,65.5],[-90,70],[0,72],[90,71],[180,";
-  const Region exact = geojson(polygon_of({around + "65.5],[180,90],[-180,90],[-180,65.5]"}));
+  const Surface exact = geojson(polygon_of({around + "65.5],[180,90],[-180,90],[-180,65.5]"}));
   for (const std::string end : {"65.50000000000003", "65.49999999999997", "65.5000000001"}) {
-    const Region region = geojson(polygon_of({around + end + "],[180,90],[-180,90],[-180,65.5]"}));
-    CHECK(region.rings.size() == 1);
-    CHECK(area(region) == doctest::Approx(area(exact)).epsilon(1e-9));
-    CHECK(contains(region, lonlat(180, 80)));
+    const Surface region = geojson(polygon_of({around + end + "],[180,90],[-180,90],[-180,65.5]"}));
+    CHECK(region.rings().size() == 1);
+    CHECK(region.area() == doctest::Approx(exact.area()).epsilon(1e-9));
+    CHECK(region.contains(lonlat(180, 80)));
   }
 }
 
@@ -223,17 +223,17 @@ TEST_CASE("GeoJSON: positions") {
   CHECK(holds(refusal_of_region("R.geojson", polygon_of({"[0,0],[180,0],[90,10]"}),
                                 ErrorCode::invalid_argument),
               "ring 0, corner 0 and the next are opposite"));
-  CHECK(geojson(polygon_of({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings[0].cols() ==
+  CHECK(geojson(polygon_of({"[0,0],[0,0],[20,0],[20,20],[20,20],[0,0],[0,0]"})).rings()[0].cols() ==
         3);
 }
 
 // ---- MPAS-Limited-Area
 
 TEST_CASE(".pts: circles, ellipses and channels") {
-  const Region circular = region_from(
+  const Surface circular = region_from(
       "india.pts", "Name: india\nType: circle\nPoint: 20.0, 80.0\nradius: 2000000.0   # Meters\n");
   CHECK(circular == circle(lonlat(80, 20), 2e6 / earth));
-  const Region oval =
+  const Surface oval =
       region_from("japan.PTS", "name: japan\nTYPE:Ellipse\r\n point : 38 , 138\nSemi-major-axis: "
                                "1580000\nSemi-minor-axis: 1e6\nOrientation-angle: 45\n");
   CHECK(oval == ellipse(lonlat(138, 38), 1.58e6 / earth, 1e6 / earth, 45 * degree));
@@ -247,13 +247,13 @@ TEST_CASE(".pts: a polygon around its point, of any winding") {
   const std::string head = "Name: conus\nType: custom\nPoint: 40.0, -100.0\n",
                     corners = "50.0, -129.0\n50.0, -65.0\n20.0, -65.0\n20.0, -129.0\n",
                     reverse = "20.0, -129.0\n20.0 -65.0\n50.0, -65.0\n50.0, -129.0\n20,-129\n";
-  const Region region = region_from("conus.custom.pts", head + corners);
-  CHECK(contains(region, lonlat(-100, 40)));
-  CHECK(area(region) < 1);
-  CHECK(area(region_from("conus.pts", head + reverse)) ==
-        doctest::Approx(area(region)).epsilon(1e-14));
-  const Region rest = region_from("conus.pts", "Type: custom\nPoint: -40, 100\n" + corners);
-  CHECK(area(rest) + area(region) == doctest::Approx(4 * pi).epsilon(1e-15));
+  const Surface region = region_from("conus.custom.pts", head + corners);
+  CHECK(region.contains(lonlat(-100, 40)));
+  CHECK(region.area() < 1);
+  CHECK(region_from("conus.pts", head + reverse).area() ==
+        doctest::Approx(region.area()).epsilon(1e-14));
+  const Surface rest = region_from("conus.pts", "Type: custom\nPoint: -40, 100\n" + corners);
+  CHECK(rest.area() + region.area() == doctest::Approx(4 * pi).epsilon(1e-15));
 
   CHECK(holds(refusal_of_region("a.pts", "Type: custom\n" + corners),
               "a.pts: a region of the type custom has no line \"Point:\"; add a place inside it"));
@@ -297,13 +297,13 @@ TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the s
   write_text(folder / "SaveBoundaries.two", loops);
   for (const std::string& counts : {std::string("  1  4\n 5 9\n"), std::string("4\n5\n")}) {
     write_text(folder / "SaveLoopCounts.two", counts);
-    const Region region = read_region(folder / "SaveBoundaries.two");
-    CHECK(region.rings.size() == 2);
-    CHECK(region.rings[1].cols() == 4);
-    CHECK(contains(region, lonlat(2, 2)));
-    CHECK_FALSE(contains(region, lonlat(7, 7)));
-    CHECK(area(region) ==
-          doctest::Approx(area(geojson(polygon_of({square, inner})))).epsilon(1e-14));
+    const Surface region = read_region(folder / "SaveBoundaries.two");
+    CHECK(region.rings().size() == 2);
+    CHECK(region.rings()[1].cols() == 4);
+    CHECK(region.contains(lonlat(2, 2)));
+    CHECK_FALSE(region.contains(lonlat(7, 7)));
+    CHECK(region.area() ==
+          doctest::Approx(geojson(polygon_of({square, inner})).area()).epsilon(1e-14));
   }
   write_text(folder / "SaveBoundaries", "1 0 0\n0 0 1\n0 1 0\n"); // clockwise, no counts
   CHECK(read_region(folder / "SaveBoundaries").area() == doctest::Approx(pi / 2).epsilon(1e-15));
@@ -327,17 +327,17 @@ TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the s
 
 TEST_CASE("SaveBoundaries: MPI-SCVT's circle, points of a cap around a place on the equator") {
   std::string text;
-  const Region exact = circle(lonlat(180, 0), 15 * degree, 1999);
-  for (const Eigen::Vector3d p : exact.rings[0].colwise()) {
+  const Surface exact = circle(lonlat(180, 0), 15 * degree, 1999);
+  for (const Eigen::Vector3d p : exact.rings()[0].colwise()) {
     char line[80];
     std::snprintf(line, sizeof line, "%10.5f%10.5f\n", std::atan2(-p.y(), -p.x()) / degree + 180,
                   std::asin(p.z()) / degree);
     text += line;
   }
-  const Region region = region_from("SaveBoundaries.circle", text);
-  CHECK(region.rings[0].cols() == 1999);
-  CHECK(area(region) == doctest::Approx(2 * pi * (1 - std::cos(15 * degree))).epsilon(1e-5));
-  CHECK(contains(region, lonlat(180, 0)));
+  const Surface region = region_from("SaveBoundaries.circle", text);
+  CHECK(region.rings()[0].cols() == 1999);
+  CHECK(region.area() == doctest::Approx(2 * pi * (1 - std::cos(15 * degree))).epsilon(1e-5));
+  CHECK(region.contains(lonlat(180, 0)));
 }
 
 TEST_CASE("SaveBoundaries: lines that are no points") {

@@ -2,7 +2,6 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
@@ -21,9 +20,8 @@
 using calotte::Error;
 using calotte::ErrorCode;
 using calotte::Mesh;
-using calotte::PlanarDomain;
-using calotte::PlanarMesh;
 using calotte::Points3;
+using calotte::Surface;
 using calotte::oracle::Triple;
 using nlohmann::json;
 using namespace calotte::test;
@@ -38,7 +36,7 @@ std::string all_replaced(std::string text, const std::string& from, const std::s
 
 /// A canonical mesh of which one edge is flipped, so that it is not Delaunay but closed.
 Mesh flipped_lattice() {
-  const Mesh mesh = calotte::spherical_delaunay(calotte::lat_lon_sphere(4, 6));
+  const Mesh mesh = calotte::delaunay(calotte::lat_lon_sphere(4, 6));
   std::vector<Triple> triangles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     triangles.push_back({mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)});
@@ -81,7 +79,7 @@ TEST_CASE("JIGSAW: meshes come back bit for bit") {
 
 TEST_CASE("JIGSAW: the file is what its readers expect") {
   const Scratch scratch;
-  calotte::write(scratch / "mesh.msh", calotte::spherical_delaunay(octahedron()));
+  calotte::write(scratch / "mesh.msh", calotte::delaunay(octahedron()));
   const std::string text = calotte::test::read_file(scratch / "mesh.msh");
   CHECK(text.find("\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n") != std::string::npos);
   CHECK(text.find("\nTRIA3=8\n0;1;2;0\n") != std::string::npos);
@@ -90,7 +88,7 @@ TEST_CASE("JIGSAW: the file is what its readers expect") {
 TEST_CASE("JIGSAW: keywords in any case, comments, line ends and other sections change nothing") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.msh";
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   calotte::write(path, mesh);
   const std::string text = calotte::test::read_file(path);
   const auto reads_as = [&](const std::string& changed) {
@@ -127,7 +125,7 @@ TEST_CASE(
     "JIGSAW: a file cut short is refused, or gives the points' mesh where only these are left") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.msh";
-  for (const Mesh& mesh : {calotte::spherical_delaunay(octahedron()), open_meshes()[1].mesh}) {
+  for (const Mesh& mesh : {calotte::delaunay(octahedron()), open_meshes()[1].mesh}) {
     calotte::write(path, mesh);
     const int done = done_when_cut(path, [&] { check_equal(calotte::read_mesh(path), mesh); });
     CHECK(done > 0);
@@ -198,7 +196,7 @@ TEST_CASE("MPI-SCVT: meshes come back bit for bit, and the density stands beside
 TEST_CASE("MPI-SCVT: triangles are taken where they close the sphere, in either turning") {
   const Scratch scratch;
   const std::string path = scratch / "SaveVertices", triangles = scratch / "SaveTriangles";
-  const Mesh mesh = flipped_lattice(), delaunay = calotte::spherical_delaunay(mesh.points);
+  const Mesh mesh = flipped_lattice(), delaunay = calotte::delaunay(mesh.points);
   CHECK_FALSE(equal_bits(mesh.triangles, delaunay.triangles));
   calotte::write(path, mesh);
   check_equal(calotte::read_mesh(path), mesh);
@@ -230,7 +228,7 @@ TEST_CASE("MPI-SCVT: triangles are taken where they close the sphere, in either 
 TEST_CASE("MPI-SCVT: triangles cut short are not taken") {
   const Scratch scratch;
   const std::string path = scratch / "SaveVertices";
-  const Mesh mesh = flipped_lattice(), delaunay = calotte::spherical_delaunay(mesh.points);
+  const Mesh mesh = flipped_lattice(), delaunay = calotte::delaunay(mesh.points);
   calotte::write(path, mesh);
   done_when_cut(scratch / "SaveTriangles",
                 [&] { check_equal(calotte::read_mesh(path), delaunay); });
@@ -255,7 +253,7 @@ TEST_CASE("MPI-SCVT: a missing final newline and CRLF lose nothing; what is no p
 
 TEST_CASE("MPI-SCVT: a file that cannot be written leaves none of the three") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   std::filesystem::create_directory(scratch / "SaveTriangles");
   CHECK(error_of([&] { calotte::write(scratch / "SaveVertices", mesh); }).code() ==
         ErrorCode::file);
@@ -351,7 +349,7 @@ TEST_CASE("GeoJSON: closed counter-clockwise rings that tile the plane of longit
 TEST_CASE("GeoJSON: a cell is around its site") {
   const Scratch scratch;
   // Sites that are far from their cells' edges, which are arcs there and straight lines here.
-  const Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(800));
+  const Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(800));
   const json features = geojson_of(scratch, mesh)["features"];
   const double degrees = 180 / std::numbers::pi;
   int cut = 0, poles = 0;
@@ -373,7 +371,7 @@ TEST_CASE("GeoJSON: a cell is around its site") {
 TEST_CASE("GeoJSON: the properties are the cell's fields") {
   const Scratch scratch;
   const calotte::Density density = calotte::tanh_bump({1, 0, 0.5}, 0.5, 0.2, 0.01);
-  const Mesh mesh = calotte::spherical_delaunay(calotte::random_sphere(90, 8));
+  const Mesh mesh = calotte::delaunay(calotte::random_sphere(90, 8));
   const json file = geojson_of(scratch, mesh, {.density = density});
   const calotte::CellFields fields = calotte::cell_fields(calotte::voronoi(mesh), density);
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
@@ -405,9 +403,8 @@ TEST_CASE("GeoJSON: points are sites; members in any order") {
 
 TEST_CASE("GeoJSON: a file cut short is refused") {
   const Scratch scratch;
-  calotte::write(
-      scratch / "cells.geojson",
-      calotte::spherical_delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})));
+  calotte::write(scratch / "cells.geojson",
+                 calotte::delaunay(columns({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}})));
   CHECK(done_when_cut(scratch / "cells.geojson",
                       [&] { calotte::read_mesh(scratch / "cells.geojson"); }) == 0);
 }
@@ -452,13 +449,13 @@ TEST_CASE("GeoJSON: errors name the defect") {
 namespace {
 
 /// Five sites in general position, one of them at the origin.
-PlanarMesh planar_mesh() {
+Mesh planar_mesh() {
   calotte::Points2 points(2, 5);
   points << 0, 3, 2, -1, 1, 0, 0.1, 2.5, 2, 1.25;
-  return calotte::planar_delaunay(points);
+  return calotte::delaunay(points, calotte::Surface::plane());
 }
 
-void check_same_plane(const PlanarMesh& a, const PlanarMesh& b) {
+void check_same_plane(const Mesh& a, const Mesh& b) {
   CHECK(equal_bits(a.points, b.points));
   CHECK(equal_bits(a.triangles, b.triangles));
   CHECK(equal_bits(a.neighbours, b.neighbours));
@@ -476,43 +473,39 @@ bool names(const Error& error, const std::string& words) {
 
 TEST_CASE("a planar mesh comes back bit for bit from all that writes one") {
   const Scratch scratch;
-  const PlanarMesh mesh = planar_mesh();
+  const Mesh mesh = planar_mesh();
   for (const std::string name : {"a.vtp", "a.vtu", "a.off", "a.ply", "a.msh"}) {
     CAPTURE(name);
     calotte::write(scratch / name, mesh);
-    check_same_plane(calotte::test::read_planar_mesh(scratch / name), mesh);
+    check_same_plane(calotte::read_mesh(scratch / name), mesh);
     const Error error = error_of([&] { calotte::read_sites(scratch / name); });
     CHECK(error.code() == ErrorCode::invalid_argument);
     names(error, "z is 0 at all points");
   }
   calotte::write(scratch / "a.tri", mesh);
-  check_same_plane(calotte::test::read_planar_mesh(scratch / "a.tri", &mesh.points), mesh);
-  names(error_of([&] { calotte::test::read_planar_mesh(scratch / "a.tri"); }),
-        "give the points they refer to");
+  check_same_plane(calotte::read_mesh(scratch / "a.tri", &mesh.points), mesh);
+  names(error_of([&] { calotte::read_mesh(scratch / "a.tri"); }), "give the points they refer to");
   // Triangles refer to the columns that were triangulated: one that is there twice is one site.
-  calotte::Points2 twice(2, 6);
+  calotte::Points3 twice(3, 6);
   twice << mesh.points, mesh.points.col(2);
-  const PlanarMesh merged = calotte::test::read_planar_mesh(scratch / "a.tri", &twice);
+  const Mesh merged = calotte::read_mesh(scratch / "a.tri", &twice);
   check_same_plane(merged, mesh);
   CHECK(merged.site_of_input == std::vector<std::int32_t>{0, 1, 2, 3, 4, 2});
 }
 
 TEST_CASE("a file of the sphere, or of no place, is no planar mesh") {
   const Scratch scratch;
-  calotte::write(scratch / "s.off", calotte::spherical_delaunay(octahedron()));
-  names(error_of([&] { calotte::test::read_planar_mesh(scratch / "s.off"); }),
-        "a mesh of the sphere");
-  calotte::write(scratch / "s.geojson", calotte::spherical_delaunay(octahedron()));
-  names(error_of([&] { calotte::test::read_planar_mesh(scratch / "s.geojson"); }),
-        "a mesh of the sphere");
-  calotte::write(scratch / "s.nc", calotte::spherical_delaunay(octahedron()));
-  names(error_of([&] { calotte::test::read_planar_mesh(scratch / "s.nc"); }), "sphere");
+  calotte::write(scratch / "s.off", calotte::delaunay(octahedron()));
+  CHECK(calotte::read_mesh(scratch / "s.off").surface.is_sphere());
+  calotte::write(scratch / "s.geojson", calotte::delaunay(octahedron()));
+  CHECK(calotte::read_mesh(scratch / "s.geojson").surface.is_sphere());
+  calotte::write(scratch / "s.nc", calotte::delaunay(octahedron()));
+  CHECK(calotte::read_mesh(scratch / "s.nc").surface.is_sphere());
   write_text(scratch / "x.off", "OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n");
-  names(error_of([&] { calotte::test::read_planar_mesh(scratch / "x.off"); }),
-        "point 1 has no place");
+  names(error_of([&] { calotte::read_mesh(scratch / "x.off"); }), "point 1 has no place");
   write_text(scratch / "flat.msh",
              "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=3\n0;0;0\n1;0;0\n0;1;0\n");
-  CHECK(calotte::test::read_planar_mesh(scratch / "flat.msh").triangles.cols() == 1);
+  CHECK(calotte::read_mesh(scratch / "flat.msh").triangles.cols() == 1);
 }
 
 TEST_CASE("domains: text and GeoJSON say the same rings") {
@@ -521,16 +514,16 @@ TEST_CASE("domains: text and GeoJSON say the same rings") {
     write_text(scratch / "d.txt", words);
     return calotte::read_domain(scratch / "d.txt");
   };
-  const PlanarDomain plain = text("x y\n0 0\n4 0\n4 3 # a corner\n# no end of the ring\n0 3\n0 0\n"
-                                  "\n\n1 1\n2 1\n1,2\n");
-  REQUIRE(plain.rings.size() == 2);
-  CHECK(plain.rings[0].cols() == 4);
-  CHECK(plain.rings[1].cols() == 3);
-  CHECK(calotte::area(plain) == 11.5);
-  const auto same = [&](const PlanarDomain& other) {
-    REQUIRE(other.rings.size() == 2);
-    CHECK(equal_bits(other.rings[0], plain.rings[0]));
-    CHECK(equal_bits(other.rings[1], plain.rings[1]));
+  const Surface plain = text("x y\n0 0\n4 0\n4 3 # a corner\n# no end of the ring\n0 3\n0 0\n"
+                             "\n\n1 1\n2 1\n1,2\n");
+  REQUIRE(plain.rings().size() == 2);
+  CHECK(plain.rings()[0].cols() == 4);
+  CHECK(plain.rings()[1].cols() == 3);
+  CHECK(plain.area() == 11.5);
+  const auto same = [&](const Surface& other) {
+    REQUIRE(other.rings().size() == 2);
+    CHECK(equal_bits(other.rings()[0], plain.rings()[0]));
+    CHECK(equal_bits(other.rings()[1], plain.rings()[1]));
   };
   same(text("> outer\r\n0\t0\r\n4\t0\r\n4 3\r\n0 3\r\n >\r\n1 1\r\n2 1\r\n1 2\r\n1 1"));
   const std::string outer = "[[0,0],[4,0],[4,3],[0,3],[0,0]]",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One header brings all of the library.
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 
 #include <calotte/calotte.h>
 
@@ -10,7 +9,7 @@
 #include <string>
 
 TEST_CASE("calotte.h is enough for each kind of work") {
-  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(100));
+  const calotte::Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(100));
   CHECK(calotte::check(mesh).passed());
   CHECK(calotte::voronoi(mesh).cells.cols() == 100);
   CHECK(calotte::quality(mesh).cells == 100);

@@ -4,7 +4,6 @@
 #include "io/vtk_types.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 #include "support/polyhedra.h"
 
 #include <calotte/io.h>
@@ -206,7 +205,7 @@ TEST_CASE("legacy VTK: a mesh of the plane") {
   square.add({0, 2, 3});
   for (const LegacyStyle& style : legacy_styles()) {
     write_text(scratch / "mesh.vtk", legacy_text(square, style));
-    CHECK(calotte::test::read_planar_mesh(scratch / "mesh.vtk").triangles.cols() == 2);
+    CHECK(calotte::read_mesh(scratch / "mesh.vtk").triangles.cols() == 2);
   }
   Faces quad = square;
   quad.ids = {0, 1, 2, 3};
@@ -218,7 +217,7 @@ TEST_CASE("legacy VTK: a mesh of the plane") {
 
 TEST_CASE("legacy VTK: what is not read, or contradicts itself, is refused by name") {
   const Scratch scratch;
-  const Faces faces = faces_of(calotte::spherical_delaunay(octahedron()));
+  const Faces faces = faces_of(calotte::delaunay(octahedron()));
   const std::string poly = legacy_text(faces, {}), grid = legacy_text(faces, {.grid = true}),
                     fifth = legacy_text(faces, {.offsets = true}),
                     scalars =
@@ -267,7 +266,7 @@ TEST_CASE("legacy VTK: what is not read, or contradicts itself, is refused by na
 
 TEST_CASE("legacy VTK: a file that is cut anywhere, or whose bytes change, is read or refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   std::mt19937 random(3);
   for (const LegacyStyle& style : legacy_styles()) {
     const std::string path = scratch / "mesh.vtk",

@@ -3,7 +3,6 @@
 #include "io/format_files.h"
 #include "support/files.h"
 #include "support/meshes.h"
-#include "support/planes.h"
 
 #include <calotte/density.h>
 #include <calotte/io.h>
@@ -190,7 +189,7 @@ TEST_CASE("VTK: cells are counter-clockwise polygons with their fields and sites
 
 TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   for (const auto& [file, format] : {of_triangles[0], of_cells[1]}) {
     CAPTURE(file);
     const std::string path = scratch / file;
@@ -203,7 +202,7 @@ TEST_CASE("VTK: a file that is cut short, or has more, is refused") {
 
 TEST_CASE("VTK: invalid counts, other cells and ids out of range are refused") {
   const Scratch scratch;
-  const Mesh mesh = calotte::spherical_delaunay(octahedron());
+  const Mesh mesh = calotte::delaunay(octahedron());
   const auto error = [&](const FormatFile& kind, const std::function<void(std::string&)>& spoil) {
     calotte::write(scratch / kind.name, mesh, {.format = kind.format});
     std::string text = calotte::test::read_file(scratch / kind.name);
