@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
-#include "support/planes.h"
 
 #include <calotte/generators.h>
 #include <calotte/io.h>
@@ -502,8 +501,8 @@ TEST_CASE("a plane is triangulated, open or periodic, written and read back") {
   const Outcome box = bench.run("delaunay --plane --periodic 10,10 points.txt -o box.nc");
   CHECK(box.out == "box.nc: 100 sites, 200 triangles, periodic\n");
   CHECK(bench.run("convert box.nc again.nc").code == 0);
-  CHECK(calotte::test::read_planar_mesh(bench.folder() / "box.nc").triangles ==
-        calotte::test::read_planar_mesh(bench.folder() / "again.nc").triangles);
+  CHECK(calotte::read_mesh(bench.folder() / "box.nc").triangles ==
+        calotte::read_mesh(bench.folder() / "again.nc").triangles);
 }
 
 TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay") {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 #include "support/files.h"
-#include "support/planes.h"
 
 #include <calotte/density.h>
 #include <calotte/generators.h>
@@ -209,16 +208,16 @@ TEST_CASE("every format's points can be triangulated and iterated from again") {
 
 TEST_CASE("a periodic plane goes from MPAS to MPAS") {
   const Bench bench;
-  const calotte::PlanarMesh plane = calotte::periodic_hexagons(6, 4, 0.25);
+  const calotte::Mesh plane = calotte::hexagonal_box(6, 4, 0.25);
   calotte::write(bench.path("plane.nc"), plane);
   for (const std::string format : {"", " --format mpas-minimal"}) {
     const Outcome made = bench.run("convert plane.nc again.nc" + format);
     CHECK(made.code == 0);
     CHECK(made.out == "again.nc: 24 sites, 48 triangles, a periodic plane\n");
-    const calotte::PlanarMesh again = calotte::test::read_planar_mesh(bench.path("again.nc"));
+    const calotte::Mesh again = calotte::read_mesh(bench.path("again.nc"));
     CHECK((again.points == plane.points));
     CHECK((again.triangles == plane.triangles));
-    CHECK(again.period == plane.period);
+    CHECK(again.surface == plane.surface);
   }
   check_refusal_naming(bench, "convert plane.nc plane.vtp", 2, "plane.vtp: ");
   check_refusal_naming(bench, "convert plane.nc scrip.nc --format scrip", 2, "scrip.nc: ");

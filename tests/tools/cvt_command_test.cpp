@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
-#include "support/planes.h"
 
 #include <calotte/io.h>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/delaunay.h"
 #include "support/command.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -191,7 +190,7 @@ TEST_CASE("FESOM: an ocean without ears, and its depths") {
 
 TEST_CASE("FESOM: the sum of a field tells heights from depths, and land has the depth 0") {
   const Bench bench;
-  const calotte::Mesh mesh = calotte::spherical_delaunay(calotte::fibonacci_sphere(60));
+  const calotte::Mesh mesh = calotte::delaunay(calotte::fibonacci_sphere(60));
   Eigen::VectorXd values = Eigen::VectorXd::Constant(60, 4000);
   values[7] = -50; // land in a field of depths
   calotte::MeshField depths{.name = "depths", .values = values};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 #include "support/constants.h"
-#include "support/planes.h"
 
 #include <calotte/io.h>
 
@@ -100,9 +99,9 @@ TEST_CASE("fixed points beside a file of others, in the plane, and in a limited 
   CHECK(made.leftCols(2) == directions_in("1 0 0\n0 0.6 0.8\n", Columns::xyz));
   bench.file("fixed.xy", "0.25 0.5\n0.75 0.125\n");
   CHECK(bench.run("cvt --rectangle 0,0,1,1 --cells 60 --fixed fixed.xy -o plane.vtp").code == 0);
-  const Points2 places = test::read_planar_mesh(bench.folder() / "plane.vtp").points;
+  const Points3 places = read_mesh(bench.folder() / "plane.vtp").points;
   CHECK(places.cols() == 60);
-  CHECK(places.leftCols(2) == (Points2(2, 2) << 0.25, 0.75, 0.5, 0.125).finished());
+  CHECK(places.topLeftCorner<2, 2>() == (Points2(2, 2) << 0.25, 0.75, 0.5, 0.125).finished());
   CHECK(bench
             .run("cvt --region circle=10,50,500km --cell-width 60km --limited-area --fixed "
                  "fixed.txt --lonlat -o area.nc")
@@ -138,10 +137,10 @@ TEST_CASE("generators on the boundary: the mesh ends at them") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(bench.run("check a.vtp").code == 0);
-  const auto inside = containing(circle(directions_in("10 50\n", Columns::lonlat), 900 / 6371.0));
+  const Surface region = circle(directions_in("10 50\n", Columns::lonlat), 900 / 6371.0);
   const Points3 made = points_of(bench, "a.vtp");
   for (const auto& x : made.colwise())
-    CHECK(inside(x));
+    CHECK(region.contains(x));
   CHECK(bench.run("cvt --resume a.state -o b.vtp --threads 1 --regions 3").code == 0);
   CHECK(bench.file("a.vtp") == bench.file("b.vtp"));
   CHECK(!has(outcome.err, "leaves the boundary"));

@@ -6,7 +6,6 @@
 #include "draw/values.h"
 #include "support/clouds.h"
 #include "support/pictures.h"
-#include "support/planes.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -100,7 +99,7 @@ TEST_CASE("a planar map has the triangles that quality() measures, none across b
 TEST_CASE("a lattice in a rectangle shows no defects, as cells or as triangles") {
   const Folder folder;
   const Surface domain = rectangle({0, 0}, {3, 2});
-  Mesh mesh = delaunay(lattice_places(300, domain), domain);
+  Mesh mesh = delaunay(hexagonal_lattice(300, domain), domain);
   const auto counts = number_of_each(degrees_of_cells(mesh));
   CHECK(counts.size() == 2);
   CHECK(counts.contains(6));
