@@ -3,7 +3,6 @@
 #include "cvt/cvt.h"
 #include "io/command.h"
 #include "scratch_file.h"
-#include "support/planes.h"
 
 #include <calotte/cvt.h>
 #include <calotte/error.h>
@@ -20,7 +19,7 @@ namespace {
 /// A checkpoint of a run, whose bytes the input changes: its checksum makes others dull.
 std::string sample() {
   const std::string path = fuzz::scratch_file("sample", nullptr, 0);
-  spherical_cvt(random_sphere(30), {.max_iterations = 4}, [&](const CvtProgress& now) {
+  cvt(random_sphere(30), {}, {.max_iterations = 4}, [&](const CvtProgress& now) {
     write_checkpoint(path, now.state, "run");
     return true;
   });
@@ -44,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       "checkpoint", reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   try {
     read_checkpoint_command(path);
-    spherical_cvt(read_checkpoint(path, "run"), CvtOptions{.max_iterations = 4});
+    cvt(read_checkpoint(path, "run"), {}, {.max_iterations = 4});
   } catch (const Error& error) {
     fuzz::require(error.code() != ErrorCode::internal);
   }

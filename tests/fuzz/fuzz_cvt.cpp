@@ -2,7 +2,6 @@
 #include "bytes.h"
 #include "cvt/cvt.h"
 #include "mutation.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -23,11 +22,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                 bytes.number(), bytes.number());
   const Points3 points = bytes.columns(3, 200);
   try {
-    const Cvt result = spherical_cvt(points, options);
+    const Cvt result = cvt(points, {}, options);
     require(check(result.mesh).passed());
     CvtOptions other = options;
     other.partition.regions = 5;
-    const Cvt again = spherical_cvt(points, other);
+    const Cvt again = cvt(points, {}, other);
     require(again.mesh.points == result.mesh.points &&
             again.mesh.triangles == result.mesh.triangles);
     const CvtIteration* before = nullptr;

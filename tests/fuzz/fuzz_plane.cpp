@@ -2,7 +2,6 @@
 #include "bytes.h"
 #include "delaunay/delaunay.h"
 #include "mutation.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -16,9 +15,9 @@ namespace {
 /// The same mesh for any number of regions, and one that check() proves.
 template <class Triangulate> void check_laws(const Triangulate& triangulate, int regions) {
   try {
-    const PlanarMesh mesh = triangulate(1);
+    const Mesh mesh = triangulate(1);
     require(check(mesh).passed());
-    const PlanarMesh other = triangulate(regions);
+    const Mesh other = triangulate(regions);
     require(mesh.triangles == other.triangles && mesh.neighbours == other.neighbours);
   } catch (const Error& error) {
     require(error.code() != ErrorCode::internal);
@@ -37,8 +36,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_laws(
       [&](int count) {
         const DelaunayOptions options{.partition = {.regions = count}};
-        return periodic ? periodic_delaunay(places, period, options)
-                        : planar_delaunay(places, options);
+        return periodic ? delaunay(places, Surface::periodic(period), options)
+                        : delaunay(places, Surface::plane(), options);
       },
       regions);
   return 0;

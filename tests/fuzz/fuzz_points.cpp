@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
-#include "support/planes.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
@@ -17,8 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Columns columns : {Columns::xyz, Columns::lonlat, Columns::xy})
     try {
       std::istringstream in(text);
-      const auto [points, lines] = read_point_lines(in, "points", columns);
-      fuzz::require(points.cols() == std::ssize(lines) && points.allFinite());
+      const PointLines read = read_point_lines(in, "points", columns);
+      fuzz::require(read.points.cols() == std::ssize(read.lines) && read.points.allFinite());
     } catch (const Error& error) {
       fuzz::require(error.code() != ErrorCode::internal);
     }

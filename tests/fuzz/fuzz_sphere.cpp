@@ -2,7 +2,6 @@
 #include "bytes.h"
 #include "delaunay/delaunay.h"
 #include "mutation.h"
-#include "support/planes.h"
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
@@ -20,14 +19,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int regions = bytes.integer(2, 40), shift = bytes.integer(1, 200);
   const Points3 points = bytes.columns(3, 300);
   try {
-    const Mesh mesh = spherical_delaunay(points, {.partition = {.regions = 1}});
+    const Mesh mesh = delaunay(points, {}, {.partition = {.regions = 1}});
     require(check(mesh).passed());
-    const Mesh other = spherical_delaunay(points, {.partition = {.regions = regions}});
+    const Mesh other = delaunay(points, {}, {.partition = {.regions = regions}});
     require(mesh.triangles == other.triangles && mesh.neighbours == other.neighbours);
     Points3 turned(3, points.cols()); // the same points from another one on
     for (Eigen::Index i = 0; i < points.cols(); ++i)
       turned.col(i) = points.col((i + shift) % points.cols());
-    require(spherical_delaunay(turned).triangles.cols() == mesh.triangles.cols());
+    require(delaunay(turned).triangles.cols() == mesh.triangles.cols());
   } catch (const Error& error) {
     require(error.code() != ErrorCode::internal);
   }
