@@ -8,6 +8,7 @@
 #include <calotte/locate.h>
 #include <calotte/quality.h>
 #include <calotte/refine.h>
+#include <calotte/renumber.h>
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>

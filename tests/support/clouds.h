@@ -4,7 +4,6 @@
 #include "support/exact.h"
 #include "support/joined.h"
 #include "support/oracle.h"
-#include "support/planes.h"
 #include "support/random.h"
 
 #include <calotte/generators.h>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "support/netcdf_content.h"
-#include "support/planes.h"
 
 #include <cmath>
 #include <deque>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 

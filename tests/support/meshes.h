@@ -2,7 +2,6 @@
 #pragma once
 
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "support/clouds.h"
 #include "support/oracle.h"
 

@@ -3,7 +3,6 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "support/planes.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 

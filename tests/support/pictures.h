@@ -3,7 +3,6 @@
 
 #include "draw/scale.h"
 #include "support/errors.h"
-#include "support/planes.h"
 
 #include <cairo.h>
 #include <doctest/doctest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "support/planes.h"
 #include "support/laws.h"
 
 #include <calotte/types.h>

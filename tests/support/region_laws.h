@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "support/planes.h"
-
 #include "base/points.h"
 #include "cvt/cells.h"
 #include "domain/spherical_outline.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 
+#include <calotte/check.h>
 #include <calotte/io.h>
 #include <calotte/quality.h>
 
@@ -65,7 +66,7 @@ TEST_CASE("jigsaw: a plane's mesh fills its polygon, and ends at edges") {
   REQUIRE(outcome.code == 0);
   CHECK(outcome.out.find("a.jig line 9: OPTM_QLIM has no effect") != std::string::npos);
   const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.msh");
-  CHECK(calotte::area_of_triangles(mesh) == doctest::Approx(81).epsilon(1e-12));
+  CHECK(calotte::check_surface(mesh).area == doctest::Approx(81).epsilon(1e-12));
   CHECK(bench.file("mesh.msh").find("\nEDGE2=") != std::string::npos);
   CHECK(bench.file("mesh.msh").find("NDIMS=2\n") != std::string::npos);
 }
