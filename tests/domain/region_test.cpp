@@ -45,7 +45,7 @@ Points3 reversed(const Points3& ring) { return ring.rowwise().reverse(); }
 Surface complement(const Surface& region) {
   Surface::Rings rings;
   for (const DoubleMatrix& ring : region.rings())
-    rings.emplace_back(reversed(ring));
+    rings.emplace_back(ring.rowwise().reverse());
   return Surface::sphere().within(rings);
 }
 
