@@ -20,7 +20,6 @@
 namespace calotte::io_detail {
 namespace {
 
-
 /// of(point) for each column.
 template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const Of& of) {
   return table<double>(
