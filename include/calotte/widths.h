@@ -164,9 +164,9 @@ public:
   /// 2004), and R errs by less than 1/100.
   ///
   /// \throws Error invalid_argument for a value of the rule out of range; naming ring and corner of
-  ///         the coast, one that is no direction or opposite to the one before; for a least width
-  ///         that cuts the coast into more than 20 million pieces. As delaunay() for a shore along
-  ///         one great circle.
+  ///         the coast, one that is no direction or opposite to the one before. When it is first
+  ///         evaluated, for a least width that cuts the coast into more than 20 million pieces on
+  ///         its sphere, and as delaunay() for a shore along one great circle.
   static Widths by_channel(const Coast& coast, const ChannelRule& rule);
 
   /// What a rule says of places where it says nothing, km: wider than any other, so that others

@@ -181,7 +181,7 @@ TEST_CASE("the straits of a coast have about their width [slow]") {
 
 TEST_CASE("rules of channels that are none are refused by name") {
   const auto message = [](const Coast& coast, const ChannelRule& rule) {
-    return std::string(error_of([&] { Widths::by_channel(coast, rule); }).what());
+    return std::string(error_of([&] { Widths::by_channel(coast, rule).rule(); }).what());
   };
   CHECK(message(banks(1, 1), {.cells = 4}) ==
         "the least width of a rule of channels, 0, is not positive; give one");

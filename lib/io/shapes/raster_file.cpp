@@ -77,13 +77,10 @@ RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
   if (axes)
     return *axes;
   const std::vector<std::string> names = file.variable_names();
-  const std::string name =
-      std::ranges::any_of(names,
-                          [&](const std::string& one) {
-                            return is_latitude(file, one) && file.shape_of(one).size() == 1;
-                          })
-          ? "lon"
-          : "lat";
+  const bool has_latitude = std::ranges::any_of(names, [&](const std::string& one) {
+    return is_latitude(file, one) && file.dimensions_of(one) == std::vector{one};
+  });
+  const std::string name = has_latitude ? "lon" : "lat";
   file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
 }
 

@@ -213,7 +213,9 @@ private:
     const bool least = key == "min";
     std::vector<Widths> rules =
         least ? parts(table, key) : std::vector{table.made([&, source = source] {
-          return (this->*source)(table).on_sphere(radius_km_);
+          Widths made = (this->*source)(table).on_sphere(radius_km_);
+          made.rule(); // what it refuses is said of its table
+          return made;
         })};
     table.made([&] { change(table, rules); });
     table.require_all_taken();
