@@ -162,9 +162,10 @@ enum class RasterValues {
 /// Reads a raster of land from a NetCDF file: variable(lat, lon) with the coordinates of
 /// read_cell_width(). Values are what their attributes say, and fractions may be in %. A missing
 /// one is an error, but land among depths, which ocean models leave out there: those of the
-/// attribute positive "down", or of a standard_name of depths. \param variable default: the only
-/// one of two dimensions. \throws Error parse, naming the variable and its index, and for a file
-/// with several; file.
+/// attribute positive "down", or of a standard_name of depths.
+///
+/// \param variable default: the only raster of the file.
+/// \throws Error parse, naming the variable and its index, and for a file with several; file.
 LandRaster read_land_raster(const std::string& path, const std::string& variable = {},
                             RasterValues values = RasterValues::height);
 

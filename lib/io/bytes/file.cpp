@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
-#include "io/bytes/file_names.h"
 
+#include "io/bytes/file_names.h"
 #include "io/bytes/output_queue.h"
 #include "io/bytes/temporary_file.h"
 #include "io/command.h"
