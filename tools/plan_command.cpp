@@ -164,7 +164,9 @@ std::string gradient_words(const Gradient& gradient) {
   if (!(gradient.slope > 0))
     return "0";
   return formatted("%.2g", gradient.slope) + " at " + place_of(gradient) +
-         (is_too_steep(gradient.slope) ? ", above 0.03, the limit for most models" : "");
+         (is_too_steep(gradient.slope)
+              ? ", above " + shortest(steepest_width) + ", the limit for most models"
+              : "");
 }
 
 /// "642 cells, up to 14 rounds of insertion".

@@ -65,10 +65,15 @@ struct Gradient {
   double latitude = 0;  ///< degrees
 };
 
+/// The largest gradient of cell widths that most models accept, km per km.
+inline constexpr double steepest_width = 0.03;
+/// Whether one is larger by more than what the scale of a run's number of cells rounds.
+inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; }
+
 /// The largest |grad h| that cells see: the largest mean of the gradient over a square of the width
 /// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
 /// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
-/// sampled.) Most models need a value below about 0.03.
+/// sampled.) Most models need a value below steepest_width.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
 /// \throws Error as density_of; invalid_argument for a radius out of range.
 Gradient largest_gradient(const CellWidth& cell_width, double radius_km = earth_radius_km);

@@ -267,10 +267,6 @@ WidthRules read_width_rules(const std::string& path, const Surface& surface = {}
 CellWidth sampled_on(const WidthRules& rules, const Surface& surface);
 PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane); ///< in a plane
 
-/// The widths with the file's limit of the gradient also in a plane, where it makes them a raster.
-/// \throws Error as sampled(), but for places without a demand.
-Widths limited_in(const WidthRules& rules, const Surface& plane);
-
 /// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
 /// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
 /// relative; they imply no number of cells.
@@ -291,8 +287,17 @@ PlanarRaster read_planar_raster(const std::string& path);
 /// rules, see read_width_rules().
 /// \param plane of a file of rules, which are sampled in it.
 /// \throws Error parse, naming the variable and its index; invalid_argument for rules and no plane
-///         of finite area; file.
+///         of finite area, and for an unknown suffix; file.
 PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane = {});
+
+/// The widths of a file of any kind as an expression: rules themselves, others as a raster. In a
+/// plane, rules with a gradient of all become a raster, too.
+/// \param polygons as for read_cell_width().
+/// \param surface the sphere or a plane.
+/// \throws Error as read_cell_width() and read_planar_cell_width(), but for places without a
+/// demand.
+Widths read_widths(const std::string& path, const PolygonWidths& polygons = {},
+                   const Surface& surface = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -9,6 +9,7 @@
 #include <calotte/widths.h>
 
 #include <doctest/doctest.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -204,6 +205,21 @@ TEST_CASE("a rule is prepared for its sphere alone, and once") {
   CHECK(narrow.on_sphere(6.371).rule() == narrow.on_sphere(6.371).rule());
   const Widths zones = Widths::by_latitude({{{-90, 20}, {90, 40}}});
   CHECK(Widths(zones).rule() == zones.rule());
+}
+
+TEST_CASE("tasks may ask a rule at once before it is prepared") {
+  const Points3 places = random_sphere(200, 10);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Widths lines = Widths::by_distance(walks(), {{{0, 120}, {500, 150}, {2000, 800}}}),
+                 limited = Widths::maximum({lines, 200.0}).limit_gradient(0.03),
+                 whole = Widths::minimum({limited, lines, 700.0});
+    std::vector<DoubleVector> got(64);
+    tbb::parallel_for(0, 64, [&](int k) {
+      got[static_cast<std::size_t>(k)] = evaluate(k % 2 == 0 ? limited : whole, places);
+    });
+    for (std::size_t k = 2; k < got.size(); ++k)
+      CHECK(got[k] == got[k % 2]);
+  }
 }
 
 TEST_CASE("widths of two spheres do not mix, and those of the Earth go to the other's") {

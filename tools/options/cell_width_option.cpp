@@ -73,16 +73,35 @@ std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWi
   return notes;
 }
 
-/// The widths without a limit of their gradient.
-ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
-  if (!words.raster.empty())
-    return {read_density_raster(words.raster, region), {}};
+PolygonWidths polygons_of(const WidthWords& words) {
+  return {.inside = words.inside.value_or(0),
+          .outside = words.outside.value_or(0),
+          .transition = words.transition.value_or(0),
+          .radius_km = words.radius};
+}
+
+/// \throws Error invalid_argument for a width with a unit.
+void require_no_unit(const WidthWords& words) {
+  if (words.with_unit)
+    refuse("--cell-width " + shortest(*words.uniform) +
+           "km: the plane has the unit of its coordinates; give a number in that unit");
+}
+
+/// \throws Error invalid_argument for widths of polygons without polygons.
+void require_polygons(const WidthWords& words) {
   if (words.uniform || !is_geojson(words.file))
     for (const auto& [value, name] : {std::pair{words.inside, "--inside-width"},
                                       {words.outside, "--outside-width"},
                                       {words.transition, "--transition"}})
       if (value)
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
+}
+
+/// The widths without a limit of their gradient.
+ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
+  if (!words.raster.empty())
+    return {read_density_raster(words.raster, region), {}};
+  require_polygons(words);
   if (words.uniform)
     return {uniform_widths(*words.uniform), {}};
   if (holds_rules(words.file)) {
@@ -90,13 +109,7 @@ ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
     CellWidth raster = sampled_on(rules, region);
     return {std::move(raster), std::move(rules)};
   }
-  return {read_cell_width(words.file,
-                          {.inside = words.inside.value_or(0),
-                           .outside = words.outside.value_or(0),
-                           .transition = words.transition.value_or(0),
-                           .radius_km = words.radius},
-                          region),
-          {}};
+  return {read_cell_width(words.file, polygons_of(words), region), {}};
 }
 
 /// A gradient above 0, in km per km.
@@ -189,25 +202,18 @@ ReadWidths read_widths(const WidthWords& words, const Surface& region) {
 }
 
 Widths read_demand(const WidthWords& words, const Surface& surface) {
-  if (holds_rules(words.file))
-    return limited_in(read_width_rules(words.file, surface, words.radius), surface);
-  if (surface.is_sphere())
-    return Widths(read_widths(words).raster);
-  return words.uniform && !words.with_unit ? Widths(*words.uniform)
-                                           : Widths(read_planar_widths(words, surface));
+  if (!surface.is_sphere())
+    require_no_unit(words);
+  require_polygons(words);
+  return words.uniform ? Widths(*words.uniform)
+                       : calotte::read_widths(words.file, polygons_of(words), surface);
 }
 
 PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane) {
-  if (words.with_unit)
-    refuse("--cell-width " + shortest(*words.uniform) +
-           "km: the plane has the unit of its coordinates; give a number in that unit");
+  require_no_unit(words);
   if (words.uniform)
     return uniform_planar_widths(*words.uniform);
-  if (const auto suffix = std::filesystem::path(words.file).extension();
-      suffix != ".nc" && suffix != ".msh" && suffix != ".toml")
-    refuse(words.file + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) "
-                        "(.nc), JIGSAW's spacings (.msh), or rules (.toml)");
-  PlanarCellWidth widths = read_planar_cell_width(words.file, plane);
+  const PlanarCellWidth widths = read_planar_cell_width(words.file, plane);
   return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }
 

@@ -79,11 +79,6 @@ PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
-/// The largest gradient of cell widths that most models accept, km per km.
-inline constexpr double steepest_width = 0.03;
-/// Whether one is larger by more than what the scale of a run's number of cells rounds.
-inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; }
-
 /// The largest gradient of widths that are read, and then scaled; at most their limit.
 Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale);
 

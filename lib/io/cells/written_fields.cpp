@@ -33,9 +33,10 @@ template <class T> NetcdfWriter::FillBytes contents_of(const MeshField& field, b
     for (std::int64_t k = begin; k < end;) {
       const std::int64_t row = k / after, place = row % places, leading = row / places,
                          last = std::min(end, (row + 1) * after);
-      const double* from = values + (place * before + leading) * after - row * after;
+      const std::int64_t shift = (place * before + leading - row) * after;
       for (; k < last; ++k, to += sizeof(T)) {
-        const T value = filled && std::isnan(from[k]) ? fill_value<T> : static_cast<T>(from[k]);
+        const double from = values[k + shift];
+        const T value = filled && std::isnan(from) ? fill_value<T> : static_cast<T>(from);
         std::memcpy(to, &value, sizeof value);
       }
     }

@@ -165,18 +165,21 @@ void require_free_names(const std::string& path, const std::vector<MeshField>& f
                 " has the name of a coordinate; leave it out with --fields");
 }
 
-/// What belongs to fields, of which some get other names.
-std::vector<Carried> carried_from(const std::string& source, std::vector<MeshField>& fields) {
-  std::vector<Carried> carried;
-  if (!source.empty() && is_netcdf_file(source))
-    carried = carried_with(NetcdfReader(source), fields);
-  for (const auto& [before, now] : replace_names(fields))
+/// What belongs to fields of a file.
+/// \param renamed their old and new names.
+std::vector<Carried> carried_from(const std::string& source, const std::vector<MeshField>& fields,
+                                  const std::vector<std::array<std::string, 2>>& renamed) {
+  if (source.empty() || !is_netcdf_file(source))
+    return {};
+  std::vector<Carried> carried = carried_with(NetcdfReader(source), fields);
+  std::erase_if(carried, [&](const Carried& variable) {
+    return is_own_name(variable.name) || std::ranges::any_of(renamed, [&](const auto& names) {
+             return names[1] == variable.name;
+           });
+  });
+  for (const auto& [before, now] : renamed)
     for (Carried& variable : carried)
       std::ranges::replace(variable.of, before, now);
-  std::erase_if(carried, [&](const Carried& variable) {
-    return is_own_name(variable.name) ||
-           std::ranges::find(fields, variable.name, &MeshField::name) != fields.end();
-  });
   return carried;
 }
 
@@ -202,7 +205,7 @@ void write_fields(const std::string& path, const FieldGrid& grid,
   }
   require_free_names(path, fields);
   std::vector<MeshField> named = fields;
-  const std::vector<Carried> carried = carried_from(source, named);
+  const std::vector<Carried> carried = carried_from(source, fields, replace_names(named));
   if (grid.boxes)
     write_raster(path, *grid.boxes, named, carried, options);
   else

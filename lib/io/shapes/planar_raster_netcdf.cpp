@@ -5,6 +5,7 @@
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/planar_grid.h"
 
+#include <calotte/error.h>
 #include <calotte/read.h>
 
 #include <string>
@@ -67,8 +68,13 @@ PlanarRaster read_planar_raster(const std::string& path) {
 PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane) {
   if (holds_rules(path))
     return sampled(read_width_rules(path, plane), plane);
-  return io_detail::suffix_of(path) == ".msh" ? io_detail::read_planar_cell_width_msh(path)
-                                              : read_cell_width_of(path);
+  const std::string suffix = io_detail::suffix_of(path);
+  io_detail::refuse_foreign(path);
+  if (suffix != ".nc" && suffix != ".msh")
+    throw Error(ErrorCode::invalid_argument,
+                path + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
+                       "JIGSAW's spacings (.msh), or rules (.toml)");
+  return suffix == ".msh" ? io_detail::read_planar_cell_width_msh(path) : read_cell_width_of(path);
 }
 
 } // namespace calotte

@@ -470,8 +470,13 @@ PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane) {
   });
 }
 
-Widths limited_in(const WidthRules& rules, const Surface& plane) {
-  return rules.gradient ? Widths(limited_raster(rules, plane)) : rules.widths;
+Widths read_widths(const std::string& path, const PolygonWidths& polygons, const Surface& surface) {
+  if (holds_rules(path)) {
+    const WidthRules rules = read_width_rules(path, surface, polygons.radius_km);
+    return rules.gradient ? Widths(limited_raster(rules, surface)) : rules.widths;
+  }
+  return surface.is_sphere() ? Widths(read_cell_width(path, polygons))
+                             : Widths(read_planar_cell_width(path));
 }
 
 RulesOutline outline_of_rules(const std::string& path) {

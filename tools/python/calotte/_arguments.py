@@ -150,7 +150,7 @@ def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
         return widths
     if isinstance(widths, _calotte.PlanarCellWidth):
         return _calotte.Widths(widths)
-    if (isinstance(widths, str) or hasattr(widths, "__fspath__")) and str(widths).lower().endswith(".toml"):
+    if (isinstance(widths, str) and not measure(widths)) or hasattr(widths, "__fspath__"):
         return _calotte.read_widths(str(widths), _calotte.Surface() if surface is None else surface,
                                     earth_radius)
     value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None

@@ -705,17 +705,15 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     return grid
 
 
-_STEEPEST = 0.03  # km per km, that most models accept
-
-
 def _warn_of_steep(widths, recipe):
     scale = 1 if recipe.cells == 0 else math.sqrt(
         _calotte.implied_cells(widths, recipe.surface, recipe.radius_km) / recipe.cells)
     slope, longitude, latitude = _calotte.largest_gradient(widths, recipe.radius_km)
-    if scale * slope > 1.005 * _STEEPEST:
+    limit = _calotte.steepest_width
+    if _calotte.is_too_steep(scale * slope):
         warnings.warn(f"the cell width changes by {scale * slope:.2g} km per km at longitude {longitude:.1f}, "
-                      f"latitude {latitude:.1f}, above {_STEEPEST}, the limit for most models; limit it, as "
-                      f"calotte.widths.rule(widths).limit_gradient({_STEEPEST}) does", stacklevel=3)
+                      f"latitude {latitude:.1f}, above {limit}, the limit for most models; limit it, as "
+                      f"calotte.widths.rule(widths).limit_gradient({limit}) does", stacklevel=3)
 
 
 def _warn_of_shortfall(converged, beyond):

@@ -96,6 +96,8 @@ void add_cell_width(py::module_& module) {
              [](const CellWidth& widths, const Surface& surface, double radius_km) {
                return call([&] { return implied_cells(widths, surface, radius_km); });
              });
+  module.attr("steepest_width") = steepest_width;
+  module.def("is_too_steep", &is_too_steep);
   module.def("largest_gradient", [](const CellWidth& widths, double radius_km) {
     const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);

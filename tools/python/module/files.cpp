@@ -70,10 +70,10 @@ py::tuple state_of(const MeshFile& content) {
   for (const MeshField& field : content.fields) {
     py::list dimensions;
     for (const FieldDimension& dimension : field.dimensions)
-      dimensions.append(py::make_tuple(dimension.name, dimension.size));
-    fields.append(py::make_tuple(field.name, field.long_name, field.units,
-                                 static_cast<int>(field.location), field.values, dimensions,
-                                 field.leading, field.integer, field.directed));
+      dimensions.append(py::make_tuple(dimension.name, dimension.size, dimension.unlimited));
+    fields.append(py::make_tuple(
+        field.name, field.long_name, field.units, static_cast<int>(field.location), field.values,
+        dimensions, field.leading, field.integer, field.single, field.directed, field.attributes));
   }
   return py::make_tuple(content.format, polygons_of(std::make_shared<MeshFile>(content)),
                         content.not_voronoi, content.sphere_radius, content.density, fields,
@@ -88,9 +88,12 @@ MeshField field_of(const py::tuple& state) {
                   .values = state[4].cast<Eigen::VectorXd>(),
                   .leading = state[6].cast<int>(),
                   .integer = state[7].cast<bool>(),
-                  .directed = state[8].cast<bool>()};
-  for (const auto& dimension : state[5].cast<std::vector<std::pair<std::string, std::int64_t>>>())
-    field.dimensions.push_back({dimension.first, dimension.second});
+                  .single = state[8].cast<bool>(),
+                  .directed = state[9].cast<bool>(),
+                  .attributes = state[10].cast<std::vector<std::array<std::string, 2>>>()};
+  using Dimensions = std::vector<std::tuple<std::string, std::int64_t, bool>>;
+  for (const auto& [name, size, unlimited] : state[5].cast<Dimensions>())
+    field.dimensions.push_back({name, size, unlimited});
   return field;
 }
 

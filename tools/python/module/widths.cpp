@@ -136,7 +136,7 @@ void add_widths(py::module_& module) {
           py::arg("plane"), py::arg("step") = 0,
           "A PlanarCellWidth over a plane, with nodes so far apart; 0: by its least width.");
   module.def("read_widths", [](const std::string& path, const Surface& surface, double radius_km) {
-    return call([&] { return limited_in(read_width_rules(path, surface, radius_km), surface); });
+    return call([&] { return read_widths(path, {.radius_km = radius_km}, surface); });
   });
   module.def("widths_by_latitude", &by_latitude);
   module.def("widths_by_distance", &by_distance);
