@@ -31,7 +31,7 @@ struct CullRequest {
   std::optional<std::string> model;
   std::vector<std::string> land, passages, barriers, seeds;
   std::string raster, raster_variable;
-  RasterValues raster_values = RasterValues::height;
+  RasterQuantity raster_values = RasterQuantity::height;
   std::string field, field_file;
   std::optional<double> below, from;
   double land_fraction = CullOptions{}.land_fraction;
@@ -101,8 +101,7 @@ CullOptions options_of(const CullRequest& request) {
   CullOptions options;
   options.coast = coast_of(request.land);
   if (!request.raster.empty())
-    options.raster =
-        read_land_raster(request.raster, request.raster_variable, request.raster_values);
+    options.raster = read_land(request.raster, request.raster_variable, request.raster_values);
   options.land_fraction = request.land_fraction;
   options.field = {request.field_file, request.field};
   if (request.from)
@@ -186,11 +185,11 @@ void add_raster(CLI::App& command, CullRequest& request) {
           ->type_name("NAME")
           ->needs(file);
   file->needs(variable);
-  add_choice<RasterValues>(
+  add_choice<RasterQuantity>(
       command, "--raster-values", request.raster_values,
-      {{"height", RasterValues::height},
-       {"sea-fraction", RasterValues::sea_fraction},
-       {"land-fraction", RasterValues::land_fraction}},
+      {{"height", RasterQuantity::height},
+       {"sea-fraction", RasterQuantity::sea_fraction},
+       {"land-fraction", RasterQuantity::land_fraction}},
       "What the values are: heights, of which those below 0 are sea (height), or fractions "
       "from 0 to 1 of sea or of land (sea-fraction, land-fraction)")
       ->needs(file);

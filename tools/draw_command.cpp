@@ -223,8 +223,8 @@ SphereField field_of(const DrawArguments& arguments) {
   const std::string title = title_of(*arguments.density);
   const bool asked = arguments.colour->count() > 0;
   const bool density_asked = asked && arguments.options.colouring == Colouring::density;
-  if (resolution.widths && !density_asked) {
-    const DoubleMatrix& widths = resolution.widths->widths;
+  if (resolution.widths && !resolution.widths->of_plane && !density_asked) {
+    const DoubleMatrix& widths = resolution.widths->values;
     return {spacings_by(density, widths.minCoeff()),
             title + ", " + range_text(widths.minCoeff(), widths.maxCoeff(), "km"),
             "cell width, km"};

@@ -47,11 +47,8 @@ JigsawSizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
 void take_widths(const JigFile& jig, const JigsawGeometry& geometry, Recipe& recipe) {
   const JigsawSizes sizes = sizes_of(jig, geometry);
   const std::optional<std::string> file = jig.text("HFUN_FILE");
-  if (geometry.surface.is_sphere())
-    recipe.widths = file ? read_jigsaw_widths(*file, sizes) : uniform_widths(sizes.most);
-  else
-    recipe.planar_widths =
-        file ? read_planar_jigsaw_widths(*file, sizes) : uniform_planar_widths(sizes.most);
+  recipe.widths = file ? read_jigsaw_widths(*file, sizes, geometry.surface)
+                       : uniform_widths(sizes.most, geometry.surface);
 }
 
 /// The points of INIT_FILE: fixed ones, or with MESH_ITER = 0 all generators.

@@ -99,12 +99,12 @@ SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor,
                      const WidthWords& words) {
   if (!asked.widths)
     return survey_spacing(made.density, made.cells, made.surface);
-  CellWidth scaled = *asked.widths;
-  scaled.widths *= factor;
-  const double least = scaled.widths.minCoeff() / asked.radius_km;
+  Raster scaled = *asked.widths;
+  scaled.values *= factor;
+  const double least = scaled.values.minCoeff() / asked.radius_km;
   if (made.surface.is_bounded())
     return survey_spacing(made.density, made.cells, made.surface, least);
-  return {least, least, scaled.widths.maxCoeff() / asked.radius_km,
+  return {least, least, scaled.values.maxCoeff() / asked.radius_km,
           steepest_of(scaled, words, factor)};
 }
 

@@ -209,7 +209,7 @@ typedef struct calotte_recipe {
   void* density_data;             /**< its last argument */
   /** Cell widths: the distances between the centres of neighbouring cells, which set the density.
    * widths_nx times widths_ny numbers, those of the first y first; km on the sphere, in a plane its
-   * unit. Bilinear between the nodes, see calotte::CellWidth and calotte::PlanarCellWidth. Null:
+   * unit. Bilinear between the nodes, see calotte::Raster. Null:
    * none. */
   const double* widths;
   const double* widths_x; /**< widths_nx, ascending: degrees of longitude; x in a plane */

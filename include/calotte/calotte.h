@@ -28,10 +28,10 @@
 #include <calotte/operators.h>
 #include <calotte/options.h>
 #include <calotte/partition.h>
-#include <calotte/planar_raster.h>
 #include <calotte/polygons.h>
 #include <calotte/progress.h>
 #include <calotte/quality.h>
+#include <calotte/raster.h>
 #include <calotte/read.h>
 #include <calotte/refine.h>
 #include <calotte/renumber.h>

@@ -29,8 +29,8 @@ struct SeaField {
 
 /// Options of cull().
 struct CullOptions {
-  Coast coast = {};       ///< Default: none, no land.
-  LandRaster raster = {}; ///< Default: no values, none.
+  Coast coast = {};   ///< Default: none, no land.
+  Raster raster = {}; ///< Default: no values, none.
   /// Cells with a larger fraction of land, by the coast or by the raster, are land; 0 to less
   /// than 1.
   double land_fraction = 0.5;

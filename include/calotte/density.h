@@ -2,6 +2,7 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -85,6 +86,12 @@ DoubleVector evaluate(const Density& density, const PointsRef& points, const Sur
 /// or
 ///         a site more than 2^30 periods from the box.
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density);
+
+/// The density that a raster gives between its nodes.
+/// \param density values >= 0, finite.
+/// \throws Error invalid_argument if it violates the conditions of Raster, and naming the node, for
+///         a value out of range.
+Density interpolated_density(const Raster& density);
 
 } // namespace calotte
 CALOTTE_API_END

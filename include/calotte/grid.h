@@ -6,8 +6,8 @@
 #include <calotte/density.h>
 #include <calotte/export.h>
 #include <calotte/options.h>
-#include <calotte/planar_raster.h>
 #include <calotte/progress.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -99,10 +99,9 @@ struct Recipe {
   /// The number that rounds of insertion come nearest to, where fixed ones leave no edge to change.
   std::int64_t cells = 0;
   Density density = {}; ///< default uniform
-  /// Cell widths of the sphere, km, which set the density in place of `density`. Default: none.
-  std::optional<CellWidth> widths = {};
-  /// The same of the plane, in its unit.
-  std::optional<PlanarCellWidth> planar_widths = {};
+  /// Cell widths in km, in a plane in its unit, which set the density in place of `density`.
+  /// Default: none.
+  std::optional<Raster> widths = {};
   double radius_km = earth_radius_km; ///< of the sphere that `widths` refer to; > 0 and finite
   Surface surface = {};               ///< default: the sphere
   /// The grid is a limited area: the run covers the surface, a part of the sphere, with the rings

@@ -46,7 +46,7 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 /// \param surface a region of the sphere.
 /// \param radius_km radius of the sphere of the widths.
 /// \throws Error as widened() and evaluate(); invalid_argument for a plane.
-Surface with_rings(const Surface& surface, const CellWidth& widths,
+Surface with_rings(const Surface& surface, const Raster& widths,
                    double radius_km = earth_radius_km);
 
 } // namespace calotte

@@ -3,6 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/voronoi.h>
@@ -45,26 +46,19 @@ Surface land_around(const Coast& coast, const Eigen::Vector3d& point);
 ///         that of the rings, and for points covered twice.
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
-/// The land by a raster of longitudes and latitudes, which may be irregular. A value holds in the
-/// rectangle between the middles to its neighbours; those of the first and the last latitude reach
-/// to the poles.
-struct LandRaster {
-  DoubleVector longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  DoubleVector latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
-  DoubleMatrix land;       ///< nx x ny, fractions of land from 0 to 1
-};
-
-/// The fraction of each cell that is land, by sampling: each rectangle of the raster is cut into
-/// k x k parts of equal steps of longitude and latitude. k is the least number, up to 256, that
-/// makes their sides shorter than a quarter of the square root of the area of the cell at the
-/// rectangle's middle. A cell's fraction is the mean of the values of the parts whose middles it
-/// contains, weighted by their areas; in a cell without such a part, the value at its generator.
+/// The fraction of each cell that is land, by sampling a raster of the
+/// sphere, whose values are fractions of land. A value holds in the rectangle between the middles
+/// to its neighbours; those of the first and the last latitude reach to the poles. Each rectangle
+/// is cut into k x k parts of equal steps of longitude and latitude. k is the least number, up to
+/// 256, that makes their sides shorter than a quarter of the square root of the area of the cell at
+/// the rectangle's middle. A cell's fraction is the mean of the values of the parts whose middles
+/// it contains, weighted by their areas; in a cell without such a part, the value at its generator.
 /// The result has the same bits for any number of threads.
 /// \param cells as above.
 /// \returns n fractions from 0 to 1.
 /// \throws Error invalid_argument, for cells that do not cover the sphere, and for shapes,
-///         coordinates or values that violate the conditions of LandRaster.
-DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster);
+///         coordinates or values that violate the conditions of Raster, or no fractions.
+DoubleVector land_fractions(const Voronoi& cells, const Raster& land);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.
 /// \param lines each 3 x points, unit columns, joined by arcs shorter than a half circle.

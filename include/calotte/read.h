@@ -5,7 +5,7 @@
 #include <calotte/error.h>
 #include <calotte/export.h>
 #include <calotte/ocean.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/widths.h>
@@ -62,8 +62,9 @@ PointLines read_point_lines(const std::string& path, Columns columns = Columns::
 
 /// Reads a planar domain. The suffix selects the format:
 ///
-/// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, all
-/// of them one domain. Positions are taken as x and y, in any unit; a third coordinate is ignored.
+/// .geojson, .json, of the sphere: Polygon and MultiPolygon geometries, alone or in features or
+/// collections, all of them one domain. Positions are taken as x and y, in any unit; a third
+/// coordinate is ignored.
 ///
 /// .msh: the closed rings of edges of JIGSAW's euclidean-mesh with NDIMS=2.
 ///
@@ -80,11 +81,11 @@ Surface read_domain(const std::string& path);
 /// circle between two corners; a parallel needs corners at short intervals. Rings may run either
 /// way, be closed and be cut at a meridian, as for enclosed_region().
 ///
-/// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections, in
-/// longitude (any, the edge takes the shorter way) and latitude in degrees; all of them are one
-/// region. An outer ring encloses its polygon, and a hole what is left out of it, by the rule of
-/// enclosed_region() whichever way they run. If a feature names a point inside by the property
-/// "inside": [longitude, latitude], its rings enclose the side that contains the point.
+/// .geojson, .json, of the sphere: Polygon and MultiPolygon geometries, alone or in features or
+/// collections, in longitude (any, the edge takes the shorter way) and latitude in degrees; all of
+/// them are one region. An outer ring encloses its polygon, and a hole what is left out of it, by
+/// the rule of enclosed_region() whichever way they run. If a feature names a point inside by the
+/// property "inside": [longitude, latitude], its rings enclose the side that contains the point.
 ///
 /// .pts: a point file of MPAS-Limited-Area, of the type custom, circle, ellipse or channel.
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
@@ -152,25 +153,50 @@ Points3 read_sites(const std::string& path);
 /// \throws Error parse, naming the feature or the variable; file.
 Coast read_coast(const std::string& path);
 
-/// The values of a raster that tells the sea from the land.
-enum class RasterValues {
-  height,       ///< of topography or bathymetry, up; below 0 is sea
-  sea_fraction, ///< 0 to 1
-  land_fraction ///< 0 to 1
+/// What the values of a raster are.
+enum class RasterQuantity {
+  any,           ///< as the file has them
+  cell_width,    ///< > 0, in km, in a plane in its unit
+  density,       ///< > 0, in a plane >= 0
+  height,        ///< of topography or bathymetry, metres up; below 0 is sea
+  land_fraction, ///< 0 to 1
+  sea_fraction   ///< 0 to 1
 };
 
-/// Reads a raster of land from a NetCDF file: variable(lat, lon) with the coordinates of
-/// read_cell_width(). Values are what their attributes say, and fractions may be in %. A missing
-/// one is an error, but land among depths, which ocean models leave out there: those of the
-/// attribute positive "down", or of a standard_name of depths.
-///
-/// \param variable default: the only raster of the file.
-/// \throws Error parse, naming the variable and its index, and for a file with several; file.
-LandRaster read_land_raster(const std::string& path, const std::string& variable = {},
-                            RasterValues values = RasterValues::height);
+/// Which raster of a file is read.
+struct RasterChoice {
+  /// The variable. Default: cellWidth for widths, density for densities, else the file's only
+  /// raster.
+  std::string variable = {};
+  RasterQuantity quantity = RasterQuantity::any; ///< Default: any.
+  /// The sphere, a part of it, or a plane. A raster of a quantity must cover it, see
+  /// require_covering(), but a plane without rings and periods. Default: the sphere.
+  Surface surface = {};
+};
 
-/// Reads heights in the same way. \throws Error as read_land_raster.
-HeightRaster read_heights(const std::string& path, const std::string& variable = {});
+/// Reads a raster from a NetCDF file: a variable of latitude and longitude, or of y and x of a
+/// plane, in any order; other dimensions have the size 1. Packed values are unpacked, missing ones
+/// are NaN.
+///
+/// The axes of the sphere are variables named lat and lon, or latitude and longitude, or with such
+/// a standard_name or units, in degrees or radians; those of a plane x and y. Either may descend.
+/// Longitudes cover any interval of 360 degrees; the first meridian may be repeated at the end.
+///
+/// Values are brought to the unit of their quantity by the attribute units, see kilometres_in():
+/// widths to km, in a plane to the unit of x where both have units; heights to m; fractions may be
+/// in %. Depths, which the attribute positive "down" or a standard_name tells, become heights. A
+/// missing value is an error, but for any quantity, and for land among depths, which ocean models
+/// leave out.
+/// \throws Error parse, naming the variable and its index, and for a file with several rasters;
+/// file.
+Raster read_raster(const std::string& path, const RasterChoice& choice = {});
+
+/// Reads fractions of land: those of a file, 1 less those of the sea, or 1 where a height is not
+/// below 0.
+/// \param quantity height, land_fraction or sea_fraction.
+/// \throws Error as read_raster().
+Raster read_land(const std::string& path, const std::string& variable = {},
+                 RasterQuantity quantity = RasterQuantity::height);
 
 /// Reads lines from GeoJSON: LineString and MultiLineString geometries of longitude and latitude in
 /// degrees, in a plane of x and y, alone or in features or collections.
@@ -210,38 +236,37 @@ double kilometres_in(const std::string& unit);
 
 /// Reads cell widths from a file. The suffix selects the format:
 ///
-/// .nc (NetCDF): the variable cellWidth(lat, lon) in km, or in the unit of length of its attribute
-/// `units`, see kilometres_in(), with the coordinate variables lat and lon (or latitude and
-/// longitude) in degrees. A fill value is an error. Latitudes may descend. Longitudes cover any
-/// interval of 360 degrees; the first meridian may be repeated at the end. Both must cover the
-/// sphere without a gap wider than 1.5 times the widest step, or the region as require_covering()
-/// demands.
+/// .nc (NetCDF): the variable cellWidth(lat, lon) or cellWidth(y, x), see read_raster().
 ///
 /// .msh (JIGSAW): an ellipsoid-grid, its longitudes and latitudes in radians, values in km by
 /// columns of latitudes; or a mesh (ellipsoid-mesh of longitude and latitude in radians,
 /// euclidean-mesh of x y z about the sphere's centre) with a value at each point. The values of a
 /// mesh are interpolated linearly on the Delaunay triangles of its points. The sampling interval is
-/// half of the spacing that a tenth of the edges are shorter than, from 0.05 to 1 degree.
+/// half of the spacing that a tenth of the edges are shorter than, from 0.05 to 1 degree. Of a
+/// plane: a euclidean-grid, or a euclidean-mesh of NDIMS=2; beyond the points the nearest one's
+/// value holds.
 ///
-/// .geojson, .json: Polygon and MultiPolygon geometries, alone or in features or collections. An
-/// edge is straight in longitude and latitude (RFC 7946, Sect. 3.1.1), runs the shorter way round,
-/// and once round the Earth where its longitudes differ by 360. A ring encloses a side as those of
-/// read_region() do, and rings after the first are holes. In a feature the width is its property
-/// "cellWidth", or `inside`. Outside, the width approaches `outside` with the great-circle distance
-/// to the boundary. An edge between polygons of the same width, such as a cut along a meridian, is
-/// not a boundary. Where features or transitions overlap, the smallest width applies. The sampling
-/// interval of the widths is a sixteenth of the transition, from 0.05 to 1 degree.
+/// .geojson, .json, of the sphere: Polygon and MultiPolygon geometries, alone or in features or
+/// collections. An edge is straight in longitude and latitude (RFC 7946, Sect. 3.1.1), runs the
+/// shorter way round, and once round the Earth where its longitudes differ by 360. A ring encloses
+/// a side as those of read_region() do, and rings after the first are holes. In a feature the width
+/// is its property "cellWidth", or `inside`. Outside, the width approaches `outside` with the
+/// great-circle distance to the boundary. An edge between polygons of the same width, such as a cut
+/// along a meridian, is not a boundary. Where features or transitions overlap, the smallest width
+/// applies. The sampling interval of the widths is a sixteenth of the transition, from 0.05 to 1
+/// degree.
 ///
-/// .toml: rules, see read_width_rules(), as sampled_on() has them.
+/// .toml: rules, see read_width_rules(), as sampled() has them.
 ///
 /// \param polygons widths for GeoJSON; its radius is also that of rules. Other formats ignore them.
-/// \param region which the widths must cover; default the sphere.
-/// \throws Error invalid_argument for an unknown suffix, a width, transition or radius that is
+/// \param surface the sphere, a part of it or a plane, which the widths must cover; default the
+/// sphere. \throws Error invalid_argument for an unknown suffix, rules in a plane of no finite
+/// area, a width, transition or radius that is
 ///         missing or not positive, a transition narrower than 0.2 degrees, or points of a mesh
 ///         within a hemisphere; parse, naming the variable and its index, the line or the feature;
 ///         file.
-CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
-                          const Surface& region = {});
+Raster read_cell_width(const std::string& path, const PolygonWidths& polygons = {},
+                       const Surface& surface = {});
 
 /// Rules for widths, of a file.
 struct WidthRules {
@@ -261,41 +286,15 @@ struct WidthRules {
 WidthRules read_width_rules(const std::string& path, const Surface& surface = {},
                             double radius_km = earth_radius_km);
 
-/// Their raster with the file's step, as sampled_on() and sampled() make it; in a plane with the
-/// file's limit of the gradient.
-/// \throws Error as these, naming the file.
-CellWidth sampled_on(const WidthRules& rules, const Surface& surface);
-PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane); ///< in a plane
-
-/// Reads the variable density(lat, lon) of a NetCDF file, with the coordinates of read_cell_width.
-/// Densities are > 0. The result holds rho^(-1/4) divided by its minimum. These widths are
-/// relative; they imply no number of cells.
-/// \throws Error parse, naming the variable and its index; file.
-CellWidth read_density_raster(const std::string& path, const Surface& region = {});
-
-/// Reads the variable density(y, x) and the coordinate variables x(x) and y(y) of a NetCDF file.
-/// Densities are finite and >= 0; the coordinates are in the unit of the domain and may descend.
-/// \throws Error parse, naming the variable and its index; file.
-PlanarRaster read_planar_raster(const std::string& path);
-
-/// Reads cell widths of a plane. A file of suffix .msh is JIGSAW's: a euclidean-grid, or a
-/// euclidean-mesh of NDIMS=2 with a value at each point, which are interpolated as in
-/// read_cell_width(), beyond the points with the nearest one's. Of others the function reads
-/// the variable cellWidth(y, x) in the same way. Widths are > 0 and in the unit of the
-/// domain, which is that of x and y. Where cellWidth and x both have an attribute `units`, widths
-/// in km are converted to metres and the reverse, see kilometres_in(). A file of suffix .toml has
-/// rules, see read_width_rules().
-/// \param plane of a file of rules, which are sampled in it.
-/// \throws Error parse, naming the variable and its index; invalid_argument for rules and no plane
-///         of finite area, and for an unknown suffix; file.
-PlanarCellWidth read_planar_cell_width(const std::string& path, const Surface& plane = {});
+/// Their raster with the file's step; in a plane with the file's limit of the gradient.
+/// \throws Error as sampled(), naming the file.
+Raster sampled(const WidthRules& rules, const Surface& surface = {});
 
 /// The widths of a file of any kind as an expression: rules themselves, others as a raster. In a
 /// plane, rules with a gradient of all become a raster, too.
 /// \param polygons as for read_cell_width().
 /// \param surface the sphere or a plane.
-/// \throws Error as read_cell_width() and read_planar_cell_width(), but for places without a
-/// demand.
+/// \throws Error as read_cell_width(), but for places without a demand.
 Widths read_widths(const std::string& path, const PolygonWidths& polygons = {},
                    const Surface& surface = {});
 

@@ -3,7 +3,7 @@
 
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -15,7 +15,6 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 struct Coast;
-struct LandRaster;
 
 namespace density_detail {
 class WidthRule;
@@ -31,13 +30,6 @@ struct WidthProfile {
   /// and beyond the last the width stays.
   std::vector<std::array<double, 2>> nodes;
   Between between = Between::linear; ///< default: along a line
-};
-
-/// Heights by a raster of longitudes and latitudes, which may be irregular.
-struct HeightRaster {
-  DoubleVector longitudes; ///< nx >= 2 degrees, ascending, the last below the first + 360
-  DoubleVector latitudes;  ///< ny >= 2 degrees, ascending, within -90 to 90
-  DoubleMatrix heights;    ///< nx x ny, metres up; below 0 is sea
 };
 
 /// How widths follow from the depth of the sea and its change. (Waves and slopes: Roberts, Pringle
@@ -77,10 +69,10 @@ public:
   /// \throws Error invalid_argument for a surface without a boundary; naming the node, a profile
   ///         that is none, or a share that is not 0 to 1.
   Share(const Surface& region, const WidthProfile& profile);
-  /// The fractions of a raster, linear between its nodes in longitude and latitude. Such a raster
-  /// need not be one of land.
-  /// \throws Error invalid_argument for a raster that violates the conditions of LandRaster.
-  Share(const LandRaster& raster); // NOLINT(google-explicit-constructor)
+  /// The fractions of a raster, such as those of land.
+  /// \throws Error invalid_argument for one that violates the conditions of Raster, and naming the
+  ///         node, for a value that is not 0 to 1.
+  Share(const Raster& raster); // NOLINT(google-explicit-constructor)
 
   /// A rule of the library: 1 more than the share, as widths are positive.
   const std::shared_ptr<const density_detail::RuleOfRadius>& rule() const { return rule_; }
@@ -98,16 +90,14 @@ private:
 ///
 ///     const Widths coast = Widths::by_distance(shapes, {{{0, 10}, {600, 60}}});
 ///     const Widths zones = Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 35}}});
-///     const CellWidth raster = sampled(Widths::minimum({coast, zones}).limit_gradient(0.03));
+///     const Raster raster = sampled(Widths::minimum({coast, zones}).limit_gradient(0.03));
 class Widths {
 public:
   /// One width everywhere.
   /// \throws Error invalid_argument unless it is > 0 and finite.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
-  /// Of the sphere. \throws Error invalid_argument as density_of().
-  Widths(const CellWidth& raster); // NOLINT(google-explicit-constructor)
-  /// Of a plane. \throws Error invalid_argument as density_of().
-  Widths(const PlanarCellWidth& raster); // NOLINT(google-explicit-constructor)
+  /// Those of a raster. \throws Error invalid_argument as density_of().
+  Widths(const Raster& raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::RuleOfRadius> rule,
                   double radius_km = earth_radius_km);
@@ -147,11 +137,12 @@ public:
   static Widths by_coast(const Coast& coast, const WidthProfile& profile,
                          CoastSide side = CoastSide::both);
 
-  /// By the depth at the nodes of a raster. Of land, but for nodes next to the sea, the rule says
+  /// By the depth at the nodes of a raster of the sphere, whose values are metres up; below 0 is
+  /// sea. Of land, but for nodes next to the sea, the rule says
   /// nothing.
   /// \throws Error invalid_argument for a value of the rule out of range, or a raster that violates
-  ///         the conditions of HeightRaster.
-  static Widths by_depth(const HeightRaster& raster, const DepthRule& rule);
+  ///         the conditions of Raster, and naming the node, for a height that is not finite.
+  static Widths by_depth(const Raster& heights, const DepthRule& rule);
 
   /// By the width of channels and straits, max(least, width / cells); where there is none, nothing.
   ///
@@ -196,10 +187,10 @@ public:
   /// The largest widths below these that change by at most g km per km, over the poles and the date
   /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly.
   /// Others are limited at the nodes of a raster whose step is their least width, from 0.05 to 1
-  /// degree, see limit_gradient(const CellWidth&); the result is the lesser of that and these
+  /// degree, see limit_gradient(); the result is the lesser of that and these
   /// widths. What lies between the nodes lowers them: each node of a rule's own raster, and for
   /// other rules places up to four times as dense. In a plane such rules are refused: limit their
-  /// raster in its domain, see limit_gradient(const PlanarCellWidth&).
+  /// raster in its domain, see limit_gradient(const Raster&).
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;
@@ -238,25 +229,17 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 /// \throws Error as there.
 Ids active_rules(const Widths& minimum, const PointsRef& places);
 
-/// The widths at the nodes of a regular raster with nodes at the poles.
-/// \param step largest distance of rows and of columns, degrees, from 0.01 to 10. Default 0: that
-///        of the least width, within 0.05 to 1 degree.
-/// \throws Error invalid_argument for a step out of range, and for widths whose ratios exceed 1e30.
-CellWidth sampled(const Widths& widths, double step = 0);
-
-/// The same for a grid on a surface of the sphere, of which the rules must give widths everywhere.
-/// Nodes outside it without a demand have the largest width of the others.
-/// \throws Error invalid_argument as sampled(), and naming a node inside where no rule gives a
-/// width.
-CellWidth sampled_on(const Widths& widths, const Surface& surface, double step = 0);
-
-/// The same of a plane, over the box around its boundary or over its periods.
-/// \param plane of finite area.
-/// \param step largest distance of rows and of columns, > 0, for at most 20 million nodes. Default
-///        0: half of the least width, or what gives 4 million nodes.
-/// \throws Error invalid_argument for the sphere, a plane that has no end, a step out of range,
-///         widths of the sphere, and naming a node inside where no rule gives a width.
-PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step = 0);
+/// The widths at the nodes of a regular raster: of the sphere, with nodes at the poles; of a plane,
+/// over the box around its boundary or over its periods. Nodes outside a bounded surface without a
+/// demand have the largest width of the others.
+/// \param surface the sphere, a part of it, or a plane of finite area.
+/// \param step largest distance of rows and of columns: 0.01 to 10 degrees; in a plane > 0, for at
+///        most 20 million nodes. Default 0: that of the least width, within 0.05 to 1 degree; in a
+///        plane half of the least width, or what gives 4 million nodes.
+/// \throws Error invalid_argument for a step out of range, widths of another surface or whose
+/// ratios
+///         exceed 1e30, and naming a node of the surface where no rule gives a width.
+Raster sampled(const Widths& widths, const Surface& surface = {}, double step = 0);
 
 } // namespace calotte
 CALOTTE_API_END

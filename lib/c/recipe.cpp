@@ -98,10 +98,8 @@ void take_widths(const calotte_recipe& given, Recipe& recipe) {
                y = Eigen::Map<const DoubleVector>(given.widths_y, given.widths_ny);
   DoubleMatrix widths =
       Eigen::Map<const DoubleMatrix>(given.widths, given.widths_nx, given.widths_ny);
-  if (recipe.surface.is_sphere())
-    recipe.widths = CellWidth{std::move(x), std::move(y), std::move(widths)};
-  else
-    recipe.planar_widths = PlanarCellWidth{std::move(x), std::move(y), std::move(widths)};
+  recipe.widths =
+      Raster{std::move(x), std::move(y), std::move(widths), !recipe.surface.is_sphere()};
 }
 
 Start start_of(const calotte_recipe& given, bool sphere) {

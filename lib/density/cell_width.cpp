@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "density/cell_width_field.h"
+#include "density/raster_field.h"
 #include "density/sampling.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
@@ -27,31 +27,14 @@ namespace calotte {
 namespace {
 
 using base_detail::shortly;
+using density_detail::RasterField;
+using density_detail::require_kind;
 using density_detail::require_radius;
-using density_detail::WidthField;
-using domain_detail::require_sphere;
-
-const char* const widths_are = "cell widths by longitude and latitude are";
-
-/// The widths at the columns of a block.
-void evaluate_block(const WidthField& field, const Eigen::Ref<const Points3>& points,
-                    Eigen::Ref<Eigen::VectorXd> widths) {
-  constexpr Eigen::Index most = 128;
-  std::array<std::array<double, most>, 3> rows;
-  for (Eigen::Index begin = 0; begin < points.cols(); begin += most) {
-    const Eigen::Index count = std::min(most, points.cols() - begin);
-    for (Eigen::Index j = 0; j < count; ++j)
-      for (Eigen::Index i = 0; i < 3; ++i)
-        rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = points(i, begin + j);
-    field(rows[0].data(), rows[1].data(), rows[2].data(), static_cast<std::size_t>(count),
-          widths.data() + begin);
-  }
-}
 
 /// The integral of 1/h^2 over the boxes between rows j and j + 1 of the unit sphere. Along a
 /// parallel h is linear in a box, so that the integral is the box's length over the product of the
 /// ends; across, Gauss' rule in the sine of the latitude, in which areas are uniform.
-double integral_of_row(const WidthField& field, std::int64_t j) {
+double integral_of_row(const RasterField& field, std::int64_t j) {
   constexpr std::array nodes{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                              0.8611363115940526};
   constexpr std::array weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
@@ -60,13 +43,13 @@ double integral_of_row(const WidthField& field, std::int64_t j) {
   double sum = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double latitude = base_detail::arc_sine(south + half * (1 + nodes[k]));
-    const double v = field.latitudes().fraction(j, latitude);
+    const double v = field.y().fraction(j, latitude);
     const auto at = [&](std::int64_t i) {
-      return field.width(i, j) + v * (field.width(i, j + 1) - field.width(i, j));
+      return field.value(i, j) + v * (field.value(i, j + 1) - field.value(i, j));
     };
     double along = 0;
-    for (std::int64_t i = 0; i < field.longitudes().intervals(); ++i)
-      along += (field.longitudes()[i + 1] - field.longitudes()[i]) / (at(i) * at(i + 1));
+    for (std::int64_t i = 0; i < field.x().intervals(); ++i)
+      along += (field.x()[i + 1] - field.x()[i]) / (at(i) * at(i + 1));
     sum += weights[k] * half * along;
   }
   return sum;
@@ -86,20 +69,20 @@ double middle_of_cell(double width, double interval) {
 /// The steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
 /// longitude and dh/dlon linear in latitude, so that the mean over the cell in a corner is the
 /// value at its middle. \param radians of a width of 1.
-Corner steepest_of_row(const WidthField& field, std::int64_t j, double radians) {
-  const double height = field.latitudes()[j + 1] - field.latitudes()[j];
+Corner steepest_of_row(const RasterField& field, std::int64_t j, double radians) {
+  const double height = field.y()[j + 1] - field.y()[j];
   Corner steepest;
-  for (std::int64_t i = 0; i < field.longitudes().intervals(); ++i) {
-    const double length = field.longitudes()[i + 1] - field.longitudes()[i];
-    const double south = field.width(i + 1, j) - field.width(i, j),
-                 north = field.width(i + 1, j + 1) - field.width(i, j + 1),
-                 west = field.width(i, j + 1) - field.width(i, j),
-                 east = field.width(i + 1, j + 1) - field.width(i + 1, j);
+  for (std::int64_t i = 0; i < field.x().intervals(); ++i) {
+    const double length = field.x()[i + 1] - field.x()[i];
+    const double south = field.value(i + 1, j) - field.value(i, j),
+                 north = field.value(i + 1, j + 1) - field.value(i, j + 1),
+                 west = field.value(i, j + 1) - field.value(i, j),
+                 east = field.value(i + 1, j + 1) - field.value(i + 1, j);
     for (const std::int64_t row : {j, j + 1})
       for (const std::int64_t column : {i, i + 1}) {
-        const double width = field.width(column, row) * radians;
+        const double width = field.value(column, row) * radians;
         const double up = middle_of_cell(width, height), v = row == j ? up : 1 - up;
-        const double cosine = std::cos(field.latitudes()[j] + v * height);
+        const double cosine = std::cos(field.y()[j] + v * height);
         const double along = middle_of_cell(width, length * cosine),
                      u = column == i ? along : 1 - along;
         const double dx = (south + v * (north - south)) / (length * cosine),
@@ -124,6 +107,13 @@ void densities_of_widths(double least, std::size_t count, double* values) {
 
 namespace density_detail {
 
+void require_kind(const Raster& widths, const Surface& surface) {
+  if (widths.of_plane)
+    domain_detail::require_plane(surface, "cell widths by x and y are");
+  else
+    domain_detail::require_sphere(surface, "cell widths by longitude and latitude are");
+}
+
 void require_radius(double radius_km) {
   if (!(radius_km > 0) || !std::isfinite(radius_km))
     throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
@@ -131,7 +121,7 @@ void require_radius(double radius_km) {
 
 void WidthDensity::operator()(const Eigen::Ref<const Points3>& points,
                               Eigen::Ref<Eigen::VectorXd> rho) const {
-  evaluate_block(*field_, points, rho);
+  density_detail::evaluate_block(*field_, points, rho);
   densities_of_widths(field_->least(), static_cast<std::size_t>(rho.size()), rho.data());
 }
 
@@ -143,45 +133,51 @@ void WidthDensity::operator()(const double* x, const double* y, const double* z,
 
 } // namespace density_detail
 
-Density density_of(const CellWidth& cell_width) {
+Density density_of(const Raster& widths) {
   Density density;
   density.kind = Density::Kind::callable;
-  density.callable = density_detail::WidthDensity(cell_width);
+  density.callable = density_detail::WidthDensity(widths);
   return density;
 }
 
-DoubleVector evaluate(const CellWidth& cell_width, const PointsRef& points) {
-  const base_detail::Points3Ref x = base_detail::directions_of(points);
-  const WidthField field(cell_width);
-  DoubleVector widths(x.cols());
-  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    evaluate_block(field, x.middleCols(begin, end - begin), widths.segment(begin, end - begin));
-  });
+Density interpolated_density(const Raster& density) {
+  density_detail::require_values(density, "density", density_detail::not_negative);
+  Density interpolated;
+  interpolated.kind = Density::Kind::callable;
+  interpolated.callable = [field = std::make_shared<const RasterField>(density)](
+                              const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+    density_detail::evaluate_block(*field, x, rho);
+  };
+  return interpolated;
+}
+
+Raster widths_of_density(const Raster& density) {
+  density_detail::require_values(density, "density", density_detail::positive_and_finite);
+  Raster widths = density;
+  widths.values = widths.values.unaryExpr([](double rho) { return 1 / std::sqrt(std::sqrt(rho)); });
+  widths.values /= widths.values.minCoeff();
   return widths;
 }
 
-double implied_cells(const CellWidth& cell_width, double radius_km) {
+double implied_cells(const Raster& widths, const Surface& surface, double radius_km) {
+  require_kind(widths, surface);
   require_radius(radius_km);
-  const WidthField field(cell_width);
-  std::vector<double> rows(static_cast<std::size_t>(field.latitudes().intervals()));
-  base_detail::for_each_task(field.latitudes().intervals(), [&](std::int64_t j) {
-    rows[static_cast<std::size_t>(j)] = integral_of_row(field, j);
-  });
-  double sum = 0;
-  for (const double row : rows)
-    sum += row;
-  return 2 / std::numbers::sqrt3 * radius_km * radius_km * sum;
-}
-
-double implied_cells(const CellWidth& cell_width, const Surface& surface, double radius_km) {
-  require_sphere(surface, widths_are);
-  if (!surface.is_bounded())
-    return implied_cells(cell_width, radius_km);
-  require_radius(radius_km);
+  const double unit = widths.of_plane ? 1 : radius_km;
+  const RasterField field = density_detail::width_field(widths);
+  if (!widths.of_plane && !surface.is_bounded()) {
+    std::vector<double> rows(static_cast<std::size_t>(field.y().intervals()));
+    base_detail::for_each_task(field.y().intervals(), [&](std::int64_t j) {
+      rows[static_cast<std::size_t>(j)] = integral_of_row(field, j);
+    });
+    double sum = 0;
+    for (const double row : rows)
+      sum += row;
+    return 2 / std::numbers::sqrt3 * unit * unit * sum;
+  }
   constexpr std::int64_t samples = 1 << 18;
   const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
-  const double mean = evaluate(cell_width, places).array().square().inverse().mean();
-  return 2 / std::numbers::sqrt3 * radius_km * radius_km * surface.area() * mean;
+  const double mean = evaluate(widths, places).array().square().inverse().mean();
+  return 2 / std::numbers::sqrt3 * unit * unit * surface.area() * mean;
 }
 
 namespace density_detail {
@@ -208,7 +204,8 @@ struct Cover {
   }
 };
 
-Cover cover_of(const DoubleVector& longitudes, const DoubleVector& latitudes) {
+Cover cover_of(const Raster& raster) {
+  const DoubleVector &longitudes = raster.x, &latitudes = raster.y;
   constexpr double slack = 1e-3; // degrees, for coordinates rounded in a file
   const double step = widest_step(longitudes), rise = widest_step(latitudes);
   const double first = longitudes[0], last = longitudes[longitudes.size() - 1],
@@ -252,44 +249,75 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Surface& 
   return std::nullopt;
 }
 
-} // namespace
+std::string extent(const std::string& name, const DoubleVector& nodes) {
+  return name + " runs from " + shortly(nodes[0]) + " to " + shortly(nodes[nodes.size() - 1]);
+}
 
-std::string uncovered(const DoubleVector& longitudes, const DoubleVector& latitudes,
-                      const Surface& region, const std::string& longitude,
-                      const std::string& latitude) {
-  const Cover cover = cover_of(longitudes, latitudes);
+std::string uncovered_sphere(const Raster& raster, const Surface& region, const std::string& x,
+                             const std::string& y) {
+  const Cover cover = cover_of(raster);
   if (cover.whole())
     return {};
-  const auto extent = [](const std::string& name, const DoubleVector& values) {
-    return name + " runs from " + shortly(values[0]) + " to " + shortly(values[values.size() - 1]);
-  };
   if (!region.is_bounded())
-    return (cover.around ? extent(latitude, latitudes) : extent(longitude, longitudes)) +
+    return (cover.around ? extent(y, raster.y) : extent(x, raster.x)) +
            " and leaves part of the sphere out; give a global raster in degrees";
   const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
   if (!place)
     return {};
   const auto [east, north] = base_detail::lonlat_of({place->x(), place->y(), place->z()});
-  return extent(longitude, longitudes) + ", " + extent(latitude, latitudes) +
-         ", and leaves out the place " + shortly(east) + " " + shortly(north) +
+  return extent(x, raster.x) + ", " + extent(y, raster.y) + ", and leaves out the place " +
+         shortly(east) + " " + shortly(north) +
          " of the region; give a raster in degrees that covers it";
+}
+
+std::string uncovered_plane(const Raster& raster, const Surface& plane, const std::string& x,
+                            const std::string& y) {
+  domain_detail::require_finite_plane(plane);
+  const Surface::Rings& rings = plane.rings();
+  Eigen::Vector2d low(0, 0), high = plane.period();
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const Eigen::Vector2d least = rings[i].rowwise().minCoeff(),
+                          most = rings[i].rowwise().maxCoeff();
+    low = i == 0 ? least : Eigen::Vector2d(low.cwiseMin(least));
+    high = i == 0 ? most : Eigen::Vector2d(high.cwiseMax(most));
+  }
+  const auto beyond = [&](const DoubleVector& nodes, const std::string& name,
+                          int k) -> std::string {
+    const double slack = 0.5 * widest_step(nodes);
+    if (low[k] >= nodes[0] - slack && high[k] <= nodes[nodes.size() - 1] + slack)
+      return {};
+    return extent(name, nodes) + ", but the domain from " + shortly(low[k]) + " to " +
+           shortly(high[k]) + "; give a raster that covers the domain";
+  };
+  const std::string of_x = beyond(raster.x, x, 0);
+  return of_x.empty() ? beyond(raster.y, y, 1) : of_x;
+}
+
+} // namespace
+
+std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
+                      const std::string& y) {
+  return raster.of_plane ? uncovered_plane(raster, surface, x, y)
+                         : uncovered_sphere(raster, surface, x, y);
 }
 
 } // namespace density_detail
 
-void require_covering(const CellWidth& cell_width, const Surface& surface) {
-  domain_detail::require_sphere(surface, widths_are);
-  const WidthField field(cell_width); // throws if it is ill-formed
-  const std::string problem = density_detail::uncovered(cell_width.longitudes, cell_width.latitudes,
-                                                        surface, "longitude", "latitude");
+void require_covering(const Raster& widths, const Surface& surface) {
+  require_kind(widths, surface);
+  density_detail::require_widths(widths);
+  const std::string problem =
+      widths.of_plane ? density_detail::uncovered(widths, surface, "x", "y")
+                      : density_detail::uncovered(widths, surface, "longitude", "latitude");
   base_detail::require(problem.empty(), "cell width: " + problem);
 }
 
-Gradient largest_gradient(const CellWidth& cell_width, double radius_km) {
+Gradient largest_gradient(const Raster& widths, double radius_km) {
+  require_kind(widths, {});
   require_radius(radius_km);
-  const WidthField field(cell_width);
-  std::vector<Corner> rows(static_cast<std::size_t>(field.latitudes().intervals()));
-  base_detail::for_each_task(field.latitudes().intervals(), [&](std::int64_t j) {
+  const RasterField field = density_detail::width_field(widths);
+  std::vector<Corner> rows(static_cast<std::size_t>(field.y().intervals()));
+  base_detail::for_each_task(field.y().intervals(), [&](std::int64_t j) {
     rows[static_cast<std::size_t>(j)] = steepest_of_row(field, j, 1 / radius_km);
   });
   Corner steepest;
@@ -297,9 +325,9 @@ Gradient largest_gradient(const CellWidth& cell_width, double radius_km) {
     if (corner.square > steepest.square)
       steepest = corner;
   constexpr double degrees = 180 / std::numbers::pi;
-  const double longitude = field.longitudes()[steepest.i] * degrees;
+  const double longitude = field.x()[steepest.i] * degrees;
   return {std::sqrt(std::max(0.0, steepest.square)) / radius_km,
-          longitude < 180 ? longitude : longitude - 360, field.latitudes()[steepest.j] * degrees};
+          longitude < 180 ? longitude : longitude - 360, field.y()[steepest.j] * degrees};
 }
 
 } // namespace calotte

@@ -5,7 +5,7 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/vec3.h"
-#include "density/cell_width_field.h"
+#include "density/raster_field.h"
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/written_rings.h"
@@ -297,17 +297,17 @@ double step_for(const PolygonWidths& widths) {
 
 } // namespace
 
-CellWidth cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths) {
-  CellWidth grid = regular_grid(step_for(widths));
+Raster cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths) {
+  Raster grid = regular_grid(step_for(widths));
   std::vector<std::unique_ptr<const Region>> parts;
   for (const WidthRegion& region : merged(regions))
     parts.push_back(std::make_unique<const Region>(region));
-  for_each_task(grid.latitudes.size(), [&](std::int64_t j) {
-    for (Eigen::Index i = 0; i < grid.longitudes.size(); ++i) {
+  for_each_task(grid.y.size(), [&](std::int64_t j) {
+    for (Eigen::Index i = 0; i < grid.x.size(); ++i) {
       double least = parts.empty() ? widths.outside : std::numeric_limits<double>::infinity();
       for (const auto& part : parts)
-        least = std::min(least, width_at(*part, widths, grid.longitudes[i], grid.latitudes[j]));
-      grid.widths(i, j) = least;
+        least = std::min(least, width_at(*part, widths, grid.x[i], grid.y[j]));
+      grid.values(i, j) = least;
     }
   });
   return grid;

@@ -37,6 +37,6 @@ struct WidthRegion {
 /// \pre the places are finite, latitudes from -90 to 90.
 /// \throws Error invalid_argument for a transition too narrow for the finest raster, or a ring that
 ///         runs round the Earth more than once.
-CellWidth cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
+Raster cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
 
 } // namespace calotte::density_detail

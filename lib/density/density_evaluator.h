@@ -3,7 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/vec3.h"
-#include "density/cell_width_field.h"
+#include "density/raster_field.h"
 #include "density/room.h"
 
 #include <calotte/density.h>

@@ -6,14 +6,12 @@
 #include "base/require.h"
 #include "base/vec3.h"
 #include "curve/box_tree.h"
-#include "density/cell_width_field.h"
-#include "density/planar_raster.h"
+#include "density/raster_field.h"
 #include "domain/outline.h"
 #include "domain/surface.h"
 #include "exact/space.h"
 
 #include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
 #include <calotte/widths.h>
 
 #include <algorithm>
@@ -34,12 +32,12 @@ using base_detail::Vec3;
 /// The nodes of a raster of the sphere: the south pole, row by row, the north pole.
 class SphereNodes {
 public:
-  SphereNodes(const WidthField& field, const CellWidth& widths, double radius)
-      : columns_(static_cast<std::int32_t>(widths.longitudes.size())),
-        rows_(static_cast<std::int32_t>(field.latitudes().intervals()) - 1), radius_(radius) {
+  SphereNodes(const RasterField& field, const Raster& widths, double radius)
+      : columns_(static_cast<std::int32_t>(widths.x.size())),
+        rows_(static_cast<std::int32_t>(field.y().intervals()) - 1), radius_(radius) {
     for (std::int32_t j = 1; j <= rows_; ++j)
       along_.push_back({field.cosine(j), field.sine(j)});
-    for (const double longitude : widths.longitudes) {
+    for (const double longitude : widths.x) {
       const Vec3 at = base_detail::from_lonlat(longitude, 0);
       round_.push_back({at.x, at.y});
     }
@@ -150,7 +148,7 @@ private:
 /// which shortest ways bend, which have no values of their own.
 class PlaneNodes {
 public:
-  PlaneNodes(const PlanarCellWidth& widths, const Surface& surface)
+  PlaneNodes(const Raster& widths, const Surface& surface)
       : x_(axis_of(widths.x)), y_(axis_of(widths.y)),
         columns_(static_cast<std::int32_t>(x_.intervals()) + 1),
         rows_(static_cast<std::int32_t>(y_.intervals()) + 1), period_(surface.period()),
@@ -318,14 +316,13 @@ void density_detail::require_gradient(double gradient) {
                        "the limit of the gradient must be positive; give it in km per km");
 }
 
-PlanarCellWidth limit_gradient(const PlanarCellWidth& widths, double gradient,
-                               const Surface& surface) {
-  require_gradient(gradient);
-  require_plane(surface, "cell widths by x and y are");
+namespace {
+
+Raster limited_in_plane(const Raster& widths, double gradient, const Surface& surface) {
   require_widths(widths);
   PlaneNodes nodes(widths, surface);
   constexpr double none = std::numeric_limits<double>::infinity();
-  const auto given = widths.widths.reshaped();
+  const auto given = widths.values.reshaped();
   std::vector<double> values(given.begin(), given.end());
   if (nodes.none_inside()) {
     nodes.turn_outside();
@@ -342,28 +339,25 @@ PlanarCellWidth limit_gradient(const PlanarCellWidth& widths, double gradient,
         values[static_cast<std::size_t>(a)] = given[a];
   }
   values = GradientLimit<PlaneNodes>(nodes, std::move(values), gradient).result();
-  PlanarCellWidth result = widths;
-  result.widths =
-      Eigen::Map<const DoubleMatrix>(values.data(), widths.widths.rows(), widths.widths.cols());
+  Raster result = widths;
+  result.values =
+      Eigen::Map<const DoubleMatrix>(values.data(), widths.values.rows(), widths.values.cols());
   return result;
 }
 
-CellWidth limit_gradient(const CellWidth& widths, double gradient, double radius_km) {
-  require_gradient(gradient);
-  require_radius(radius_km);
-  const WidthField field(widths);
+Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km) {
+  const RasterField field = width_field(widths);
   const SphereNodes nodes(field, widths, radius_km);
-  const std::int64_t columns = widths.longitudes.size(), rows = field.latitudes().intervals() - 1;
+  const std::int64_t columns = widths.x.size(), rows = field.y().intervals() - 1;
   std::vector<double> values(static_cast<std::size_t>(nodes.size()));
   // A row at a pole is one place; a pole without one is passed.
-  const bool south = widths.latitudes[0] == -90,
-             north = widths.latitudes[widths.latitudes.size() - 1] == 90;
+  const bool south = widths.y[0] == -90, north = widths.y[widths.y.size() - 1] == 90;
   constexpr double none = std::numeric_limits<double>::infinity();
-  values.front() = south ? widths.widths.col(0).minCoeff() : none;
-  values.back() = north ? widths.widths.rightCols<1>().minCoeff() : none;
+  values.front() = south ? widths.values.col(0).minCoeff() : none;
+  values.back() = north ? widths.values.rightCols<1>().minCoeff() : none;
   for (std::int64_t j = 0; j < rows; ++j)
     for (std::int64_t i = 0; i < columns; ++i)
-      values[static_cast<std::size_t>(1 + j * columns + i)] = field.width(i, j + 1);
+      values[static_cast<std::size_t>(1 + j * columns + i)] = field.value(i, j + 1);
   for (double& value : values)
     value = Widths::is_demand(value) ? value : none;
   if (std::find_if(values.begin(), values.end(),
@@ -371,16 +365,27 @@ CellWidth limit_gradient(const CellWidth& widths, double gradient, double radius
     return widths;
   const std::vector<double> limited =
       GradientLimit<SphereNodes>(nodes, std::move(values), gradient).result();
-  CellWidth result = widths;
-  for (Eigen::Index j = 0; j < widths.latitudes.size(); ++j)
+  Raster result = widths;
+  for (Eigen::Index j = 0; j < widths.y.size(); ++j)
     for (Eigen::Index i = 0; i < columns; ++i) {
       const std::int64_t row = j - (south ? 1 : 0);
       const std::size_t node = row < 0      ? 0
                                : row < rows ? static_cast<std::size_t>(1 + row * columns + i)
                                             : limited.size() - 1;
-      result.widths(i, j) = std::min(widths.widths(i, j), limited[node]);
+      result.values(i, j) = std::min(widths.values(i, j), limited[node]);
     }
   return result;
+}
+
+} // namespace
+
+Raster limit_gradient(const Raster& widths, double gradient, const Surface& surface,
+                      double radius_km) {
+  require_gradient(gradient);
+  require_kind(widths, surface);
+  require_radius(radius_km);
+  return widths.of_plane ? limited_in_plane(widths, gradient, surface)
+                         : limited_on_sphere(widths, gradient, radius_km);
 }
 
 } // namespace calotte

@@ -5,7 +5,7 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/vec3.h"
-#include "density/cell_width_field.h"
+#include "density/raster_field.h"
 #include "density/width_rules.h"
 
 #include <algorithm>
@@ -28,28 +28,27 @@ struct PlaceRows {
   std::function<void(std::int64_t row, std::vector<double>& widths)> widths;
 };
 
-PlaceRows rows_of(const WidthField& field) {
+PlaceRows rows_of(const RasterField& field) {
   constexpr double degrees = 180 / std::numbers::pi;
   PlaceRows rows;
-  const Axis &x = field.longitudes(), &y = field.latitudes();
+  const Axis &x = field.x(), &y = field.y();
   for (std::int64_t i = 0; i < x.intervals(); ++i) // the last node repeats the first
     rows.longitudes.push_back(x[i] * degrees);
   for (std::int64_t j = 0; j <= y.intervals(); ++j)
     rows.latitudes.push_back(y[j] * degrees);
   rows.widths = [&field](std::int64_t j, std::vector<double>& widths) {
     for (std::size_t i = 0; i < widths.size(); ++i)
-      widths[i] = field.width(static_cast<std::int64_t>(i), j);
+      widths[i] = field.value(static_cast<std::int64_t>(i), j);
   };
   return rows;
 }
 
 /// A raster `parts` times as fine.
-PlaceRows rows_of(const WidthRule& rule, const CellWidth& raster, int parts) {
-  const CellWidth fine =
-      regular_grid(180.0 / static_cast<double>((raster.latitudes.size() - 1) * parts));
+PlaceRows rows_of(const WidthRule& rule, const Raster& raster, int parts) {
+  const Raster fine = regular_grid(180.0 / static_cast<double>((raster.y.size() - 1) * parts));
   PlaceRows rows;
-  rows.longitudes.assign(fine.longitudes.begin(), fine.longitudes.end());
-  rows.latitudes.assign(fine.latitudes.begin(), fine.latitudes.end());
+  rows.longitudes.assign(fine.x.begin(), fine.x.end());
+  rows.latitudes.assign(fine.y.begin(), fine.y.end());
   rows.widths = [&rule, longitudes = rows.longitudes,
                  latitudes = rows.latitudes](std::int64_t j, std::vector<double>& widths) {
     std::vector<Vec3> places;
@@ -65,9 +64,9 @@ double distance(const Vec3& a, const Vec3& b) {
 }
 
 /// Lowers a row of the raster by the places within a step of its latitude.
-void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, CellWidth& raster) {
-  const Eigen::Index columns = raster.longitudes.size();
-  const double step = 360 / static_cast<double>(columns), latitude = raster.latitudes[j];
+void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, Raster& raster) {
+  const Eigen::Index columns = raster.x.size();
+  const double step = 360 / static_cast<double>(columns), latitude = raster.y[j];
   const auto first = std::upper_bound(places.latitudes.begin(), places.latitudes.end(),
                                       latitude - step),
              last = std::lower_bound(first, places.latitudes.end(), latitude + step);
@@ -79,38 +78,38 @@ void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, CellWid
       const auto west = static_cast<Eigen::Index>(std::floor((longitude + 180) / step));
       for (const Eigen::Index beside : {west, west + 1}) {
         const Eigen::Index i = (beside % columns + columns) % columns;
-        double& width = raster.widths(i, j);
+        double& width = raster.values(i, j);
         if (widths[k] < width)
           width = std::min(
-              width, widths[k] + gradient * distance(base_detail::from_lonlat(longitude, *at),
-                                                     base_detail::from_lonlat(raster.longitudes[i],
-                                                                              latitude)));
+              width,
+              widths[k] + gradient * distance(base_detail::from_lonlat(longitude, *at),
+                                              base_detail::from_lonlat(raster.x[i], latitude)));
       }
     }
   }
 }
 
 /// The row of a pole is one place.
-void join_pole(Eigen::Index j, CellWidth& raster) {
-  raster.widths.col(j).setConstant(raster.widths.col(j).minCoeff());
+void join_pole(Eigen::Index j, Raster& raster) {
+  raster.values.col(j).setConstant(raster.values.col(j).minCoeff());
 }
 
 /// How many times as fine as the raster the places are: some millions in all.
-int parts_for(const CellWidth& raster) {
+int parts_for(const Raster& raster) {
   constexpr double most = 4e6;
-  return std::clamp(static_cast<int>(std::sqrt(most / static_cast<double>(raster.widths.size()))),
+  return std::clamp(static_cast<int>(std::sqrt(most / static_cast<double>(raster.values.size()))),
                     1, 4);
 }
 
 } // namespace
 
-CellWidth with_cones(const WidthRule& rule, CellWidth raster, double gradient) {
+Raster with_cones(const WidthRule& rule, Raster raster, double gradient) {
   const PlaceRows places =
       rule.raster() != nullptr ? rows_of(*rule.raster()) : rows_of(rule, raster, parts_for(raster));
-  base_detail::for_each_task(raster.latitudes.size(),
+  base_detail::for_each_task(raster.y.size(),
                              [&](std::int64_t j) { lower_row(places, gradient, j, raster); });
   join_pole(0, raster);
-  join_pole(raster.latitudes.size() - 1, raster);
+  join_pole(raster.y.size() - 1, raster);
   return raster;
 }
 

@@ -15,6 +15,6 @@ class WidthRule;
 /// rules.
 /// \param raster regular_grid() with the widths of the rule at its nodes.
 /// \param gradient km per radian.
-CellWidth with_cones(const WidthRule& rule, CellWidth raster, double gradient);
+Raster with_cones(const WidthRule& rule, Raster raster, double gradient);
 
 } // namespace calotte::density_detail

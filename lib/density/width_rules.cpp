@@ -7,10 +7,9 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "density/cell_width_field.h"
 #include "density/gradient_limit.h"
 #include "density/line_distance.h"
-#include "density/planar_raster.h"
+#include "density/raster_field.h"
 #include "density/width_cones.h"
 #include "density/width_profile.h"
 #include "domain/surface.h"
@@ -54,7 +53,9 @@ private:
 
 class RasterRule : public WidthRule {
 public:
-  explicit RasterRule(const CellWidth& raster) : field_(raster) {}
+  explicit RasterRule(const Raster& raster)
+      : WidthRule(raster.of_plane ? RuleSpace::plane : RuleSpace::sphere),
+        field_(width_field(raster)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     constexpr std::size_t most = 128;
     std::array<double, most> x, y, z;
@@ -66,24 +67,10 @@ public:
     }
   }
   double least() const override { return field_.least(); }
-  const WidthField* raster() const override { return &field_; }
+  const RasterField* raster() const override { return &field_; }
 
 private:
-  WidthField field_;
-};
-
-class PlanarRasterRule : public WidthRule {
-public:
-  explicit PlanarRasterRule(const PlanarCellWidth& raster)
-      : WidthRule(RuleSpace::plane), field_(field_of(raster)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    for (std::size_t k = 0; k < places.size(); ++k)
-      widths[k] = field_.at(places[k].x, places[k].y);
-  }
-  double least() const override { return field_.values.minCoeff(); }
-
-private:
-  PlanarField field_;
+  RasterField field_;
 };
 
 class LatitudeRule : public WidthRule {
@@ -270,18 +257,6 @@ std::vector<Points3> boundary_of(const Surface& region) {
   return lines;
 }
 
-/// What a raster of a plane covers.
-struct PlaneBox {
-  Eigen::Vector2d low, size;
-};
-
-PlaneBox box_of(const Surface& plane) {
-  if (!plane.is_bounded())
-    return {Eigen::Vector2d::Zero(), plane.period()};
-  const Box2& box = domain_detail::outline_of<Plane>(plane)->box();
-  return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
-}
-
 std::shared_ptr<const RuleOfRadius> for_any_radius(Rule rule) {
   return std::make_shared<RuleOfRadius>(std::move(rule));
 }
@@ -347,23 +322,6 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
   });
 }
 
-/// Gives nodes outside a surface without a demand the largest width of the others.
-/// \param is_inside(i, j) whether a node is in it. \param position(i, j) in words.
-/// \throws Error invalid_argument for one in it without a demand.
-template <class IsInside, class Position>
-void fill_where_silent(DoubleMatrix& widths, const IsInside& is_inside, const Position& position) {
-  double widest = 0;
-  for (Eigen::Index j = 0; j < widths.cols(); ++j)
-    for (Eigen::Index i = 0; i < widths.rows(); ++i)
-      if (Widths::is_demand(widths(i, j)))
-        widest = std::max(widest, widths(i, j));
-      else
-        require(!is_inside(i, j), "no rule gives a width at " + position(i, j) +
-                                      "; add one that holds everywhere, such as a number");
-  widths =
-      widths.unaryExpr([&](double width) { return Widths::is_demand(width) ? width : widest; });
-}
-
 constexpr double quarter = 90;
 constexpr double farthest_in_plane = 1e30;
 
@@ -410,31 +368,8 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
       "the gradient of such widths of a plane depends on the domain; limit that of their raster");
   const Rule raster = std::make_shared<RasterRule>(limit_gradient(
       with_cones(*rule, sample(*rule, step_for(*rule, radius_km)), gradient * radius_km), gradient,
-      radius_km));
+      {}, radius_km));
   return std::make_shared<CombinedRule>(std::vector<Rule>{rule, raster}, least_of);
-}
-
-double step_for(const WidthRule& rule, double radius_km) {
-  constexpr double finest = 0.05, coarsest = 1;
-  return std::clamp(rule.least() / radius_km * degrees, finest, coarsest);
-}
-
-CellWidth sample(const WidthRule& rule, double step) {
-  require(rule.space() != RuleSpace::plane,
-          "the widths are those of a plane; give the domain that they are for");
-  CellWidth raster = regular_grid(step);
-  const Eigen::Index columns = raster.longitudes.size();
-  std::vector<double> zeros(static_cast<std::size_t>(columns), 0);
-  std::vector<Vec3> round(static_cast<std::size_t>(columns));
-  base_detail::from_lonlats(raster.longitudes.data(), zeros.data(), columns, round.data());
-  base_detail::for_each_task(raster.latitudes.size(), [&](std::int64_t j) {
-    const Vec3 meridian = base_detail::from_lonlat(0, raster.latitudes[j]);
-    std::vector<Vec3> row;
-    for (const Vec3& at : round)
-      row.push_back({meridian.x * at.x, meridian.x * at.y, meridian.z});
-    rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
-  });
-  return raster;
 }
 
 } // namespace density_detail
@@ -442,10 +377,8 @@ CellWidth sample(const WidthRule& rule, double step) {
 using namespace density_detail;
 
 Widths::Widths(double width) : Widths(for_any_radius(std::make_shared<ConstantRule>(width))) {}
-Widths::Widths(const CellWidth& raster)
+Widths::Widths(const Raster& raster)
     : Widths(for_any_radius(std::make_shared<RasterRule>(raster))) {}
-Widths::Widths(const PlanarCellWidth& raster)
-    : Widths(for_any_radius(std::make_shared<PlanarRasterRule>(raster))) {}
 Widths::Widths(std::shared_ptr<const RuleOfRadius> rule, double radius_km)
     : rule_of_radius_(std::move(rule)), radius_km_(radius_km) {}
 
@@ -494,67 +427,6 @@ Ids active_rules(const Widths& minimum, const PointsRef& places) {
   return active;
 }
 
-CellWidth sampled(const Widths& widths, double step) {
-  require(step == 0 || (step >= 0.01 && step <= 10),
-          "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
-  const Rule rule = widths.rule();
-  return sample(*rule, step == 0 ? step_for(*rule, widths.radius_km()) : step);
-}
-
-CellWidth sampled_on(const Widths& widths, const Surface& surface, double step) {
-  CellWidth raster = sampled(widths, step);
-  const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
-    const Vec3 at = base_detail::from_lonlat(raster.longitudes[column], raster.latitudes[row]);
-    return !surface.is_bounded() || surface.contains({at.x, at.y, at.z});
-  };
-  const auto position = [&](Eigen::Index column, Eigen::Index row) {
-    return "longitude " + shortly(raster.longitudes[column]) + ", latitude " +
-           shortly(raster.latitudes[row]);
-  };
-  fill_where_silent(raster.widths, is_inside, position);
-  return raster;
-}
-
-PlanarCellWidth density_detail::sample(const Widths& widths, const Surface& plane, double step) {
-  domain_detail::require_plane(plane, "a raster of x and y is");
-  domain_detail::require_finite_plane(plane);
-  const Rule prepared = widths.rule();
-  const WidthRule& rule = *prepared;
-  require(rule.space() != RuleSpace::sphere,
-          "the widths are those of the sphere; give rules of a plane");
-  const PlaneBox box = box_of(plane);
-  constexpr double most_nodes = 2e7, usual_nodes = 4e6;
-  require(step == 0 ||
-              (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
-          "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
-              shortly(most_nodes) + " nodes; give another one");
-  PlanarCellWidth raster = step > 0 ? grid_over(box.low, box.size, step, 2 * most_nodes)
-                                    : grid_over(box.low, box.size, rule.least() / 2, usual_nodes);
-  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
-    std::vector<Vec3> row;
-    for (const double x : raster.x)
-      row.push_back({x, raster.y[j], 0});
-    rule.evaluate(row, {raster.widths.col(j).data(), row.size()});
-  });
-  return raster;
-}
-
-void density_detail::fill_outside(PlanarCellWidth& raster, const Surface& plane) {
-  const auto is_inside = [&](Eigen::Index column, Eigen::Index row) {
-    return !plane.is_bounded() || plane.contains({raster.x[column], raster.y[row], 0});
-  };
-  const auto position = [&](Eigen::Index column, Eigen::Index row) {
-    return "x " + shortly(raster.x[column]) + ", y " + shortly(raster.y[row]);
-  };
-  fill_where_silent(raster.widths, is_inside, position);
-}
-
-PlanarCellWidth sampled(const Widths& widths, const Surface& plane, double step) {
-  PlanarCellWidth raster = sample(widths, plane, step);
-  fill_outside(raster, plane);
-  return raster;
-}
-
 Widths Widths::by_latitude(const WidthProfile& profile) {
   return Widths(for_any_radius(
       std::make_shared<LatitudeRule>(ProfileCurve(profile, "the latitude", -quarter, quarter))));
@@ -593,6 +465,13 @@ Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
 }
 
 Share::Share(const Surface& region) : rule_(for_any_radius(std::make_shared<RegionRule>(region))) {}
+
+Share::Share(const Raster& raster) {
+  require_values(raster, "shares", a_fraction);
+  Raster more = raster;
+  more.values.array() += 1;
+  rule_ = Widths(more).rule_of_radius();
+}
 
 Share::Share(const Surface& region, const WidthProfile& profile) {
   require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "

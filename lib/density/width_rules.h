@@ -16,7 +16,7 @@
 
 namespace calotte::density_detail {
 
-class WidthField;
+class RasterField;
 
 /// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
@@ -42,7 +42,7 @@ public:
   virtual double least() const = 0;
 
   /// The raster whose values the rule gives; null for other rules.
-  virtual const WidthField* raster() const { return nullptr; }
+  virtual const RasterField* raster() const { return nullptr; }
 
   /// The rule with a limited gradient if no raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const;
@@ -91,14 +91,14 @@ std::shared_ptr<const RuleOfRadius> rule_of_sides(const std::vector<Points3>& li
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient, double radius_km);
 
-/// The widths of a rule at the nodes of a raster.
-CellWidth sample(const WidthRule& rule, double step);
-/// The same in a plane, see sampled(). \throws Error as there, but for places without a demand.
-PlanarCellWidth sample(const Widths& widths, const Surface& plane, double step);
-/// Gives nodes outside a plane without a demand the largest width of the others.
-/// \throws Error invalid_argument for one inside.
-void fill_outside(PlanarCellWidth& raster, const Surface& plane);
-/// The step for its least width on a sphere, degrees.
+/// The step of a raster for the least width of a rule on a sphere, degrees.
 double step_for(const WidthRule& rule, double radius_km);
+/// The widths of a rule at the nodes of a raster of the sphere.
+Raster sample(const WidthRule& rule, double step);
+/// The raster of sampled(). \throws Error as there, but for places without a demand.
+Raster sample(const Widths& widths, const Surface& surface, double step);
+/// Gives nodes outside a surface without a demand the largest width of the others.
+/// \throws Error invalid_argument for one inside.
+void fill_outside(Raster& raster, const Surface& surface);
 
 } // namespace calotte::density_detail

@@ -95,7 +95,7 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count) {
   return least;
 }
 
-Surface with_rings(const Surface& surface, const CellWidth& widths, double radius_km) {
+Surface with_rings(const Surface& surface, const Raster& widths, double radius_km) {
   constexpr int beyond = 4; // cells
   domain_detail::require_sphere(surface, "a limited area is");
   Surface meshed = surface;

@@ -44,13 +44,10 @@ void require_values(const Recipe& recipe) {
   const bool plane = !recipe.surface.is_sphere();
   if (recipe.cells != 0) // before any work; the least number follows below
     base_detail::require_count(recipe.cells, 1, "the number of cells");
-  require(!recipe.widths || !recipe.planar_widths,
-          "the recipe has widths of the sphere and of the plane; give one of them");
-  require(!recipe.widths || !plane,
-          "widths in km are those of the sphere; give planar_widths for a plane");
-  require(!recipe.planar_widths || plane,
-          "planar_widths are those of a plane; give widths for the sphere");
-  require((!recipe.widths && !recipe.planar_widths) || recipe.density.uniform(),
+  require(!recipe.widths || recipe.widths->of_plane == plane,
+          plane ? "widths in km are those of the sphere; give a raster of x and y for a plane"
+                : "the widths are those of a plane; give a raster of longitudes and latitudes");
+  require(!recipe.widths || recipe.density.uniform(),
           "the recipe has widths and a density; give one of them");
   require(!plane || recipe.surface.is_bounded() || recipe.surface.is_box(),
           "a grid does not fill a plane that has no end; give rings, or two periods");
@@ -82,19 +79,12 @@ void require_fixed_points(const Recipe& recipe) {
 
 /// Widths give the density; those of one size a uniform one.
 void take_widths(Recipe& recipe) {
-  const auto uniform = [](const auto& widths) {
-    return widths.size() > 0 && widths.minCoeff() == widths.maxCoeff();
-  };
-  if (recipe.widths) {
-    require_covering(*recipe.widths, recipe.surface);
-    if (!uniform(recipe.widths->widths))
-      recipe.density = density_of(*recipe.widths);
-  }
-  if (recipe.planar_widths) {
-    require_covering(*recipe.planar_widths, recipe.surface);
-    if (!uniform(recipe.planar_widths->widths))
-      recipe.density = density_of(*recipe.planar_widths);
-  }
+  if (!recipe.widths)
+    return;
+  require_covering(*recipe.widths, recipe.surface);
+  const DoubleMatrix& widths = recipe.widths->values;
+  if (widths.minCoeff() != widths.maxCoeff())
+    recipe.density = density_of(*recipe.widths);
 }
 
 /// \throws Error invalid_argument for an ill-formed density, even if the start does not use it.
@@ -215,20 +205,18 @@ double cells_in_part(const Recipe& recipe, const Surface& asked, double implied)
 /// Sets the number of cells where it follows from widths. \returns what they imply.
 double take_cells(Recipe& recipe, const Surface& asked) {
   const bool counts = recipe.cells == 0 && recipe.start.kind != Start::Kind::points;
-  require(!counts || recipe.widths || recipe.planar_widths,
+  require(!counts || recipe.widths,
           "there is no number of cells; give one, or cell widths, or the points of the start");
-  if (recipe.planar_widths) {
-    const double implied = implied_cells(*recipe.planar_widths, recipe.surface);
-    if (counts)
-      recipe.cells = static_cast<std::int64_t>(with_boundary(
-          recipe, within_range(implied, static_cast<double>(fewest_generators(recipe.surface)))));
-    return implied;
-  }
   if (!recipe.widths)
     return 0;
   const double implied = implied_cells(*recipe.widths, recipe.surface, recipe.radius_km);
   if (!counts)
     return implied;
+  if (recipe.widths->of_plane) {
+    recipe.cells = static_cast<std::int64_t>(
+        with_boundary(recipe, within_range(implied, double(fewest_generators(recipe.surface)))));
+    return implied;
+  }
   if (!recipe.surface.is_bounded()) {
     recipe.cells =
         reachable(recipe, within_range(implied, double(fewest_generators(recipe.surface))));
@@ -382,7 +370,6 @@ Schedule plan(Recipe recipe) {
   all.limited_area = false;
   all.walls = {};
   all.widths = {};
-  all.planar_widths = {};
   const FirstLevel first = first_level(all);
   schedule.first = first.kind;
   const CvtOptions options = options_of(all, first.bisections);

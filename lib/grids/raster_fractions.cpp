@@ -6,6 +6,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "base/spherical_triangle.h"
+#include "density/raster_field.h"
 #include "grids/room.h"
 #include "voronoi/cell_walk.h"
 #include "voronoi/connectivity.h"
@@ -31,26 +32,6 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double parts_across_cell = 4;
 constexpr int most_parts = 256; ///< of a rectangle in each direction
-
-bool ascends(const DoubleVector& values) {
-  for (Eigen::Index i = 1; i < values.size(); ++i)
-    if (!(values[i] > values[i - 1]))
-      return false;
-  return values.allFinite() && values.size() >= 2;
-}
-
-void require_raster(const LandRaster& raster) {
-  const DoubleVector &lon = raster.longitudes, &lat = raster.latitudes;
-  require(ascends(lon) && ascends(lat) && lon[lon.size() - 1] < lon[0] + 360 && lat[0] >= -90 &&
-              lat[lat.size() - 1] <= 90,
-          "the raster's longitudes and latitudes do not ascend within 360 and -90 to 90 degrees; "
-          "give at least two of each");
-  require(raster.land.rows() == lon.size() && raster.land.cols() == lat.size(),
-          "the raster's values are not one by longitude and latitude; give longitudes x latitudes");
-  const auto fraction = [](double value) { return value >= 0 && value <= 1; };
-  require(std::all_of(raster.land.data(), raster.land.data() + raster.land.size(), fraction),
-          "a value of the raster is no fraction of land from 0 to 1; correct it");
-}
 
 /// The n + 1 borders of the rectangles of n values, with the first and the last given.
 std::vector<double> borders(const DoubleVector& values, double first, double last) {
@@ -143,9 +124,8 @@ struct Grid {
   std::vector<double> meridians, parallels;
   std::vector<Vec3> middles; ///< of columns, on the equator
 
-  explicit Grid(const LandRaster& raster)
-      : meridians(borders_of_longitudes(raster.longitudes)),
-        parallels(borders(raster.latitudes, -90, 90)) {
+  explicit Grid(const Raster& raster)
+      : meridians(borders_of_longitudes(raster.x)), parallels(borders(raster.y, -90, 90)) {
     for (std::size_t i = 0; i + 1 < meridians.size(); ++i)
       middles.push_back(middle_of_longitudes(meridians[i], meridians[i + 1], 0, 1));
   }
@@ -154,14 +134,14 @@ struct Grid {
 /// The sums of a row of the raster, one by cell.
 class RowSums {
 public:
-  RowSums(const LandRaster& raster, const Finder& finder, const Grid& grid, std::int64_t row)
+  RowSums(const Raster& raster, const Finder& finder, const Grid& grid, std::int64_t row)
       : finder_(finder), grid_(grid), south_(grid.parallels[static_cast<std::size_t>(row)]),
         north_(grid.parallels[static_cast<std::size_t>(row) + 1]),
         widest_(south_ <= 0 && north_ >= 0
                     ? 1
                     : from_lonlat(0, std::min(std::abs(south_), std::abs(north_))).x) {
-    for (std::int64_t i = 0; i < raster.longitudes.size(); ++i)
-      add(static_cast<std::size_t>(i), raster.land(i, row));
+    for (std::int64_t i = 0; i < raster.x.size(); ++i)
+      add(static_cast<std::size_t>(i), raster.values(i, row));
     merge();
   }
   const std::vector<Sum>& sums() const { return sums_; }
@@ -235,7 +215,7 @@ private:
 };
 
 /// The value of the rectangle that contains a place.
-double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
+double value_at(const Raster& raster, const Grid& grid, const Vec3& place) {
   const auto index_of = [](const std::vector<double>& all, double value) {
     const auto after = std::upper_bound(all.begin() + 1, all.end() - 1, value);
     return after - all.begin() - 1;
@@ -245,18 +225,19 @@ double value_at(const LandRaster& raster, const Grid& grid, const Vec3& place) {
     longitude += 360;
   while (longitude >= grid.meridians.back())
     longitude -= 360;
-  return raster.land(index_of(grid.meridians, longitude), index_of(grid.parallels, latitude));
+  return raster.values(index_of(grid.meridians, longitude), index_of(grid.parallels, latitude));
 }
 
 } // namespace
 } // namespace grids_detail
 
-DoubleVector land_fractions(const Voronoi& cells, const LandRaster& raster) {
+DoubleVector land_fractions(const Voronoi& cells, const Raster& raster) {
   using namespace grids_detail;
-  require_raster(raster);
+  require(!raster.of_plane, "the raster of land is one of a plane; give longitudes and latitudes");
+  density_detail::require_values(raster, "land", density_detail::a_fraction);
   const Grid grid(raster);
   const Finder finder(cells);
-  const std::int64_t n = cells.cells.cols(), rows = raster.latitudes.size();
+  const std::int64_t n = cells.cells.cols(), rows = raster.y.size();
   DoubleVector land = DoubleVector::Zero(n), whole = DoubleVector::Zero(n);
   constexpr std::int64_t at_once = 256; // rows: bounds the memory
   for (std::int64_t first = 0; first < rows; first += at_once) {

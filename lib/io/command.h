@@ -6,7 +6,7 @@
 #include <calotte/cell_width.h>
 #include <calotte/export.h>
 #include <calotte/mesh_file.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 #include <calotte/write.h>
@@ -105,10 +105,10 @@ struct JigsawSizes {
   double least = 0, most = 0; ///< least <= most
 };
 
-/// Reads cell widths, which may be 0 where the least one is not. \throws Error as read_cell_width()
-/// and read_planar_cell_width().
-CellWidth read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes);
-PlanarCellWidth read_planar_jigsaw_widths(const std::string& path, const JigsawSizes& sizes);
+/// Reads cell widths, which may be 0 where the least one is not. \throws Error as
+/// read_cell_width().
+Raster read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes,
+                          const Surface& surface);
 
 /// Points of a mesh of any kind, 3 x n, and whether the tag of each fixes it.
 struct JigsawPoints {

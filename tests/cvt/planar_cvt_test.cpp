@@ -14,8 +14,8 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
-#include <calotte/planar_raster.h>
 #include <calotte/quality.h>
+#include <calotte/raster.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -499,9 +499,9 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
 }
 
 TEST_CASE("a raster is bilinear, and constant beyond its rim") {
-  PlanarRaster raster{Eigen::Vector3d(0, 1, 3), Eigen::Vector2d(0, 2), Eigen::MatrixXd(3, 2)};
-  raster.density << 1, 2, 3, 5, 4, 8;
-  const Density density = density_of(raster);
+  Raster raster{Eigen::Vector3d(0, 1, 3), Eigen::Vector2d(0, 2), Eigen::MatrixXd(3, 2), true};
+  raster.values << 1, 2, 3, 5, 4, 8;
+  const Density density = interpolated_density(raster);
   Points3 x(3, 4);
   x << 0.5, 2, -7, 3, 1, 0, 0, 9, 0, 0, 0, 0;
   const Eigen::VectorXd values = evaluate(density, x);
@@ -509,8 +509,8 @@ TEST_CASE("a raster is bilinear, and constant beyond its rim") {
   CHECK(values[1] == doctest::Approx(3.5));
   CHECK(values[2] == doctest::Approx(1));
   CHECK(values[3] == doctest::Approx(8));
-  raster.density(1, 1) = -1;
-  CHECK_THROWS_AS(density_of(raster), Error);
+  raster.values(1, 1) = -1;
+  CHECK_THROWS_AS(interpolated_density(raster), Error);
   CHECK(evaluate(tanh_bump({0.05, 0.5, 0}, 0.2, 0.1, 0.01), Points2(Eigen::Vector2d(0.95, 0.5)),
                  Surface::periodic({1, 1}))[0] > 0.7); // around the edge
 }

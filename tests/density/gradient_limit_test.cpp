@@ -4,7 +4,7 @@
 #include "support/random.h"
 
 #include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
 
 #include <Eigen/Geometry>
@@ -36,31 +36,30 @@ double kilometres(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// \param poles whether rows stand at the poles.
-CellWidth raster(double step, bool poles, const std::function<double(double, double)>& width) {
+Raster raster(double step, bool poles, const std::function<double(double, double)>& width) {
   const auto columns = static_cast<Eigen::Index>(360 / step);
   const Eigen::Index rows = columns / 2 + (poles ? 1 : 0);
   const double south = poles ? -90 : -90 + step / 2;
-  CellWidth raster{
-      DoubleVector::LinSpaced(columns, -180, 180 - step),
-      DoubleVector::LinSpaced(rows, south, south + static_cast<double>(rows - 1) * step),
-      DoubleMatrix(columns, rows)};
+  Raster raster{DoubleVector::LinSpaced(columns, -180, 180 - step),
+                DoubleVector::LinSpaced(rows, south, south + static_cast<double>(rows - 1) * step),
+                DoubleMatrix(columns, rows)};
   for (Eigen::Index j = 0; j < rows; ++j)
     for (Eigen::Index i = 0; i < columns; ++i)
-      raster.widths(i, j) = width(raster.longitudes[i], raster.latitudes[j]);
+      raster.values(i, j) = width(raster.x[i], raster.y[j]);
   return raster;
 }
 
 /// All nodes by all nodes.
-DoubleMatrix least_of_cones(const CellWidth& of, double gradient) {
+DoubleMatrix least_of_cones(const Raster& of, double gradient) {
   std::vector<Eigen::Vector3d> places;
-  for (const double latitude : of.latitudes)
-    for (const double longitude : of.longitudes)
+  for (const double latitude : of.y)
+    for (const double longitude : of.x)
       places.push_back(direction(longitude, latitude));
-  DoubleMatrix least = of.widths;
+  DoubleMatrix least = of.values;
   for (std::size_t x = 0; x < places.size(); ++x)
     for (std::size_t y = 0; y < places.size(); ++y)
       least.data()[x] = std::min(least.data()[x],
-                                 of.widths.data()[y] + gradient * kilometres(places[x], places[y]));
+                                 of.values.data()[y] + gradient * kilometres(places[x], places[y]));
   return least;
 }
 
@@ -138,47 +137,46 @@ TEST_CASE("limited widths are the least of all cones, over the poles and the dat
           {"rough", rough}}) {
       CAPTURE(name);
       CAPTURE(gradient);
-      const CellWidth given = raster(6, true, width), limited = limit_gradient(given, gradient);
+      const Raster given = raster(6, true, width), limited = limit_gradient(given, gradient);
       // A source that lowers no neighbour, but a node beyond, is replaced by the neighbour: the way
       // is longer by at most 1 - cos(pi / 8) of a step.
       const double step_km = 6 * radians_per_degree * earth_radius_km;
       const DoubleMatrix exact = least_of_cones(given, gradient);
-      CHECK((limited.widths - exact).cwiseAbs().maxCoeff() <
+      CHECK((limited.values - exact).cwiseAbs().maxCoeff() <
             (name == "points" ? 1e-10 : 0.08 * gradient * step_km));
-      CHECK((limited.widths - given.widths).maxCoeff() <= 0);
-      const CellWidth again = limit_gradient(limited, gradient);
-      CHECK(largest_part(again.widths, limited.widths) < 1e-14);
+      CHECK((limited.values - given.values).maxCoeff() <= 0);
+      const Raster again = limit_gradient(limited, gradient);
+      CHECK(largest_part(again.values, limited.values) < 1e-14);
     }
 }
 
 TEST_CASE("widths without rows at the poles, or of a part of the longitudes, are limited across") {
-  const CellWidth given = raster(6, false, [](double longitude, double latitude) {
+  const Raster given = raster(6, false, [](double longitude, double latitude) {
     return longitude == 0 && latitude == 87 ? 10.0 : 300.0;
   });
-  const CellWidth limited = limit_gradient(given, 0.03);
+  const Raster limited = limit_gradient(given, 0.03);
   const auto at = [&](Eigen::Index i, Eigen::Index j) {
-    return 10 + 0.03 * kilometres(direction(0, 87),
-                                  direction(limited.longitudes[i], limited.latitudes[j]));
+    return 10 + 0.03 * kilometres(direction(0, 87), direction(limited.x[i], limited.y[j]));
   };
   for (const Eigen::Index i : {0, 10, 30, 59})
-    CHECK(limited.widths(i, 29) == doctest::Approx(at(i, 29)).epsilon(1e-12));
-  CellWidth part{DoubleVector{{170, 175, 180, 185}}, DoubleVector{{-10, 0, 10}},
-                 DoubleMatrix::Constant(4, 3, 90)};
-  part.widths(0, 1) = 30;
-  const CellWidth narrow = limit_gradient(part, 0.03);
+    CHECK(limited.values(i, 29) == doctest::Approx(at(i, 29)).epsilon(1e-12));
+  Raster part{DoubleVector{{170, 175, 180, 185}}, DoubleVector{{-10, 0, 10}},
+              DoubleMatrix::Constant(4, 3, 90)};
+  part.values(0, 1) = 30;
+  const Raster narrow = limit_gradient(part, 0.03);
   CHECK(
-      narrow.widths(3, 1) ==
+      narrow.values(3, 1) ==
       doctest::Approx(30 + 0.03 * kilometres(direction(170, 0), direction(185, 0))).epsilon(1e-12));
 }
 
 TEST_CASE("limited widths have the same bits for any number of threads") {
-  const CellWidth given = raster(1, true, [](double longitude, double latitude) {
+  const Raster given = raster(1, true, [](double longitude, double latitude) {
     return 20 + 400 * noise(2, longitude, latitude);
   });
   const DoubleMatrix one =
-      tbb::task_arena(1).execute([&] { return limit_gradient(given, 0.03).widths; });
+      tbb::task_arena(1).execute([&] { return limit_gradient(given, 0.03).values; });
   for (const int threads : {2, 4, 7})
-    CHECK(tbb::task_arena(threads).execute([&] { return limit_gradient(given, 0.03).widths; }) ==
+    CHECK(tbb::task_arena(threads).execute([&] { return limit_gradient(given, 0.03).values; }) ==
           one);
 }
 
@@ -189,12 +187,12 @@ TEST_CASE("in a domain the ways lead round islands") {
   const Surface domain = Surface::plane().within({outer, inner});
   for (const Eigen::Index n : {51, 94, 201}) {
     CAPTURE(n);
-    PlanarCellWidth given{DoubleVector::LinSpaced(n, 0, 100), DoubleVector::LinSpaced(n, 0, 100),
-                          DoubleMatrix::Constant(n, n, 50)};
+    Raster given{DoubleVector::LinSpaced(n, 0, 100), DoubleVector::LinSpaced(n, 0, 100),
+                 DoubleMatrix::Constant(n, n, 50), true};
     const Eigen::Index si = n / 4, sj = n / 2;
     const Eigen::Vector2d source{given.x[si], given.y[sj]};
-    given.widths(si, sj) = 1;
-    const DoubleMatrix limited = limit_gradient(given, 0.1, domain).widths;
+    given.values(si, sj) = 1;
+    const DoubleMatrix limited = limit_gradient(given, 0.1, domain).values;
     double worst = 0;
     for (Eigen::Index j = 0; j < n; ++j)
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -210,10 +208,10 @@ TEST_CASE("in a domain the ways lead round islands") {
 
 TEST_CASE("in a periodic plane the ways lead across the periods") {
   const Eigen::Index n = 50;
-  PlanarCellWidth given{DoubleVector::LinSpaced(n, 0, 98), DoubleVector::LinSpaced(n, 0, 98),
-                        DoubleMatrix::Constant(n, n, 50)};
-  given.widths(1, 3) = 1;
-  const DoubleMatrix limited = limit_gradient(given, 0.1, Surface::periodic({100, 100})).widths;
+  Raster given{DoubleVector::LinSpaced(n, 0, 98), DoubleVector::LinSpaced(n, 0, 98),
+               DoubleMatrix::Constant(n, n, 50), true};
+  given.values(1, 3) = 1;
+  const DoubleMatrix limited = limit_gradient(given, 0.1, Surface::periodic({100, 100})).values;
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = 0; i < n; ++i)
       CHECK(limited(i, j) ==
@@ -223,21 +221,21 @@ TEST_CASE("in a periodic plane the ways lead across the periods") {
 }
 
 TEST_CASE("limits that are none are refused") {
-  const CellWidth given = raster(30, true, [](double, double) { return 10.0; });
+  const Raster given = raster(30, true, [](double, double) { return 10.0; });
   for (const double gradient : {0.0, -1.0, std::nan("")})
     CHECK(error_of([&] { limit_gradient(given, gradient); }).what() ==
           std::string("the limit of the gradient must be positive; give it in km per km"));
   for (const double radius : {0.0, -6371.0, std::nan("")})
-    CHECK(std::string(error_of([&] { limit_gradient(given, 0.03, radius); }).what())
+    CHECK(std::string(error_of([&] { limit_gradient(given, 0.03, {}, radius); }).what())
               .find("radius must be positive") != std::string::npos);
-  CHECK(limit_gradient(given, 1e-9).widths == given.widths);
+  CHECK(limit_gradient(given, 1e-9).values == given.values);
 }
 
 TEST_CASE("a raster without a node in the domain is limited at its nodes") {
   const Surface domain = rectangle({40, 40}, {60, 60});
-  PlanarCellWidth given{DoubleVector{{0, 100}}, DoubleVector{{0, 100}}, DoubleMatrix(2, 2)};
-  given.widths << 1, 50, 50, 50;
-  const DoubleMatrix limited = limit_gradient(given, 0.1, domain).widths;
+  Raster given{DoubleVector{{0, 100}}, DoubleVector{{0, 100}}, DoubleMatrix(2, 2), true};
+  given.values << 1, 50, 50, 50;
+  const DoubleMatrix limited = limit_gradient(given, 0.1, domain).values;
   CHECK(limited(0, 0) == 1);
   CHECK(limited(1, 0) == doctest::Approx(11));
   CHECK(limited(1, 1) == doctest::Approx(1 + 10 * std::sqrt(2.0)));

@@ -86,8 +86,7 @@ TEST_CASE("widths of a plane: within a part, blended from its boundary, of a ras
   const Surface bay = rectangle({2, 2}, {6, 6});
   const Widths inside = Widths::where(bay, 0.5, 2);
   const Widths blend = Widths::blend(2, 0.5, Share(bay, {{{-1, 1}, {1, 0}}}));
-  const PlanarCellWidth raster{DoubleVector{{0, 20}}, DoubleVector{{0, 10}},
-                               DoubleMatrix{{1, 1}, {3, 3}}};
+  const Raster raster{DoubleVector{{0, 20}}, DoubleVector{{0, 10}}, DoubleMatrix{{1, 1}, {3, 3}}};
   const Points2 places{{4, 8, 6, 2.5}, {4, 4, 4, 4}};
   CHECK(evaluate(inside, places) == DoubleVector{{0.5, 2, 2 - 1.5, 0.5}});
   const DoubleVector mixed = evaluate(blend, places);
@@ -121,12 +120,12 @@ TEST_CASE("widths of a plane: what says nothing has no mean with a width") {
 TEST_CASE("widths of a plane: the raster covers the domain and has the rule's values") {
   const Widths rule = Widths::by_distance({line_of({{10, 5}})}, {{{0, 0.1}, {5, 2}}}, lake);
   for (const Surface& plane : {lake, Surface::periodic({20, 10})}) {
-    const PlanarCellWidth raster = sampled(rule, plane);
+    const Raster raster = sampled(rule, plane);
     CHECK(raster.x[0] == 0);
     CHECK(raster.x[raster.x.size() - 1] == 20);
     CHECK(raster.x[1] - raster.x[0] <= 0.05 * (1 + 1e-12));
     require_covering(raster, plane);
-    CHECK(raster.widths(0, 0) ==
+    CHECK(raster.values(0, 0) ==
           doctest::Approx(std::min(2.0, 0.1 + 1.9 / 5 * std::hypot(10, 5))).epsilon(1e-12));
   }
   CHECK(sampled(rule, lake, 2.5).x.size() == 9);

@@ -15,35 +15,33 @@ using namespace calotte;
 namespace {
 
 /// Random widths on a regular grid from a first longitude and latitude on.
-CellWidth regular(double west, double south, double step) {
-  CellWidth width;
+Raster regular(double west, double south, double step) {
+  Raster width;
   const auto columns = static_cast<Eigen::Index>(std::lround(360 / step)),
              rows = static_cast<Eigen::Index>(std::floor(-2 * south / step + 1e-9)) + 1;
-  width.longitudes.resize(columns);
+  width.x.resize(columns);
   for (Eigen::Index i = 0; i < columns; ++i)
-    width.longitudes[i] = west + static_cast<double>(i) * step;
-  width.latitudes.resize(rows);
+    width.x[i] = west + static_cast<double>(i) * step;
+  width.y.resize(rows);
   for (Eigen::Index j = 0; j < rows; ++j)
-    width.latitudes[j] = south + static_cast<double>(j) * step;
-  width.widths = (Eigen::MatrixXd::Random(columns, rows).array() + 1.3) * 50;
+    width.y[j] = south + static_cast<double>(j) * step;
+  width.values = (Eigen::MatrixXd::Random(columns, rows).array() + 1.3) * 50;
   return width;
 }
 
 /// The same field with one more longitude and latitude, which make the grid irregular.
-CellWidth irregular(const CellWidth& width) {
-  const Eigen::Index columns = width.longitudes.size(), rows = width.latitudes.size();
-  CellWidth out;
-  out.longitudes.resize(columns + 1);
-  out.longitudes << width.longitudes[0], 0.7 * width.longitudes[0] + 0.3 * width.longitudes[1],
-      width.longitudes.tail(columns - 1);
-  out.latitudes.resize(rows + 1);
-  out.latitudes << width.latitudes[0], 0.6 * width.latitudes[0] + 0.4 * width.latitudes[1],
-      width.latitudes.tail(rows - 1);
+Raster irregular(const Raster& width) {
+  const Eigen::Index columns = width.x.size(), rows = width.y.size();
+  Raster out;
+  out.x.resize(columns + 1);
+  out.x << width.x[0], 0.7 * width.x[0] + 0.3 * width.x[1], width.x.tail(columns - 1);
+  out.y.resize(rows + 1);
+  out.y << width.y[0], 0.6 * width.y[0] + 0.4 * width.y[1], width.y.tail(rows - 1);
   Eigen::MatrixXd wider(columns + 1, rows);
-  wider << width.widths.row(0), 0.7 * width.widths.row(0) + 0.3 * width.widths.row(1),
-      width.widths.bottomRows(columns - 1);
-  out.widths.resize(columns + 1, rows + 1);
-  out.widths << wider.col(0), 0.6 * wider.col(0) + 0.4 * wider.col(1), wider.rightCols(rows - 1);
+  wider << width.values.row(0), 0.7 * width.values.row(0) + 0.3 * width.values.row(1),
+      width.values.bottomRows(columns - 1);
+  out.values.resize(columns + 1, rows + 1);
+  out.values << wider.col(0), 0.6 * wider.col(0) + 0.4 * wider.col(1), wider.rightCols(rows - 1);
   return out;
 }
 
@@ -65,20 +63,20 @@ TEST_CASE("width table: a regular grid has the field of the same grid with furth
     for (const double west : {-180.0, 0.0, -179.5, 37.0}) {
       CAPTURE(south);
       CAPTURE(west);
-      const CellWidth grid = regular(west, south, south == -89.5 ? 1.0 : 2.0);
-      CellWidth other = irregular(grid);
+      const Raster grid = regular(west, south, south == -89.5 ? 1.0 : 2.0);
+      Raster other = irregular(grid);
       // A pole's width is the mean of a row, to which a further node would add.
       if (south > -90) {
-        const Eigen::VectorXd longitudes = other.longitudes;
-        other.longitudes = grid.longitudes;
-        Eigen::MatrixXd without(grid.longitudes.size(), other.widths.cols());
-        without << other.widths.row(0), other.widths.bottomRows(grid.longitudes.size() - 1);
-        other.widths = without;
+        const Eigen::VectorXd longitudes = other.x;
+        other.x = grid.x;
+        Eigen::MatrixXd without(grid.x.size(), other.values.cols());
+        without << other.values.row(0), other.values.bottomRows(grid.x.size() - 1);
+        other.values = without;
       } else {
-        other.widths.col(0).setConstant(grid.widths.col(0).mean());
-        other.widths.col(other.widths.cols() - 1)
-            .setConstant(grid.widths.col(grid.widths.cols() - 1).mean());
-        other.widths.col(1) = 0.6 * other.widths.col(0) + 0.4 * other.widths.col(2);
+        other.values.col(0).setConstant(grid.values.col(0).mean());
+        other.values.col(other.values.cols() - 1)
+            .setConstant(grid.values.col(grid.values.cols() - 1).mean());
+        other.values.col(1) = 0.6 * other.values.col(0) + 0.4 * other.values.col(2);
       }
       const Eigen::VectorXd here = evaluate(grid, places()), there = evaluate(other, places());
       CHECK(((here - there).array().abs() < 1e-8).all());
@@ -102,7 +100,7 @@ TEST_CASE("width table: grids with other steps have none") {
 }
 
 TEST_CASE("width table: each value depends on its place alone") {
-  const CellWidth grid = regular(-180, -90, 1);
+  const Raster grid = regular(-180, -90, 1);
   const Points3 points = random_sphere(1000, 3);
   const Eigen::VectorXd all = evaluate(grid, points);
   for (const Eigen::Index i : {0, 1, 7, 127, 128, 500, 999})

@@ -199,12 +199,12 @@ TEST_CASE("other limited rules are limited at the nodes of a raster") {
 }
 
 TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
-  HeightRaster sea{DoubleVector::LinSpaced(36, 0, 350), DoubleVector::LinSpaced(19, -90, 90),
-                   DoubleMatrix(36, 19)};
+  Raster sea{DoubleVector::LinSpaced(36, 0, 350), DoubleVector::LinSpaced(19, -90, 90),
+             DoubleMatrix(36, 19)};
   for (Eigen::Index j = 0; j < 19; ++j)
-    sea.heights.col(j).setConstant(-3000 - 10 * sea.latitudes[j]);
+    sea.values.col(j).setConstant(-3000 - 10 * sea.y[j]);
   for (Eigen::Index i = 0; i < 3; ++i)
-    sea.heights.block(i, 3, 1, 3).setConstant(50); // land
+    sea.values.block(i, 3, 1, 3).setConstant(50); // land
   using Kind = DepthRule::Kind;
   const Points3 at = directions({{100, 30}, {10, -50}, {0, -50}, {120, 0}, {90, 60}});
   const double depth = 3300, speed = std::sqrt(9.80665 * depth);
@@ -231,10 +231,11 @@ TEST_CASE("depths give the lengths of waves, Rossby radii and slopes") {
 
 TEST_CASE("a raster of widths has the same bits for any number of threads") {
   const Widths widths = Widths::by_distance(lines(), {{{0, 100}, {3000, 300}}});
-  const DoubleMatrix one = tbb::task_arena(1).execute([&] { return sampled(widths, 2).widths; });
+  const DoubleMatrix one =
+      tbb::task_arena(1).execute([&] { return sampled(widths, {}, 2).values; });
   for (const int threads : {2, 4})
-    CHECK(tbb::task_arena(threads).execute([&] { return sampled(widths, 2).widths; }) == one);
-  CHECK(sampled(widths).longitudes.size() == 402); // 100 km are 0.899 degrees
+    CHECK(tbb::task_arena(threads).execute([&] { return sampled(widths, {}, 2).values; }) == one);
+  CHECK(sampled(widths).x.size() == 402); // 100 km are 0.899 degrees
 }
 
 TEST_CASE("widths that are none are refused by name") {
@@ -265,6 +266,6 @@ TEST_CASE("widths that are none are refused by name") {
   CHECK(message([] {
           Share(Surface::sphere(), {{{0, 1}, {9, 0}}});
         }) == "a surface without a boundary has none to be distant from; give a region");
-  CHECK(message([] { sampled(Widths(1.0), 20); }) ==
+  CHECK(message([] { sampled(Widths(1.0), {}, 20); }) ==
         "the step 20 of a raster is out of range; give 0.01 to 10 degrees");
 }

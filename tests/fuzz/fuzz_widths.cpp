@@ -14,9 +14,8 @@ using namespace calotte;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = fuzz::scratch_file("widths" CALOTTE_FUZZ_SUFFIX, data, size);
   try {
-    const CellWidth widths =
-        read_cell_width(path, {.inside = 50, .outside = 100, .transition = 3000});
-    fuzz::require(widths.widths.minCoeff() > 0);
+    const Raster widths = read_cell_width(path, {.inside = 50, .outside = 100, .transition = 3000});
+    fuzz::require(widths.values.minCoeff() > 0);
     fuzz::require(evaluate(widths, fibonacci_sphere(20)).allFinite());
     implied_cells(widths);
     largest_gradient(widths);

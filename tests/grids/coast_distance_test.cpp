@@ -92,9 +92,9 @@ TEST_CASE("land that is there twice, or overlaps, has no sides") {
 }
 
 TEST_CASE("shares of a raster are linear between its nodes") {
-  LandRaster raster{DoubleVector{{0, 90, 180, 270}}, DoubleVector{{-45, 45}}, DoubleMatrix(4, 2)};
-  raster.land.setZero();
-  raster.land.row(1).setOnes();
+  Raster raster{DoubleVector{{0, 90, 180, 270}}, DoubleVector{{-45, 45}}, DoubleMatrix(4, 2)};
+  raster.values.setZero();
+  raster.values.row(1).setOnes();
   Points3 places(3, 4);
   places << direction(90, 10), direction(45, 0), direction(112.5, -45), direction(0, 90);
   const DoubleVector t{{1, 0.5, 0.75, 0.25}};
@@ -102,7 +102,7 @@ TEST_CASE("shares of a raster are linear between its nodes") {
   CHECK((blend - (100 - 80 * t.array()).matrix()).cwiseAbs().maxCoeff() < 1e-4);
   CHECK(evaluate(Widths::where(raster, 20.0, 100.0), places)[2] == 20);
   CHECK(evaluate(Widths::where(raster, 20.0, 100.0), places)[3] == 100);
-  raster.land(0, 0) = 1.5;
+  raster.values(0, 0) = 1.5;
   CHECK(error_of([&] { Share{raster}; }).what() ==
         std::string(
             "shares are not 0 to 1, one for each longitude and latitude; correct the raster"));

@@ -23,12 +23,12 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 Surface part() { return circle({1, 1, 1}, 20 * degree); }
 
 /// Widths from 400 km at the equator to `poles` km at the poles.
-CellWidth widths(double poles) {
-  CellWidth table;
-  table.longitudes = Eigen::Vector2d(0, 180);
-  table.latitudes = Eigen::Vector3d(-90, 0, 90);
-  table.widths.resize(2, 3);
-  table.widths << poles, 400, poles, poles, 400, poles;
+Raster widths(double poles) {
+  Raster table;
+  table.x = Eigen::Vector2d(0, 180);
+  table.y = Eigen::Vector3d(-90, 0, 90);
+  table.values.resize(2, 3);
+  table.values << poles, 400, poles, poles, 400, poles;
   return table;
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("plan: recipes that do not fit together are refused, with the remedy")
   recipe.density = test::x8();
   CHECK(message_of(recipe).find("widths and a density") != std::string::npos);
   recipe.density = {};
-  recipe.widths->widths *= 1000;
+  recipe.widths->values *= 1000;
   CHECK(message_of(recipe).find("a grid has 12 to 1073741824") != std::string::npos);
   recipe.widths = {};
   recipe.cells = 100;
@@ -247,7 +247,7 @@ TEST_CASE("plan: values out of range are refused before any work") {
   refused(
       [](Recipe& r) {
         r.widths = widths(800);
-        r.widths->longitudes[1] = 10;
+        r.widths->x[1] = 10;
       },
       "longitude");
   CHECK_THROWS_AS(make_grid(Schedule{}), Error);

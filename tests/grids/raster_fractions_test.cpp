@@ -27,16 +27,15 @@ using namespace calotte::test;
 namespace {
 
 /// A raster with its nodes in the middle of equal steps.
-LandRaster land_raster(int columns, int rows,
-                       const std::function<double(double lon, double lat)>& land) {
-  LandRaster raster;
-  raster.longitudes =
-      Eigen::VectorXd::LinSpaced(columns, -180 + 180.0 / columns, 180 - 180.0 / columns);
-  raster.latitudes = Eigen::VectorXd::LinSpaced(rows, -90 + 90.0 / rows, 90 - 90.0 / rows);
-  raster.land.resize(columns, rows);
+Raster land_raster(int columns, int rows,
+                   const std::function<double(double lon, double lat)>& land) {
+  Raster raster;
+  raster.x = Eigen::VectorXd::LinSpaced(columns, -180 + 180.0 / columns, 180 - 180.0 / columns);
+  raster.y = Eigen::VectorXd::LinSpaced(rows, -90 + 90.0 / rows, 90 - 90.0 / rows);
+  raster.values.resize(columns, rows);
   for (int i = 0; i < columns; ++i)
     for (int j = 0; j < rows; ++j)
-      raster.land(i, j) = land(raster.longitudes[i], raster.latitudes[j]);
+      raster.values(i, j) = land(raster.x[i], raster.y[j]);
   return raster;
 }
 
@@ -62,9 +61,9 @@ TEST_CASE("a raster of one value gives it to every cell; complements add up to 1
             cells, land_raster(columns, rows, [&](double, double) { return value; }));
         CHECK((same.array() - value).abs().maxCoeff() < 1e-12);
       }
-      LandRaster raster = land_raster(columns, rows, noise);
+      Raster raster = land_raster(columns, rows, noise);
       const Eigen::VectorXd land = land_fractions(cells, raster);
-      raster.land = 1 - raster.land.array();
+      raster.values = 1 - raster.values.array();
       const Eigen::VectorXd sea = land_fractions(cells, raster);
       CHECK((land + sea - Eigen::VectorXd::Ones(land.size())).cwiseAbs().maxCoeff() < 1e-12);
       CHECK(land.minCoeff() >= 0);
@@ -77,7 +76,7 @@ TEST_CASE("a fine raster of a region gives about the exact fractions") {
   for (const Surface& region :
        {circle(direction(30, 40), 50 * degree), circle(direction(0, 90), 20 * degree),
         circle(direction(180, -5), 30 * degree)}) {
-    const LandRaster raster = land_raster(720, 360, [&](double lon, double lat) {
+    const Raster raster = land_raster(720, 360, [&](double lon, double lat) {
       return region.contains(direction(lon, lat)) ? 1 : 0;
     });
     const Coast coast{{region.rings().begin(), region.rings().end()}, region.area()};
@@ -94,7 +93,7 @@ TEST_CASE("a fine raster of a region gives about the exact fractions") {
 
 TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
   for (const auto& [columns, rows] : {std::pair{12, 6}, std::pair{5, 3}}) {
-    const LandRaster raster = land_raster(columns, rows, [](double lon, double lat) {
+    const Raster raster = land_raster(columns, rows, [](double lon, double lat) {
       return std::fmod(std::abs(3 * lon + 7 * lat), 10) / 10;
     });
     const auto index_of = [&](const Eigen::Vector3d& x) {
@@ -113,7 +112,7 @@ TEST_CASE("a cell inside a rectangle of a coarse raster has its value") {
       if (!inside)
         continue;
       ++within;
-      CHECK(fractions[i] == doctest::Approx(raster.land(own.first, own.second)).epsilon(1e-12));
+      CHECK(fractions[i] == doctest::Approx(raster.values(own.first, own.second)).epsilon(1e-12));
     }
     CHECK(within > 2000);
   }
@@ -130,7 +129,7 @@ TEST_CASE("cells that are much smaller than their neighbours have a value, too")
 
 TEST_CASE("the fractions of a raster have the same bits for any number of threads") {
   const Voronoi cells = voronoi_of(fibonacci_sphere(3000));
-  const LandRaster raster = land_raster(144, 600, noise); // more rows than are taken at once
+  const Raster raster = land_raster(144, 600, noise); // more rows than are taken at once
   const Eigen::VectorXd once = land_fractions(cells, raster);
   for (const int threads : {1, 3}) {
     tbb::task_arena arena(threads);
@@ -140,22 +139,21 @@ TEST_CASE("the fractions of a raster have the same bits for any number of thread
 
 TEST_CASE("rasters that are refused") {
   const Voronoi cells = voronoi_of(bisected_icosahedron(1));
-  const LandRaster good = land_raster(8, 4, noise);
-  const auto refusal = [&](const std::function<void(LandRaster&)>& spoil) {
-    LandRaster bad = good;
+  const Raster good = land_raster(8, 4, noise);
+  const auto refusal = [&](const std::function<void(Raster&)>& spoil) {
+    Raster bad = good;
     spoil(bad);
     const Error error = error_of([&] { land_fractions(cells, bad); });
     CHECK(error.code() == ErrorCode::invalid_argument);
     return std::string(error.what());
   };
-  CHECK(refusal([](LandRaster& r) { r.land(3, 2) = 1.5; }).find("no fraction of land") !=
+  CHECK(refusal([](Raster& r) { r.values(3, 2) = 1.5; }).find("a fraction from 0 to 1") !=
         std::string::npos);
-  CHECK(refusal([](LandRaster& r) {
-          r.land(0, 0) = std::numeric_limits<double>::quiet_NaN();
-        }).find("no fraction of land") != std::string::npos);
-  CHECK(refusal([](LandRaster& r) { r.land.resize(4, 8); }).find("longitudes x latitudes") !=
+  CHECK(refusal([](Raster& r) {
+          r.values(0, 0) = std::numeric_limits<double>::quiet_NaN();
+        }).find("a fraction from 0 to 1") != std::string::npos);
+  CHECK(refusal([](Raster& r) { r.values.resize(4, 8); }).find("longitudes x latitudes") !=
         std::string::npos);
-  CHECK(refusal([](LandRaster& r) { r.latitudes.reverseInPlace(); }).find("ascend") !=
-        std::string::npos);
-  CHECK(refusal([](LandRaster& r) { r.longitudes[7] = 300; }).find("ascend") != std::string::npos);
+  CHECK(refusal([](Raster& r) { r.y.reverseInPlace(); }).find("sort them") != std::string::npos);
+  CHECK(refusal([](Raster& r) { r.x[7] = 300; }).find("sort them") != std::string::npos);
 }

@@ -32,8 +32,8 @@ Surface inside(const double (&ring)[3 * ring_corners]) {
 }
 
 template <int Columns, int Rows>
-CellWidth widths(const double (&longitudes)[Columns], const double (&latitudes)[Rows],
-                 const double (&km)[Columns * Rows]) {
+Raster widths(const double (&longitudes)[Columns], const double (&latitudes)[Rows],
+              const double (&km)[Columns * Rows]) {
   return {Eigen::Map<const Eigen::VectorXd>(longitudes, Columns),
           Eigen::Map<const Eigen::VectorXd>(latitudes, Rows),
           Eigen::Map<const Eigen::MatrixXd>(km, Columns, Rows)};

@@ -28,25 +28,25 @@ using calotte::test::Random;
 namespace {
 
 /// With land in the north, deep basins and a ridge, as rough as real ones.
-HeightRaster heights() {
-  HeightRaster sea{DoubleVector::LinSpaced(180, -180, 178), DoubleVector::LinSpaced(91, -90, 90),
-                   DoubleMatrix(180, 91)};
+Raster heights() {
+  Raster sea{DoubleVector::LinSpaced(180, -180, 178), DoubleVector::LinSpaced(91, -90, 90),
+             DoubleMatrix(180, 91)};
   Random random(11);
   for (Eigen::Index j = 0; j < 91; ++j)
     for (Eigen::Index i = 0; i < 180; ++i)
-      sea.heights(i, j) = -5000 + 3500 * std::exp(-std::pow((sea.longitudes[i] + 30) / 20, 2)) +
-                          random.real(0, 500) + (sea.latitudes[j] > 70 ? 6000 : 0);
+      sea.values(i, j) = -5000 + 3500 * std::exp(-std::pow((sea.x[i] + 30) / 20, 2)) +
+                         random.real(0, 500) + (sea.y[j] > 70 ? 6000 : 0);
   return sea;
 }
 
-CellWidth rough(double unit) {
-  CellWidth raster{DoubleVector::LinSpaced(60, -180, 174), DoubleVector::LinSpaced(31, -90, 90),
-                   DoubleMatrix(60, 31)};
+Raster rough(double unit) {
+  Raster raster{DoubleVector::LinSpaced(60, -180, 174), DoubleVector::LinSpaced(31, -90, 90),
+                DoubleMatrix(60, 31)};
   Random random(12);
-  for (double& width : raster.widths.reshaped())
+  for (double& width : raster.values.reshaped())
     width = unit * random.real(110, 900);
-  raster.widths.col(0).setConstant(unit * 100);
-  raster.widths.col(30).setConstant(unit * 300);
+  raster.values.col(0).setConstant(unit * 100);
+  raster.values.col(30).setConstant(unit * 300);
   return raster;
 }
 

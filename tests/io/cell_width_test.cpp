@@ -38,19 +38,19 @@ namespace {
 using Field = std::function<double(double longitude, double latitude)>; ///< of degrees
 
 /// A field sampled on columns x rows boxes, from a longitude on; poles included.
-CellWidth sampled_field(const Field& field, Eigen::Index columns, Eigen::Index rows,
-                        double west = -180) {
-  CellWidth width;
-  width.longitudes = west + (Eigen::VectorXd::LinSpaced(columns + 1, 0, 360).head(columns).array());
-  width.latitudes = Eigen::VectorXd::LinSpaced(rows + 1, -90, 90);
-  width.widths.resize(columns, rows + 1);
+Raster sampled_field(const Field& field, Eigen::Index columns, Eigen::Index rows,
+                     double west = -180) {
+  Raster width;
+  width.x = west + (Eigen::VectorXd::LinSpaced(columns + 1, 0, 360).head(columns).array());
+  width.y = Eigen::VectorXd::LinSpaced(rows + 1, -90, 90);
+  width.values.resize(columns, rows + 1);
   for (Eigen::Index j = 0; j <= rows; ++j)
     for (Eigen::Index i = 0; i < columns; ++i)
-      width.widths(i, j) = field(width.longitudes[i], width.latitudes[j]);
+      width.values(i, j) = field(width.x[i], width.y[j]);
   return width;
 }
 
-CellWidth constant(double width) {
+Raster constant(double width) {
   return sampled_field([=](double, double) { return width; }, 12, 6);
 }
 
@@ -64,7 +64,7 @@ Points3 points_at(const std::vector<std::pair<double, double>>& places) {
   return points;
 }
 
-double width_at(const CellWidth& width, double longitude, double latitude) {
+double width_at(const Raster& width, double longitude, double latitude) {
   return evaluate(width, points_at({{longitude, latitude}}))[0];
 }
 
@@ -88,7 +88,7 @@ private:
 };
 
 /// What a NetCDF raster holds.
-struct Raster {
+struct StoredRaster {
   std::vector<double> lon, lat, values; ///< values lat by lon
   std::string variable = "cellWidth";
   std::string lat_name = "lat", lon_name = "lon";
@@ -96,11 +96,11 @@ struct Raster {
   io_detail::NetcdfAttributes attributes = {};
 };
 
-Raster raster_of_widths(const CellWidth& width) {
-  Raster raster;
-  raster.lon.assign(width.longitudes.begin(), width.longitudes.end());
-  raster.lat.assign(width.latitudes.begin(), width.latitudes.end());
-  raster.values.assign(width.widths.data(), width.widths.data() + width.widths.size());
+StoredRaster raster_of_widths(const Raster& width) {
+  StoredRaster raster;
+  raster.lon.assign(width.x.begin(), width.x.end());
+  raster.lat.assign(width.y.begin(), width.y.end());
+  raster.values.assign(width.values.data(), width.values.data() + width.values.size());
   return raster;
 }
 
@@ -112,7 +112,7 @@ void put(io_detail::NetcdfWriter& file, int variable, const std::vector<double>&
   });
 }
 
-std::string raster_file(const InputFolder& folder, const Raster& raster) {
+std::string raster_file(const InputFolder& folder, const StoredRaster& raster) {
   const std::string path = folder("raster.nc");
   io_detail::NetcdfWriter file(path);
   const int lat = file.dimension("lat", static_cast<std::int64_t>(raster.lat.size())),
@@ -146,10 +146,10 @@ std::string refusal_of_widths(const std::string& path, const PolygonWidths& widt
   return "not refused";
 }
 
-void check_same_widths(const CellWidth& a, const CellWidth& b) {
-  CHECK(a.longitudes == b.longitudes);
-  CHECK(a.latitudes == b.latitudes);
-  CHECK(a.widths == b.widths);
+void check_same_widths(const Raster& a, const Raster& b) {
+  CHECK(a.x == b.x);
+  CHECK(a.y == b.y);
+  CHECK(a.values == b.values);
 }
 
 } // namespace
@@ -183,11 +183,11 @@ TEST_CASE("longitude and latitude agree with the C library's to 1e-15") {
 
 TEST_CASE("a constant width is the uniform density and gives the hexagons that fill the sphere") {
   for (const double h : {30.0, 120.0, 0.1}) {
-    const CellWidth width = constant(h);
+    const Raster width = constant(h);
     const double hexagon = std::sqrt(3) / 2 * h * h;
     CHECK(implied_cells(width) * hexagon ==
           doctest::Approx(4 * pi * earth_radius_km * earth_radius_km).epsilon(1e-13));
-    CHECK(implied_cells(width, 1) * hexagon == doctest::Approx(4 * pi).epsilon(1e-13));
+    CHECK(implied_cells(width, {}, 1) * hexagon == doctest::Approx(4 * pi).epsilon(1e-13));
     CHECK(largest_gradient(width).slope == 0);
     CHECK(evaluate(density_of(width), random_sphere(1000)).isOnes(0));
     CHECK(evaluate(width, random_sphere(1000)).isConstant(h, 0));
@@ -195,10 +195,10 @@ TEST_CASE("a constant width is the uniform density and gives the hexagons that f
 }
 
 TEST_CASE("the density is (least width / width)^4, in blocks of any size") {
-  const CellWidth width = sampled_field(smooth, 36, 18);
+  const Raster width = sampled_field(smooth, 36, 18);
   const Points3 points = random_sphere(1000);
   const Eigen::VectorXd h = evaluate(width, points), rho = evaluate(density_of(width), points);
-  const double least = width.widths.minCoeff();
+  const double least = width.values.minCoeff();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     CHECK(rho[i] == doctest::Approx(std::pow(least / h[i], 4)).epsilon(1e-14));
     Eigen::VectorXd alone(1);
@@ -212,11 +212,11 @@ TEST_CASE("nodes keep their widths; fields are continuous over the seam and at t
   const auto noise = [&](double, double) { return random.real(10, 100); };
   for (const double west : {-180.0, 0.0, 0.5, -179.5, 359.0, -725.0}) {
     CAPTURE(west);
-    const CellWidth width = sampled_field(noise, 24, 12, west);
+    const Raster width = sampled_field(noise, 24, 12, west);
     for (Eigen::Index j = 1; j < 12; ++j)
       for (Eigen::Index i = 0; i < 24; ++i)
-        CHECK(width_at(width, width.longitudes[i], width.latitudes[j]) ==
-              doctest::Approx(width.widths(i, j)).epsilon(1e-12));
+        CHECK(width_at(width, width.x[i], width.y[j]) ==
+              doctest::Approx(width.values(i, j)).epsilon(1e-12));
     for (const double latitude : {-81.3, 0.2, 44.0}) {
       CHECK(width_at(width, 180 - 1e-9, latitude) ==
             doctest::Approx(width_at(width, -180 + 1e-9, latitude)).epsilon(1e-8));
@@ -226,23 +226,23 @@ TEST_CASE("nodes keep their widths; fields are continuous over the seam and at t
     for (const double pole : {-90.0, 90.0})
       for (const double longitude : {0.0, 77.0, 200.0})
         CHECK(width_at(width, longitude, pole * (1 - 1e-10)) ==
-              doctest::Approx(width.widths.col(pole < 0 ? 0 : 12).mean()).epsilon(1e-8));
+              doctest::Approx(width.values.col(pole < 0 ? 0 : 12).mean()).epsilon(1e-8));
   }
 }
 
 TEST_CASE("rows that end short of the poles lead to their mean there") {
   Random random(3);
-  CellWidth width = sampled_field([&](double, double) { return random.real(10, 100); }, 24, 12);
-  width.latitudes = width.latitudes * (82.5 / 90);
-  const double mean = width.widths.col(12).mean();
+  Raster width = sampled_field([&](double, double) { return random.real(10, 100); }, 24, 12);
+  width.y = width.y * (82.5 / 90);
+  const double mean = width.values.col(12).mean();
   CHECK(width_at(width, 30, 90) == doctest::Approx(mean).epsilon(1e-13));
-  CHECK(width_at(width, 30, 86.25) == doctest::Approx(0.5 * (mean + width.widths(14, 12))));
-  CHECK(width_at(width, 30, 82.5) == doctest::Approx(width.widths(14, 12)));
+  CHECK(width_at(width, 30, 86.25) == doctest::Approx(0.5 * (mean + width.values(14, 12))));
+  CHECK(width_at(width, 30, 82.5) == doctest::Approx(width.values(14, 12)));
 }
 
 TEST_CASE("irregular grids are interpolated as a search through all nodes has it") {
   Random random(4);
-  CellWidth width;
+  Raster width;
   std::vector<double> longitudes, latitudes;
   for (int i = 0; i < 40; ++i) {
     longitudes.push_back(-100 + 355 * std::pow(random.real(0, 1), 4)); // crowded at one end
@@ -250,9 +250,9 @@ TEST_CASE("irregular grids are interpolated as a search through all nodes has it
   }
   std::sort(longitudes.begin(), longitudes.end());
   std::sort(latitudes.begin(), latitudes.end());
-  width.longitudes = Eigen::Map<Eigen::VectorXd>(longitudes.data(), 40);
-  width.latitudes = Eigen::Map<Eigen::VectorXd>(latitudes.data(), 40);
-  width.widths = Eigen::MatrixXd::NullaryExpr(40, 40, [&] { return random.real(1, 2); });
+  width.x = Eigen::Map<Eigen::VectorXd>(longitudes.data(), 40);
+  width.y = Eigen::Map<Eigen::VectorXd>(latitudes.data(), 40);
+  width.values = Eigen::MatrixXd::NullaryExpr(40, 40, [&] { return random.real(1, 2); });
   for (int k = 0; k < 1000; ++k) {
     const double latitude = random.real(latitudes.front(), latitudes.back()),
                  longitude = random.real(longitudes.front(), longitudes.front() + 360);
@@ -261,12 +261,11 @@ TEST_CASE("irregular grids are interpolated as a search through all nodes has it
     const auto i =
         std::upper_bound(longitudes.begin(), longitudes.end(), longitude) - longitudes.begin() - 1;
     const double east = i < 39 ? longitudes[static_cast<std::size_t>(i) + 1] : longitudes[0] + 360;
-    const double u = (longitude - width.longitudes[i]) / (east - width.longitudes[i]),
-                 v = (latitude - width.latitudes[j]) /
-                     (width.latitudes[j + 1] - width.latitudes[j]);
+    const double u = (longitude - width.x[i]) / (east - width.x[i]),
+                 v = (latitude - width.y[j]) / (width.y[j + 1] - width.y[j]);
     const Eigen::Index next = (i + 1) % 40;
-    const double expected = (1 - v) * ((1 - u) * width.widths(i, j) + u * width.widths(next, j)) +
-                            v * ((1 - u) * width.widths(i, j + 1) + u * width.widths(next, j + 1));
+    const double expected = (1 - v) * ((1 - u) * width.values(i, j) + u * width.values(next, j)) +
+                            v * ((1 - u) * width.values(i, j + 1) + u * width.values(next, j + 1));
     CHECK(width_at(width, longitude, latitude) == doctest::Approx(expected).epsilon(1e-9));
   }
 }
@@ -288,7 +287,9 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
     return 1 / std::sqrt(1 + 0.5 * p.z + p.x * p.y / 2);
   };
   const auto excess = [&](Eigen::Index rows) {
-    return implied_cells(sampled_field(hexagonal, 2 * rows, rows), 1) / (8 * pi / std::sqrt(3)) - 1;
+    return implied_cells(sampled_field(hexagonal, 2 * rows, rows), {}, 1) /
+               (8 * pi / std::sqrt(3)) -
+           1;
   };
   CHECK(std::abs(excess(72)) < 1e-3);
   CHECK(excess(36) / excess(72) == doctest::Approx(4).epsilon(0.02));
@@ -296,20 +297,18 @@ TEST_CASE("a raster of a smooth field converges at second order, and so does its
 
 /// The mean of the gradient of the interpolated widths over the square of a cell's width in the
 /// corner of a box, from many differences; the largest of all corners.
-static double largest_mean_gradient(const CellWidth& width, double radius) {
+static double largest_mean_gradient(const Raster& width, double radius) {
   constexpr int parts = 24;
   double largest = 0;
-  const Eigen::Index columns = width.longitudes.size(), rows = width.latitudes.size();
+  const Eigen::Index columns = width.x.size(), rows = width.y.size();
   for (Eigen::Index j = 0; j + 1 < rows; ++j)
     for (Eigen::Index i = 0; i < columns; ++i) {
-      const double west = width.longitudes[i], south = width.latitudes[j];
-      const double length =
-                       (i + 1 < columns ? width.longitudes[i + 1] : width.longitudes[0] + 360) -
-                       west,
-                   height = width.latitudes[j + 1] - south;
+      const double west = width.x[i], south = width.y[j];
+      const double length = (i + 1 < columns ? width.x[i + 1] : width.x[0] + 360) - west,
+                   height = width.y[j + 1] - south;
       for (const bool upper : {false, true})
         for (const bool eastern : {false, true}) {
-          const double size = width.widths((i + (eastern ? 1 : 0)) % columns, j + (upper ? 1 : 0)) /
+          const double size = width.values((i + (eastern ? 1 : 0)) % columns, j + (upper ? 1 : 0)) /
                               radius / degree;
           const double tall = std::min(size, height),
                        cosine = std::cos((upper ? south + height - tall / 2 : south + tall / 2) *
@@ -350,10 +349,9 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
   Random random(5);
   for (const double scale : {1e-3, 500.0, 1200.0, 1e5}) {
     CAPTURE(scale);
-    CellWidth noise =
-        sampled_field([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
+    Raster noise = sampled_field([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
     for (const Eigen::Index row : {0, 1, 23, 24})
-      noise.widths.col(row).setConstant(1.5 * scale);
+      noise.values.col(row).setConstant(1.5 * scale);
     const Gradient most = largest_gradient(noise);
     CHECK(most.slope ==
           doctest::Approx(largest_mean_gradient(noise, earth_radius_km)).epsilon(1e-3));
@@ -361,8 +359,7 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
     CHECK(std::abs(most.latitude) < 83); // of the last row but one
   }
   // From pole to pole without a row between.
-  CellWidth poles =
-      sampled_field([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
+  Raster poles = sampled_field([](double, double latitude) { return latitude < 0 ? 1 : 2; }, 4, 1);
   CHECK(largest_gradient(poles, 1).slope == doctest::Approx(1 / pi));
 }
 
@@ -385,15 +382,15 @@ TEST_CASE("the gradient of sampled widths is theirs, not that of the tips of the
 
 TEST_CASE("widths cover a region with half of a step to spare") {
   const auto part = [](double west, double east, double south, double north, double step) {
-    CellWidth width;
+    Raster width;
     const auto columns = static_cast<Eigen::Index>(std::lround((east - west) / step)) + 1,
                rows = static_cast<Eigen::Index>(std::lround((north - south) / step)) + 1;
-    width.longitudes = Eigen::VectorXd::LinSpaced(columns, west, east);
-    width.latitudes = Eigen::VectorXd::LinSpaced(rows, south, north);
-    width.widths.setConstant(columns, rows, 60);
+    width.x = Eigen::VectorXd::LinSpaced(columns, west, east);
+    width.y = Eigen::VectorXd::LinSpaced(rows, south, north);
+    width.values.setConstant(columns, rows, 60);
     return width;
   };
-  const auto refusal_of = [](const CellWidth& width, const Surface& region) -> std::string {
+  const auto refusal_of = [](const Raster& width, const Surface& region) -> std::string {
     try {
       require_covering(width, region);
     } catch (const Error& error) {
@@ -405,7 +402,7 @@ TEST_CASE("widths cover a region with half of a step to spare") {
   const auto disc = [](double longitude, double latitude, double degrees) {
     return circle(points_at({{longitude, latitude}}).col(0), degrees * degree);
   };
-  const CellWidth america = part(-125, -55, 10, 60, 1);
+  const Raster america = part(-125, -55, 10, 60, 1);
   CHECK(refusal_of(america, disc(-90, 35, 20)) == "");
   CHECK(refusal_of(america, disc(270, 35, 24.4)) == ""); // to 10.6 N
   CHECK(refusal_of(america, disc(-90, 35, 25.4)) == ""); // to 9.6 N
@@ -422,7 +419,7 @@ TEST_CASE("widths cover a region with half of a step to spare") {
   const Points3 ring = disc(-90, 35, 20).rings()[0].rowwise().reverse();
   const Surface outside = Surface::sphere().within({ring});
   CHECK(refusal_of(america, outside) != "");
-  const CellWidth arctic = part(-180, 179, 60, 90, 1);
+  const Raster arctic = part(-180, 179, 60, 90, 1);
   CHECK(refusal_of(arctic, disc(0, 90, 25)) == "");
   CHECK(refusal_of(arctic, disc(30, 70, 15)) != "");
   CHECK(refusal_of(part(-180, 179, -90, 90, 1), {}) == "");
@@ -435,20 +432,20 @@ TEST_CASE("widths cover a region with half of a step to spare") {
 }
 
 TEST_CASE("invalid grids are refused") {
-  const auto refused = [](const std::function<void(CellWidth&)>& spoil) {
-    CellWidth width = constant(10);
+  const auto refused = [](const std::function<void(Raster&)>& spoil) {
+    Raster width = constant(10);
     spoil(width);
     CHECK_THROWS_AS(density_of(width), Error);
     CHECK_THROWS_AS(implied_cells(width), Error);
   };
-  refused([](CellWidth& width) { width = {}; });
-  refused([](CellWidth& width) { width.widths(3, 2) = 0; });
-  refused([](CellWidth& width) { width.widths(3, 2) = std::nan(""); });
-  refused([](CellWidth& width) { width.widths.conservativeResize(11, 7); });
-  refused([](CellWidth& width) { std::swap(width.latitudes[1], width.latitudes[2]); });
-  refused([](CellWidth& width) { width.longitudes[11] = 180; });
-  refused([](CellWidth& width) { width.latitudes[0] = -91; });
-  CHECK_THROWS_AS(implied_cells(constant(1), 0), Error);
+  refused([](Raster& width) { width = {}; });
+  refused([](Raster& width) { width.values(3, 2) = 0; });
+  refused([](Raster& width) { width.values(3, 2) = std::nan(""); });
+  refused([](Raster& width) { width.values.conservativeResize(11, 7); });
+  refused([](Raster& width) { std::swap(width.y[1], width.y[2]); });
+  refused([](Raster& width) { width.x[11] = 180; });
+  refused([](Raster& width) { width.y[0] = -91; });
+  CHECK_THROWS_AS(implied_cells(constant(1), {}, 0), Error);
   CHECK_THROWS_AS(largest_gradient(constant(1), -1), Error);
 }
 
@@ -456,22 +453,22 @@ TEST_CASE("invalid grids are refused") {
 
 TEST_CASE("a NetCDF raster comes in whatever order of meridians and parallels") {
   const InputFolder folder;
-  const CellWidth width = sampled_field(smooth, 24, 12, -180);
+  const Raster width = sampled_field(smooth, 24, 12, -180);
   check_same_widths(read_cell_width(raster_file(folder, raster_of_widths(width))), width);
 
-  const CellWidth east = sampled_field(smooth, 24, 12, 0);
+  const Raster east = sampled_field(smooth, 24, 12, 0);
   check_same_widths(read_cell_width(raster_file(folder, raster_of_widths(east))), east);
   const Points3 points = random_sphere(200);
   CHECK((evaluate(east, points) - evaluate(width, points)).cwiseAbs().maxCoeff() < 1e-10);
 
-  Raster repeated = raster_of_widths(width);
+  StoredRaster repeated = raster_of_widths(width);
   repeated.lon.push_back(180);
   for (std::size_t row = 13; row-- > 0;)
     repeated.values.insert(repeated.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24),
                            repeated.values[24 * row]);
   check_same_widths(read_cell_width(raster_file(folder, repeated)), width);
 
-  Raster descending = raster_of_widths(width);
+  StoredRaster descending = raster_of_widths(width);
   std::reverse(descending.lat.begin(), descending.lat.end());
   std::reverse(descending.values.begin(), descending.values.end());
   for (std::size_t row = 0; row < 13; ++row)
@@ -479,9 +476,9 @@ TEST_CASE("a NetCDF raster comes in whatever order of meridians and parallels") 
                  descending.values.begin() + static_cast<std::ptrdiff_t>(24 * row + 24));
   check_same_widths(read_cell_width(raster_file(folder, descending)), width);
 
-  Raster metres = raster_of_widths(width);
+  StoredRaster metres = raster_of_widths(width);
   metres.attributes = {{"units", std::string("m")}};
-  CHECK(read_cell_width(raster_file(folder, metres)).widths.isApprox(width.widths / 1000, 1e-15));
+  CHECK(read_cell_width(raster_file(folder, metres)).values.isApprox(width.values / 1000, 1e-15));
 }
 
 TEST_CASE("units of widths: km and m by symbol and name, and no other") {
@@ -498,8 +495,8 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
         ("the unit \"" + unit + "\" is not one of cell widths; give km or m").c_str(), Error);
   }
   const InputFolder folder;
-  const CellWidth width = sampled_field(smooth, 24, 12);
-  Raster raster = raster_of_widths(width);
+  const Raster width = sampled_field(smooth, 24, 12);
+  StoredRaster raster = raster_of_widths(width);
   for (const std::string unit : {"kilometers", "km"}) {
     raster.attributes = {{"units", unit}};
     check_same_widths(read_cell_width(raster_file(folder, raster)), width);
@@ -508,12 +505,14 @@ TEST_CASE("units of widths: km and m by symbol and name, and no other") {
   CHECK(refusal_of_widths(raster_file(folder, raster)) ==
         ": cellWidth: the unit \"degrees\" is not one of cell widths; give km or m");
   raster.variable = "density"; // of which the unit does not matter
-  CHECK(read_density_raster(raster_file(folder, raster)).widths.minCoeff() == 1);
+  CHECK(widths_of_density(
+            read_raster(raster_file(folder, raster), {.quantity = RasterQuantity::density}))
+            .values.minCoeff() == 1);
 }
 
 TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
   const InputFolder folder;
-  Raster raster;
+  StoredRaster raster;
   for (int i = 0; i <= 40; ++i)
     raster.lon.push_back(100 + i);
   for (int j = 0; j <= 30; ++j)
@@ -526,8 +525,8 @@ TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
   const auto disc = [](double radius) {
     return circle(points_at({{120, 35}}).col(0), radius * degree);
   };
-  const CellWidth width = read_cell_width(path, {}, disc(10));
-  CHECK(width.longitudes.size() == 41);
+  const Raster width = read_cell_width(path, {}, disc(10));
+  CHECK(width.x.size() == 41);
   CHECK(implied_cells(width, disc(10)) ==
         doctest::Approx(disc(10).area() * earth_radius_km * earth_radius_km * 2 / std::sqrt(3.0) /
                         2500)
@@ -539,11 +538,12 @@ TEST_CASE("a raster of a part of the sphere is enough for a region in it") {
 
 TEST_CASE("widths of the plane: from a file, their density and their number of cells") {
   const InputFolder folder;
-  const Raster raster{{0, 1, 4}, {3, 0}, {0.4, 0.2, 0.1, 0.4, 0.2, 0.1}, "cellWidth", "y", "x"};
-  const PlanarCellWidth read = read_planar_cell_width(raster_file(folder, raster));
+  const StoredRaster raster{{0, 1, 4},   {3, 0}, {0.4, 0.2, 0.1, 0.4, 0.2, 0.1},
+                            "cellWidth", "y",    "x"};
+  const Raster read = read_cell_width(raster_file(folder, raster), {}, Surface::plane());
   CHECK(read.x == Eigen::Vector3d(0, 1, 4));
-  CHECK(read.widths(0, 1) == 0.4);
-  CHECK(read.widths(2, 0) == 0.1);
+  CHECK(read.values(0, 1) == 0.4);
+  CHECK(read.values(2, 0) == 0.1);
   const Surface box = rectangle({0, 0}, {4, 3});
   const Eigen::VectorXd rho = evaluate(density_of(read), Points2(Eigen::Vector2d(2.5, 1)), box);
   CHECK(rho[0] == doctest::Approx(std::pow(0.1 / 0.15, 4)));
@@ -553,105 +553,113 @@ TEST_CASE("widths of the plane: from a file, their density and their number of c
   CHECK_NOTHROW(require_covering(read, rectangle({0, 0}, {4, 3})));
   CHECK_NOTHROW(require_covering(read, rectangle({-1.4, -1.4}, {5.4, 4.4}))); // half a step
   CHECK_THROWS_WITH_AS(require_covering(read, Surface::periodic({6, 3})),
-                       "cell width: x runs from 0 to 4, but the domain from 0 to 6; give widths "
-                       "that cover the domain",
+                       "cell width: x runs from 0 to 4, but the domain from 0 to 6; give a raster "
+                       "that covers the domain",
                        Error);
-  Raster bad = raster;
+  StoredRaster bad = raster;
   bad.values[4] = 0;
   CHECK_THROWS_WITH_AS(
-      read_planar_cell_width(raster_file(folder, bad)),
-      doctest::Contains(": cellWidth[1][1] is not positive and finite; correct it"), Error);
+      read_cell_width(raster_file(folder, bad), {}, Surface::plane()),
+      doctest::Contains(": cellWidth[1][1] = 0 is not positive and finite; correct it"), Error);
 }
 
 TEST_CASE("a density raster gives widths whose density it is") {
   const InputFolder folder;
-  Raster raster = raster_of_widths(sampled_field(smooth, 24, 12));
+  StoredRaster raster = raster_of_widths(sampled_field(smooth, 24, 12));
   raster.variable = "density";
-  const CellWidth width = read_density_raster(raster_file(folder, raster));
-  CHECK(width.widths.minCoeff() == 1);
+  const Raster width = widths_of_density(
+      read_raster(raster_file(folder, raster), {.quantity = RasterQuantity::density}));
+  CHECK(width.values.minCoeff() == 1);
   const double most = *std::max_element(raster.values.begin(), raster.values.end());
-  for (Eigen::Index k = 0; k < width.widths.size(); ++k)
-    CHECK(std::pow(width.widths.data()[k], -4) ==
+  for (Eigen::Index k = 0; k < width.values.size(); ++k)
+    CHECK(std::pow(width.values.data()[k], -4) ==
           doctest::Approx(raster.values[static_cast<std::size_t>(k)] / most).epsilon(1e-13));
 }
 
 TEST_CASE("a raster of the plane: axes of any direction, and invalid rasters") {
   const InputFolder folder;
-  Raster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
-  const PlanarRaster read = read_planar_raster(raster_file(folder, raster));
+  StoredRaster raster{{0, 1, 3}, {2, 0}, {8, 7, 6, 5, 4, 3}, "density", "y", "x"};
+  const Raster read = read_raster(raster_file(folder, raster), {.quantity = RasterQuantity::density,
+                                                                .surface = Surface::plane()});
   CHECK(read.x == Eigen::Vector3d(0, 1, 3));
   CHECK(read.y == Eigen::Vector2d(0, 2));
-  CHECK(read.density(2, 0) == 3);
-  CHECK(read.density(0, 1) == 8);
-  const auto refused = [&](const std::function<void(Raster&)>& spoil) -> std::string {
-    Raster spoilt = raster;
+  CHECK(read.values(2, 0) == 3);
+  CHECK(read.values(0, 1) == 8);
+  const auto refused = [&](const std::function<void(StoredRaster&)>& spoil) -> std::string {
+    StoredRaster spoilt = raster;
     spoil(spoilt);
     const std::string path = raster_file(folder, spoilt);
     try {
-      read_planar_raster(path);
+      read_raster(path, {.quantity = RasterQuantity::density, .surface = Surface::plane()});
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::parse);
       return std::string(error.what()).substr(path.size());
     }
     return "";
   };
-  CHECK(refused([](Raster& r) { r.values[4] = -1; }) ==
-        ": density[1][1] is negative, infinite or NaN; correct it");
-  CHECK(refused([](Raster& r) { r.lon[1] = 3; }) ==
-        ": x[2] is not finite and beyond the one before; sort the raster");
-  CHECK(refused([](Raster& r) { r.variable = std::string("rho"); }) ==
+  CHECK(refused([](StoredRaster& r) { r.values[4] = -1; }) ==
+        ": density[1][1] = -1 is not 0 or positive, and finite; correct it");
+  CHECK(refused([](StoredRaster& r) { r.lon[1] = 3; }) ==
+        ": x[2] = 3 does not follow 3; sort the raster along it");
+  CHECK(refused([](StoredRaster& r) { r.variable = std::string("rho"); }) ==
         ": no variable density; give density(y, x)");
-  CHECK(refused([](Raster& r) { r.lon_name = std::string("lon"); }) ==
+  CHECK(refused([](StoredRaster& r) { r.lon_name = std::string("lon"); }) ==
         ": no coordinate variable x; give x(x)");
-  CHECK(refused([](Raster& r) { r.transposed = true; }) ==
-        ": density is not density(lat, lon); give it these dimensions, in this order");
+  raster.values = {8, 5, 7, 4, 6, 3};
+  raster.transposed = true;
+  CHECK(refused([](StoredRaster&) {}).empty());
+  CHECK(read_raster(raster_file(folder, raster),
+                    {.quantity = RasterQuantity::density, .surface = Surface::plane()})
+            .values == read.values);
 }
 
 TEST_CASE("invalid NetCDF rasters give an error of one line that names the defect") {
   const InputFolder folder;
-  const CellWidth width = sampled_field(smooth, 24, 12);
-  const auto refused = [&](const std::function<void(Raster&)>& spoil) {
-    Raster raster = raster_of_widths(width);
+  const Raster width = sampled_field(smooth, 24, 12);
+  const auto refused = [&](const std::function<void(StoredRaster&)>& spoil) {
+    StoredRaster raster = raster_of_widths(width);
     spoil(raster);
     return refusal_of_widths(raster_file(folder, raster));
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string correct = " is not positive and finite; correct it";
-  CHECK(refused([&](Raster& r) { r.values[24 * 5 + 7] = nan; }) ==
+  CHECK(refused([&](StoredRaster& r) { r.values[24 * 5 + 7] = nan; }) ==
         ": cellWidth[5][7] = nan" + correct);
-  CHECK(refused([&](Raster& r) { r.values[0] = 0; }) == ": cellWidth[0][0] = 0" + correct);
-  CHECK(refused([&](Raster& r) { r.values[24] = -2; }) == ": cellWidth[1][0] = -2" + correct);
-  CHECK(refused([&](Raster& r) {
+  CHECK(refused([&](StoredRaster& r) { r.values[0] = 0; }) == ": cellWidth[0][0] = 0" + correct);
+  CHECK(refused([&](StoredRaster& r) { r.values[24] = -2; }) == ": cellWidth[1][0] = -2" + correct);
+  CHECK(refused([&](StoredRaster& r) {
           r.values[25] = 1e20;
           r.attributes = {{"_FillValue", 1e20}};
         }) == ": cellWidth[1][1] = nan" + correct);
-  CHECK(refused([&](Raster& r) { r.variable = std::string("width"); }) ==
+  CHECK(refused([&](StoredRaster& r) { r.variable = std::string("width"); }) ==
         ": no variable cellWidth; give cellWidth(lat, lon)");
-  CHECK(refused([&](Raster& r) { r.lat_name = std::string("y"); }) ==
+  CHECK(refused([&](StoredRaster& r) { r.lat_name = std::string("y"); }) ==
         ": no coordinate variable lat; give lat(lat) in degrees");
-  CHECK(refused([&](Raster& r) {
+  CHECK(refused([&](StoredRaster& r) {
           r.lon = {0};
           r.values.resize(13);
-        }) == ": lon has fewer than 2 values; give a raster of the whole sphere");
-  CHECK(refused([&](Raster& r) { r.lat[4] = 80; }) ==
+        }) == ": lon has fewer than 2 values; give a raster that covers the domain");
+  CHECK(refused([&](StoredRaster& r) { r.lat[4] = 80; }) ==
         ": lat[5] = -15 does not follow 80; sort the raster along it");
-  CHECK(refused([&](Raster& r) { r.lon[3] = nan; }) == ": lon[3] is NaN or infinite; correct it");
-  CHECK(refused([&](Raster& r) { r.lat[12] = 100; }) ==
+  CHECK(refused([&](StoredRaster& r) { r.lon[3] = nan; }) ==
+        ": lon[3] is NaN or infinite; correct it");
+  CHECK(refused([&](StoredRaster& r) { r.lat[12] = 100; }) ==
         ": lat 100 is outside -90 to 90; give degrees");
   const std::string global = " and leaves part of the sphere out; give a global raster in degrees";
-  CHECK(refused([&](Raster& r) {
+  CHECK(refused([&](StoredRaster& r) {
           for (double& latitude : r.lat)
             latitude *= degree;
         }) == ": lat runs from -1.5708 to 1.5708" + global);
-  CHECK(refused([&](Raster& r) {
+  CHECK(refused([&](StoredRaster& r) {
           for (double& longitude : r.lon)
             longitude *= 0.5;
         }) == ": lon runs from -90 to 82.5" + global);
-  CHECK(refused([&](Raster& r) {
+  CHECK(refused([&](StoredRaster& r) {
           for (double& longitude : r.lon)
             longitude *= 2;
         }) == ": lon spans more than 360 degrees; remove the repeated longitudes");
-  CHECK(refused([&](Raster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
+  CHECK(
+      refused([&](StoredRaster& r) { r.lon.back() = 180; }).starts_with(": cellWidth differs at"));
   CHECK(refusal_of_widths(folder("text.nc", "cellWidth")) != "not refused");
   CHECK(refusal_of_widths(folder("widths.txt"), {}, ErrorCode::invalid_argument) ==
         ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson or .toml");
@@ -667,23 +675,23 @@ TEST_CASE("invalid NetCDF rasters give an error of one line that names the defec
 
 TEST_CASE("a JIGSAW grid is in radians, its values by columns of latitudes") {
   const InputFolder folder;
-  const CellWidth width = sampled_field(smooth, 24, 12);
+  const Raster width = sampled_field(smooth, 24, 12);
   std::ostringstream text;
   text.precision(17);
   text << "# made by hand\nMSHID=3;ELLIPSOID-GRID\nRADII=6371;6371;6371\nNDIMS=2\nCOORD=1;25\n";
   for (int i = 0; i <= 24; ++i)
     text << (15.0 * i - 180) * degree << "\n";
   text << "COORD=2;13\n";
-  for (const double latitude : width.latitudes)
+  for (const double latitude : width.y)
     text << latitude * degree << "\n";
   text << "VALUE=325; 1\n";
   for (int i = 0; i <= 24; ++i)
     for (int j = 0; j <= 12; ++j)
-      text << width.widths(i % 24, j) << "\n";
-  const CellWidth read = read_cell_width(folder("hfun.msh", text.str()));
-  CHECK(read.widths == width.widths);
-  CHECK(read.longitudes.isApprox(width.longitudes, 1e-14));
-  CHECK(read.latitudes.isApprox(width.latitudes, 1e-14));
+      text << width.values(i % 24, j) << "\n";
+  const Raster read = read_cell_width(folder("hfun.msh", text.str()));
+  CHECK(read.values == width.values);
+  CHECK(read.x.isApprox(width.x, 1e-14));
+  CHECK(read.y.isApprox(width.y, 1e-14));
 
   const auto spoiled = [&](const std::string& what, const std::string& by) {
     std::string copy = text.str();
@@ -717,17 +725,17 @@ TEST_CASE("a JIGSAW mesh is interpolated between its nodes") {
     text << "value=" << points.cols() << ";1\n";
     for (const Eigen::Vector3d& p : points.colwise())
       text << exact(p) << "\n";
-    const CellWidth width = read_cell_width(folder("mesh.msh", text.str()));
+    const Raster width = read_cell_width(folder("mesh.msh", text.str()));
     const Points3 others = random_sphere(500);
     const Eigen::VectorXd found = evaluate(width, others);
     for (Eigen::Index i = 0; i < others.cols(); ++i)
       CHECK(found[i] == doctest::Approx(exact(others.col(i))).epsilon(0.01));
-    CHECK(width.latitudes[1] - width.latitudes[0] == doctest::Approx(1)); // edges are 8 degrees
+    CHECK(width.y[1] - width.y[0] == doctest::Approx(1)); // edges are 8 degrees
   }
   const std::string octahedron = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n-1;0;0;0\n"
                                  "0;1;0;0\n0;-1;0;0\n0;0;1;0\n0;0;-1;0\n";
   const std::string eight = "VALUE=6;1\n8\n8\n8\n8\n8\n8\n";
-  CHECK(read_cell_width(folder("a.msh", octahedron + eight)).widths.isConstant(8, 1e-14));
+  CHECK(read_cell_width(folder("a.msh", octahedron + eight)).values.isConstant(8, 1e-14));
   CHECK(refusal_of_widths(folder("b.msh", octahedron)).find("VALUE has 0 widths") !=
         std::string::npos);
   CHECK(refusal_of_widths(folder("c.msh", octahedron + "VALUE=6;1\n8\n8\n-8\n8\n8\n8\n")) ==
@@ -782,7 +790,7 @@ double across(double distance, const PolygonWidths& widths = coastal) {
 }
 
 /// Everywhere the width is that of the distance, within a part of the difference of widths.
-void check_widths(const CellWidth& width,
+void check_widths(const Raster& width,
                   const std::function<double(const Eigen::Vector3d&)>& distance,
                   double part = 0.01) {
   const Points3 points = random_sphere(2000);
@@ -851,7 +859,7 @@ TEST_CASE("holes lie outside, also around a pole; narrow features win") {
                    return std::max(25 - angle, angle - 50) * degree;
                  });
   }
-  const CellWidth width = read_cell_width(folder(
+  const Raster width = read_cell_width(folder(
       "two.geojson",
       R"({"type":"FeatureCollection","outsideWidth":130,"transition":2000,"features":[)" +
           feature(polygon(ring_text(circle_corners(0, 0, 40))), R"({"cellWidth":30})") + "," +
@@ -881,13 +889,13 @@ TEST_CASE("edges are straight in longitude and latitude; cuts are no boundary") 
   check_widths(read_cell_width(folder("band.geojson", band), coastal),
                [&](const Eigen::Vector3d& p) { return std::abs(latitude_of(p)) - 30 * degree; });
   // Across the date line, by numbers beyond 180 or not.
-  const CellWidth beyond = read_cell_width(
+  const Raster beyond = read_cell_width(
       folder("beyond.json", polygon(ring_text({{160, -10}, {210, -10}, {210, 10}, {160, 10}}))),
       coastal);
-  const CellWidth within = read_cell_width(
+  const Raster within = read_cell_width(
       folder("within.json", polygon(ring_text({{160, -10}, {-150, -10}, {-150, 10}, {160, 10}}))),
       coastal);
-  CHECK(beyond.widths == within.widths);
+  CHECK(beyond.values == within.values);
   CHECK(width_at(within, -175, 0) == doctest::Approx(30).epsilon(0.02));
   CHECK(width_at(within, 0, 0) == 130);
 }
@@ -899,13 +907,13 @@ TEST_CASE("the raster resolves the transition and is the same for any number of 
   widths.transition = 400;
   const auto read_with = [&](int threads) {
     tbb::task_arena arena(threads);
-    CellWidth width;
+    Raster width;
     arena.execute([&] { width = read_cell_width(path, widths); });
     return width;
   };
-  const CellWidth one = read_with(1), two = read_with(2);
+  const Raster one = read_with(1), two = read_with(2);
   check_same_widths(one, two);
-  CHECK((one.latitudes[1] - one.latitudes[0]) * degree * earth_radius_km <= 400.0 / 16);
+  CHECK((one.y[1] - one.y[0]) * degree * earth_radius_km <= 400.0 / 16);
   // A cubic's greatest slope is 3/2 of the mean one.
   CHECK(largest_gradient(one).slope == doctest::Approx(1.5 * 100 / 400).epsilon(0.02));
   widths.transition = 10;
@@ -967,7 +975,7 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
     const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
     return 400 - 130 * p.x + 70 * p.z;
   };
-  const CellWidth width = sampled_field(field, 90, 45);
+  const Raster width = sampled_field(field, 90, 45);
   const double implied = implied_cells(width);
   const auto cells = static_cast<std::int64_t>(std::llround(implied));
   REQUIRE(cells > 1500);
@@ -993,22 +1001,21 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
 
 TEST_CASE("widths that are written are read again") {
   const test::Scratch folder;
-  CellWidth widths{DoubleVector{{-180, -90, 0, 91}}, DoubleVector{{-90, -7, 90}},
-                   DoubleMatrix(4, 3)};
+  Raster widths{DoubleVector{{-180, -90, 0, 91}}, DoubleVector{{-90, -7, 90}}, DoubleMatrix(4, 3)};
   for (Eigen::Index k = 0; k < 12; ++k)
-    widths.widths(k % 4, k / 4) = 10 + 1.0 / static_cast<double>(k + 3);
+    widths.values(k % 4, k / 4) = 10 + 1.0 / static_cast<double>(k + 3);
   write(folder / "w.nc", widths);
-  const CellWidth netcdf = read_cell_width(folder / "w.nc");
-  CHECK(netcdf.longitudes == widths.longitudes);
-  CHECK(netcdf.latitudes == widths.latitudes);
-  CHECK(netcdf.widths == widths.widths);
+  const Raster netcdf = read_cell_width(folder / "w.nc");
+  CHECK(netcdf.x == widths.x);
+  CHECK(netcdf.y == widths.y);
+  CHECK(netcdf.values == widths.values);
   write(folder / "w.msh", widths);
-  const CellWidth jigsaw = read_cell_width(folder / "w.msh");
-  CHECK(jigsaw.widths == widths.widths);
-  CHECK((jigsaw.longitudes - widths.longitudes).cwiseAbs().maxCoeff() < 1e-13);
+  const Raster jigsaw = read_cell_width(folder / "w.msh");
+  CHECK(jigsaw.values == widths.values);
+  CHECK((jigsaw.x - widths.x).cwiseAbs().maxCoeff() < 1e-13);
   CHECK(test::error_of([&] { write(folder / "w.txt", widths); }).code() ==
         ErrorCode::invalid_argument);
-  widths.widths(1, 1) = -1;
+  widths.values(1, 1) = -1;
   CHECK(test::error_of([&] { write(folder / "w.nc", widths); }).code() ==
         ErrorCode::invalid_argument);
 }

@@ -348,7 +348,8 @@ TEST_CASE("groups, and dimensions without records, are named") {
                              "ocean IN OUT takes what one holds out";
   for (const auto& read : std::vector<std::function<void()>>{
            [&] { read_cell_width(grouped); }, [&] { read_field_grid(grouped); },
-           [&] { read_mesh(grouped); }, [&] { read_heights(grouped); },
+           [&] { read_mesh(grouped); },
+           [&] { read_raster(grouped, {.quantity = RasterQuantity::height}); },
            [&] { read_coast(grouped); }, [&] { read_weights(grouped); }})
     CHECK(refusal(read) == grouped + ": it holds nothing" + remedy);
   {
@@ -392,7 +393,7 @@ TEST_CASE("heights and depths of a file, in metres or kilometres, in either orde
             k == hole ? none : scale * (transposed ? 10 * (k % 2) + k / 2 : 10 * (k / 3) + k % 3));
       file.put(z, values);
     }
-    return read_heights(path).heights;
+    return read_raster(path, {.quantity = RasterQuantity::height}).values;
   };
   const DoubleMatrix metres = heights({{"units", "m"}}, 1, false);
   CHECK(metres(2, 1) == 12);
@@ -456,19 +457,19 @@ TEST_CASE("what one reader takes for a raster of longitudes and latitudes, all d
                                  transposed ? std::vector{lon, lat} : std::vector{lat, lon}),
                    values);
         }
-        const CellWidth widths = read_cell_width(path);
-        const HeightRaster heights = read_heights(path);
+        const Raster widths = read_cell_width(path);
+        const Raster heights = read_raster(path, {.quantity = RasterQuantity::height});
         const FieldGrid grid = read_field_grid(path);
         REQUIRE(grid.boxes);
         REQUIRE(grid.fields.size() == 1);
-        CHECK(heights.heights == widths.widths);
-        CHECK((heights.latitudes - DoubleVector{{-60, 0, 60}}).cwiseAbs().maxCoeff() < 1e-12);
+        CHECK(heights.values == widths.values);
+        CHECK((heights.y - DoubleVector{{-60, 0, 60}}).cwiseAbs().maxCoeff() < 1e-12);
         int wrong = 0;
         for (Eigen::Index j = 0; j < 3; ++j)
           for (Eigen::Index i = 0; i < 4; ++i) {
             const auto wanted = static_cast<double>(1 + 10 * j + i);
             const Eigen::Index row = descending ? 2 - j : j;
-            wrong += widths.widths(i, j) != wanted || grid.fields[0].values[4 * row + i] != wanted;
+            wrong += widths.values(i, j) != wanted || grid.fields[0].values[4 * row + i] != wanted;
           }
         CHECK(wrong == 0);
       }
@@ -492,8 +493,8 @@ TEST_CASE("a raster of one time and one level, and fractions in percent") {
         value *= units == "%" ? 100 : 1;
       file.put(f, values);
     }
-    const LandRaster raster = read_land_raster(path, "f", RasterValues::land_fraction);
-    CHECK(raster.land == DoubleMatrix{{0, 1}, {0.25, 0.75}, {0.5, 0.125}});
+    const Raster raster = read_land(path, "f", RasterQuantity::land_fraction);
+    CHECK(raster.values == DoubleMatrix{{0, 1}, {0.25, 0.75}, {0.5, 0.125}});
   }
 }
 

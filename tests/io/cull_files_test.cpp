@@ -96,38 +96,35 @@ TEST_CASE("rasters of land: heights, fractions, order of coordinates, packed num
   const std::string path = scratch / "raster.nc";
   const RasterFile up = heights();
   write_raster(path, up);
-  const LandRaster land = read_land_raster(path, "z");
-  CHECK(land.land.rows() == 72);
-  CHECK(land.land.cols() == 36);
+  const Raster land = read_land(path, "z");
+  CHECK(land.values.rows() == 72);
+  CHECK(land.values.cols() == 36);
   for (Eigen::Index i = 0; i < 72; ++i)
     for (Eigen::Index j = 0; j < 36; ++j)
-      REQUIRE(land.land(i, j) ==
-              (std::abs(land.latitudes[j]) < 30 && land.longitudes[i] > 0 && land.longitudes[i] < 90
-                   ? 1
-                   : 0));
-  const auto same = [&](const RasterFile& file, RasterValues values, double tolerance) {
+      REQUIRE(land.values(i, j) ==
+              (std::abs(land.y[j]) < 30 && land.x[i] > 0 && land.x[i] < 90 ? 1 : 0));
+  const auto same = [&](const RasterFile& file, RasterQuantity values, double tolerance) {
     write_raster(path, file);
-    const LandRaster other = read_land_raster(path, "z", values);
-    return other.latitudes == land.latitudes &&
-           (other.land - land.land).cwiseAbs().maxCoeff() <= tolerance;
+    const Raster other = read_land(path, "z", values);
+    return other.y == land.y && (other.values - land.values).cwiseAbs().maxCoeff() <= tolerance;
   };
   RasterFile file = heights();
   std::reverse(file.latitudes.begin(), file.latitudes.end()); // the field is symmetric
-  CHECK(same(file, RasterValues::height, 0));
+  CHECK(same(file, RasterQuantity::height, 0));
   file = heights();
   file.lat = std::string("latitude");
   file.lon = std::string("longitude");
-  CHECK(same(file, RasterValues::height, 0));
+  CHECK(same(file, RasterQuantity::height, 0));
   for (double& value : file.values)
     value = value > 0 ? 0 : 1;
-  CHECK(same(file, RasterValues::sea_fraction, 0));
+  CHECK(same(file, RasterQuantity::sea_fraction, 0));
   for (double& value : file.values)
     value = 1 - value + 1e-8; // rounded by a program
-  CHECK(same(file, RasterValues::land_fraction, 1e-7));
+  CHECK(same(file, RasterQuantity::land_fraction, 1e-7));
   for (double& value : file.values)
     value = value > 0.5 ? 3 : 2;
   file.attributes = {{"scale_factor", 10.0}, {"add_offset", -25.0}};
-  CHECK(same(file, RasterValues::height, 0));
+  CHECK(same(file, RasterQuantity::height, 0));
 
   // 0 is land; a repeated meridian is left out.
   file = heights();
@@ -136,20 +133,20 @@ TEST_CASE("rasters of land: heights, fractions, order of coordinates, packed num
   for (std::size_t k = 0; k < file.latitudes.size() * file.longitudes.size(); ++k)
     file.values.push_back(0);
   write_raster(path, file);
-  const LandRaster level = read_land_raster(path, "z");
-  CHECK(level.land.rows() == 72);
-  CHECK(level.land.minCoeff() == 1);
+  const Raster level = read_land(path, "z");
+  CHECK(level.values.rows() == 72);
+  CHECK(level.values.minCoeff() == 1);
 }
 
 TEST_CASE("rasters of land that are refused, in one line each") {
   const Scratch scratch;
   const std::string path = scratch / "raster.nc";
   const auto refusal = [&](const std::function<void(RasterFile&)>& spoil,
-                           RasterValues values = RasterValues::height) {
+                           RasterQuantity values = RasterQuantity::height) {
     RasterFile file = heights();
     spoil(file);
     write_raster(path, file);
-    const std::string text = error_of([&] { read_land_raster(path, "z", values); }).what();
+    const std::string text = error_of([&] { read_land(path, "z", values); }).what();
     CHECK(text.starts_with(path + ": "));
     return text.substr(path.size() + 2);
   };
@@ -161,7 +158,7 @@ TEST_CASE("rasters of land that are refused, in one line each") {
   CHECK(refusal([&](RasterFile& r) {
           r.attributes = {{"_FillValue", -4000.0}};
         }) == "z[0][0] = nan is not finite; correct it");
-  CHECK(refusal([](RasterFile&) {}, RasterValues::sea_fraction) ==
+  CHECK(refusal([](RasterFile&) {}, RasterQuantity::sea_fraction) ==
         "z[0][0] = -4000 is not a fraction from 0 to 1; correct it");
   CHECK(refusal([](RasterFile& r) { r.lat = std::string("y"); }) ==
         "no coordinate variable lat; give lat(lat) in degrees");
@@ -174,7 +171,7 @@ TEST_CASE("rasters of land that are refused, in one line each") {
             lon /= 57;
         }).find("leaves part of the sphere out; give a global raster in degrees") !=
         std::string::npos);
-  CHECK(error_of([&] { read_land_raster(scratch / "absent.nc", "z"); }).code() == ErrorCode::file);
+  CHECK(error_of([&] { read_land(scratch / "absent.nc", "z"); }).code() == ErrorCode::file);
 }
 
 TEST_CASE("the sea by a raster: cells with their generator well inside are land") {
@@ -184,7 +181,7 @@ TEST_CASE("the sea by a raster: cells with their generator well inside are land"
   write_global(scratch, source, {.cells = 3000});
   write_raster(scratch / "raster.nc", heights(2, 1));
   CullOptions options;
-  options.raster = read_land_raster(scratch / "raster.nc", "z");
+  options.raster = read_land(scratch / "raster.nc", "z");
   options.mask_path = mask;
   const CullReport report = cull(source, target, options);
   const Contents masks = contents_of(mask), global = contents_of(source);
@@ -264,7 +261,7 @@ TEST_CASE("an ocean can be cut, and a regional file loses land by a field") {
   cut(global, regional, near(0.3), cut_options);
   CHECK(is_nearly(cull(regional, target, options).cells, count(0.3)));
   CHECK(cull(regional, target, options).land > 0);
-  options.raster.land = Eigen::MatrixXd::Zero(4, 4);
+  options.raster.values = Eigen::MatrixXd::Zero(4, 4);
   for (const std::string& source : {regional, ocean}) {
     const std::string problem = error_of([&] { cull(source, target, options); }).what();
     CHECK(problem.find("does not cover the sphere") != std::string::npos);

@@ -188,9 +188,10 @@ TEST_CASE("files that other programs convert are refused with the command") {
     write_text(path, "anything");
     for (const std::function<void()>& read : std::vector<std::function<void()>>{
              [&] { read_points(path); }, [&] { read_mesh(path); }, [&] { read_region(path); },
-             [&] { read_domain(path); }, [&] { read_coast(path); }, [&] { read_heights(path); },
+             [&] { read_domain(path); }, [&] { read_coast(path); },
+             [&] { read_raster(path, {.quantity = RasterQuantity::height}); },
              [&] { read_cell_width(path); }, [&] { read_shapes(path); },
-             [&] { read_field_grid(path); }, [&] { read_planar_cell_width(path); }})
+             [&] { read_field_grid(path); }, [&] { read_cell_width(path, {}, Surface::plane()); }})
       CHECK(std::string(error_of(read).what()).find(path + ": " + command) == 0);
   }
 }

@@ -117,10 +117,10 @@ TEST_CASE("jigsaw: widths of a plane on a grid and at points") {
   const Scratch scratch;
   const auto linear = [](double x, double y) { return 1 + 0.1 * x + 0.02 * y; };
   io_detail::write_jigsaw_grid(scratch / "grid.msh", grid("euclidean-grid", 5, 3, 0.5, linear));
-  const PlanarCellWidth on_grid = read_planar_cell_width(scratch / "grid.msh");
+  const Raster on_grid = read_cell_width(scratch / "grid.msh", {}, Surface::plane());
   CHECK(on_grid.x.size() == 5);
-  CHECK(on_grid.widths(4, 0) == doctest::Approx(1.2));
-  CHECK(on_grid.widths(0, 2) == doctest::Approx(1.02));
+  CHECK(on_grid.values(4, 0) == doctest::Approx(1.2));
+  CHECK(on_grid.values(0, 2) == doctest::Approx(1.02));
 
   const Points3 sites = hexagonal_lattice(400, rectangle({0, 0}, {2, 1}));
   std::ostringstream text;
@@ -130,15 +130,16 @@ TEST_CASE("jigsaw: widths of a plane on a grid and at points") {
   text << "VALUE=" << sites.cols() << ";1\n";
   for (const auto& p : sites.colwise())
     text << linear(p.x(), p.y()) << "\n";
-  const PlanarCellWidth at_points = read_planar_cell_width(jigsaw_file(scratch, text.str()));
+  const Raster at_points = read_cell_width(jigsaw_file(scratch, text.str()), {}, Surface::plane());
   double worst = 0;
   for (Eigen::Index i = 1; i + 1 < at_points.x.size(); ++i)
     for (Eigen::Index j = 1; j + 1 < at_points.y.size(); ++j)
       worst = std::max(worst,
-                       std::abs(at_points.widths(i, j) - linear(at_points.x[i], at_points.y[j])));
+                       std::abs(at_points.values(i, j) - linear(at_points.x[i], at_points.y[j])));
   CHECK(worst < 0.01); // beyond the hull of the points the nearest one's
   CHECK(message_of([&] {
-          read_planar_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"));
+          read_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"), {},
+                          Surface::plane());
         }).find("no cell widths of a plane") != std::string::npos);
 }
 

@@ -41,7 +41,7 @@ CvtOptions one_step() {
   return options;
 }
 
-CellWidth wide_cells() {
+Raster wide_cells() {
   Eigen::VectorXd longitudes(4), latitudes(3);
   longitudes << -180, -90, 0, 90;
   latitudes << -90, 0, 90;

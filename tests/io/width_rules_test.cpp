@@ -182,9 +182,9 @@ TEST_CASE("distances and gradients of rules are those of the sphere that the wid
            .on_sphere(radius)
            .limit_gradient(0.05)});
   CHECK(evaluate(read, sample_points()) == evaluate(made, sample_points()));
-  const CellWidth raster = read_cell_width(rules.path(), {.radius_km = radius});
-  CHECK(raster.latitudes.size() == 91);
-  CHECK(raster.widths == sampled(made, 2).widths);
+  const Raster raster = read_cell_width(rules.path(), {.radius_km = radius});
+  CHECK(raster.y.size() == 91);
+  CHECK(raster.values == sampled(made, {}, 2).values);
 }
 
 TEST_CASE("heights of a file give the widths of waves") {
@@ -214,8 +214,8 @@ TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the d
   const WidthRules read = read_width_rules(rules.path(), plane);
   CHECK(read.gradient == 0.2);
   CHECK(read.step == 5);
-  CHECK(read_planar_cell_width(rules.path(), plane).widths ==
-        limit_gradient(sampled(read.widths, plane, 5), 0.2, plane).widths);
+  CHECK(read_cell_width(rules.path(), {}, plane).values ==
+        limit_gradient(sampled(read.widths, plane, 5), 0.2, plane).values);
   const DoubleVector widths = evaluate(read.widths, Points2{{100, 140, 25}, {50, 50, 25}});
   CHECK(widths[0] == doctest::Approx(1));
   CHECK(widths[1] == doctest::Approx(5));

@@ -22,8 +22,8 @@ Recipe graded() {
 }
 
 Recipe limited_area() {
-  return {.widths = CellWidth{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
-                              Eigen::MatrixXd::Constant(2, 2, 500)},
+  return {.widths = Raster{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
+                           Eigen::MatrixXd::Constant(2, 2, 500)},
           .surface = circle({1, 2, 2}, 0.3, 24),
           .limited_area = true,
           .stop = {.iterations = 3}};

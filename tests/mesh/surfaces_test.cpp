@@ -165,13 +165,13 @@ TEST_CASE("points and densities are those of the surface") {
       for (const auto& place : places.colwise())
         CHECK(surface.contains(place));
     }
-    const PlanarCellWidth widths{Eigen::Vector2d(0, 2), Eigen::Vector2d(0, 1),
-                                 Eigen::MatrixXd::Constant(2, 2, 0.1)};
+    const Raster widths{Eigen::Vector2d(0, 2), Eigen::Vector2d(0, 1),
+                        Eigen::MatrixXd::Constant(2, 2, 0.1), true};
     CHECK(implied_cells(widths, surface) == doctest::Approx(400 / std::numbers::sqrt3));
     CHECK_NOTHROW(require_covering(widths, surface));
   }
-  const CellWidth widths{Eigen::Vector3d(-120, 0, 120), Eigen::Vector2d(-80, 80),
-                         Eigen::MatrixXd::Constant(3, 2, 300)};
+  const Raster widths{Eigen::Vector3d(-120, 0, 120), Eigen::Vector2d(-80, 80),
+                      Eigen::MatrixXd::Constant(3, 2, 300)};
   CHECK(with_rings(cap(), widths).area() > cap().area());
   CHECK_NOTHROW(require_covering(widths));
 }

@@ -152,12 +152,12 @@ TEST_CASE("limit, dc/h, dv/dc and the cells to object to are as defined") {
 }
 
 TEST_CASE("the limit of cell widths is that of the number of cells that they imply") {
-  CellWidth widths{Eigen::VectorXd::LinSpaced(72, -180, 175),
-                   Eigen::VectorXd::LinSpaced(181, -90, 90), Eigen::MatrixXd(72, 181)};
+  Raster widths{Eigen::VectorXd::LinSpaced(72, -180, 175), Eigen::VectorXd::LinSpaced(181, -90, 90),
+                Eigen::MatrixXd(72, 181)};
   for (Eigen::Index j = 0; j < 181; ++j)
-    widths.widths.col(j).setConstant(60 -
+    widths.values.col(j).setConstant(60 -
                                      30 * std::exp(-std::pow(static_cast<double>(j - 90) / 15, 2)));
-  const double least = widths.widths.minCoeff() / earth_radius_km;
+  const double least = widths.values.minCoeff() / earth_radius_km;
   const double root = std::sqrt(3.0) / 2 * least * least * implied_cells(widths);
   const Quality q = quality(delaunay(bisected_icosahedron(5)), density_of(widths));
   CHECK(q.limit == doctest::Approx(limit_of(root)).epsilon(1e-6));

@@ -66,7 +66,7 @@ std::string note_on_uniform(double implied, const WidthWords& words,
   return note + "; the " + std::to_string(*cells) + " cells of the grid are " + width;
 }
 
-std::vector<std::string> with_doubt(std::vector<std::string> notes, const CellWidth& widths,
+std::vector<std::string> with_doubt(std::vector<std::string> notes, const Raster& widths,
                                     const WidthWords& words) {
   if (const std::string doubt = doubt_of(widths, words); !doubt.empty())
     notes.push_back("warning: " + doubt);
@@ -98,18 +98,22 @@ void require_polygons(const WidthWords& words) {
 }
 
 /// The widths without a limit of their gradient.
-ReadWidths read_as_given(const WidthWords& words, const Surface& region) {
+ReadWidths read_as_given(const WidthWords& words, const Surface& surface) {
   if (!words.raster.empty())
-    return {read_density_raster(words.raster, region), {}};
+    return {widths_of_density(read_raster(
+                words.raster, {.quantity = RasterQuantity::density, .surface = surface})),
+            {}};
+  if (!surface.is_sphere())
+    require_no_unit(words);
   require_polygons(words);
   if (words.uniform)
-    return {uniform_widths(*words.uniform), {}};
+    return {uniform_widths(*words.uniform, surface), {}};
   if (holds_rules(words.file)) {
-    WidthRules rules = read_width_rules(words.file, {}, words.radius);
-    CellWidth raster = sampled_on(rules, region);
+    WidthRules rules = read_width_rules(words.file, surface, words.radius);
+    Raster raster = sampled(rules, surface);
     return {std::move(raster), std::move(rules)};
   }
-  return {read_cell_width(words.file, polygons_of(words), region), {}};
+  return {read_cell_width(words.file, polygons_of(words), surface), {}};
 }
 
 /// A gradient above 0, in km per km.
@@ -178,25 +182,23 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
       ->excludes(file);
 }
 
-CellWidth uniform_widths(double km) {
-  return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, DoubleMatrix::Constant(2, 2, km)};
-}
-
-PlanarCellWidth uniform_planar_widths(double width) {
+Raster uniform_widths(double width, const Surface& surface) {
   constexpr double far = 1e30; // the largest coordinate of a domain
-  return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}},
-          DoubleMatrix::Constant(2, 2, width)};
+  const DoubleMatrix values = DoubleMatrix::Constant(2, 2, width);
+  if (surface.is_sphere())
+    return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, values};
+  return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}}, values, true};
 }
 
 std::string name_of(const WidthWords& words) {
   return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
 
-ReadWidths read_widths(const WidthWords& words, const Surface& region) {
-  ReadWidths widths = read_as_given(words, region);
-  if (words.gradient)
-    widths.raster = limit_gradient(widths.raster, *words.gradient, words.radius);
-  if (words.gradient && widths.rules)
+ReadWidths read_widths(const WidthWords& words, const Surface& surface) {
+  ReadWidths widths = read_as_given(words, surface);
+  if (words.gradient && !words.uniform)
+    widths.raster = limit_gradient(widths.raster, *words.gradient, surface, words.radius);
+  if (words.gradient && widths.rules && surface.is_sphere())
     widths.rules->widths = widths.rules->widths.limit_gradient(*words.gradient);
   return widths;
 }
@@ -207,14 +209,6 @@ Widths read_demand(const WidthWords& words, const Surface& surface) {
   require_polygons(words);
   return words.uniform ? Widths(*words.uniform)
                        : calotte::read_widths(words.file, polygons_of(words), surface);
-}
-
-PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane) {
-  require_no_unit(words);
-  if (words.uniform)
-    return uniform_planar_widths(*words.uniform);
-  const PlanarCellWidth widths = read_planar_cell_width(words.file, plane);
-  return words.gradient ? limit_gradient(widths, *words.gradient, plane) : widths;
 }
 
 std::string width_configuration(const WidthWords& words) {
@@ -248,7 +242,7 @@ std::string distinct_from(double other, double value) {
   return text;
 }
 
-Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale) {
+Gradient steepest_of(const Raster& scaled, const WidthWords& words, double scale) {
   Gradient steepest = largest_gradient(scaled, words.radius);
   const std::optional<double> limit = words.gradient ? words.gradient
                                       : holds_rules(words.file)
@@ -272,31 +266,31 @@ std::string place_of(const Gradient& gradient) {
   return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
-std::string doubt_of(const CellWidth& widths, const WidthWords& words) {
+std::string doubt_of(const Raster& widths, const WidthWords& words) {
   constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
-  const double most = widths.widths.maxCoeff();
+  const double most = widths.values.maxCoeff();
   if (most <= widest)
     return "";
   return (words.uniform ? "" : words.file + ": ") + "cells " + formatted("%.6g", most) +
          " km wide are large; if these are metres, give km";
 }
 
-std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
+std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells) {
-  const double implied = implied_cells(widths, words.radius);
+  const double implied = implied_cells(widths, {}, words.radius);
   if (words.uniform)
     return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
   std::vector<std::string> notes{
-      words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) + " to " +
-      formatted("%.4g", widths.widths.maxCoeff()) + " km wide, on " +
-      std::to_string(widths.longitudes.size()) + " x " + std::to_string(widths.latitudes.size()) +
+      words.file + ": cells " + formatted("%.4g", widths.values.minCoeff()) + " to " +
+      formatted("%.4g", widths.values.maxCoeff()) + " km wide, on " +
+      std::to_string(widths.x.size()) + " x " + std::to_string(widths.y.size()) +
       " nodes, require " + formatted("%.0f", implied) + " cells"};
   const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
   if (std::abs(scale - 1) > 0.01)
     notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
                      formatted("%.3g", scale) + " times as large";
-  CellWidth scaled = widths;
-  scaled.widths *= scale;
+  Raster scaled = widths;
+  scaled.values *= scale;
   const Gradient gradient = steepest_of(scaled, words, scale);
   const std::string limit = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
@@ -308,12 +302,12 @@ std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& wor
   return with_doubt(std::move(notes), widths, words);
 }
 
-std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWords& words,
-                                  double implied, std::optional<std::int64_t> cells) {
+std::vector<std::string> notes_in_plane(const Raster& widths, const WidthWords& words,
+                                        double implied, std::optional<std::int64_t> cells) {
   const std::string range =
       words.uniform ? "cells " + shortest(*words.uniform) + " wide require "
-                    : words.file + ": cells " + formatted("%.4g", widths.widths.minCoeff()) +
-                          " to " + formatted("%.4g", widths.widths.maxCoeff()) + " wide, on " +
+                    : words.file + ": cells " + formatted("%.4g", widths.values.minCoeff()) +
+                          " to " + formatted("%.4g", widths.values.maxCoeff()) + " wide, on " +
                           std::to_string(widths.x.size()) + " x " +
                           std::to_string(widths.y.size()) + " nodes, require ";
   const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;

@@ -4,7 +4,6 @@
 #include "help/cli_forward.h"
 
 #include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
 #include <calotte/read.h>
 
 #include <cstdint>
@@ -46,33 +45,28 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 /// \pre words.in_km().
 std::string name_of(const WidthWords& words);
 
-/// One width at all nodes of the coarsest grid, km.
-CellWidth uniform_widths(double km);
-/// The same in a plane, in its unit.
-PlanarCellWidth uniform_planar_widths(double width);
+/// One width at all nodes of the coarsest grid, km, in a plane in its unit.
+Raster uniform_widths(double width, const Surface& surface = {});
 
 /// Widths, and the rules that they are of, if there are any.
 struct ReadWidths {
-  CellWidth raster;
+  Raster raster;
   std::optional<WidthRules> rules;
 };
 
 /// Reads widths from either file, or makes uniform ones, and limits their gradient; those of a
 /// density raster have no unit.
 /// \pre words.given().
-/// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons.
-/// \param region which a raster must cover.
-ReadWidths read_widths(const WidthWords& words, const Surface& region = {});
+/// \param surface the sphere, a part of it that a raster must cover, or a plane.
+/// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons, and in
+/// a
+///         plane for a width with a unit.
+ReadWidths read_widths(const WidthWords& words, const Surface& surface = {});
 
 /// The widths as an expression; of rules, with no demand where they say nothing.
 /// \pre words.in_km().
 /// \throws Error as read_widths(), and as read_width_rules().
 Widths read_demand(const WidthWords& words, const Surface& surface);
-
-/// The same in the plane as a raster. \pre words.in_km().
-/// \throws Error as read_planar_cell_width; invalid_argument for a width with a unit, and for
-/// polygons.
-PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane);
 
 /// The input that determines the widths, one line each: the file's contents, and the numbers.
 /// \pre words.given().
@@ -80,7 +74,7 @@ PlanarCellWidth read_planar_widths(const WidthWords& words, const Surface& plane
 std::string width_configuration(const WidthWords& words);
 
 /// The largest gradient of widths that are read, and then scaled; at most their limit.
-Gradient steepest_of(const CellWidth& scaled, const WidthWords& words, double scale);
+Gradient steepest_of(const Raster& scaled, const WidthWords& words, double scale);
 
 /// "12.5 E 48.2 S".
 std::string place_of(const Gradient& gradient);
@@ -88,15 +82,15 @@ std::string place_of(const Gradient& gradient);
 /// A summary of widths in km before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
 /// \param cells number of cells of the run, if known: it scales all widths.
-std::vector<std::string> notes_on(const CellWidth& widths, const WidthWords& words,
+std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
                                   std::optional<std::int64_t> cells);
 
 /// The same of widths in the plane.
 /// \param implied number of cells.
-std::vector<std::string> notes_on(const PlanarCellWidth& widths, const WidthWords& words,
-                                  double implied, std::optional<std::int64_t> cells);
+std::vector<std::string> notes_in_plane(const Raster& widths, const WidthWords& words,
+                                        double implied, std::optional<std::int64_t> cells);
 
 /// A remark on widths that may be in metres, above 2000 km; "" for others.
-std::string doubt_of(const CellWidth& widths, const WidthWords& words);
+std::string doubt_of(const Raster& widths, const WidthWords& words);
 
 } // namespace calotte::tools

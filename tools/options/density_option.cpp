@@ -7,7 +7,6 @@
 #include "text/text.h"
 
 #include <calotte/io.h>
-#include <calotte/planar_raster.h>
 
 #include <CLI/App.hpp>
 
@@ -233,19 +232,18 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
 Resolution resolution_of(const DensityWords& words, const Surface& surface) {
   const bool planar = !surface.is_sphere();
   if (!words.widths.given())
-    return {bumps_of(words, planar), {}, {}, {}};
-  if (planar && !words.widths.in_km())
-    return {calotte::density_of(read_planar_raster(words.widths.raster)), {}, {}, {}};
-  if (planar) {
-    PlanarCellWidth widths = read_planar_widths(words.widths, surface);
-    Density density = words.widths.uniform ? Density{} : calotte::density_of(widths);
-    return {std::move(density), {}, std::move(widths), {}};
-  }
+    return {bumps_of(words, planar), {}, {}};
+  if (planar && !words.widths.in_km()) // beyond the raster its nearest value holds
+    return {
+        interpolated_density(read_raster(words.widths.raster, {.quantity = RasterQuantity::density,
+                                                               .surface = Surface::plane()})),
+        {},
+        {}};
   ReadWidths widths = read_widths(words.widths, surface);
   Density density = words.widths.uniform ? Density{} : calotte::density_of(widths.raster);
   if (!words.widths.in_km()) // a density raster's widths have no unit
-    return {std::move(density), {}, {}, {}};
-  return {std::move(density), std::move(widths.raster), {}, std::move(widths.rules)};
+    return {std::move(density), {}, {}};
+  return {std::move(density), std::move(widths.raster), std::move(widths.rules)};
 }
 
 Density density_of(const DensityWords& words, const Surface& surface) {

@@ -28,9 +28,9 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command);
 /// The density of the options.
 struct Resolution {
   Density density;
-  std::optional<CellWidth> widths;              ///< in km, where --cell-width gives them
-  std::optional<PlanarCellWidth> planar_widths; ///< the same in the unit of the plane
-  std::optional<WidthRules> rules;              ///< that make the widths, if there are any
+  /// Where --cell-width gives them: in km, in a plane in its unit.
+  std::optional<Raster> widths;
+  std::optional<WidthRules> rules; ///< that make the widths, if there are any
 };
 
 /// Reads the file, if there is one.

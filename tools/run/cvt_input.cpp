@@ -139,8 +139,7 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.surface = planar(request) ? *surface_of(*request.domain) : part_of(request);
   Resolution resolution = resolution_of(*request.density, recipe.surface);
   recipe.widths = std::move(resolution.widths);
-  recipe.planar_widths = std::move(resolution.planar_widths);
-  if (!recipe.widths && !recipe.planar_widths)
+  if (!recipe.widths)
     recipe.density = std::move(resolution.density);
   recipe.radius_km = request.density->widths.radius;
   recipe.limited_area = request.part.limited_area;
@@ -186,9 +185,10 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
-  if (input.recipe.planar_widths)
-    notes = notes_on(*input.recipe.planar_widths, words, schedule.implied_cells,
-                     input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
+  if (input.recipe.widths && input.recipe.widths->of_plane)
+    notes =
+        notes_in_plane(*input.recipe.widths, words, schedule.implied_cells,
+                       input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
   else if (input.recipe.widths && input.recipe.surface.is_bounded() && follows)
     notes.push_back(request.part.region + " requires " + std::to_string(cells) + " cells" +
                     (request.part.limited_area ? ", with those of the rings and some beyond" : ""));

@@ -26,7 +26,7 @@ namespace {
 void require_options(const CullOptions& options) {
   require(options.land_fraction >= 0 && options.land_fraction < 1,
           "the fraction of land is not from 0 to less than 1; give one such as 0.5");
-  require(!options.coast.rings.empty() || options.raster.land.size() > 0 ||
+  require(!options.coast.rings.empty() || options.raster.values.size() > 0 ||
               !options.field.variable.empty() || !options.barriers.empty(),
           "there is no land; give a coast, a raster, a field or a barrier");
   require(!options.sphere_radius ||
@@ -53,11 +53,11 @@ struct Ground {
 };
 
 Ground ground_of(const MpasSource& source, const CullOptions& options) {
-  if (options.coast.rings.empty() && options.raster.land.size() == 0 && options.passages.empty() &&
-      options.barriers.empty() && options.seeds.cols() == 0)
+  if (options.coast.rings.empty() && options.raster.values.size() == 0 &&
+      options.passages.empty() && options.barriers.empty() && options.seeds.cols() == 0)
     return {source.lists(mpas::cells_on_cell, source.cells()), {}};
   Voronoi cells = tessellation_of(source);
-  if (!options.coast.rings.empty() || options.raster.land.size() > 0)
+  if (!options.coast.rings.empty() || options.raster.values.size() > 0)
     require_global(source, cells);
   return {cells.cells_on_cell, std::move(cells)};
 }
@@ -67,7 +67,7 @@ DoubleVector fractions_of(const Ground& ground, const CullOptions& options) {
   DoubleVector fractions;
   if (!options.coast.rings.empty())
     fractions = land_fractions(*ground.cells, options.coast);
-  if (options.raster.land.size() == 0)
+  if (options.raster.values.size() == 0)
     return fractions;
   const DoubleVector sampled = land_fractions(*ground.cells, options.raster);
   return fractions.size() > 0 ? DoubleVector(fractions.cwiseMax(sampled)) : sampled;

@@ -8,45 +8,31 @@
 #include <calotte/error.h>
 #include <calotte/read.h>
 
-#include <cmath>
-#include <utility>
+#include <fstream>
+#include <string>
 
 namespace calotte {
-namespace io_detail {
 
-CellWidth checked(Raster raster, const std::string& name, const Surface& region) {
-  raster = ordered(
-      std::move(raster), name,
-      {[](double width) { return width > 0 && std::isfinite(width); }, "positive and finite"},
-      region);
-  return {vector_of(raster.longitudes), vector_of(raster.latitudes), std::move(raster.values)};
-}
-
-} // namespace io_detail
-
-CellWidth read_cell_width(const std::string& path, const PolygonWidths& polygons,
-                          const Surface& region) {
+Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
+                       const Surface& surface) {
+  if (holds_rules(path))
+    return sampled(read_width_rules(path, surface, polygons.radius_km), surface);
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
-    return io_detail::read_cell_width_netcdf(path, region);
-  if (holds_rules(path))
-    return sampled_on(read_width_rules(path, {}, polygons.radius_km), region);
+    return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});
   io_detail::refuse_foreign(path);
-  if (suffix != ".msh" && suffix != ".geojson" && suffix != ".json")
+  const bool polygonal = suffix == ".geojson" || suffix == ".json";
+  if (suffix != ".msh" && !polygonal)
     throw Error(ErrorCode::invalid_argument,
-                path + ": unknown suffix of a file of cell widths; give .nc, .msh, "
-                       ".geojson or .toml");
+                path + ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson or "
+                       ".toml");
+  if (polygonal && !surface.is_sphere())
+    throw Error(ErrorCode::invalid_argument,
+                path + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
+                       "JIGSAW's spacings (.msh), or rules (.toml)");
   std::ifstream in = io_detail::open_input(path);
-  return suffix == ".msh" ? io_detail::read_cell_width_msh(in, path, region)
-                          : io_detail::read_cell_width_geojson(in, path, polygons);
-}
-
-CellWidth read_density_raster(const std::string& path, const Surface& region) {
-  CellWidth raster = io_detail::read_density_netcdf(path, region);
-  const auto width_of = [](double density) { return 1 / std::sqrt(std::sqrt(density)); };
-  raster.widths = raster.widths.unaryExpr(width_of);
-  raster.widths /= raster.widths.minCoeff();
-  return raster;
+  return polygonal ? io_detail::read_cell_width_geojson(in, path, polygons)
+                   : io_detail::read_cell_width_msh(in, path, surface);
 }
 
 } // namespace calotte

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "density/cell_width_field.h"
 #include "density/cell_width_polygons.h"
+#include "density/raster_field.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/geojson_areas.h"
 
@@ -21,7 +21,7 @@ public:
   Collector(std::string name, const PolygonWidths& widths)
       : name_(std::move(name)), widths_(widths) {}
 
-  CellWidth read(std::istream& in) {
+  Raster read(std::istream& in) {
     const GeoPolygons polygons = read_polygons(in, name_, lonlat_pair());
     outer_width(polygons.members, "insideWidth", widths_.inside, false);
     outer_width(polygons.members, "outsideWidth", widths_.outside, true);
@@ -117,8 +117,8 @@ private:
 
 } // namespace
 
-CellWidth read_cell_width_geojson(std::istream& in, const std::string& name,
-                                  const PolygonWidths& widths) {
+Raster read_cell_width_geojson(std::istream& in, const std::string& name,
+                               const PolygonWidths& widths) {
   density_detail::require_radius(widths.radius_km);
   return Collector(name, widths).read(in);
 }

@@ -4,8 +4,7 @@
 #include "base/elementary.h"
 #include "base/lonlat.h"
 #include "base/points.h"
-#include "density/cell_width_field.h"
-#include "density/planar_raster.h"
+#include "density/raster_field.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -67,7 +66,7 @@ double short_edge(const Mesh& mesh) {
 
 } // namespace
 
-CellWidth resampled(const Points3& points, const DoubleVector& widths) {
+Raster resampled(const Points3& points, const DoubleVector& widths) {
   constexpr double finest = 0.05, coarsest = 1; // degrees
   Mesh mesh = delaunay(points);
   if (!mesh.closed())
@@ -77,27 +76,25 @@ CellWidth resampled(const Points3& points, const DoubleVector& widths) {
   for (auto&& point : mesh.points.colwise())
     point.normalize();
   const double spacing = 2 * arc_sine(0.5 * short_edge(mesh)) * 180 / std::numbers::pi;
-  CellWidth grid = regular_grid(std::clamp(0.5 * spacing, finest, coarsest));
+  Raster grid = regular_grid(std::clamp(0.5 * spacing, finest, coarsest));
   fill(
       mesh, of_sites(mesh, widths),
-      [&](Eigen::Index i, Eigen::Index j) {
-        return from_lonlat(grid.longitudes[i], grid.latitudes[j]);
-      },
-      grid.widths);
+      [&](Eigen::Index i, Eigen::Index j) { return from_lonlat(grid.x[i], grid.y[j]); },
+      grid.values);
   return grid;
 }
 
-PlanarCellWidth resampled_in_plane(const Points2& points, const DoubleVector& widths) {
+Raster resampled_in_plane(const Points2& points, const DoubleVector& widths) {
   constexpr double most_nodes = 4e6;
   const Mesh mesh = delaunay(points, Surface::plane());
   const Eigen::Vector2d low = points.rowwise().minCoeff(), size = points.rowwise().maxCoeff() - low;
-  PlanarCellWidth grid = density_detail::grid_over(low, size, 0.5 * short_edge(mesh), most_nodes);
+  Raster grid = density_detail::grid_over(low, size, 0.5 * short_edge(mesh), most_nodes);
   fill(
       mesh, of_sites(mesh, widths),
       [&](Eigen::Index i, Eigen::Index j) {
         return Vec3{grid.x[i], grid.y[j], 0};
       },
-      grid.widths);
+      grid.values);
   return grid;
 }
 

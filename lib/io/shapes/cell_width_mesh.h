@@ -4,8 +4,7 @@
 #include "delaunay/delaunay.h"
 #include "io/shapes/room.h"
 
-#include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/types.h>
 
 namespace calotte::io_detail {
@@ -15,10 +14,10 @@ namespace calotte::io_detail {
 /// \param points 3 x n directions.
 /// \param widths n.
 /// \throws Error as delaunay(); invalid_argument if the points leave a hemisphere empty.
-CellWidth resampled(const Points3& points, const DoubleVector& widths);
+Raster resampled(const Points3& points, const DoubleVector& widths);
 
 /// The same in a plane, on a grid of x and y over the points; beyond their hull the nearest
 /// point's. \param points 2 x n. \throws Error as delaunay().
-PlanarCellWidth resampled_in_plane(const Points2& points, const DoubleVector& widths);
+Raster resampled_in_plane(const Points2& points, const DoubleVector& widths);
 
 } // namespace calotte::io_detail

@@ -4,34 +4,36 @@
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/cell_width_mesh.h"
 #include "io/shapes/jigsaw.h"
-#include "io/shapes/planar_grid.h"
+#include "io/shapes/raster_file.h"
 
 #include <calotte/error.h>
 
 #include <algorithm>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace calotte::io_detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-CellWidth of_grid(const JigsawFile& file, const std::string& name, const Surface& region) {
+/// One value for each node, y running faster.
+Raster of_grid(const JigsawFile& file, const std::string& name, const Surface& surface) {
   require_values(file, file.x_grid.size() * file.y_grid.size(), name);
-  Raster raster;
-  raster.longitude_name = "COORD=1";
-  raster.latitude_name = "COORD=2";
-  raster.value_name = "VALUE";
-  raster.longitude_fastest = false;
-  for (const double longitude : file.x_grid)
-    raster.longitudes.push_back(longitude * degrees);
-  for (const double latitude : file.y_grid)
-    raster.latitudes.push_back(latitude * degrees);
-  raster.values = Eigen::Map<const DoubleMatrix>(file.values.data(),
-                                                 static_cast<Eigen::Index>(file.y_grid.size()),
-                                                 static_cast<Eigen::Index>(file.x_grid.size()))
-                      .transpose();
-  return checked(std::move(raster), name, region);
+  const bool of_plane = !surface.is_sphere();
+  const double unit = of_plane ? 1 : degrees;
+  RasterOfFile stored{.raster = {.x = unit * vector_of(file.x_grid),
+                                 .y = unit * vector_of(file.y_grid),
+                                 .of_plane = of_plane},
+                      .x_name = "COORD=1",
+                      .y_name = "COORD=2",
+                      .value_name = "VALUE",
+                      .x_fastest = false};
+  stored.raster.values = Eigen::Map<const DoubleMatrix>(file.values.data(), stored.raster.y.size(),
+                                                        stored.raster.x.size())
+                             .transpose();
+  return covering(std::move(stored), name, density_detail::positive_and_finite, surface);
 }
 
 /// One width for each point.
@@ -43,7 +45,7 @@ DoubleVector widths_of_points(const JigsawFile& file, const std::string& name) {
   return vector_of(file.values);
 }
 
-CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
+Raster of_mesh(const JigsawFile& file, const std::string& name) {
   const DoubleVector widths = widths_of_points(file, name);
   try {
     return resampled(directions_of(file, name), widths);
@@ -54,40 +56,30 @@ CellWidth of_mesh(const JigsawFile& file, const std::string& name) {
   }
 }
 
-} // namespace
-
-CellWidth read_cell_width_msh(std::istream& in, const std::string& name, const Surface& region) {
-  return widths_of(read_jigsaw(in, name), name, region);
+Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Surface& plane) {
+  if (file.kind == "euclidean-mesh" && file.dimensions == 2)
+    return resampled_in_plane(Points2(file.points), widths_of_points(file, name));
+  if (file.kind == "euclidean-grid")
+    return of_grid(file, name, plane);
+  fail_file(name, "no cell widths of a plane in a file of the kind \"" + file.kind +
+                      "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
 }
 
-CellWidth widths_of(const JigsawFile& file, const std::string& name, const Surface& region) {
+} // namespace
+
+Raster read_cell_width_msh(std::istream& in, const std::string& name, const Surface& surface) {
+  return widths_of(read_jigsaw(in, name), name, surface);
+}
+
+Raster widths_of(const JigsawFile& file, const std::string& name, const Surface& surface) {
+  if (!surface.is_sphere())
+    return widths_in_plane(file, name, surface);
   if (file.kind == "ellipsoid-grid")
-    return of_grid(file, name, region);
+    return of_grid(file, name, surface);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
     return of_mesh(file, name);
   fail_file(name, "no cell widths of the sphere in a file of the kind \"" + file.kind +
                       "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
-}
-
-PlanarCellWidth read_planar_cell_width_msh(const std::string& path) {
-  return planar_widths_of(read_jigsaw(path), path);
-}
-
-PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& path) {
-  if (file.kind == "euclidean-mesh" && file.dimensions == 2)
-    return resampled_in_plane(Points2(file.points), widths_of_points(file, path));
-  if (file.kind != "euclidean-grid")
-    fail_file(path, "no cell widths of a plane in a file of the kind \"" + file.kind +
-                        "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
-  const auto nx = std::ssize(file.x_grid), ny = std::ssize(file.y_grid);
-  require_values(file, file.x_grid.size() * file.y_grid.size(), path);
-  return checked({.x = vector_of(file.x_grid),
-                  .y = vector_of(file.y_grid),
-                  .values = Eigen::Map<const DoubleMatrix>(file.values.data(), ny, nx).transpose(),
-                  .x_name = "COORD=1",
-                  .y_name = "COORD=2",
-                  .value_name = "VALUE"},
-                 path);
 }
 
 } // namespace calotte::io_detail
@@ -104,12 +96,9 @@ io_detail::JigsawFile read_sized(const std::string& path, const JigsawSizes& siz
 
 } // namespace
 
-CellWidth read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes) {
-  return io_detail::widths_of(read_sized(path, sizes), path);
-}
-
-PlanarCellWidth read_planar_jigsaw_widths(const std::string& path, const JigsawSizes& sizes) {
-  return io_detail::planar_widths_of(read_sized(path, sizes), path);
+Raster read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes,
+                          const Surface& surface) {
+  return io_detail::widths_of(read_sized(path, sizes), path, surface);
 }
 
 } // namespace calotte

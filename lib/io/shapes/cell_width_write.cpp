@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/raster_field.h"
 #include "io/bytes/file_names.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "io/shapes/jigsaw.h"
@@ -15,10 +16,10 @@ namespace {
 
 using namespace io_detail;
 
-void write_netcdf(const std::string& path, const CellWidth& widths) {
+void write_netcdf(const std::string& path, const Raster& widths) {
   NetcdfWriter file(path);
-  const int lat = file.dimension("lat", widths.latitudes.size()),
-            lon = file.dimension("lon", widths.longitudes.size());
+  const int lat = file.dimension("lat", widths.y.size()),
+            lon = file.dimension("lon", widths.x.size());
   file.attribute({"Conventions", std::string("CF-1.8")});
   const auto axis = [&](const std::string& name, const std::string& of, int dimension) {
     return file.variable(
@@ -37,29 +38,32 @@ void write_netcdf(const std::string& path, const CellWidth& widths) {
       std::copy(from + begin * row, from + end * row, out);
     });
   };
-  put(latitudes, widths.latitudes.data(), 1);
-  put(longitudes, widths.longitudes.data(), 1);
-  put(values, widths.widths.data(), widths.widths.rows());
+  put(latitudes, widths.y.data(), 1);
+  put(longitudes, widths.x.data(), 1);
+  put(values, widths.values.data(), widths.values.rows());
   file.finish();
   file.commit();
 }
 
-void write_jigsaw(const std::string& path, const CellWidth& widths) {
+void write_jigsaw(const std::string& path, const Raster& widths) {
   constexpr double radians = std::numbers::pi / 180;
   JigsawFile grid{.kind = "ellipsoid-grid", .dimensions = 2};
-  for (const double longitude : widths.longitudes)
+  for (const double longitude : widths.x)
     grid.x_grid.push_back(longitude * radians);
-  for (const double latitude : widths.latitudes)
+  for (const double latitude : widths.y)
     grid.y_grid.push_back(latitude * radians);
-  const DoubleMatrix by_latitude = widths.widths.transpose();
+  const DoubleMatrix by_latitude = widths.values.transpose();
   grid.values.assign(by_latitude.data(), by_latitude.data() + by_latitude.size());
   write_jigsaw_grid(path, grid);
 }
 
 } // namespace
 
-void write(const std::string& path, const CellWidth& widths) {
-  density_of(widths); // throws if they are ill-formed
+void write(const std::string& path, const Raster& widths) {
+  density_detail::require_widths(widths);
+  if (widths.of_plane)
+    throw Error(ErrorCode::invalid_argument,
+                path + ": files of cell widths are written of the sphere; give a raster of it");
   const std::string suffix = suffix_of(path);
   if (suffix == ".nc")
     write_netcdf(path, widths);

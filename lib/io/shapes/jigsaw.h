@@ -4,7 +4,7 @@
 #include "io/shapes/room.h"
 
 #include <calotte/cell_width.h>
-#include <calotte/planar_raster.h>
+#include <calotte/raster.h>
 #include <calotte/types.h>
 
 #include <array>
@@ -54,10 +54,9 @@ double radius_of(const JigsawFile& file, const std::string& name);
 /// \throws Error file.
 void write_jigsaw_grid(const std::string& path, const JigsawFile& grid);
 
-/// The widths that a file holds, see read_cell_width() and read_planar_cell_width().
+/// The widths that a file holds, see read_cell_width().
 /// \throws Error as these.
-CellWidth widths_of(const JigsawFile& file, const std::string& name, const Surface& region = {});
-PlanarCellWidth planar_widths_of(const JigsawFile& file, const std::string& name);
+Raster widths_of(const JigsawFile& file, const std::string& name, const Surface& surface = {});
 
 /// Throws unless there is a value for each of so many nodes. \throws Error parse.
 void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name);

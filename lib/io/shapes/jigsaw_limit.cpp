@@ -31,7 +31,7 @@ double slope_of(const JigsawFile& file, const std::string& path) {
 /// The limited values at the nodes of the file, y running faster.
 std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string& path,
                                       double radius) {
-  const CellWidth limited = limit_gradient(widths_of(file, path), slope_of(file, path), radius);
+  const Raster limited = limit_gradient(widths_of(file, path), slope_of(file, path), {}, radius);
   constexpr double degrees = 180 / std::numbers::pi;
   const auto ny = std::ssize(file.y_grid);
   Points3 nodes(3, std::ssize(file.x_grid) * ny);
@@ -46,13 +46,13 @@ std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string&
 }
 
 std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& path) {
-  PlanarCellWidth limited =
-      limit_gradient(planar_widths_of(file, path), slope_of(file, path), Surface::plane());
+  const Surface plane = Surface::plane();
+  Raster limited = limit_gradient(widths_of(file, path, plane), slope_of(file, path), plane);
   if (file.x_grid.front() > file.x_grid.back()) // in the order of the file
-    limited.widths.colwise().reverseInPlace();
+    limited.values.colwise().reverseInPlace();
   if (file.y_grid.front() > file.y_grid.back())
-    limited.widths.rowwise().reverseInPlace();
-  const DoubleMatrix by_y = limited.widths.transpose();
+    limited.values.rowwise().reverseInPlace();
+  const DoubleMatrix by_y = limited.values.transpose();
   return {by_y.data(), by_y.data() + by_y.size()};
 }
 

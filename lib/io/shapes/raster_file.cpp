@@ -1,76 +1,185 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/raster_file.h"
+
+#include "base/number_text.h"
 #include "io/bytes/file_error.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
 
-#include "base/number_text.h"
-#include "density/cell_width_field.h"
+#include <calotte/error.h>
+#include <calotte/read.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <string_view>
+#include <utility>
 
-namespace calotte::io_detail {
+namespace calotte {
+namespace io_detail {
 namespace {
+
+using density_detail::ValueLaw;
 
 /// Tolerance in degrees for coordinates rounded in a file.
 constexpr double degree_slack = 1e-3;
 
-std::string element_name(const std::string& variable, std::size_t index) {
-  return variable + "[" + std::to_string(index) + "]";
-}
-
-void require_ascending(const std::vector<double>& values, const std::string& variable,
+void require_ascending(const DoubleVector& values, const std::string& variable,
                        const std::string& name) {
   if (values.size() < 2)
-    fail_file(name, variable + " has fewer than 2 values; give a raster of the whole sphere");
-  for (std::size_t i = 0; i < values.size(); ++i) {
+    fail_file(name, variable + " has fewer than 2 values; give a raster that covers the domain");
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const std::string element = variable + "[" + std::to_string(i) + "]";
     if (!std::isfinite(values[i]))
-      fail_file(name, element_name(variable, i) + " is NaN or infinite; correct it");
+      fail_file(name, element + " is NaN or infinite; correct it");
     if (i > 0 && !(values[i] > values[i - 1]))
-      fail_file(name, element_name(variable, i) + " = " + shortly(values[i]) + " does not follow " +
+      fail_file(name, element + " = " + shortly(values[i]) + " does not follow " +
                           shortly(values[i - 1]) + "; sort the raster along it");
   }
 }
 
-/// The first meridian may be repeated at the end.
-void drop_repeated_meridian(Raster& raster, const std::string& name) {
-  const double around = raster.longitudes.back() - raster.longitudes.front() - 360;
-  if (around > degree_slack)
-    fail_file(name, raster.longitude_name +
-                        " spans more than 360 degrees; remove the repeated longitudes");
-  if (around < -degree_slack)
-    return;
-  const Eigen::Index last = raster.values.rows() - 1;
-  for (Eigen::Index j = 0; j < raster.values.cols(); ++j)
-    if (const double first = raster.values(0, j), again = raster.values(last, j);
-        std::abs(again - first) > 1e-3 * std::abs(first))
-      fail_file(name, raster.value_name + " differs at longitudes " +
-                          shortly(raster.longitudes.front()) + " and " +
-                          shortly(raster.longitudes.back()) + " of latitude " +
-                          shortly(raster.latitudes[static_cast<std::size_t>(j)]) +
-                          ", which are one place; make them equal or leave the last out");
-  raster.longitudes.pop_back();
-  raster.values.conservativeResize(last, Eigen::NoChange);
+/// Brings an axis into ascending order. \returns whether it descended.
+bool turn(DoubleVector& axis, const std::string& variable, const std::string& name) {
+  const bool descends = axis.size() > 1 && axis[1] < axis[0];
+  if (descends)
+    axis.reverseInPlace();
+  require_ascending(axis, descends ? variable + " backwards" : variable, name);
+  return descends;
 }
 
-void require_law(const Raster& raster, const std::string& name, const RasterLaw& law) {
-  for (Eigen::Index j = 0; j < raster.values.cols(); ++j)
-    for (Eigen::Index i = 0; i < raster.values.rows(); ++i) {
-      const double value = raster.values(i, j);
-      if (law.holds(value))
-        continue;
-      const Eigen::Index first = raster.longitude_fastest ? j : i,
-                         second = raster.longitude_fastest ? i : j;
-      fail_file(name, raster.value_name + "[" + std::to_string(first) + "][" +
-                          std::to_string(second) + "] = " + shortly(value) + " is not " + law.name +
-                          "; correct it");
-    }
+/// The first meridian may be repeated at the end.
+void drop_repeated_meridian(RasterOfFile& stored, const std::string& name) {
+  DoubleVector& x = stored.raster.x;
+  DoubleMatrix& values = stored.raster.values;
+  const Eigen::Index last = x.size() - 1;
+  const double around = x[last] - x[0] - 360;
+  if (around > degree_slack)
+    fail_file(name, stored.x_name + " spans more than 360 degrees; remove the repeated longitudes");
+  if (around < -degree_slack)
+    return;
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    if (const double first = values(0, j), again = values(last, j);
+        std::abs(again - first) > 1e-3 * std::abs(first))
+      fail_file(name, stored.value_name + " differs at longitudes " + shortly(x[0]) + " and " +
+                          shortly(x[last]) + " of latitude " + shortly(stored.raster.y[j]) +
+                          ", which are one place; make them equal or leave the last out");
+  x.conservativeResize(last);
+  values.conservativeResize(last, Eigen::NoChange);
+  require_ascending(x, stored.x_name, name);
+}
+
+void require_law(const RasterOfFile& stored, const std::string& name, const ValueLaw& law) {
+  const DoubleMatrix& values = stored.raster.values;
+  for (Eigen::Index j = 0; j < values.cols(); ++j)
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      if (!law.holds(values(i, j))) {
+        const Eigen::Index first = stored.x_fastest ? j : i, second = stored.x_fastest ? i : j;
+        fail_file(name, stored.value_name + "[" + std::to_string(first) + "][" +
+                            std::to_string(second) + "] = " + shortly(values(i, j)) + " is not " +
+                            law.name + "; correct it");
+      }
+}
+
+/// Of degrees north that were rounded.
+void clamp_latitudes(RasterOfFile& stored, const std::string& name) {
+  for (double& latitude : stored.raster.y) {
+    if (std::abs(latitude) > 90 + degree_slack)
+      fail_file(name,
+                stored.y_name + " " + shortly(latitude) + " is outside -90 to 90; give degrees");
+    latitude = std::clamp(latitude, -90.0, 90.0);
+  }
+  require_ascending(stored.raster.y, stored.y_name, name); // still ascending
+}
+
+} // namespace
+
+Raster ordered(RasterOfFile stored, const std::string& name, const ValueLaw& law) {
+  Raster& raster = stored.raster;
+  const bool turned_x = turn(raster.x, stored.x_name, name),
+             turned_y = turn(raster.y, stored.y_name, name);
+  if (!raster.of_plane)
+    clamp_latitudes(stored, name);
+  require_law(stored, name, law); // before the reversal, so that indices are those of the file
+  if (turned_x)
+    raster.values.colwise().reverseInPlace();
+  if (turned_y)
+    raster.values.rowwise().reverseInPlace();
+  if (!raster.of_plane)
+    drop_repeated_meridian(stored, name);
+  return std::move(stored.raster);
+}
+
+Raster covering(RasterOfFile stored, const std::string& name, const ValueLaw& law,
+                const Surface& surface) {
+  const std::string x_name = stored.x_name, y_name = stored.y_name;
+  Raster raster = ordered(std::move(stored), name, law);
+  // The domain of a plane may be known to the caller alone, who asks again.
+  const bool known = surface.is_sphere() || surface.is_bounded() || surface.is_box();
+  const std::string problem =
+      known ? density_detail::uncovered(raster, surface, x_name, y_name) : "";
+  if (!problem.empty())
+    fail_file(name, problem);
+  return raster;
+}
+
+// ---- NetCDF
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kilometres{"km", "kilometer", "kilometers", "kilometre",
+                                                     "kilometres"},
+    metres{"m", "meter", "meters", "metre", "metres"};
+
+/// Without the blanks at its ends; names, which are longer than symbols, in lower case: their case
+/// does not matter to UDUNITS.
+std::string canonical(const std::string& unit) {
+  const std::size_t first = unit.find_first_not_of(" \t"), last = unit.find_last_not_of(" \t");
+  std::string text = first == std::string::npos ? "" : unit.substr(first, last - first + 1);
+  if (text.size() > 2)
+    std::ranges::transform(text, text.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    });
+  return text;
+}
+
+/// The factor that converts values of a variable to km, from its attribute `units`.
+/// \throws Error parse, naming the variable.
+double kilometres_of(const NetcdfReader& file, const std::string& variable) {
+  try {
+    return kilometres_in(file.text(variable, "units"));
+  } catch (const Error& error) {
+    file.fail(variable + ": " + error.what());
+  }
+}
+
+/// Metres upwards for each unit of heights: km count a thousand times, and depths, which the
+/// attribute positive or the standard name tells, downwards.
+/// \throws Error parse, for another unit.
+double metres_up(const NetcdfReader& file, const std::string& variable) {
+  const std::string positive = file.text(variable, "positive"),
+                    standard = file.text(variable, "standard_name"),
+                    units = file.text(variable, "units");
+  const bool down =
+      positive == "down" || (positive.empty() && standard.find("depth") != std::string::npos);
+  try {
+    return (down ? -1 : 1) * (units.empty() ? 1 : std::round(1000 * kilometres_in(units)));
+  } catch (const Error&) {
+    file.fail(variable + ": the unit \"" + units + "\" is not one of heights; give m or km");
+  }
+}
+
+/// Variables of a plane's nodes: x(x) and y(y).
+RasterAxes plane_axes(const NetcdfReader& file) {
+  for (const std::string name : {"x", "y"})
+    if (!file.has_variable(name) || file.shape_of(name).size() != 1)
+      file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ")");
+  return {"x", "y"};
 }
 
 /// \throws Error parse, for a file without.
-RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
+RasterAxes axes_for(const NetcdfReader& file, const std::string& variable) {
   std::optional<RasterAxes> axes = axes_of(file, variable);
   if (!axes)
     axes = raster_axes(file);
@@ -84,64 +193,144 @@ RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
   file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
 }
 
-} // namespace
-
-Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
-               const Surface& region) {
-  if (raster.latitudes.size() > 1 && raster.latitudes[1] < raster.latitudes[0]) {
-    std::reverse(raster.latitudes.begin(), raster.latitudes.end());
-    require_ascending(raster.latitudes, raster.latitude_name + " backwards", name);
-    require_law(raster, name, law); // before the reversal, so that indices are those of the file
-    raster.values.rowwise().reverseInPlace();
-  }
-  require_ascending(raster.longitudes, raster.longitude_name, name);
-  require_ascending(raster.latitudes, raster.latitude_name, name);
-  for (double& latitude : raster.latitudes) {
-    if (std::abs(latitude) > 90 + degree_slack)
-      fail_file(name, raster.latitude_name + " " + shortly(latitude) +
-                          " is outside -90 to 90; give degrees");
-    latitude = std::clamp(latitude, -90.0, 90.0);
-  }
-  require_ascending(raster.latitudes, raster.latitude_name, name); // still ascending after clamping
-  require_law(raster, name, law);
-  drop_repeated_meridian(raster, name);
-  require_ascending(raster.longitudes, raster.longitude_name, name);
-  const std::string problem =
-      density_detail::uncovered(vector_of(raster.longitudes), vector_of(raster.latitudes), region,
-                                raster.longitude_name, raster.latitude_name);
-  if (!problem.empty())
-    fail_file(name, problem);
-  return raster;
+std::string only_raster(const NetcdfReader& file, bool of_plane) {
+  std::vector<std::string> found;
+  for (const std::string& name : file.variable_names())
+    if (file.is_numeric(name) &&
+        (of_plane ? file.dimensions_of(name).size() == 2 : axes_of(file, name).has_value()))
+      found.push_back(name);
+  if (found.size() != 1)
+    file.fail(std::to_string(found.size()) + " variables are rasters of " +
+              (of_plane ? "x and y" : "latitudes and longitudes") +
+              "; name one, or give a file with one");
+  return found.front();
 }
 
-Raster read_raster(const NetcdfReader& file, const std::string& variable) {
+/// A variable in any order of its dimensions, of which others have the size 1. Missing values are
+/// NaN.
+RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable, bool of_plane) {
+  const auto shape = [&](const std::string& y, const std::string& x) {
+    return variable + "(" + y + ", " + x + ")";
+  };
   if (!file.has_variable(variable))
-    file.fail("no variable " + variable + "; give " + variable + "(lat, lon)");
-  Raster raster;
-  raster.value_name = variable;
-  const RasterAxes axes = require_axes(file, variable);
-  raster.latitude_name = axes.latitude;
-  raster.longitude_name = axes.longitude;
-  raster.latitudes = degrees_of(file, axes.latitude);
-  raster.longitudes = degrees_of(file, axes.longitude);
-  const auto rows = static_cast<std::int64_t>(raster.latitudes.size()),
-             columns = static_cast<std::int64_t>(raster.longitudes.size());
-  const std::vector<std::string> of_lat = file.dimensions_of(raster.latitude_name),
-                                 of_lon = file.dimensions_of(raster.longitude_name);
+    file.fail("no variable " + variable + "; give " +
+              (of_plane ? shape("y", "x") : shape("lat", "lon")));
+  const RasterAxes axes = of_plane ? plane_axes(file) : axes_for(file, variable);
+  RasterOfFile stored{.raster = {.of_plane = of_plane},
+                      .x_name = axes.longitude,
+                      .y_name = axes.latitude,
+                      .value_name = variable};
+  const auto nodes = [&](const std::string& axis) {
+    return vector_of(of_plane ? cf_values(file, axis, {-1}) : degrees_of(file, axis));
+  };
+  Raster& raster = stored.raster;
+  raster.x = nodes(axes.longitude);
+  raster.y = nodes(axes.latitude);
+  const std::string of_x = file.dimensions_of(axes.longitude)[0],
+                    of_y = file.dimensions_of(axes.latitude)[0];
   std::vector<std::string> of_values = file.dimensions_of(variable);
   std::erase_if(of_values, [&](const std::string& name) { // one time or level is no dimension
-    return file.dimension(name) == 1 && name != of_lat[0] && name != of_lon[0];
+    return file.dimension(name) == 1 && name != of_y && name != of_x;
   });
-  raster.longitude_fastest = of_values == std::vector{of_lat[0], of_lon[0]};
-  if (!raster.longitude_fastest && of_values != std::vector{of_lon[0], of_lat[0]})
-    file.fail(variable + " is not " + variable + "(" + of_lat[0] + ", " + of_lon[0] +
-              "); give it these dimensions");
+  stored.x_fastest = of_values == std::vector{of_y, of_x};
+  if (!stored.x_fastest && of_values != std::vector{of_x, of_y})
+    file.fail(variable + " is not " + shape(of_y, of_x) + "; give it these dimensions");
   const std::vector<double> values = cf_values(file, variable, file.shape_of(variable));
-  if (raster.longitude_fastest)
+  const Eigen::Index columns = raster.x.size(), rows = raster.y.size();
+  if (stored.x_fastest)
     raster.values = Eigen::Map<const DoubleMatrix>(values.data(), columns, rows);
   else
     raster.values = Eigen::Map<const DoubleMatrix>(values.data(), rows, columns).transpose();
+  return stored;
+}
+
+constexpr double fraction_slack = 1e-6; ///< of fractions that a program rounded
+
+constexpr ValueLaw anything{[](double) { return true; }, "a number"},
+    nearly_a_fraction{
+        [](double value) { return value >= -fraction_slack && value <= 1 + fraction_slack; },
+        "a fraction from 0 to 1"};
+
+ValueLaw law_of(RasterQuantity quantity, bool of_plane) {
+  switch (quantity) {
+  case RasterQuantity::any:
+    return anything;
+  case RasterQuantity::cell_width:
+    return density_detail::positive_and_finite;
+  case RasterQuantity::density:
+    return of_plane ? density_detail::not_negative : density_detail::positive_and_finite;
+  case RasterQuantity::height:
+    return density_detail::finite;
+  case RasterQuantity::land_fraction:
+  case RasterQuantity::sea_fraction:
+    break;
+  }
+  return nearly_a_fraction;
+}
+
+/// Brings values to the unit of a quantity.
+void convert(DoubleMatrix& values, const NetcdfReader& file, const RasterOfFile& stored,
+             RasterQuantity quantity) {
+  const std::string& variable = stored.value_name;
+  if (quantity == RasterQuantity::cell_width && !stored.raster.of_plane) {
+    if (const double factor = kilometres_of(file, variable); factor != 1)
+      values /= 1 / factor; // a division by 1000 is exact where the widths in km are
+  } else if (quantity == RasterQuantity::cell_width) {
+    if (!file.text(variable, "units").empty() && !file.text(stored.x_name, "units").empty())
+      values *= kilometres_of(file, variable) / kilometres_of(file, stored.x_name);
+  } else if (quantity == RasterQuantity::height) {
+    const double factor = metres_up(file, variable);
+    if (factor != 1)
+      values *= factor;
+    if (factor < 0) // land has no depth
+      values = values.unaryExpr([](double height) { return std::isnan(height) ? 0.0 : height; });
+  } else if (quantity == RasterQuantity::land_fraction ||
+             quantity == RasterQuantity::sea_fraction) {
+    if (file.text(variable, "units") == "%")
+      values /= 100;
+  }
+}
+
+} // namespace
+} // namespace io_detail
+
+double kilometres_in(const std::string& unit) {
+  const std::string name = io_detail::canonical(unit);
+  if (name.empty() || std::ranges::find(io_detail::kilometres, name) != io_detail::kilometres.end())
+    return 1;
+  if (std::ranges::find(io_detail::metres, name) != io_detail::metres.end())
+    return 0.001;
+  throw Error(ErrorCode::invalid_argument,
+              "the unit \"" + unit + "\" is not one of cell widths; give km or m");
+}
+
+Raster read_raster(const std::string& path, const RasterChoice& choice) {
+  using namespace io_detail;
+  const NetcdfReader file(path);
+  const bool of_plane = !choice.surface.is_sphere();
+  const RasterQuantity quantity = choice.quantity;
+  const std::string variable = !choice.variable.empty()                 ? choice.variable
+                               : quantity == RasterQuantity::cell_width ? "cellWidth"
+                               : quantity == RasterQuantity::density    ? "density"
+                                                                     : only_raster(file, of_plane);
+  RasterOfFile stored = stored_raster(file, variable, of_plane);
+  convert(stored.raster.values, file, stored, quantity);
+  const ValueLaw law = law_of(quantity, of_plane);
+  if (quantity == RasterQuantity::any)
+    return ordered(std::move(stored), path, law);
+  Raster raster = covering(std::move(stored), path, law, choice.surface);
+  if (quantity == RasterQuantity::land_fraction || quantity == RasterQuantity::sea_fraction)
+    raster.values = raster.values.cwiseMax(0).cwiseMin(1);
   return raster;
 }
 
-} // namespace calotte::io_detail
+Raster read_land(const std::string& path, const std::string& variable, RasterQuantity quantity) {
+  Raster raster = read_raster(path, {.variable = variable, .quantity = quantity});
+  if (quantity == RasterQuantity::sea_fraction)
+    raster.values = 1 - raster.values.array();
+  else if (quantity != RasterQuantity::land_fraction)
+    raster.values = raster.values.unaryExpr([](double height) { return height < 0 ? 0.0 : 1.0; });
+  return raster;
+}
+
+} // namespace calotte

@@ -1,48 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "density/raster_field.h"
 #include "io/netcdf/netcdf_reader.h"
 #include "io/shapes/room.h"
 
 #include <calotte/matrices.h>
+#include <calotte/raster.h>
 #include <calotte/surface.h>
-
-#include <Eigen/Core>
 
 #include <iterator>
 #include <string>
 #include <vector>
 
-/// Rasters of longitudes and latitudes over the sphere.
+/// Rasters of files.
 namespace calotte::io_detail {
 
-/// A raster as stored in a file, with the names of its variables there.
-struct Raster {
-  std::vector<double> longitudes, latitudes; ///< degrees
-  DoubleMatrix values;                       ///< longitudes x latitudes
-  std::string longitude_name, latitude_name, value_name;
-  bool longitude_fastest = true; ///< in the file: how messages give a value's index
-};
-
-/// What its values must be.
-struct RasterLaw {
-  bool (*holds)(double value);
-  std::string name; ///< "positive and finite"
+/// A raster as stored in a file, whose axes may descend, with the names of its variables there.
+struct RasterOfFile {
+  Raster raster;
+  std::string x_name, y_name, value_name;
+  bool x_fastest = true; ///< in the file: how messages give a value's index
 };
 
 /// The raster with both coordinates ascending and no longitude repeated.
-/// \throws Error parse, "NAME: ..." with the variable and its index, if it does not cover the
-///         region, or a value violates the law.
-Raster ordered(Raster raster, const std::string& name, const RasterLaw& law,
-               const Surface& region = {});
+/// \param law which values are accepted.
+/// \throws Error parse, "NAME: ..." with the variable and its index, if the axes are not sorted or
+///         a value violates the law.
+Raster ordered(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law);
+
+/// The same of a raster that must cover a surface. \throws Error parse, too, if it does not.
+Raster covering(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law,
+                const Surface& surface);
 
 /// The coordinates as Eigen's vector.
 inline DoubleVector vector_of(const std::vector<double>& values) {
   return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
-
-/// Reads a variable(lat, lon), in any order of its dimensions, of which others have the size 1,
-/// with the axes that axes_of() finds. Missing values are NaN. \throws Error parse; file.
-Raster read_raster(const NetcdfReader& file, const std::string& variable);
 
 } // namespace calotte::io_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_rules.h"
 #include "base/number_text.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/text.h"
 #include "io/command.h"
@@ -315,15 +316,15 @@ private:
   /// Of such a part, or of a raster.
   Share share_in(const std::string& path) const {
     if (surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc")
-      return read_land_raster(path, {}, RasterValues::land_fraction);
+      return read_raster(path, {.quantity = RasterQuantity::land_fraction});
     return part_in(path);
   }
 
   Share share(RuleTable& table) {
     const std::string path = file(table, "share");
     if (table.has("variable"))
-      return read_land_raster(path, table.text("variable", "its name"),
-                              RasterValues::land_fraction);
+      return read_raster(path, {.variable = table.text("variable", "its name"),
+                                .quantity = RasterQuantity::land_fraction});
     if (table.has("profile"))
       return Share(part_in(path), table.pairs("profile"));
     if (table.take("over") != nullptr) {
@@ -375,8 +376,9 @@ private:
 
   Widths heights(RuleTable& table) {
     const std::string path = file(table, "heights");
-    const HeightRaster raster =
-        read_heights(path, table.has("variable") ? table.text("variable", "its name") : "");
+    const Raster raster = read_raster(
+        path, {.variable = table.has("variable") ? table.text("variable", "its name") : "",
+               .quantity = RasterQuantity::height});
     DepthRule rule{.least = table.number("least")};
     if (table.has("period")) {
       rule.period = seconds(table);
@@ -415,9 +417,7 @@ private:
 
   Widths raster(RuleTable& table) {
     const std::string path = file_of_no_rules(table, "raster");
-    if (surface_.is_sphere())
-      return read_cell_width(path);
-    return read_planar_cell_width(path);
+    return read_cell_width(path, {}, surface_.is_sphere() ? Surface() : Surface::plane());
   }
 
   Widths polygons(RuleTable& table) {
@@ -436,18 +436,10 @@ private:
   double radius_km_;
 };
 
-/// \throws Error invalid_argument for rules that say nothing of a place, naming the file.
-template <class Sample> auto of_file(const std::string& path, const Sample& sample) {
-  try {
-    return sample();
-  } catch (const Error& error) {
-    throw Error(error.code(), path + ": " + error.what(), error.index());
-  }
-}
-
-PlanarCellWidth limited_raster(const WidthRules& rules, const Surface& plane) {
-  const PlanarCellWidth raster = density_detail::sample(rules.widths, plane, rules.step);
-  return rules.gradient ? limit_gradient(raster, *rules.gradient, plane) : raster;
+/// With the file's limit of the gradient also in a plane.
+Raster limited_raster(const WidthRules& rules, const Surface& surface) {
+  const Raster raster = density_detail::sample(rules.widths, surface, rules.step);
+  return rules.gradient ? limit_gradient(raster, *rules.gradient, surface) : raster;
 }
 
 } // namespace
@@ -458,25 +450,19 @@ WidthRules read_width_rules(const std::string& path, const Surface& surface, dou
   return RuleReader(path, surface, radius_km).rules();
 }
 
-CellWidth sampled_on(const WidthRules& rules, const Surface& surface) {
-  return of_file(rules.path, [&] { return sampled_on(rules.widths, surface, rules.step); });
-}
-
-PlanarCellWidth sampled(const WidthRules& rules, const Surface& plane) {
-  return of_file(rules.path, [&] {
-    PlanarCellWidth raster = limited_raster(rules, plane);
-    density_detail::fill_outside(raster, plane);
+Raster sampled(const WidthRules& rules, const Surface& surface) {
+  return io_detail::named(rules.path, [&] {
+    Raster raster = limited_raster(rules, surface);
+    density_detail::fill_outside(raster, surface);
     return raster;
   });
 }
 
 Widths read_widths(const std::string& path, const PolygonWidths& polygons, const Surface& surface) {
-  if (holds_rules(path)) {
-    const WidthRules rules = read_width_rules(path, surface, polygons.radius_km);
-    return rules.gradient ? Widths(limited_raster(rules, surface)) : rules.widths;
-  }
-  return surface.is_sphere() ? Widths(read_cell_width(path, polygons))
-                             : Widths(read_planar_cell_width(path));
+  if (!holds_rules(path))
+    return read_cell_width(path, polygons, surface);
+  const WidthRules rules = read_width_rules(path, surface, polygons.radius_km);
+  return rules.gradient ? Widths(limited_raster(rules, surface)) : rules.widths;
 }
 
 RulesOutline outline_of_rules(const std::string& path) {

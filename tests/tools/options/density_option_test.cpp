@@ -197,7 +197,7 @@ TEST_CASE("cell widths replace a density, and their contents belong to the confi
   const DensityWords words = parsed({"--cell-width", file.path()});
   const Resolution resolution = resolution_of(words);
   REQUIRE(resolution.widths);
-  CHECK(resolution.widths->widths(0, 1) == 200);
+  CHECK(resolution.widths->values(0, 1) == 200);
   CHECK(evaluate(resolution.density, Eigen::Vector3d(-1, 0, 0))[0] == 1);
   CHECK(evaluate(resolution.density, Eigen::Vector3d(1, 0, 0))[0] == doctest::Approx(1.0 / 16));
   CHECK(density_names(words) == std::vector<std::string>{"cell widths of " + file.path()});
@@ -220,7 +220,7 @@ TEST_CASE("cell widths replace a density, and their contents belong to the confi
 TEST_CASE("the widths' notes tell their range, number and gradient, and warn of a steep one") {
   const TextFile file(".msh", jigsaw_grid("100"));
   DensityWords words = parsed({"--cell-width", file.path()});
-  CellWidth widths = *resolution_of(words).widths;
+  Raster widths = *resolution_of(words).widths;
   const double implied = implied_cells(widths);
   const std::string cells = std::to_string(std::llround(implied));
   std::vector<std::string> notes = notes_on(widths, words.widths, {});
@@ -231,7 +231,7 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
   CHECK(notes[0].find("; with " + std::to_string(std::llround(implied / 4)) +
                       " cells, widths are 2 times as large;") != std::string::npos);
   // 500 km over 10 007 km either way; half a cell from the tip 1 - 300/10 007 of that.
-  widths.widths(1, 1) = 600;
+  widths.values(1, 1) = 600;
   notes = notes_on(widths, words.widths, {});
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
@@ -246,10 +246,10 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
 TEST_CASE("a limit of the gradient lowers the widths around the narrow ones") {
   const TextFile file(".msh", jigsaw_grid("400"));
   const std::vector<std::string> arguments{"--cell-width", file.path(), "--gradient", "0.01"};
-  const CellWidth given = *resolution_of(parsed({"--cell-width", file.path()})).widths,
-                  limited = *resolution_of(parsed(arguments)).widths;
-  CHECK(limited.widths == limit_gradient(given, 0.01).widths);
-  CHECK(limited.widths != given.widths);
+  const Raster given = *resolution_of(parsed({"--cell-width", file.path()})).widths,
+               limited = *resolution_of(parsed(arguments)).widths;
+  CHECK(limited.values == limit_gradient(given, 0.01).values);
+  CHECK(limited.values != given.values);
   CHECK(density_configuration(parsed(arguments)) !=
         density_configuration(parsed({"--cell-width", file.path()})));
 }

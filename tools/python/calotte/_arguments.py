@@ -148,7 +148,7 @@ def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
     """
     if isinstance(widths, _calotte.Widths):
         return widths
-    if isinstance(widths, _calotte.PlanarCellWidth):
+    if isinstance(widths, _calotte.CellWidth):
         return _calotte.Widths(widths)
     if (isinstance(widths, str) and not measure(widths)) or hasattr(widths, "__fspath__"):
         return _calotte.read_widths(str(widths), _calotte.Surface() if surface is None else surface,
@@ -161,11 +161,11 @@ def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
 
 
 def planar_cell_width(widths, surface=None):
-    """Widths of a number, a raster, a file or a rule in the unit of the plane, as PlanarCellWidth."""
-    if isinstance(widths, _calotte.PlanarCellWidth):
+    """Widths of a number, a raster, a file or a rule in the unit of the plane, as CellWidth."""
+    if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, _calotte.Widths):
-        return widths.sampled_in(surface)
+        return widths.sampled(surface=surface)
     if callable(widths):
         return _sampled_in(widths, surface)
     if isinstance(widths, str) and (parts := measure(widths)):
@@ -174,8 +174,8 @@ def planar_cell_width(widths, surface=None):
                         "so give a number in that unit")
         return planar_cell_width(parts[0])
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_planar_cell_width(str(widths),
-                                               _calotte.Surface() if surface is None else surface)
+        return _calotte.read_cell_width(str(widths), 0, 0, 0, EARTH_RADIUS_KM,
+                                        _calotte.plane() if surface is None else surface)
     if isinstance(widths, tuple):
         if len(widths) != 3:
             raise Error("give cell widths of a plane as (values, x, y)")
@@ -185,13 +185,13 @@ def planar_cell_width(widths, surface=None):
         raise Error("give cell widths of a plane as a number in its unit, (values, x, y), a file, a "
                     "rule or a function of x and y")
     far = np.array([-1e30, 1e30])  # the largest coordinates of a plane
-    return _calotte.PlanarCellWidth(np.full((2, 2), float(value)), far, far)
+    return _calotte.CellWidth(np.full((2, 2), float(value)), far, far, True)
 
 
 def _sampled_in(function, plane):
     """Widths of a function of x and y at the nodes of a raster over a plane."""
     nodes = 1e5
-    grid = _calotte.Widths(1.0).sampled_in(plane, math.sqrt(plane.area / nodes))
+    grid = _calotte.Widths(1.0).sampled(math.sqrt(plane.area / nodes), plane)
     values = numbers(function(*np.meshgrid(grid.x, grid.y)), "cell widths")
     if values.shape != (grid.y.size, grid.x.size):
         raise Error("the width function must return one number for each of its points; it returned "
@@ -204,14 +204,14 @@ def _planar_raster(values, x, y):
     x, y = numbers(x, "x"), numbers(y, "y")
     if array.shape != (y.size, x.size):
         raise Error(f"cell widths have the shape {array.shape}; give y x x, here {y.size} x {x.size}")
-    return _calotte.PlanarCellWidth(array, x, y)
+    return _calotte.CellWidth(array, x, y, True)
 
 
 def _widths(widths, earth_radius, surface):
     if isinstance(widths, _calotte.CellWidth):
         return widths
     if isinstance(widths, _calotte.Widths):
-        return widths.on_sphere(earth_radius).sampled_on(surface)
+        return widths.on_sphere(earth_radius).sampled(surface=surface)
     if isinstance(widths, str) and (parts := measure(widths)):
         return _widths(kilometres(*parts, "the cell width"), earth_radius, surface)
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
@@ -349,7 +349,7 @@ def density(value, widths=None, plane=False):
     if widths is not None:
         if np.ptp(widths.widths) == 0:
             return _calotte.Density()
-        return widths.density() if plane else _calotte.density_of_widths(widths)
+        return _calotte.density_of_widths(widths)
     if value is None or (isinstance(value, str) and value == "uniform"):
         return _calotte.Density()
     if isinstance(value, _calotte.Density):

@@ -90,7 +90,7 @@ def _surface(surface):
 
 
 def _widths(widths):
-    return (f"<calotte.CellWidth: {widths.widths.min():.4g} to {widths.widths.max():.4g} km, "
+    return (f"<calotte.CellWidth: {widths.widths.min():.4g} to {widths.widths.max():.4g}{'' if widths.of_plane else ' km'}, "
             f"{len(widths.longitudes)} x {len(widths.latitudes)} nodes>")
 
 

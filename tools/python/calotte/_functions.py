@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, _calotte, _display
 from ._arguments import EARTH_RADIUS_KM
-from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
+from ._calotte import (Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi)
 
 Array = NDArray[np.float64]
@@ -542,7 +542,7 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
     if widths is None:
         return Plan(**made)
     made["widths"] = float(widths.widths.min()), float(widths.widths.max())
-    if not isinstance(widths, CellWidth):
+    if widths.of_plane:
         return Plan(**made)
     slope, longitude, latitude = _calotte.largest_gradient(widths, earth_radius)
     return Plan(**made, gradient=slope, steepest=(longitude, latitude))
@@ -590,10 +590,7 @@ def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None,
               _arguments.widths(cell_width, plane, earth_radius, surface))
     _arguments.require_one(density, widths)
     recipe.density = _arguments.density(density, plane=plane)
-    if plane:
-        recipe.planar_widths = widths
-    else:
-        recipe.widths = widths
+    recipe.widths = widths
     if fixed is not None:
         recipe.fixed = _arguments.points_of(surface, fixed, "fixed points")
     _take_lines(recipe, lines)
@@ -693,7 +690,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
-    if isinstance(widths, CellWidth):
+    if widths is not None and not widths.of_plane:
         _warn_of_steep(widths, recipe)
     mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])

@@ -180,8 +180,10 @@ def _demanded(widths):
 def _to_xarray(self, step=0):
     """An xarray.DataArray over lat and lon, as sampled() makes it; NaN where no rule gives a width."""
     import xarray
-    raster = self.sampled(step)
-    return xarray.DataArray(_demanded(np.array(raster.widths)), dims=("lat", "lon"), name="cellWidth",
+    wider = 4e8  # km, than any demand
+    raster = minimum(self, wider).sampled(step)
+    widths = np.where(raster.widths < wider, raster.widths, np.nan)
+    return xarray.DataArray(widths, dims=("lat", "lon"), name="cellWidth",
                             coords={"lat": np.array(raster.latitudes), "lon": np.array(raster.longitudes)},
                             attrs={"units": "km"})
 

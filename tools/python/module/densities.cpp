@@ -6,7 +6,6 @@
 #include <calotte/cell_width.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
-#include <calotte/planar_raster.h>
 #include <calotte/read.h>
 
 #include <string>
@@ -47,58 +46,49 @@ Density bumps(const std::vector<BumpWords>& words, bool sum) {
   return density;
 }
 
-CellWidth cell_width(const Doubles& values, const Doubles& longitudes, const Doubles& latitudes) {
-  CellWidth widths;
-  widths.longitudes = Eigen::Map<const Eigen::VectorXd>(longitudes.data(), longitudes.size());
-  widths.latitudes = Eigen::Map<const Eigen::VectorXd>(latitudes.data(), latitudes.size());
-  widths.widths = columns(values);
-  return widths;
+Raster cell_width(const Doubles& values, const Doubles& x, const Doubles& y, bool of_plane) {
+  return {Eigen::Map<const Eigen::VectorXd>(x.data(), x.size()),
+          Eigen::Map<const Eigen::VectorXd>(y.data(), y.size()), columns(values), of_plane};
 }
 
-PlanarCellWidth planar_widths(const Doubles& values, const Doubles& x, const Doubles& y) {
-  PlanarCellWidth widths;
-  widths.x = Eigen::Map<const Eigen::VectorXd>(x.data(), x.size());
-  widths.y = Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
-  widths.widths = columns(values);
-  return widths;
-}
-
-CellWidth read_widths(const std::string& path, double inside, double outside, double transition,
-                      double radius_km, const Surface& region) {
+Raster read_widths(const std::string& path, double inside, double outside, double transition,
+                   double radius_km, const Surface& surface) {
   return call([&] {
-    return read_cell_width(path, {inside, outside, transition, radius_km}, region);
+    return read_cell_width(path, {inside, outside, transition, radius_km}, surface);
   });
 }
 
 void add_cell_width(py::module_& module) {
-  py::class_<CellWidth> widths(module, "CellWidth",
-                               "Cell widths at the nodes of longitudes and latitudes.");
-  widths.def(py::init(&cell_width));
+  py::class_<Raster> widths(module, "CellWidth", "Cell widths at the nodes of a raster.");
+  widths.def(py::init(&cell_width), py::arg("widths"), py::arg("x"), py::arg("y"),
+             py::arg("of_plane") = false);
   add_members(widths,
-              Member{"widths", &CellWidth::widths,
-                     "(latitudes, longitudes) distances between "
-                     "centres of neighbouring cells, km."},
-              Member{"longitudes", &CellWidth::longitudes, "Degrees, ascending."},
-              Member{"latitudes", &CellWidth::latitudes, "Degrees, ascending."});
+              Member{"widths", &Raster::values,
+                     "(latitudes, longitudes) or (y, x) distances between "
+                     "centres of neighbouring cells, km, in a plane in its unit."},
+              Member{"longitudes", &Raster::x, "Degrees, ascending."},
+              Member{"latitudes", &Raster::y, "Degrees, ascending."},
+              Member{"x", &Raster::x, "Those of a plane; the longitudes of the sphere."},
+              Member{"y", &Raster::y, "Those of a plane; the latitudes of the sphere."});
+  widths.def_readonly("of_plane", &Raster::of_plane, "True for a raster of a plane.");
   widths.def(
       "at",
-      [](const CellWidth& widths, const Doubles& points) {
+      [](const Raster& widths, const Doubles& points) {
         const auto sites = columns(points);
         return handed_over(call([&] { return evaluate(widths, sites); }));
       },
-      "(n,) the widths at n x 3 directions, km.");
+      "(n,) the widths at n x 3 directions, of a plane at n x 2 places.");
   module.def("read_cell_width", &read_widths);
-  module.def("require_covering", [](const CellWidth& widths, const Surface& region) {
+  module.def("require_covering", [](const Raster& widths, const Surface& region) {
     call([&] { require_covering(widths, region); });
   });
   module.def("kilometres_in", &kilometres_in);
-  module.def("implied_cells",
-             [](const CellWidth& widths, const Surface& surface, double radius_km) {
-               return call([&] { return implied_cells(widths, surface, radius_km); });
-             });
+  module.def("implied_cells", [](const Raster& widths, const Surface& surface, double radius_km) {
+    return call([&] { return implied_cells(widths, surface, radius_km); });
+  });
   module.attr("steepest_width") = steepest_width;
   module.def("is_too_steep", &is_too_steep);
-  module.def("largest_gradient", [](const CellWidth& widths, double radius_km) {
+  module.def("largest_gradient", [](const Raster& widths, double radius_km) {
     const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
   });
@@ -122,18 +112,7 @@ void add_densities(py::module_& module) {
   module.def("density_of_bumps", &bumps);
   add_cell_width(module);
   module.def("density_of_widths",
-             [](const CellWidth& widths) { return call([&] { return density_of(widths); }); });
-  py::class_<PlanarCellWidth>(module, "PlanarCellWidth")
-      .def(py::init(&planar_widths))
-      .def_property_readonly(
-          "widths",
-          [](py::object self) { return view(self.cast<const PlanarCellWidth&>().widths, self); })
-      .def_property_readonly(
-          "x", [](py::object self) { return view(self.cast<const PlanarCellWidth&>().x, self); })
-      .def_property_readonly(
-          "y", [](py::object self) { return view(self.cast<const PlanarCellWidth&>().y, self); })
-      .def("density", [](const PlanarCellWidth& widths) { return density_of(widths); });
-  module.def("read_planar_cell_width", &read_planar_cell_width);
+             [](const Raster& widths) { return call([&] { return density_of(widths); }); });
 }
 
 } // namespace calotte::python

@@ -369,10 +369,10 @@ py::list coast_rings(const std::string& path) {
   return rings;
 }
 
-RasterValues values_named(const std::string& name) {
-  return name == "height"         ? RasterValues::height
-         : name == "sea-fraction" ? RasterValues::sea_fraction
-                                  : RasterValues::land_fraction;
+RasterQuantity values_named(const std::string& name) {
+  return name == "height"         ? RasterQuantity::height
+         : name == "sea-fraction" ? RasterQuantity::sea_fraction
+                                  : RasterQuantity::land_fraction;
 }
 
 /// The land of an ocean grid, as the options of `calotte cull` name it.
@@ -412,8 +412,7 @@ void set_land(const Land& land, CullOptions& options) {
   add_lines(land.passages, options.passages);
   add_lines(land.barriers, options.barriers);
   if (!land.raster.empty())
-    options.raster =
-        read_land_raster(land.raster, land.raster_variable, values_named(land.raster_values));
+    options.raster = read_land(land.raster, land.raster_variable, values_named(land.raster_values));
   options.land_fraction = land.land_fraction;
   options.field.path = land.field_file;
   options.field.variable = land.field;

@@ -101,7 +101,6 @@ void add_recipe(py::module_& module) {
       .def_readwrite("cells", &Recipe::cells)
       .def_readwrite("density", &Recipe::density)
       .def_readwrite("widths", &Recipe::widths)
-      .def_readwrite("planar_widths", &Recipe::planar_widths)
       .def_readwrite("radius_km", &Recipe::radius_km)
       .def_readwrite("limited_area", &Recipe::limited_area)
       .def_readwrite("seed", &Recipe::seed)

@@ -65,13 +65,14 @@ Widths by_depth(const std::string& path, const std::string& variable, const std:
                 double cells, double period, double least) {
   using Kind = DepthRule::Kind;
   return call([&] {
-    return Widths::by_depth(read_heights(path, variable),
-                            {.kind = kind == "wavelength" ? Kind::wavelength
-                                     : kind == "rossby"   ? Kind::rossby
-                                                          : Kind::slope,
-                             .cells = cells,
-                             .period = period,
-                             .least = least});
+    return Widths::by_depth(
+        read_raster(path, {.variable = variable, .quantity = RasterQuantity::height}),
+        {.kind = kind == "wavelength" ? Kind::wavelength
+                 : kind == "rossby"   ? Kind::rossby
+                                      : Kind::slope,
+         .cells = cells,
+         .period = period,
+         .least = least});
   });
 }
 
@@ -86,9 +87,7 @@ Widths by_channel(const std::string& path, double cells, double least, double wi
 void add_widths(py::module_& module) {
   py::class_<Widths> widths(module, "Widths", "A rule for the width of cells, for every place.");
   widths.def(py::init([](double width) { return call([&] { return Widths(width); }); }))
-      .def(py::init([](const CellWidth& raster) { return call([&] { return Widths(raster); }); }))
-      .def(py::init(
-          [](const PlanarCellWidth& raster) { return call([&] { return Widths(raster); }); }))
+      .def(py::init([](const Raster& raster) { return call([&] { return Widths(raster); }); }))
       .def_static("is_demand", py::vectorize(&Widths::is_demand),
                   "(n,) whether widths of at() are ones that a rule gives.")
       .def(
@@ -116,25 +115,13 @@ void add_widths(py::module_& module) {
           "(n,) the widths at n x 3 directions, km; of a plane at n x 2 places, in its unit.")
       .def(
           "sampled",
-          [](const Widths& widths, double step) {
-            return call([&] { return sampled(widths, step); });
+          [](const Widths& widths, double step, const std::optional<Surface>& surface) {
+            return call([&] { return sampled(widths, surface.value_or(Surface()), step); });
           },
-          py::arg("step") = 0,
-          "A CellWidth with nodes so many degrees apart; 0: by its least width.")
-      .def(
-          "sampled_on",
-          [](const Widths& widths, const Surface& surface, double step) {
-            return call([&] { return sampled_on(widths, surface, step); });
-          },
-          py::arg("surface"), py::arg("step") = 0,
-          "The same for a grid on a surface, where the rules must give a width everywhere.")
-      .def(
-          "sampled_in",
-          [](const Widths& widths, const Surface& plane, double step) {
-            return call([&] { return sampled(widths, plane, step); });
-          },
-          py::arg("plane"), py::arg("step") = 0,
-          "A PlanarCellWidth over a plane, with nodes so far apart; 0: by its least width.");
+          py::arg("step") = 0, py::arg("surface") = py::none(),
+          "A CellWidth with nodes so many degrees apart, in a plane of its unit; 0: by its least "
+          "width. surface: the sphere (None), a part of it or a plane, where the rules must give a "
+          "width everywhere.");
   module.def("read_widths", [](const std::string& path, const Surface& surface, double radius_km) {
     return call([&] { return read_widths(path, {.radius_km = radius_km}, surface); });
   });
@@ -163,8 +150,10 @@ void add_widths(py::module_& module) {
     return call([&, of = profile(nodes, smooth)] { return Share(region, of); });
   });
   module.def("share_of_raster", [](const std::string& path, const std::string& variable) {
-    return call(
-        [&] { return Share(read_land_raster(path, variable, RasterValues::land_fraction)); });
+    return call([&] {
+      return Share(
+          read_raster(path, {.variable = variable, .quantity = RasterQuantity::land_fraction}));
+    });
   });
   module.def("widths_where", [](const Share& share, const Widths& inside, const Widths& outside) {
     return call([&] { return Widths::where(share, inside, outside); });

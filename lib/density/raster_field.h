@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "density/room.h"
+#include "density/width_table.h"
+
+#include <calotte/density.h>
+#include <calotte/raster.h>
+#include <calotte/surface.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace calotte::density_detail {
+
+/// Ascending values in which intervals are found in constant time.
+class Axis {
+public:
+  Axis() = default;
+  /// At least two values.
+  explicit Axis(std::vector<double> values);
+
+  /// The last i with values[i] <= x, clamped to the first and last interval.
+  std::int64_t interval(double x) const;
+
+  /// The relative position of x in interval i: 0 at its start, 1 at its end, clamped.
+  double fraction(std::int64_t i, double x) const;
+
+  double operator[](std::int64_t i) const { return values_[static_cast<std::size_t>(i)]; }
+  std::int64_t intervals() const { return static_cast<std::int64_t>(values_.size()) - 1; }
+
+private:
+  std::vector<double> values_, inverse_steps_;
+  std::vector<std::int32_t> first_; ///< by bin: the interval that contains the start of the bin
+  double bins_per_unit_ = 0;
+};
+
+/// What the values of a raster must be.
+struct ValueLaw {
+  bool (*holds)(double value);
+  const char* name; ///< "positive and finite"
+};
+
+inline constexpr ValueLaw positive_and_finite{
+    [](double value) { return value > 0 && value <= std::numeric_limits<double>::max(); },
+    "positive and finite"},
+    not_negative{
+        [](double value) { return value >= 0 && value <= std::numeric_limits<double>::max(); },
+        "0 or positive, and finite"},
+    finite{[](double value) { return std::abs(value) <= std::numeric_limits<double>::max(); },
+           "finite"},
+    a_fraction{[](double value) { return value >= 0 && value <= 1; }, "a fraction from 0 to 1"};
+
+/// \param name of the raster in messages.
+/// \throws Error invalid_argument, naming the node, unless axes and shape meet the conditions of
+///         Raster.
+void require_raster(const Raster& raster, const std::string& name);
+/// The same, and that all values meet a law. \throws Error invalid_argument, naming the node.
+void require_values(const Raster& raster, const std::string& name, const ValueLaw& law);
+/// The same of cell widths: > 0 and finite, max / min at most 1e30.
+void require_widths(const Raster& widths);
+
+/// A raster prepared for repeated evaluation. On the sphere the first column is repeated at the
+/// end, and the rows at the poles have one value each.
+class RasterField {
+public:
+  /// \throws Error invalid_argument as require_raster().
+  explicit RasterField(const Raster& raster);
+
+  /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
+  /// depend on its place alone.
+  void operator()(const double* x, const double* y, const double* z, std::size_t count,
+                  double* values) const;
+
+  const Axis& x() const { return x_; } ///< radians, the first from -pi to pi; or x of the plane
+  const Axis& y() const { return y_; } ///< radians, from pole to pole; or y of the plane
+  double value(std::int64_t i, std::int64_t j) const {
+    return values_[static_cast<std::size_t>(j * (x_.intervals() + 1) + i)];
+  }
+  double least() const { return least_; }
+
+  /// Cosine of the latitude of a row, as from_lonlat() computes it: the same bits on every machine.
+  double cosine(std::int64_t j) const { return cosines_[static_cast<std::size_t>(j)]; }
+  double sine(std::int64_t j) const { return sines_[static_cast<std::size_t>(j)]; }
+
+private:
+  void add_row(const Raster& raster, Eigen::Index row, double latitude);
+  double between(double x, double y) const;
+
+  Axis x_, y_;
+  bool of_plane_;
+  std::optional<WidthTable> table_; ///< of a regular grid of the sphere
+  std::vector<double> values_;      ///< row by row
+  std::vector<double> cosines_, sines_;
+  double least_; ///< of the nodes given
+};
+
+/// The field of cell widths. \throws Error invalid_argument as require_widths().
+RasterField width_field(const Raster& widths);
+
+/// The values of a field at the columns of a block.
+void evaluate_block(const RasterField& field, const Eigen::Ref<const Points3>& points,
+                    Eigen::Ref<Eigen::VectorXd> values);
+
+/// \throws Error invalid_argument unless widths are those of a surface of this kind.
+void require_kind(const Raster& widths, const Surface& surface);
+
+/// \throws Error invalid_argument unless a radius is > 0 and finite.
+void require_radius(double radius_km);
+
+/// Why nodes do not cover a surface, see require_covering(); empty if they do.
+/// \param x, y names of the axes in the message.
+std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
+                      const std::string& y);
+
+/// The callable of a density (h_min/h)^4. DensityEvaluator calls the second operator.
+class WidthDensity {
+public:
+  explicit WidthDensity(const Raster& widths)
+      : field_(std::make_shared<const RasterField>(width_field(widths))) {}
+
+  void operator()(const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) const;
+  void operator()(const double* x, const double* y, const double* z, std::size_t count,
+                  double* rho) const;
+
+private:
+  std::shared_ptr<const RasterField> field_;
+};
+
+/// The regular grid of the sphere, poles included, with the largest step of at most `step` degrees
+/// that divides 180. The values are not set.
+Raster regular_grid(double step);
+
+/// A grid over a rectangle of a plane without values, of at most so many nodes.
+/// \param size of the rectangle; > 0. \param step largest distance of its nodes, > 0, which grows
+///        where these would be more.
+Raster grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size, double step,
+                 double most_nodes);
+
+} // namespace calotte::density_detail

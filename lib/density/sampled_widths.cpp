@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/require.h"
+#include "density/raster_field.h"
+#include "density/width_rules.h"
+#include "domain/surface.h"
+
+#include <calotte/widths.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+// Rasters of rules.
+
+namespace calotte {
+namespace density_detail {
+namespace {
+
+using base_detail::require;
+using base_detail::shortly;
+
+/// What a raster of a plane covers.
+struct PlaneBox {
+  Eigen::Vector2d low, size;
+};
+
+PlaneBox box_of(const Surface& plane) {
+  if (!plane.is_bounded())
+    return {Eigen::Vector2d::Zero(), plane.period()};
+  const Box2& box = domain_detail::outline_of<Plane>(plane)->box();
+  return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
+}
+
+Raster sample_on_sphere(const Widths& widths, double step) {
+  require(step == 0 || (step >= 0.01 && step <= 10),
+          "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
+  const std::shared_ptr<const WidthRule> rule = widths.rule();
+  return sample(*rule, step == 0 ? step_for(*rule, widths.radius_km()) : step);
+}
+
+Raster sample_in_plane(const Widths& widths, const Surface& plane, double step) {
+  domain_detail::require_finite_plane(plane);
+  const std::shared_ptr<const WidthRule> rule = widths.rule();
+  require(rule->space() != RuleSpace::sphere,
+          "the widths are those of the sphere; give rules of a plane");
+  const PlaneBox box = box_of(plane);
+  constexpr double most_nodes = 2e7, usual_nodes = 4e6;
+  require(step == 0 ||
+              (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
+          "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
+              shortly(most_nodes) + " nodes; give another one");
+  Raster raster = step > 0 ? grid_over(box.low, box.size, step, 2 * most_nodes)
+                           : grid_over(box.low, box.size, rule->least() / 2, usual_nodes);
+  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
+    std::vector<Vec3> row;
+    for (const double x : raster.x)
+      row.push_back({x, raster.y[j], 0});
+    rule->evaluate(row, {raster.values.col(j).data(), row.size()});
+  });
+  return raster;
+}
+
+} // namespace
+
+double step_for(const WidthRule& rule, double radius_km) {
+  constexpr double finest = 0.05, coarsest = 1, degrees = 180 / std::numbers::pi;
+  return std::clamp(rule.least() / radius_km * degrees, finest, coarsest);
+}
+
+Raster sample(const WidthRule& rule, double step) {
+  require(rule.space() != RuleSpace::plane,
+          "the widths are those of a plane; give the domain that they are for");
+  Raster raster = regular_grid(step);
+  const Eigen::Index columns = raster.x.size();
+  std::vector<double> zeros(static_cast<std::size_t>(columns), 0);
+  std::vector<Vec3> round(static_cast<std::size_t>(columns));
+  base_detail::from_lonlats(raster.x.data(), zeros.data(), columns, round.data());
+  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
+    const Vec3 meridian = base_detail::from_lonlat(0, raster.y[j]);
+    std::vector<Vec3> row;
+    for (const Vec3& at : round)
+      row.push_back({meridian.x * at.x, meridian.x * at.y, meridian.z});
+    rule.evaluate(row, {raster.values.col(j).data(), row.size()});
+  });
+  return raster;
+}
+
+Raster sample(const Widths& widths, const Surface& surface, double step) {
+  return surface.is_sphere() ? sample_on_sphere(widths, step)
+                             : sample_in_plane(widths, surface, step);
+}
+
+void fill_outside(Raster& raster, const Surface& surface) {
+  const auto is_inside = [&](double x, double y) {
+    if (!surface.is_bounded())
+      return true;
+    const Vec3 at = raster.of_plane ? Vec3{x, y, 0} : base_detail::from_lonlat(x, y);
+    return surface.contains({at.x, at.y, at.z});
+  };
+  double widest = 0;
+  for (Eigen::Index j = 0; j < raster.y.size(); ++j)
+    for (Eigen::Index i = 0; i < raster.x.size(); ++i) {
+      const double width = raster.values(i, j), x = raster.x[i], y = raster.y[j];
+      if (Widths::is_demand(width))
+        widest = std::max(widest, width);
+      else if (is_inside(x, y))
+        base_detail::refuse("no rule gives a width at " +
+                            (raster.of_plane
+                                 ? "x " + shortly(x) + ", y " + shortly(y)
+                                 : "longitude " + shortly(x) + ", latitude " + shortly(y)) +
+                            "; add one that holds everywhere, such as a number");
+    }
+  raster.values = raster.values.unaryExpr(
+      [&](double width) { return Widths::is_demand(width) ? width : widest; });
+}
+
+} // namespace density_detail
+
+Raster sampled(const Widths& widths, const Surface& surface, double step) {
+  Raster raster = density_detail::sample(widths, surface, step);
+  density_detail::fill_outside(raster, surface);
+  return raster;
+}
+
+} // namespace calotte
