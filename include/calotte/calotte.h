@@ -24,6 +24,7 @@
 #include <calotte/lonlat.h>
 #include <calotte/matrices.h>
 #include <calotte/model.h>
+#include <calotte/neighbours.h>
 #include <calotte/ocean.h>
 #include <calotte/operators.h>
 #include <calotte/options.h>

@@ -52,8 +52,8 @@ struct CellParts {
 /// this process. The result has the same bits for any number of threads. The function runs in the
 /// caller's task arena.
 /// \param neighbours n lists: of each cell those that share an edge with it, in any order; ids of
-///        -1, the cell itself and repetitions have no effect. See cell_neighbours() and
-///        Voronoi::cells_on_cell.
+///        -1, the cell itself and repetitions have no effect. See neighbours(), cell_neighbours()
+///        and Voronoi::cells_on_cell.
 /// \param parts 1 to n. One part needs no METIS.
 /// \throws Error invalid_argument: no cells; parts out of range; ids out of range, and neighbours
 ///         that are not mutual, with the index of the cell; weights of another number, with the

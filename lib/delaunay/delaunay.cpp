@@ -12,9 +12,9 @@
 #include "delaunay/sample.h"
 #include "delaunay/unite.h"
 #include "domain/surface.h"
-#include "mesh/edges.h"
 
 #include <calotte/error.h>
+#include <calotte/neighbours.h>
 
 #include <algorithm>
 #include <atomic>
@@ -189,18 +189,6 @@ Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
   return mesh;
 }
 
-/// Adds each edge to the lists of both its ends.
-std::vector<std::vector<std::int32_t>> adjacent_sites(const Mesh& mesh) {
-  std::vector<std::vector<std::int32_t>> adjacent(static_cast<std::size_t>(mesh.points.cols()));
-  for_each_edge(mesh, [&](std::int32_t a, std::int32_t b) {
-    adjacent[static_cast<std::size_t>(a)].push_back(b);
-    adjacent[static_cast<std::size_t>(b)].push_back(a);
-  });
-  for (std::vector<std::int32_t>& list : adjacent)
-    std::sort(list.begin(), list.end());
-  return adjacent;
-}
-
 template <class Chart, class Points>
 Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
                     Monitor* monitor = nullptr) {
@@ -227,22 +215,27 @@ template <class Chart, class Points> std::optional<Mesh> mesh_of(const Points& p
 
 /// For each centre the centres whose coarse Voronoi cells meet its own: its neighbours in the
 /// Delaunay triangulation of the centres, or all others if there is no such triangulation.
-std::vector<std::vector<std::int32_t>> adjacent_centres(const std::vector<Vec3>& centres,
-                                                        bool planar) {
-  const std::size_t count = centres.size();
-  Points3 points(3, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k)
-    set_column(points, static_cast<std::int64_t>(k), centres[k]);
+IdLists adjacent_centres(const std::vector<Vec3>& centres, bool planar) {
+  const std::int64_t count = std::ssize(centres);
+  Points3 points(3, count);
+  for (std::int64_t k = 0; k < count; ++k)
+    set_column(points, k, centres[static_cast<std::size_t>(k)]);
   const std::optional<Mesh> mesh =
       planar ? mesh_of<PlaneChart>(points.topRows<2>()) : mesh_of<SphereChart>(points);
   if (mesh)
-    return adjacent_sites(*mesh);
-  std::vector<std::vector<std::int32_t>> adjacent(count);
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t m = 0; m < count; ++m)
-      if (m != k)
-        adjacent[k].push_back(static_cast<std::int32_t>(m));
-  return adjacent;
+    return neighbours(*mesh);
+  IdLists all;
+  all.begin.setZero(count + 1);
+  all.items.resize(count * (count - 1));
+  for (std::int32_t k = 0; k < count; ++k) {
+    all.begin[k + 1] = (k + 1) * (count - 1);
+    std::int32_t other = 0;
+    for (std::int32_t& id : all[k]) {
+      other += other == k ? 1 : 0;
+      id = other++;
+    }
+  }
+  return all;
 }
 
 } // namespace
@@ -251,8 +244,7 @@ Regions divide(const Sites& sites, const Partition& partition) {
   std::vector<Vec3> centres = make_centres(sites, partition);
   if (centres.size() == 1)
     return {std::move(centres), {}, {}, {}};
-  const std::vector<std::vector<std::int32_t>> adjacent =
-      adjacent_centres(centres, sites.frame.has_value());
+  const IdLists adjacent = adjacent_centres(centres, sites.frame.has_value());
   return make_regions(sites, std::move(centres), adjacent, partition.overlap);
 }
 

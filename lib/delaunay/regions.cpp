@@ -46,9 +46,8 @@ HalfSpace beyond_bisector(const Vec3& own, const Vec3& other, double width) {
   return {(1 / length) * apart, offset + width};
 }
 
-std::vector<std::vector<HalfSpace>>
-halo_half_spaces(const Sites& sites, const Regions& regions,
-                 const std::vector<std::vector<std::int32_t>>& adjacent) {
+std::vector<std::vector<HalfSpace>> halo_half_spaces(const Sites& sites, const Regions& regions,
+                                                     const IdLists& adjacent) {
   const std::size_t count = regions.centres.size();
   const std::vector<double> step = mean_steps(sites, regions.owner, count);
   std::vector<std::vector<HalfSpace>> covered(count);
@@ -85,9 +84,8 @@ std::vector<HalfSpace> half_planes_around(const Vec3& centre, double radius) {
   return polygon;
 }
 
-std::vector<std::vector<HalfSpace>>
-distance_half_spaces(const Sites& sites, const Regions& regions,
-                     const std::vector<std::vector<std::int32_t>>& adjacent) {
+std::vector<std::vector<HalfSpace>> distance_half_spaces(const Sites& sites, const Regions& regions,
+                                                         const IdLists& adjacent) {
   std::vector<double> chord = owned_radii(sites, regions);
   std::vector<std::vector<HalfSpace>> covered(regions.centres.size());
   for (std::size_t k = 0; k < covered.size(); ++k) {
@@ -106,9 +104,8 @@ distance_half_spaces(const Sites& sites, const Regions& regions,
 /// A site that is nearer to a region's centre than to any centre that is not its neighbour's is
 /// certainly owned by the region or a neighbour. `nearest` compares squared distances with an error
 /// of 5e-15 each, which is large over a bisector of centres that are close together.
-std::vector<std::vector<HalfSpace>>
-voronoi_half_spaces(const Regions& regions,
-                    const std::vector<std::vector<std::int32_t>>& adjacent) {
+std::vector<std::vector<HalfSpace>> voronoi_half_spaces(const Regions& regions,
+                                                        const IdLists& adjacent) {
   const std::size_t count = regions.centres.size();
   std::vector<std::vector<HalfSpace>> covered(count);
   for (std::size_t k = 0; k < count; ++k)
@@ -230,9 +227,8 @@ std::vector<std::vector<Run>> members_inside(const Sites& sites, const Regions& 
   return members;
 }
 
-std::vector<std::vector<Run>>
-members_of_neighbours(const Regions& regions,
-                      const std::vector<std::vector<std::int32_t>>& adjacent) {
+std::vector<std::vector<Run>> members_of_neighbours(const Regions& regions,
+                                                    const IdLists& adjacent) {
   std::vector<std::vector<Run>> members(regions.centres.size());
   const auto n = static_cast<std::int32_t>(regions.owner.size());
   for (std::int32_t begin = 0, end = 0; begin != n; begin = end) {
@@ -353,8 +349,8 @@ std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<cha
   return again;
 }
 
-Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
-                     const std::vector<std::vector<std::int32_t>>& adjacent, Overlap overlap) {
+Regions make_regions(const Sites& sites, std::vector<Vec3> centres, const IdLists& adjacent,
+                     Overlap overlap) {
   Regions regions;
   regions.centres = std::move(centres);
   regions.owner = owners(sites.cells, sites.unit, regions.centres);

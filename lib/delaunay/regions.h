@@ -4,6 +4,7 @@
 #include "delaunay/room.h"
 #include "delaunay/sites.h"
 
+#include <calotte/lists.h>
 #include <calotte/options.h>
 
 #include <cstdint>
@@ -34,8 +35,8 @@ struct Regions {
 /// Computes the owners of the sites, by rank, and the members by the option `overlap`.
 /// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
 ///         Too many neighbours cost time; too few make halos larger than necessary.
-Regions make_regions(const Sites& sites, std::vector<Vec3> centres,
-                     const std::vector<std::vector<std::int32_t>>& adjacent, Overlap overlap);
+Regions make_regions(const Sites& sites, std::vector<Vec3> centres, const IdLists& adjacent,
+                     Overlap overlap);
 
 /// Merges regions whose caps cannot certify their sites: those that share members become one, which
 /// holds all sites of a cap around theirs.

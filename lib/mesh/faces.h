@@ -71,6 +71,19 @@ inline Corner next_around(const Faces& s, Corner corner) {
   return {beyond, vertex_at(s.triangle_ids, beyond, site_at(s, corner))};
 }
 
+/// The same; none, too, if the next triangle does not match. The way back is checked as well, so
+/// that no two corners have the same next one, and a walk returns to its start.
+/// \pre the vertices are sites, three in each triangle.
+inline Corner fitting_next(const Faces& s, Corner corner) {
+  if (s.neighbour_ids(next_vertex(corner.vertex), corner.triangle) >= s.triangles())
+    return no_corner;
+  const Corner next = next_around(s, corner);
+  const bool fits = exists(next) && site_at(s, next) == site_at(s, corner) &&
+                    following_site(s, next) == preceding_site(s, corner) &&
+                    s.neighbour_ids(previous_vertex(next.vertex), next.triangle) == corner.triangle;
+  return fits ? next : no_corner;
+}
+
 /// Calls body(corner) for the corners at a site, from a given one on.
 /// \return the corner that has no next one, or none if the walk returns to the first.
 /// \pre no two corners have the same next one; otherwise the walk might not return.
@@ -85,6 +98,13 @@ Corner walk_around(Corner first, const Next& next, const Body& body) {
     corner = following;
   } while (corner.triangle != first.triangle);
   return no_corner;
+}
+
+/// The same in a mesh.
+/// \pre neighbours are -1 or match the triangles.
+template <class Body> Corner walk_around(const Faces& s, Corner first, const Body& body) {
+  return walk_around(
+      first, [&](Corner corner) { return next_around(s, corner); }, body);
 }
 
 } // namespace calotte::mesh_detail

@@ -23,12 +23,6 @@ Array<Corner> some_corners(const Faces& mesh) {
   return corner;
 }
 
-template <class Body>
-void for_each_corner_around(const Faces& mesh, Corner first, const Body& body) {
-  walk_around(
-      first, [&](Corner corner) { return next_around(mesh, corner); }, body);
-}
-
 } // namespace
 
 Array<Corner> ring_starts(const Faces& mesh, Array<std::int64_t>* degrees) {
@@ -37,7 +31,7 @@ Array<Corner> ring_starts(const Faces& mesh, Array<std::int64_t>* degrees) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int64_t count = 0;
       Corner lowest = first[i];
-      for_each_corner_around(mesh, first[i], [&](Corner corner) {
+      walk_around(mesh, first[i], [&](Corner corner) {
         ++count;
         if (following_site(mesh, corner) < following_site(mesh, lowest))
           lowest = corner;
@@ -52,7 +46,7 @@ Array<Corner> ring_starts(const Faces& mesh, Array<std::int64_t>* degrees) {
 
 void gather_ring(const Faces& mesh, Corner start, std::vector<Corner>& ring) {
   ring.clear();
-  for_each_corner_around(mesh, start, [&](Corner corner) { ring.push_back(corner); });
+  walk_around(mesh, start, [&](Corner corner) { ring.push_back(corner); });
 }
 
 VertexRings make_vertex_rings(const Mesh& mesh) {
@@ -71,7 +65,7 @@ VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neigh
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       std::int64_t place = rings.begin[i];
-      for_each_corner_around(mesh, first[i], [&](Corner corner) { rings.items[place++] = corner; });
+      walk_around(mesh, first[i], [&](Corner corner) { rings.items[place++] = corner; });
     }
   });
   return rings;

@@ -22,20 +22,6 @@ namespace {
 
 // ---- Rings: the triangles around a site, counter-clockwise
 
-/// The corner at the same site in the next triangle, or none if that triangle does not match. The
-/// way back is checked as well, so that no two corners have the same next one, and a walk returns
-/// to its start.
-Corner fitting_next(const Faces& surface, Corner corner) {
-  const std::int32_t t = corner.triangle;
-  if (surface.neighbour_ids(next_vertex(corner.vertex), t) >= surface.triangles())
-    return no_corner;
-  const Corner next = next_around(surface, corner);
-  const bool fits = exists(next) && site_at(surface, next) == site_at(surface, corner) &&
-                    following_site(surface, next) == preceding_site(surface, corner) &&
-                    surface.neighbour_ids(previous_vertex(next.vertex), next.triangle) == t;
-  return fits ? next : no_corner;
-}
-
 /// Calls body(corner) around a site.
 /// \returns the corner whose next does not match, or none.
 template <class Body>

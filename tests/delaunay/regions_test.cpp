@@ -14,13 +14,17 @@ using namespace calotte::delaunay_detail;
 
 namespace {
 
-std::vector<std::vector<std::int32_t>> all_pairs(std::size_t count) {
-  std::vector<std::vector<std::int32_t>> adjacent(count);
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t m = 0; m < count; ++m)
-      if (m != k)
-        adjacent[k].push_back(static_cast<std::int32_t>(m));
-  return adjacent;
+/// As many neighbours of each region as `next` gives.
+template <class Next> IdLists lists_of(std::int64_t count, std::int64_t each, const Next& next) {
+  IdLists lists;
+  lists.begin.resize(count + 1);
+  lists.items.resize(count * each);
+  for (std::int64_t k = 0; k <= count; ++k)
+    lists.begin[k] = k * each;
+  for (std::int64_t k = 0; k < count; ++k)
+    for (std::int64_t m = 0; m < each; ++m)
+      lists.items[k * each + m] = static_cast<std::int32_t>(next(k, m) % count);
+  return lists;
 }
 
 Regions regions_of(const Sites& sites, int count, Centres centres, Overlap overlap) {
@@ -28,7 +32,8 @@ Regions regions_of(const Sites& sites, int count, Centres centres, Overlap overl
   partition.regions = count;
   partition.centres = centres;
   return make_regions(sites, make_centres(sites, partition),
-                      all_pairs(static_cast<std::size_t>(count)), overlap);
+                      lists_of(count, count - 1, [](auto k, auto m) { return k + m + 1; }),
+                      overlap);
 }
 
 /// For the sampled regions, the largest number of owned sites over the mean.
@@ -109,9 +114,8 @@ TEST_CASE("what the voronoi overlap calls covered is, though centres stand too c
   const Sites sites = make_sites(points, Duplicates::merge, 0);
   Partition partition;
   partition.given_centres = centres;
-  std::vector<std::vector<std::int32_t>> adjacent(40); // only a few: most owners are no members
-  for (std::int32_t k = 0; k < 40; ++k)
-    adjacent[static_cast<std::size_t>(k)] = {k == 0 ? 39 : k - 1, k == 39 ? 0 : k + 1};
+  const IdLists adjacent = // only a few: most owners are no members
+      lists_of(40, 2, [](auto k, auto m) { return k + (m == 0 ? 39 : 1); });
   const Regions regions =
       make_regions(sites, make_centres(sites, partition), adjacent, Overlap::voronoi);
   for (std::size_t k = 0; k < 40; ++k)

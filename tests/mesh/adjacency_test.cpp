@@ -84,8 +84,7 @@ TEST_CASE("a walk visits each corner at a site once, or those from a boundary on
     const auto ring = rings[i];
     const mesh_detail::Corner first = ring.front();
     std::size_t place = 0;
-    const auto next = [&](mesh_detail::Corner corner) { return next_around(faces, corner); };
-    const mesh_detail::Corner last = walk_around(first, next, [&](mesh_detail::Corner corner) {
+    const mesh_detail::Corner last = walk_around(faces, first, [&](mesh_detail::Corner corner) {
       REQUIRE(site_at(faces, corner) == i);
       REQUIRE(following_site(faces, corner) >= following_site(faces, first));
       REQUIRE(place < ring.size());
@@ -101,9 +100,8 @@ TEST_CASE("a walk visits each corner at a site once, or those from a boundary on
   for (std::int32_t t = 0; t < open.triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)
       if (open.neighbours(mesh_detail::next_vertex(v), t) < 0) {
-        const auto next = [&](mesh_detail::Corner corner) { return next_around(half, corner); };
         const mesh_detail::Corner last =
-            walk_around(mesh_detail::Corner{t, v}, next, [](mesh_detail::Corner) {});
+            walk_around(half, mesh_detail::Corner{t, v}, [](mesh_detail::Corner) {});
         CHECK(last.triangle == t);
       }
 }

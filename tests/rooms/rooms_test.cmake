@@ -41,7 +41,7 @@ endforeach()
 
 # The rooms of the public headers. One that has a room's name belongs to that room.
 set(headers_of_base error export lists matrices mesh_field options points polygons progress surface types version)
-set(headers_of_mesh check locate renumber)
+set(headers_of_mesh check locate neighbours renumber)
 set(headers_of_density cell_width raster widths)
 set(headers_of_generators lonlat)
 set(headers_of_voronoi conservative interpolate)

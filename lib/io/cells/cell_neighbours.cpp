@@ -5,6 +5,7 @@
 #include "io/cells/polygons.h"
 
 #include <calotte/mesh_file.h>
+#include <calotte/neighbours.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,18 +31,8 @@ template <class Put> void for_each_pair(const Polygons& polygons, const Sides& s
   }
 }
 
-/// The same: the two sites of an edge.
-template <class Put> void for_each_pair(const Mesh& mesh, Put put) {
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t from = mesh.triangles((i + 1) % 3, t), to = mesh.triangles((i + 2) % 3, t);
-      put(from, to);
-      put(to, from);
-    }
-}
-
 /// Ascending, each neighbour once.
-IdLists sorted(Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> lists) {
+template <class AnyLists> IdLists sorted(AnyLists lists) {
   const std::int64_t cells = lists.size();
   IdLists out;
   out.begin.setZero(cells + 1);
@@ -66,8 +57,7 @@ IdLists sorted(Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> lists
 IdLists cell_neighbours(const MeshFile& file) {
   require(file.mesh || file.polygons, "the file holds neither a mesh nor cells");
   if (!file.polygons)
-    return sorted(lists_by_key<std::vector<std::int32_t>>(
-        file.mesh->points.cols(), [&](const auto& put) { for_each_pair(*file.mesh, put); }));
+    return sorted(neighbours(*file.mesh));
   const Sides sides(*file.polygons);
   return sorted(lists_by_key<std::vector<std::int32_t>>(
       file.polygons->size(), [&](const auto& put) { for_each_pair(*file.polygons, sides, put); }));

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/clouds.h"
+#include "support/errors.h"
+#include "support/meshes.h"
+#include "support/parts.h"
+#include "support/random.h"
+
+#include <calotte/delaunay.h>
+#include <calotte/generators.h>
+#include <calotte/neighbours.h>
+#include <calotte/voronoi.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace calotte;
+using namespace calotte::test;
+
+namespace {
+
+using Pair = std::array<std::int32_t, 2>;
+
+/// A box of columns x rows sites, each with six neighbours; of two by two sites, each with three
+/// neighbours, twice.
+Mesh torus(std::int32_t columns, std::int32_t rows) {
+  const auto place = [&](std::int32_t x, std::int32_t y) {
+    return (x + columns) % columns + columns * ((y + rows) % rows);
+  };
+  Mesh mesh;
+  mesh.surface = Surface::periodic({columns, rows});
+  mesh.points.resize(3, columns * rows);
+  mesh.triangles.resize(3, 2 * columns * rows);
+  mesh.neighbours.resize(3, 2 * columns * rows);
+  for (std::int32_t y = 0; y < rows; ++y)
+    for (std::int32_t x = 0; x < columns; ++x) {
+      const std::int32_t here = place(x, y), right = place(x + 1, y), above = place(x, y + 1);
+      mesh.points.col(here) << x, y, 0;
+      mesh.triangles.col(2 * here) << here, right, above;
+      mesh.triangles.col(2 * here + 1) << right, place(x + 1, y + 1), above;
+      mesh.neighbours.col(2 * here) << 2 * here + 1, 2 * place(x - 1, y) + 1,
+          2 * place(x, y - 1) + 1;
+      mesh.neighbours.col(2 * here + 1) << 2 * above, 2 * here, 2 * right;
+    }
+  return mesh;
+}
+
+/// Meshes of all kinds, of which some have sites where the boundary passes more than once, and
+/// sites in no triangle.
+std::vector<NamedMesh> meshes() {
+  std::vector<NamedMesh> all = all_meshes();
+  all.push_back(
+      {"plane", delaunay(random_points(200, rectangle({0, 0}, {2, 1}), {}, 5), Surface::plane())});
+  const Surface box = Surface::periodic({2, 1});
+  all.push_back({"box", delaunay(random_points(300, box, {}, 6), box)});
+  all.push_back({"2 x 2 sites of a box", torus(2, 2)});
+  all.push_back({"2 x 5 sites of a box", torus(2, 5)});
+  Random random(7);
+  for (const std::size_t k : {std::size_t{0}, all.size() - 3, all.size() - 1})
+    all.push_back({"a part of " + all[k].name,
+                   part_of(all[k].mesh, [&](std::int64_t) { return random.integer(0, 9) < 6; })});
+  return all;
+}
+
+/// The other ends of the edges at each site, ascending, an edge once, by the triangles alone.
+std::vector<std::vector<std::int32_t>> ends_by_definition(const Mesh& mesh) {
+  std::vector<std::vector<std::int32_t>> ends(static_cast<std::size_t>(mesh.points.cols()));
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (mesh.neighbours(i, t) < t) { // the later of its triangles, or the only one
+        const std::int32_t a = mesh.triangles((i + 1) % 3, t), b = mesh.triangles((i + 2) % 3, t);
+        ends[static_cast<std::size_t>(a)].push_back(b);
+        ends[static_cast<std::size_t>(b)].push_back(a);
+      }
+  for (auto& list : ends)
+    std::sort(list.begin(), list.end());
+  return ends;
+}
+
+/// The sites that follow each other in the triangles at a site.
+std::multiset<Pair> pairs_around(const Mesh& mesh, std::int32_t site) {
+  std::multiset<Pair> pairs;
+  for (const auto& t : mesh.triangles.colwise())
+    for (int i = 0; i < 3; ++i)
+      if (t(i) == site)
+        pairs.insert({t((i + 1) % 3), t((i + 2) % 3)});
+  return pairs;
+}
+
+} // namespace
+
+TEST_CASE("the neighbours of a site are the other ends of its edges, counter-clockwise") {
+  for (const auto& [name, mesh] : meshes()) {
+    CAPTURE(name);
+    const IdLists lists = neighbours(mesh);
+    const std::vector<std::vector<std::int32_t>> ends = ends_by_definition(mesh);
+    REQUIRE(lists.size() == mesh.points.cols());
+    for (std::int32_t i = 0; i < lists.size(); ++i) {
+      CAPTURE(i);
+      const std::vector<std::int32_t> list(lists[i].begin(), lists[i].end());
+      std::vector<std::int32_t> sorted = list;
+      std::sort(sorted.begin(), sorted.end());
+      CHECK(sorted == ends[static_cast<std::size_t>(i)]);
+      // One after another they make the triangles, but for the ends of fans.
+      std::multiset<Pair> left = pairs_around(mesh, i);
+      const std::size_t triangles = left.size();
+      std::size_t fans = list.size() - triangles;
+      if (fans == 0 && !list.empty())
+        CHECK(list.front() == sorted.front());
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        const auto at = left.find({list[k], list[(k + 1) % list.size()]});
+        if (at != left.end())
+          left.erase(at);
+        else
+          --fans;
+      }
+      CHECK(left.empty());
+      CHECK(fans == 0);
+      if (list.size() == triangles + 1) // one fan: it begins and ends at open edges
+        CHECK(!pairs_around(mesh, i).contains({list.back(), list.front()}));
+    }
+  }
+}
+
+TEST_CASE("in a closed mesh they are the cells on each cell") {
+  for (const auto& [name, mesh] : closed_meshes()) {
+    CAPTURE(name);
+    const IdLists lists = neighbours(mesh), cells = voronoi(mesh).cells_on_cell;
+    CHECK(equal_bits(lists.begin, cells.begin));
+    CHECK(equal_bits(lists.items, cells.items));
+  }
+}
+
+TEST_CASE("neighbours that do not fit are refused, with the index of the triangle") {
+  const Mesh mesh = delaunay(random_sphere(50, 1));
+  const auto index_of = [](const Mesh& broken) {
+    return error_of([&] { neighbours(broken); }).index();
+  };
+  Mesh broken = mesh;
+  broken.triangles(2, 9) = 50;
+  CHECK(index_of(broken) == 9);
+  broken = mesh;
+  broken.triangles(2, 9) = broken.triangles(0, 9);
+  CHECK(index_of(broken) == 9);
+  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
+    for (const std::int32_t wrong : {-2, t, (t + 50) % 96, 96}) {
+      if (wrong == mesh.neighbours(1, t))
+        continue;
+      broken = mesh;
+      broken.neighbours(1, t) = wrong;
+      const std::int64_t index = index_of(broken);
+      CHECK((index == t || index == mesh.neighbours(1, t)));
+    }
+  broken = mesh;
+  broken.neighbours.resize(3, 0);
+  CHECK(code_of([&] { neighbours(broken); }) == ErrorCode::invalid_argument);
+}
