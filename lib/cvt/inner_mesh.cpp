@@ -6,8 +6,10 @@
 #include "cvt/cells.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
+#include "mesh/faces.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,57 +25,37 @@ Triangles selected(const Triangles& triangles, const std::vector<std::uint8_t>& 
   return triangles(Eigen::all, kept);
 }
 
-/// The triangles around a site in fans, each of which hangs together through edges at the site.
-std::vector<std::vector<std::int32_t>> fans_at(const Triangles& triangles,
-                                               const Triangles& neighbours, std::int32_t site,
-                                               std::vector<std::int32_t> around) {
-  std::vector<std::vector<std::int32_t>> fans;
-  while (!around.empty()) {
-    std::vector<std::int32_t> fan{around.back()};
-    around.pop_back();
-    for (std::size_t k = 0; k < fan.size(); ++k)
-      for (int v = 0; v < 3; ++v) {
-        const auto next = std::find(around.begin(), around.end(), neighbours(v, fan[k]));
-        if (triangles(v, fan[k]) != site && next != around.end()) {
-          fan.push_back(*next);
-          around.erase(next);
-        }
-      }
-    fans.push_back(std::move(fan));
-  }
-  return fans;
-}
+/// The triangles at a site from one open edge to the next.
+struct Fan {
+  Corner first;
+  std::int32_t site;
+  std::int32_t triangles, last; ///< their number, and the highest
+};
 
 /// Marks all triangles but those of each site's largest fan; returns how many.
 std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
                              std::vector<std::uint8_t>& keep) {
   const Triangles neighbours = neighbours_of(triangles, points);
-  std::vector<std::int32_t> open(static_cast<std::size_t>(points), 0);
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
+  const Faces faces{triangles, neighbours, points};
+  std::vector<Fan> fans;
+  for (std::int32_t t = 0; t < triangles.cols(); ++t)
     for (int v = 0; v < 3; ++v)
-      if (neighbours(v, t) < 0)
-        ++open[static_cast<std::size_t>(triangles(next_vertex(v), t))];
-  std::vector<std::vector<std::int32_t>> around(static_cast<std::size_t>(points));
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v)
-      if (open[static_cast<std::size_t>(triangles(v, t))] > 1)
-        around[static_cast<std::size_t>(triangles(v, t))].push_back(static_cast<std::int32_t>(t));
-  std::int64_t dropped = 0;
-  for (std::int32_t site = 0; site < points; ++site) {
-    auto fans = fans_at(triangles, neighbours, site, around[static_cast<std::size_t>(site)]);
-    if (fans.size() < 2)
-      continue;
-    const auto largest =
-        std::max_element(fans.begin(), fans.end(), [](const auto& a, const auto& b) {
-          return a.size() != b.size() ? a.size() < b.size()
-                                      : *std::max_element(a.begin(), a.end()) <
-                                            *std::max_element(b.begin(), b.end());
+      if (neighbours(previous_vertex(v), t) < 0) {
+        Fan& fan = fans.emplace_back(Fan{{t, v}, triangles(v, t), 0, t});
+        walk_around(faces, fan.first, [&](Corner corner) {
+          ++fan.triangles;
+          fan.last = std::max(fan.last, corner.triangle);
         });
-    for (const auto& fan : fans)
-      for (const std::int32_t t : fan)
-        if (&fan != &*largest && std::exchange(keep[static_cast<std::size_t>(t)], 0) != 0)
-          ++dropped;
-  }
+      }
+  std::sort(fans.begin(), fans.end(), [](const Fan& a, const Fan& b) {
+    return std::tie(a.site, b.triangles, b.last) < std::tie(b.site, a.triangles, a.last);
+  });
+  std::int64_t dropped = 0;
+  for (std::size_t k = 1; k < fans.size(); ++k)
+    if (fans[k].site == fans[k - 1].site)
+      walk_around(faces, fans[k].first, [&](Corner corner) {
+        dropped += std::exchange(keep[static_cast<std::size_t>(corner.triangle)], 0);
+      });
   return dropped;
 }
 

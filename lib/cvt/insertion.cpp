@@ -12,6 +12,7 @@
 #include "domain/surface.h"
 #include "exact/space.h"
 #include "mesh/edges.h"
+#include "mesh/stars.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,12 +56,7 @@ DoubleVector fineness(const Density& density, const Points3& points) {
 class Choice {
 public:
   explicit Choice(const Mesh& mesh)
-      : mesh_(mesh), triangle_(static_cast<std::size_t>(mesh.points.cols()), -1),
-        blocked_(triangle_.size(), 0) {
-    for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-      for (int v = 0; v < 3; ++v)
-        triangle_[static_cast<std::size_t>(mesh.triangles(v, t))] = static_cast<std::int32_t>(t);
-  }
+      : stars_(faces_of(mesh)), blocked_(static_cast<std::size_t>(mesh.points.cols()), 0) {}
 
   /// Up to `count` of the edges that are allowed, the first ones in an order. Reorders the edges.
   template <class Before, class Allowed>
@@ -89,29 +85,13 @@ private:
     if (a != 0 || b != 0)
       return false;
     for (const std::int32_t end : {edge.a, edge.b})
-      block_around(end);
+      stars_.for_each_neighbour(
+          end, [&](std::int32_t other) { blocked_[static_cast<std::size_t>(other)] = 1; });
     a = b = 1;
     return true;
   }
 
-  /// Blocks a site's neighbours: on both ways around it, of which one ends at a hull.
-  void block_around(std::int32_t site) {
-    const std::int32_t first = triangle_[static_cast<std::size_t>(site)];
-    for (const bool counter_clockwise : {true, false})
-      for (std::int32_t t = first; t >= 0;) {
-        int v = 0;
-        while (mesh_.triangles(v, t) != site)
-          ++v;
-        for (const int other : {next_vertex(v), previous_vertex(v)})
-          blocked_[static_cast<std::size_t>(mesh_.triangles(other, t))] = 1;
-        t = mesh_.neighbours(counter_clockwise ? next_vertex(v) : previous_vertex(v), t);
-        if (t == first)
-          return;
-      }
-  }
-
-  const Mesh& mesh_;
-  std::vector<std::int32_t> triangle_; ///< one at each site
+  mesh_detail::Stars stars_;
   std::vector<std::uint8_t> blocked_;
 };
 

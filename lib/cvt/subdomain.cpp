@@ -7,6 +7,7 @@
 #include "cvt/descent.h"
 #include "cvt/state.h"
 #include "density/hexagons.h"
+#include "mesh/rows.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 namespace calotte::cvt_detail {
@@ -24,21 +26,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// The triangles within some steps across edges from a pair, the nearer ones first.
 std::vector<std::int32_t> triangles_around(const Connectivity& mesh,
                                            const std::array<std::int32_t, 2>& pair, int steps) {
-  std::vector<std::int32_t> found(pair.begin(), pair[0] == pair[1] ? pair.begin() + 1 : pair.end());
-  std::ptrdiff_t before = 0, front = 0; // where the last but one step begins, and the last
+  std::vector<std::int32_t> found(pair.begin(), pair[0] == pair[1] ? pair.begin() + 1 : pair.end()),
+      row = found;
+  std::unordered_set<std::int32_t> known(found.begin(), found.end());
   for (int step = 0; step < steps; ++step) {
-    const std::ptrdiff_t end = std::ssize(found);
-    for (std::ptrdiff_t k = front; k < end; ++k)
-      for (int v = 0; v < 3; ++v)
-        if (const std::int32_t u = mesh.neighbours(v, found[static_cast<std::size_t>(k)]); u >= 0)
-          found.push_back(u);
-    const auto known = found.begin() + before, fresh = found.begin() + end;
-    std::sort(fresh, found.end());
-    found.erase(std::unique(fresh, found.end()), found.end());
-    found.erase(std::remove_if(fresh, found.end(),
-                               [&](std::int32_t t) { return std::find(known, fresh, t) != fresh; }),
-                found.end());
-    before = std::exchange(front, end);
+    row = mesh_detail::next_row(
+        row, [&](std::int32_t t) { return mesh.neighbours.col(t); },
+        [&](std::int32_t t) { return t >= 0 && known.insert(t).second; });
+    found.insert(found.end(), row.begin(), row.end());
   }
   return found;
 }

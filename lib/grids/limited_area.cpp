@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "domain/surface.h"
 #include "grids/room.h"
+#include "mesh/rows.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -14,20 +15,6 @@ namespace calotte {
 namespace {
 
 using base_detail::none, base_detail::require;
-
-/// The cells that are neighbours of a ring and in none.
-std::vector<std::int32_t> next_ring(const IdLists& cells_on_cell,
-                                    const std::vector<std::int32_t>& ring, std::int32_t number,
-                                    Ids& mask) {
-  std::vector<std::int32_t> next;
-  for (const std::int32_t cell : ring)
-    for (const std::int32_t other : cells_on_cell[cell])
-      if (other >= 0 && mask[other] == none) {
-        mask[other] = number;
-        next.push_back(other);
-      }
-  return next;
-}
 
 /// Whether a cell has fewer than two selected neighbours.
 bool is_loose(const IdLists& cells_on_cell, const Ids& mask, std::int32_t cell) {
@@ -72,7 +59,14 @@ Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8
                              " cells has its generator in the region; give a larger region or a "
                              "finer mesh");
   for (int k = 1; k <= rings; ++k)
-    ring = next_ring(cells_on_cell, ring, k, mask);
+    ring = mesh_detail::next_row(
+        ring, [&](std::int32_t cell) { return cells_on_cell[cell]; },
+        [&](std::int32_t cell) {
+          const bool is_next = cell >= 0 && mask[cell] == none;
+          if (is_next)
+            mask[cell] = k;
+          return is_next;
+        });
   const bool open = std::any_of(cells_on_cell.items.begin(), cells_on_cell.items.end(),
                                 [](std::int32_t cell) { return cell < 0; });
   require(open || mask.minCoeff() == none,

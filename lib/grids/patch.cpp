@@ -7,6 +7,8 @@
 #include "domain/arcs.h"
 #include "exact/space.h"
 #include "mesh/faces.h"
+#include "mesh/rows.h"
+#include "mesh/stars.h"
 
 #include <calotte/error.h>
 #include <calotte/voronoi.h>
@@ -24,31 +26,8 @@ namespace {
 
 using mesh_detail::Corner;
 using mesh_detail::Faces;
-using mesh_detail::RingStarts;
-
-/// Calls body(corner) for the triangles around a site; true if they close.
-template <class Body>
-bool walk_star(const Faces& faces, const RingStarts& rings, std::int32_t site, const Body& body) {
-  const std::int32_t start = rings.first[static_cast<std::size_t>(site)];
-  if (start < 0)
-    return false;
-  const auto next = [&](Corner corner) { return next_around(faces, corner); };
-  return !exists(walk_around(Corner{start, slot_of(faces, start, site)}, next, body));
-}
-
-/// Calls body(other) for the neighbours of a site; true if its star closes.
-template <class Body>
-bool for_each_neighbour(const Faces& faces, const RingStarts& rings, std::int32_t site,
-                        const Body& body) {
-  Corner last = mesh_detail::no_corner;
-  const bool closed = walk_star(faces, rings, site, [&](Corner corner) {
-    body(following_site(faces, corner));
-    last = corner;
-  });
-  if (!closed && exists(last))
-    body(preceding_site(faces, last));
-  return closed;
-}
+using mesh_detail::grown;
+using mesh_detail::Stars;
 
 /// From one site to another, in the unit of widths.
 template <Space S>
@@ -65,15 +44,14 @@ template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64
 
 /// A third of the triangles around each site; 0 at the boundary.
 template <Space S>
-DoubleVector cell_areas(const Mesh& mesh, const S& space, const RingStarts& rings,
+DoubleVector cell_areas(const Mesh& mesh, const S& space, const Stars& stars,
                         const Marks& at_boundary) {
-  const Faces faces = faces_of(mesh);
   DoubleVector areas(mesh.points.cols());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       double sum = 0;
-      walk_star(faces, rings, static_cast<std::int32_t>(i),
-                [&](Corner corner) { sum += flat_area(space, mesh, corner.triangle); });
+      stars.for_each_corner(static_cast<std::int32_t>(i),
+                            [&](Corner corner) { sum += flat_area(space, mesh, corner.triangle); });
       areas[i] = at_boundary[static_cast<std::size_t>(i)] != 0 ? 0 : sum / 3;
     }
   });
@@ -93,18 +71,6 @@ Marks stars_of(const Mesh& mesh, const Marks& sites) {
   return triangles;
 }
 
-/// Sites, and those within some rows of neighbours around them.
-Marks grown(const Mesh& mesh, Marks sites, int rows) {
-  for (int row = 0; row < rows; ++row) {
-    const Marks triangles = stars_of(mesh, sites);
-    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-      if (triangles[static_cast<std::size_t>(t)] != 0)
-        for (int i = 0; i < 3; ++i)
-          sites[static_cast<std::size_t>(mesh.triangles(i, t))] = 1;
-  }
-  return sites;
-}
-
 /// Values of sites from which a field spreads.
 using Sources = std::vector<std::pair<double, std::int32_t>>;
 
@@ -112,9 +78,8 @@ using Sources = std::vector<std::pair<double, std::int32_t>>;
 /// edges. (Dijkstra, Numer. Math. 1, 1959.)
 /// \param may(site) whether it may be lowered there.
 template <class May>
-void spread(const Mesh& mesh, const RingStarts& rings, const Sources& sources, double gradient,
+void spread(const Mesh& mesh, const IdLists& neighbours, const Sources& sources, double gradient,
             DoubleVector& field, const May& may) {
-  const Faces faces = faces_of(mesh);
   using Entry = Sources::value_type;
   std::priority_queue<Entry, Sources, std::greater<>> queue(std::greater<>(), sources);
   in_space_of(mesh.surface, [&](const Space auto& space) {
@@ -124,13 +89,13 @@ void spread(const Mesh& mesh, const RingStarts& rings, const Sources& sources, d
       const std::int32_t i = entry.second;
       if (entry.first > field[i])
         continue;
-      for_each_neighbour(faces, rings, i, [&](std::int32_t other) {
+      for (const std::int32_t other : neighbours[i]) {
         const double most = entry.first + gradient * norm(chord(space, mesh, i, other));
         if (most < field[other] && may(other)) {
           field[other] = most;
           queue.emplace(most, other);
         }
-      });
+      }
     }
   });
 }
@@ -263,17 +228,17 @@ Marks sites_at_boundary(const Mesh& mesh) {
   return marks;
 }
 
-DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings, const Marks& at_boundary) {
-  const Faces faces = faces_of(mesh);
+DoubleVector own_widths(const Mesh& mesh, const Marks& at_boundary) {
+  const Stars stars(faces_of(mesh));
   const DoubleVector areas = in_space_of(mesh.surface, [&](const Space auto& space) {
-    return cell_areas(mesh, space, rings, at_boundary);
+    return cell_areas(mesh, space, stars, at_boundary);
   });
   DoubleVector widths(areas.size());
   for_each_block(areas.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       double sum = areas[i] > 0 ? std::log(areas[i]) : 0;
       int count = areas[i] > 0;
-      for_each_neighbour(faces, rings, static_cast<std::int32_t>(i), [&](std::int32_t other) {
+      stars.for_each_neighbour(static_cast<std::int32_t>(i), [&](std::int32_t other) {
         if (areas[other] > 0) {
           sum += std::log(areas[other]);
           ++count;
@@ -285,11 +250,11 @@ DoubleVector own_widths(const Mesh& mesh, const RingStarts& rings, const Marks& 
   return widths;
 }
 
-WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Marks& at_boundary,
+WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Marks& at_boundary,
                            const DoubleVector& own, const DoubleVector& demanded, Way way,
                            double tolerance, double gradient) {
   const bool finer = way == Way::finer;
-  WantedWidths wanted{own, grown(mesh, at_boundary, 1), 0};
+  WantedWidths wanted{own, grown(neighbours, at_boundary, 1), 0};
   Marks changes(static_cast<std::size_t>(own.size()), 0);
   const auto has = [](const Marks& marks, std::int32_t i) {
     return marks[static_cast<std::size_t>(i)] != 0;
@@ -314,12 +279,11 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Mark
     if (finer)
       narrow.emplace_back(wanted.width[i], i);
     else
-      for_each_neighbour(faces_of(mesh), rings, i, [&](std::int32_t other) {
+      for (const std::int32_t other : neighbours[i])
         if (!has(changes, other))
           narrow.emplace_back(own[other], other);
-      });
   }
-  spread(mesh, rings, narrow, gradient, wanted.width,
+  spread(mesh, neighbours, narrow, gradient, wanted.width,
          [&](std::int32_t i) { return finer ? !has(wanted.stays, i) : has(changes, i); });
   if (!finer)
     return wanted;
@@ -330,7 +294,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Mark
     if (has(wanted.stays, i) && own[i] > 0)
       wide.emplace_back(-own[i], i);
   DoubleVector least = -wanted.width;
-  spread(mesh, rings, wide, gradient, least,
+  spread(mesh, neighbours, wide, gradient, least,
          [&](std::int32_t i) { return !has(wanted.stays, i) && wanted.width[i] < own[i]; });
   wanted.width = (-least).cwiseMin(own);
   for (const std::int32_t i : changed)
@@ -338,8 +302,9 @@ WantedWidths wanted_widths(const Mesh& mesh, const RingStarts& rings, const Mark
   return wanted;
 }
 
-std::vector<PatchRegion> patches_of(const Mesh& mesh, const DoubleVector& own,
-                                    const WantedWidths& wanted, int rows_that_adapt) {
+std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
+                                    const DoubleVector& own, const WantedWidths& wanted,
+                                    int rows_that_adapt) {
   constexpr double least_change = 0.01;
   constexpr int rows_that_stay = 1; // and one more, the rim of their stars
   const auto n = static_cast<std::size_t>(mesh.points.cols());
@@ -349,12 +314,12 @@ std::vector<PatchRegion> patches_of(const Mesh& mesh, const DoubleVector& own,
     is_free[i] = own[site] > 0 && std::abs(wanted.width[site] / own[site] - 1) > least_change;
   }
   for (int row = 0; row < rows_that_adapt; ++row) { // not around or across a boundary
-    is_free = grown(mesh, std::move(is_free), 1);
+    is_free = grown(neighbours, std::move(is_free), 1);
     for (std::size_t i = 0; i < n; ++i)
       if (wanted.stays[i] != 0)
         is_free[i] = 0;
   }
-  Marks triangles = stars_of(mesh, grown(mesh, is_free, rows_that_stay));
+  Marks triangles = stars_of(mesh, grown(neighbours, is_free, rows_that_stay));
   separate(mesh, triangles);
   Marks left = triangles;
   std::vector<PatchRegion> patches;

@@ -4,8 +4,8 @@
 #include "domain/arcs.h"
 #include "exact/space.h"
 #include "grids/room.h"
-#include "mesh/ring_law.h"
 
+#include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -24,8 +24,7 @@ Marks sites_at_boundary(const Mesh& mesh);
 /// The width of each cell, that of a hexagon of its area, smoothed over its neighbours: radians, in
 /// a plane its unit. Cells at the boundary do not count: they have the mean of their neighbours; 0
 /// where there is none.
-DoubleVector own_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings,
-                        const Marks& at_boundary);
+DoubleVector own_widths(const Mesh& mesh, const Marks& at_boundary);
 
 /// A position for measures: on the sphere a unit vector, as files may give other norms.
 template <Space S> Vec3 place_of(const S&, const Vec3& x) {
@@ -49,13 +48,12 @@ struct WantedWidths {
 /// Takes a demand over where it is not met, and limits how widths change beside it: finer cells
 /// spread outwards, and coarser ones begin at those that keep their widths. Sites at the
 /// boundary stay, and those next to them, so that no triangle at a boundary changes; widths change
-/// from there at the gradient, too. \param own as own_widths(). \param demanded by site, in the
-/// same unit. \param tolerance share of a width within which it meets the demand. \param gradient
-/// greatest change of the width by distance.
-WantedWidths wanted_widths(const Mesh& mesh, const mesh_detail::RingStarts& rings,
-                           const Marks& at_boundary, const DoubleVector& own,
-                           const DoubleVector& demanded, Way way, double tolerance,
-                           double gradient);
+/// from there at the gradient, too. \param neighbours of the mesh's sites. \param own as
+/// own_widths(). \param demanded by site, in the same unit. \param tolerance share of a width
+/// within which it meets the demand. \param gradient greatest change of the width by distance.
+WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Marks& at_boundary,
+                           const DoubleVector& own, const DoubleVector& demanded, Way way,
+                           double tolerance, double gradient);
 
 /// A part of a mesh whose triangles hang together, bounded by simple rings of edges. Beside the
 /// boundary there are two rows of sites that stay, so that its triangles stay, too.
@@ -73,7 +71,8 @@ struct PatchRegion {
 /// \param rows_that_adapt of cells around those whose widths change.
 /// \throws Error invalid_argument, with the index of a site where the mesh's boundary meets itself,
 ///         if a patch would hold triangles on both sides of it.
-std::vector<PatchRegion> patches_of(const Mesh& mesh, const DoubleVector& own,
-                                    const WantedWidths& wanted, int rows_that_adapt);
+std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
+                                    const DoubleVector& own, const WantedWidths& wanted,
+                                    int rows_that_adapt);
 
 } // namespace calotte::grids_detail

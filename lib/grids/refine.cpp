@@ -12,12 +12,12 @@
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "mesh/connectivity.h"
-#include "mesh/faces.h"
 #include "mesh/renumber.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/locate.h>
+#include <calotte/neighbours.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,6 @@ namespace {
 
 using base_detail::require;
 using base_detail::shortly;
-using mesh_detail::RingStarts;
 
 void require_range(double value, double least, double most, const std::string& name) {
   require(value >= least && value <= most, "the " + name + " is " + shortly(value) + "; give " +
@@ -258,18 +257,18 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
 /// What is known of a mesh.
 struct Given {
   explicit Given(const Mesh& of)
-      : mesh(of), rings(mesh_detail::make_ring_starts(faces_of(mesh))),
-        at_boundary(sites_at_boundary(mesh)), own(own_widths(mesh, rings, at_boundary)) {}
+      : mesh(of), around(neighbours(mesh)), at_boundary(sites_at_boundary(mesh)),
+        own(own_widths(mesh, at_boundary)) {}
 
   const Mesh& mesh;
-  RingStarts rings;
+  IdLists around; ///< neighbours of the sites
   Marks at_boundary;
   DoubleVector own;
 };
 
 WantedWidths wanted_of(const Given& given, const DoubleVector& demanded, Way way,
                        const RefineOptions& options) {
-  return wanted_widths(given.mesh, given.rings, given.at_boundary, given.own, demanded, way,
+  return wanted_widths(given.mesh, given.around, given.at_boundary, given.own, demanded, way,
                        options.tolerance, options.gradient);
 }
 
@@ -279,7 +278,8 @@ ChangedMesh changed_once(const Given& given, const Demand& demand, const WantedW
   // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
-    const std::vector<PatchRegion> patches = patches_of(mesh, given.own, wanted, rows);
+    const std::vector<PatchRegion> patches =
+        patches_of(mesh, given.around, given.own, wanted, rows);
     std::vector<Replacement> replacements;
     for (const PatchRegion& patch : patches)
       replacements.push_back(

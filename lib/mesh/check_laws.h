@@ -60,12 +60,12 @@ std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
       !holds(triangles, [&](std::int64_t t) { return s.own_failure(t); }) ||
       !holds(triangles, [&](std::int64_t t) { return orientation_failure(s, t); }))
     return failure;
-  const RingStarts rings = make_ring_starts(s);
+  const Stars stars(s);
   const bool delaunay = proof == Proof::delaunay;
   if (!holds(s.sites(), [&](std::int64_t i) {
-        const bool unused = rings.first[static_cast<std::size_t>(i)] < 0;
-        return unused && !delaunay ? std::string()
-                                   : ring_failure(s, rings, static_cast<std::int32_t>(i), delaunay);
+        const auto site = static_cast<std::int32_t>(i);
+        return exists(stars.first(site)) || delaunay ? ring_failure(s, stars, site, delaunay)
+                                                     : std::string();
       }))
     return failure;
   if (failure = delaunay ? euler_failure(s, result.boundary_edges) : ""; !failure.empty())

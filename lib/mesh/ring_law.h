@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "mesh/faces.h"
+#include "mesh/stars.h"
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 /// The law of the triangles around a site.
 namespace calotte::mesh_detail {
-
-/// For each site a triangle at which a walk around it starts, and its number of triangles.
-struct RingStarts {
-  std::vector<std::int32_t>
-      first; ///< -1 for none; along a boundary the triangle at which the walk must start
-  std::vector<std::int32_t> size;
-};
-
-inline RingStarts make_ring_starts(const Faces& s) {
-  RingStarts rings{std::vector<std::int32_t>(static_cast<std::size_t>(s.sites()), -1),
-                   std::vector<std::int32_t>(static_cast<std::size_t>(s.sites()), 0)};
-  for (std::int32_t t = 0; t < s.triangles(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const auto vertex = static_cast<std::size_t>(s.vertex(t, i));
-      ++rings.size[vertex];
-      if (rings.first[vertex] < 0 || s.neighbour(t, i + 2) < 0)
-        rings.first[vertex] = t;
-    }
-  return rings;
-}
 
 /// The triangles around a site are one cycle that turns around it once, or one fan of at most half
 /// a turn.
@@ -42,21 +21,18 @@ inline RingStarts make_ring_starts(const Faces& s) {
 /// site
 ///        where the boundary passes more than once has several fans, of which one is examined.
 template <class Surface>
-std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t site,
+std::string ring_failure(const Surface& s, const Stars& stars, std::int32_t site,
                          bool convex = true) {
   const std::string name = "site " + std::to_string(site);
-  const std::int32_t start = rings.first[static_cast<std::size_t>(site)];
-  const std::int32_t size = rings.size[static_cast<std::size_t>(site)];
-  if (start < 0)
+  const Corner first = stars.first(site);
+  if (!exists(first))
     return name + " is not a vertex of any triangle";
-  const Corner first{start, slot_of(s, start, site)};
   const std::int32_t ahead = following_site(s, first);
   std::int32_t walked = 0, turns = 0;
   int way = 1;
   bool reflex = false;
   int side = 1; // of the site across last reached: 1 ahead or left, -1 behind or right
-  const auto next = [&](Corner corner) { return next_around(s, corner); };
-  const Corner last = walk_around(first, next, [&](Corner corner) {
+  const Corner last = walk_around(s, first, [&](Corner corner) {
     const std::int32_t across = preceding_site(s, corner);
     way = across == ahead ? 1 : s.orientation(site, ahead, across);
     const int new_side = way > 0 ? 1 : -1;
@@ -68,7 +44,7 @@ std::string ring_failure(const Surface& s, const RingStarts& rings, std::int32_t
   const bool is_fan = exists(last);
   if (is_fan && convex && (reflex || way < 0))
     return "the boundary is not convex at " + name;
-  if (walked < size && (convex || !is_fan))
+  if (walked < stars.size(site) && (convex || !is_fan))
     return "the triangles at " + name + " are not a single cycle or fan";
   if (is_fan && turns > 0)
     return "the triangles at " + name + " overlap";

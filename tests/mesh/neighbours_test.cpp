@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/rows.h"
 #include "support/clouds.h"
 #include "support/errors.h"
 #include "support/meshes.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <set>
 #include <string>
 #include <utility>
@@ -160,4 +162,35 @@ TEST_CASE("neighbours that do not fit are refused, with the index of the triangl
   broken = mesh;
   broken.neighbours.resize(3, 0);
   CHECK(code_of([&] { neighbours(broken); }) == ErrorCode::invalid_argument);
+}
+
+TEST_CASE("marks grow to all that is within some rows of them") {
+  Random random(3);
+  for (const auto& [name, mesh] : meshes()) {
+    CAPTURE(name);
+    const std::vector<std::vector<std::int32_t>> ends = ends_by_definition(mesh);
+    const IdLists lists = neighbours(mesh);
+    std::vector<std::uint8_t> marks(ends.size(), 0);
+    std::vector<int> distance(ends.size(), 1000);
+    std::deque<std::size_t> queue;
+    for (int k = 0; k < 2; ++k) {
+      const auto site = static_cast<std::size_t>(random.integer(0, int(ends.size()) - 1));
+      marks[site] = 1;
+      distance[site] = 0;
+      queue.push_back(site);
+    }
+    for (; !queue.empty(); queue.pop_front())
+      for (const std::int32_t end : ends[queue.front()]) {
+        const auto other = static_cast<std::size_t>(end);
+        if (distance[other] > distance[queue.front()] + 1) {
+          distance[other] = distance[queue.front()] + 1;
+          queue.push_back(other);
+        }
+      }
+    for (int rows = 0; rows < 5; ++rows) {
+      const std::vector<std::uint8_t> found = mesh_detail::grown(lists, marks, rows);
+      for (std::size_t i = 0; i < ends.size(); ++i)
+        CHECK((found[i] != 0) == (distance[i] <= rows));
+    }
+  }
 }

@@ -7,17 +7,17 @@
 #include "io/cells/field_order.h"
 #include "io/cells/limited_area_masks.h"
 #include "io/cells/polygons.h"
-#include "mesh/faces.h"
-#include "mesh/ring_law.h"
+#include "mesh/rows.h"
+#include "mesh/stars.h"
 
 #include <calotte/conservative.h>
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
+#include <calotte/neighbours.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -30,7 +30,6 @@ namespace {
 using base_detail::column;
 using base_detail::require;
 using mesh_detail::Corner;
-using mesh_detail::RingStarts;
 
 /// Where values of new cells come from.
 struct Sources {
@@ -65,19 +64,11 @@ Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
 
 /// The old cells that new ones may share area with: those that went and some rows around them,
 /// whose cells may have become smaller.
-std::vector<std::int32_t> cells_near(const Mesh& old, const ChangedMesh& changed, int rows) {
-  std::vector<std::uint8_t> near(static_cast<std::size_t>(old.points.cols()), 0);
-  for (Eigen::Index i = 0; i < changed.new_of_old.size(); ++i)
-    near[static_cast<std::size_t>(i)] = changed.new_of_old[i] < 0 ? 1 : 0;
-  for (int row = 0; row < rows; ++row) {
-    const std::vector<std::uint8_t> inner = near;
-    for (Eigen::Index t = 0; t < old.triangles.cols(); ++t) {
-      const auto sites = old.triangles.col(t);
-      if (std::ranges::any_of(sites, [&](std::int32_t i) { return inner[i] != 0; }))
-        for (const std::int32_t i : sites)
-          near[static_cast<std::size_t>(i)] = 1;
-    }
-  }
+std::vector<std::int32_t> cells_near(const IdLists& neighbours, const Ids& new_of_old, int rows) {
+  std::vector<std::uint8_t> gone(static_cast<std::size_t>(new_of_old.size()));
+  std::transform(new_of_old.begin(), new_of_old.end(), gone.begin(),
+                 [](std::int32_t id) { return static_cast<std::uint8_t>(id < 0); });
+  const std::vector<std::uint8_t> near = mesh_detail::grown(neighbours, std::move(gone), rows);
   std::vector<std::int32_t> ids;
   for (std::size_t i = 0; i < near.size(); ++i)
     if (near[i] != 0)
@@ -99,8 +90,9 @@ GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_
   };
   const Polygons before = cells_of(old_cells, old),
                  after = selected(cells_of(new_cells, sources.changed.mesh), sources.added);
+  const IdLists around = neighbours(old);
   for (int rows = first_rows; rows <= most_rows; rows *= 2) {
-    const std::vector<std::int32_t> near = cells_near(old, sources.changed, rows);
+    const std::vector<std::int32_t> near = cells_near(around, sources.changed.new_of_old, rows);
     out = conservative_weights(selected(before, near), after);
     Weights of_all(out.weights.rows(), old.points.cols());
     of_all.reserve(out.weights.nonZeros());
@@ -240,35 +232,6 @@ template <Space S> Vec3 corner_of(const Mesh& mesh, const S& space, std::int64_t
                             column(mesh.points, mesh.triangles(2, t)));
 }
 
-/// The neighbours of sites, in order around them.
-class Stars {
-public:
-  explicit Stars(const Mesh& mesh)
-      : faces_(faces_of(mesh)), rings_(mesh_detail::make_ring_starts(faces_)) {}
-
-  /// Calls body(corner) for the triangles around a site; true if they close.
-  template <class Body> bool walk(std::int32_t site, const Body& body) const {
-    const std::int32_t first = rings_.first[static_cast<std::size_t>(site)];
-    return first >= 0 && !exists(mesh_detail::walk_around(
-                             Corner{first, slot_of(faces_, first, site)},
-                             [&](Corner at) { return next_around(faces_, at); }, body));
-  }
-
-  /// From the lowest on. \param name(site) what a neighbour is called.
-  template <class Name>
-  std::vector<std::int32_t> around(std::int32_t site, const Name& name) const {
-    std::vector<std::int32_t> ids;
-    walk(site, [&](Corner at) { ids.push_back(name(following_site(faces_, at))); });
-    if (!ids.empty())
-      std::rotate(ids.begin(), std::ranges::min_element(ids), ids.end());
-    return ids;
-  }
-
-private:
-  mesh_detail::Faces faces_;
-  RingStarts rings_;
-};
-
 /// Cells whose neighbours are those of before keep their corners, such as all at a boundary. The
 /// others have one for each of their triangles, that of the old triangle where it stayed.
 template <Space S>
@@ -277,7 +240,8 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
   const Mesh& mesh = changed.mesh;
   const auto old_of = [&](std::int32_t site) { return changed.old_of_new[site]; };
   const OldCorners old_corners(old);
-  const Stars before(old_mesh), now(mesh);
+  const mesh_detail::Stars stars(faces_of(mesh));
+  const IdLists before = neighbours(old_mesh), now = neighbours(mesh); // from the lowest on
   Polygons out;
   out.on_sphere = old.on_sphere;
   out.period = old.period;
@@ -306,9 +270,9 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
     else
       base_detail::set_column(out.centres, i,
                               space.coordinates(space.position(column(mesh.points, i))));
-    if (id >= 0 && now.around(i, old_of) == before.around(id, std::identity()))
+    if (id >= 0 && std::ranges::equal(now[i], before[id], {}, old_of))
       items.insert(items.end(), old.ids[id].begin(), old.ids[id].end());
-    else if (!now.walk(i, [&](Corner at) { items.push_back(corner_at(at.triangle)); }))
+    else if (!stars.for_each_corner(i, [&](Corner at) { items.push_back(corner_at(at.triangle)); }))
       throw Error(ErrorCode::internal, "a cell at the boundary of a mesh changed; please report "
                                        "this input as a bug");
     out.ids.begin[i + 1] = std::ssize(items);
