@@ -14,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -43,121 +42,67 @@ std::vector<std::int32_t> triangles_around(const Connectivity& mesh,
 template <Space S>
 Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
                         std::vector<std::int32_t> triangles, const LocalInput& input)
-    : cells_(cells), integrand_(input.integrand), density_(input.density),
-      triangles_(std::move(triangles)) {
-  sort_by_sites(triangles_, mesh.triangles);
-  take_triangles(mesh);
+    : cells_(cells), integrand_(input.integrand), density_(input.density) {
+  sort_by_sites(triangles, mesh.triangles);
+  part_ = mesh_detail::extract(mesh.triangles, mesh.neighbours, std::move(triangles));
   number_sites(input);
   points_.resize(3, movable());
   for (std::int32_t i = 0; i < movable(); ++i)
-    points_.col(i) = points.col(sites_[static_cast<std::size_t>(i)]);
-  x_ = Array<Vec3>(std::ssize(sites_));
+    points_.col(i) = points.col(part_.sites[static_cast<std::size_t>(i)]);
+  x_ = Array<Vec3>(std::ssize(part_.sites));
   for (std::int64_t i = 0; i < x_.size(); ++i)
-    x_[i] = cells_.place(sites_[static_cast<std::size_t>(i)]);
+    x_[i] = cells_.place(part_.sites[static_cast<std::size_t>(i)]);
   moments_ = Array<CellMoments>(x_.size());
   set_patch();
 }
 
-/// Copies the triangles, from their lowest sites on, with local neighbours.
-template <Space S> void Subdomain<S>::take_triangles(const Connectivity& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> local; // by number in the mesh
-  for (std::size_t k = 0; k < triangles_.size(); ++k)
-    local.emplace_back(triangles_[k], static_cast<std::int32_t>(k));
-  std::sort(local.begin(), local.end());
-  const auto count = static_cast<Eigen::Index>(triangles_.size());
-  mesh_.triangles.resize(3, count);
-  mesh_.neighbours.resize(3, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const std::int32_t t = triangles_[static_cast<std::size_t>(k)];
-    int w = 0;
-    mesh.triangles.col(t).minCoeff(&w);
-    for (int v = 0; v < 3; ++v, w = next_vertex(w)) {
-      const std::int32_t u = mesh.neighbours(w, t);
-      const auto at = std::lower_bound(local.begin(), local.end(), std::pair{u, 0});
-      const bool inside = at != local.end() && at->first == u;
-      mesh_.triangles(v, k) = mesh.triangles(w, t);
-      mesh_.neighbours(v, k) = inside ? at->second : -1;
-      if (!inside)
-        rim_.push_back(
-            {t, w, mesh.triangles(next_vertex(w), t), mesh.triangles(previous_vertex(w), t)});
-    }
-  }
-}
-
-/// Replaces the numbers of sites in the mesh by local ones: first those that move, then the others.
+/// Numbers the sites: first those that move, then the others.
 template <Space S> void Subdomain<S>::number_sites(const LocalInput& input) {
-  const auto make_unique = [](std::vector<std::int32_t>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
-  const auto all = mesh_.triangles.reshaped();
-  sites_.assign(all.begin(), all.end());
-  make_unique(sites_);
-  std::vector<std::int32_t> stay;
-  for (const Rim& rim : rim_)
-    stay.push_back(rim.from);
-  for (const std::int32_t site : sites_)
-    if (site >= cells_.generator_count() ||
-        (!input.fixed.empty() && input.fixed[static_cast<std::size_t>(site)] != 0))
-      stay.push_back(site);
-  make_unique(stay);
-  std::vector<std::int32_t> move;
-  std::set_difference(sites_.begin(), sites_.end(), stay.begin(), stay.end(),
-                      std::back_inserter(move));
-  const auto local = [&](std::int32_t site) {
-    const auto moving = std::lower_bound(move.begin(), move.end(), site);
-    if (moving != move.end() && *moving == site)
-      return static_cast<std::int32_t>(moving - move.begin());
-    const auto staying = std::lower_bound(stay.begin(), stay.end(), site);
-    return static_cast<std::int32_t>(std::ssize(move) + (staying - stay.begin()));
-  };
-  for (std::int32_t& site : mesh_.triangles.reshaped())
-    site = local(site);
-  for (Rim& rim : rim_)
-    rim.from = local(rim.from), rim.to = local(rim.to);
-  std::sort(rim_.begin(), rim_.end(), [](const Rim& a, const Rim& b) {
-    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  std::vector<std::uint8_t> moves(part_.sites.size());
+  std::transform(part_.sites.begin(), part_.sites.end(), moves.begin(), [&](std::int32_t site) {
+    return site < cells_.generator_count() &&
+           (input.fixed.empty() || input.fixed[static_cast<std::size_t>(site)] == 0);
   });
-  patch_.owned = static_cast<std::int32_t>(move.size());
-  sites_ = std::move(move);
-  sites_.insert(sites_.end(), stay.begin(), stay.end());
-  patch_.sites = sites_;
-  generators_ = std::count_if(sites_.begin(), sites_.end(),
+  for (const Submesh::RimEdge& edge : part_.rim)
+    moves[static_cast<std::size_t>(edge.from)] = 0;
+  patch_.owned = put_first(part_, moves);
+  patch_.sites = part_.sites;
+  generators_ = std::count_if(part_.sites.begin(), part_.sites.end(),
                               [&](std::int32_t site) { return site < cells_.generator_count(); });
-  stays_.assign(sites_.size(), 1);
+  stays_.assign(part_.sites.size(), 1);
   std::fill_n(stays_.begin(), patch_.owned, 0);
 }
 
 template <Space S> void Subdomain<S>::set_patch() {
   patch_.triangles.clear();
-  for (std::int32_t t = 0; t < mesh_.triangles.cols(); ++t)
-    if (mesh_.triangles.col(t).minCoeff() < patch_.owned)
+  for (std::int32_t t = 0; t < part_.faces.triangles.cols(); ++t)
+    if (part_.faces.triangles.col(t).minCoeff() < patch_.owned)
       patch_.triangles.push_back(t);
-  sort_by_sites(patch_.triangles, mesh_.triangles);
+  sort_by_sites(patch_.triangles, part_.faces.triangles);
   patch_.corners.clear();
   for (const std::int32_t t : patch_.triangles)
-    patch_.corners.push_back(sites_from_lowest(mesh_.triangles, t));
+    patch_.corners.push_back(sites_from_lowest(part_.faces.triangles, t));
 }
 
 /// Integrates over the cells, with flips where the mesh is not Delaunay; false if they do not
 /// suffice.
 template <Space S> bool Subdomain<S>::integrate() {
   constexpr int most_repairs = 4;
-  const PlacedSites<S> placed{cells_.space(), {x_.begin(), sites_.size()}};
+  const PlacedSites<S> placed{cells_.space(), {x_.begin(), part_.sites.size()}};
   std::optional<Connectivity> before;
   for (int repairs = 0;; ++repairs) {
     suspects_.clear();
     cells_.integrate(integrand_, patch_, x_, moments_, suspects_);
     Faults faults;
     for (const std::int32_t suspect : suspects_)
-      add_faults(mesh_, placed, patch_.triangles[static_cast<std::size_t>(suspect)], faults);
+      add_faults(part_.faces, placed, patch_.triangles[static_cast<std::size_t>(suspect)], faults);
     if (faults.none())
       return true;
     if (!before)
-      before = mesh_;
-    const bool sound = repairs < most_repairs && repair(mesh_, placed, faults);
+      before = part_.faces;
+    const bool sound = repairs < most_repairs && repair(part_.faces, placed, faults);
     if (!sound)
-      mesh_ = std::move(*before);
+      part_.faces = std::move(*before);
     flipped_ = true;
     set_patch();
     if (!sound)
@@ -230,58 +175,23 @@ void Subdomain<S>::set_centroids(const Points3& points, const Evaluation& at, Po
     set_column(to, i, Cells<S>::centroid(column(points, i), column(at.gradient, i), at.mass[i]));
 }
 
-/// The triangle beyond an edge of the subdomain.
-template <Space S>
-std::int32_t Subdomain<S>::beyond(const std::vector<std::int32_t>& outside, std::int32_t from,
-                                  std::int32_t to) const {
-  const auto at = std::lower_bound(
-      rim_.begin(), rim_.end(), std::pair{from, to}, [](const Rim& rim, const auto& ends) {
-        return std::tie(rim.from, rim.to) < std::tie(ends.first, ends.second);
-      });
-  return outside[static_cast<std::size_t>(at - rim_.begin())];
-}
-
 template <Space S>
 void Subdomain<S>::write(Connectivity& mesh, Points3& points, std::vector<std::int32_t>& changed,
                          std::vector<std::int32_t>& rim) const {
   for (std::int32_t i = 0; i < movable(); ++i)
-    points.col(sites_[static_cast<std::size_t>(i)]) = points_.col(i);
+    points.col(part_.sites[static_cast<std::size_t>(i)]) = points_.col(i);
   // integrate() tests edges inside, from the triangles with a generator that moves.
-  for (std::size_t k = 0; k < triangles_.size(); ++k) {
-    const auto local = static_cast<Eigen::Index>(k);
-    if (mesh_.triangles.col(local).minCoeff() >= movable() ||
-        mesh_.neighbours.col(local).minCoeff() < 0)
-      rim.push_back(triangles_[k]);
-  }
-  for (const Rim& edge : rim_)
+  for (std::int64_t k = 0; k < triangles(); ++k)
+    if (part_.faces.triangles.col(k).minCoeff() >= movable() ||
+        part_.faces.neighbours.col(k).minCoeff() < 0)
+      rim.push_back(part_.triangles[static_cast<std::size_t>(k)]);
+  for (const Submesh::RimEdge& edge : part_.rim)
     if (const std::int32_t out = mesh.neighbours(edge.across, edge.triangle); out >= 0)
       rim.push_back(out);
   if (!flipped_)
     return;
-  std::vector<std::int32_t> outside; // by edge: another subdomain may have changed it
-  for (const Rim& edge : rim_)
-    outside.push_back(mesh.neighbours(edge.across, edge.triangle));
-  for (std::size_t k = 0; k < triangles_.size(); ++k) {
-    const std::int32_t t = triangles_[k];
-    const auto local = static_cast<std::int32_t>(k);
-    for (int v = 0; v < 3; ++v) {
-      const std::int32_t u = mesh_.neighbours(v, local);
-      mesh.triangles(v, t) = sites_[static_cast<std::size_t>(mesh_.triangles(v, local))];
-      if (u >= 0) {
-        mesh.neighbours(v, t) = triangles_[static_cast<std::size_t>(u)];
-        continue;
-      }
-      const std::int32_t from = mesh_.triangles(next_vertex(v), local),
-                         to = mesh_.triangles(previous_vertex(v), local),
-                         out = beyond(outside, from, to);
-      mesh.neighbours(v, t) = out;
-      for (int w = 0; out >= 0 && w < 3; ++w)
-        if (mesh.triangles(next_vertex(w), out) == sites_[static_cast<std::size_t>(to)] &&
-            mesh.triangles(previous_vertex(w), out) == sites_[static_cast<std::size_t>(from)])
-          mesh.neighbours(w, out) = t;
-    }
-    changed.push_back(t);
-  }
+  splice(part_, mesh);
+  changed.insert(changed.end(), part_.triangles.begin(), part_.triangles.end());
 }
 
 template <Space S>

@@ -14,6 +14,7 @@
 #include "integrals/moments.h"
 #include "integrals/patches.h"
 #include "mesh/connectivity.h"
+#include "mesh/submesh.h"
 
 #include <calotte/cvt.h>
 #include <calotte/types.h>
@@ -46,12 +47,12 @@ public:
   Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
             std::vector<std::int32_t> triangles, const LocalInput& input);
 
-  PlacedMesh<S> placed() const { return {cells_, mesh_, {x_.begin(), sites_.size()}}; }
+  PlacedMesh<S> placed() const { return {cells_, part_.faces, {x_.begin(), part_.sites.size()}}; }
   std::int32_t movable() const { return patch_.owned; } ///< sites that move: the first ones
   /// In the mesh: those that move, ascending, then the others.
-  std::span<const std::int32_t> sites() const { return sites_; }
+  std::span<const std::int32_t> sites() const { return part_.sites; }
   const Points3& points() const { return points_; } ///< of the generators that move
-  std::int64_t triangles() const { return mesh_.triangles.cols(); }
+  std::int64_t triangles() const { return part_.faces.triangles.cols(); }
 
   void penalise(const ShapePenalty& penalty) { penalty_ = penalty; }
 
@@ -77,27 +78,15 @@ public:
   Laplacian laplacian(const Points3&) override { return {}; }
 
 private:
-  /// An edge of the subdomain: where it was, and its ends counter-clockwise.
-  struct Rim {
-    std::int32_t triangle;
-    int across;
-    std::int32_t from, to;
-  };
-
-  void take_triangles(const Connectivity& mesh);
   void number_sites(const LocalInput& input);
   void set_patch();
   bool integrate();
   void add_penalty(Evaluation& out);
-  std::int32_t beyond(const std::vector<std::int32_t>& outside, std::int32_t from,
-                      std::int32_t to) const;
 
   const Cells<S>& cells_;
   const Integrand& integrand_;
   DensityEvaluator density_;
-  std::vector<std::int32_t> triangles_, sites_; ///< numbers in the mesh
-  Connectivity mesh_;
-  std::vector<Rim> rim_; ///< by `from`, then `to`
+  Submesh part_;
   Points3 points_;
   Array<Vec3> x_; ///< places of all sites
   Patch patch_;   ///< its triangles are those with a site that moves

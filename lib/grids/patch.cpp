@@ -28,6 +28,7 @@ using mesh_detail::Corner;
 using mesh_detail::Faces;
 using mesh_detail::grown;
 using mesh_detail::Stars;
+using mesh_detail::Submesh;
 
 /// From one site to another, in the unit of widths.
 template <Space S>
@@ -141,48 +142,38 @@ std::vector<std::int32_t> take_component(const Mesh& mesh, Marks& triangles, std
   return found;
 }
 
-std::vector<std::vector<std::int32_t>> rings_of(const Mesh& mesh, const Marks& triangles,
-                                                const std::vector<std::int32_t>& component) {
-  std::unordered_map<std::int32_t, std::int32_t> next;
-  std::vector<std::int32_t> starts;
-  for (const std::int32_t t : component)
-    for (int i = 0; i < 3; ++i)
-      if (is_rim(mesh, triangles, t, i)) {
-        const std::int32_t from = mesh.triangles(next_vertex(i), t);
-        starts.push_back(from);
-        if (!next.emplace(from, mesh.triangles(previous_vertex(i), t)).second)
-          throw Error(ErrorCode::invalid_argument,
-                      "a patch would reach both sides of site " + std::to_string(from) +
-                          ", where the mesh's boundary meets itself; give a part without it",
-                      from);
-      }
-  std::sort(starts.begin(), starts.end());
-  std::vector<std::vector<std::int32_t>> rings;
-  for (const std::int32_t start : starts) {
-    std::vector<std::int32_t> ring;
-    for (auto at = next.find(start); at != next.end(); at = next.find(ring.back())) {
-      ring.push_back(at->second);
-      next.erase(at);
+std::vector<std::vector<std::int32_t>> rings_of(const Submesh& part) {
+  std::vector<std::int32_t> next(part.sites.size(), -1); // along the rim
+  const auto after = [&](std::int32_t site) -> std::int32_t& {
+    return next[static_cast<std::size_t>(site)];
+  };
+  for (const Submesh::RimEdge& edge : part.rim)
+    if (std::exchange(after(edge.from), edge.to) >= 0) {
+      const std::int32_t site = part.sites[static_cast<std::size_t>(edge.from)];
+      throw Error(ErrorCode::invalid_argument,
+                  "a patch would reach both sides of site " + std::to_string(site) +
+                      ", where the mesh's boundary meets itself; give a part without it",
+                  site);
     }
+  std::vector<std::vector<std::int32_t>> rings;
+  for (const Submesh::RimEdge& edge : part.rim) {
+    std::vector<std::int32_t> ring;
+    for (std::int32_t at = edge.from; after(at) >= 0; at = ring.back())
+      ring.push_back(std::exchange(after(at), -1));
     if (!ring.empty())
       rings.push_back(std::move(ring));
   }
   return rings;
 }
 
-PatchRegion patch_of(const Mesh& mesh, const Marks& triangles, const Marks& is_free,
+PatchRegion patch_of(const Mesh& mesh, const Marks& is_free,
                      std::vector<std::int32_t>&& component) {
-  PatchRegion patch;
-  patch.rings = rings_of(mesh, triangles, component);
-  std::vector<std::int32_t> sites;
-  for (const std::int32_t t : component)
-    for (int i = 0; i < 3; ++i)
-      sites.push_back(mesh.triangles(i, t));
-  std::sort(sites.begin(), sites.end());
-  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
-  for (const std::int32_t site : sites)
-    (is_free[static_cast<std::size_t>(site)] != 0 ? patch.free : patch.fixed).push_back(site);
-  patch.triangles = std::move(component);
+  PatchRegion patch{extract(mesh.triangles, mesh.neighbours, std::move(component))};
+  Marks stays;
+  for (const std::int32_t site : patch.part.sites)
+    stays.push_back(is_free[static_cast<std::size_t>(site)] == 0);
+  patch.fixed = put_first(patch.part, stays);
+  patch.rings = rings_of(patch.part);
   return patch;
 }
 
@@ -325,7 +316,7 @@ std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
   std::vector<PatchRegion> patches;
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     if (left[static_cast<std::size_t>(t)] != 0)
-      patches.push_back(patch_of(mesh, triangles, is_free, take_component(mesh, left, t)));
+      patches.push_back(patch_of(mesh, is_free, take_component(mesh, left, t)));
   return patches;
 }
 

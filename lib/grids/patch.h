@@ -4,11 +4,13 @@
 #include "domain/arcs.h"
 #include "exact/space.h"
 #include "grids/room.h"
+#include "mesh/submesh.h"
 
 #include <calotte/lists.h>
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// Which part of a mesh changes when cells are to have other widths, and what of the mesh it needs.
@@ -58,12 +60,19 @@ WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Ma
 /// A part of a mesh whose triangles hang together, bounded by simple rings of edges. Beside the
 /// boundary there are two rows of sites that stay, so that its triangles stay, too.
 struct PatchRegion {
-  std::vector<std::int32_t> free;      ///< sites that move, or vanish; ascending
-  std::vector<std::int32_t> fixed;     ///< sites that stay; ascending
-  std::vector<std::int32_t> triangles; ///< ascending
-  /// Sites along the boundary, with the patch to the left; none for a patch that is the whole of a
-  /// closed mesh.
-  std::vector<std::vector<std::int32_t>> rings;
+  mesh_detail::Submesh
+      part;               ///< ascending triangles; first the sites that stay, each kind ascending
+  std::int32_t fixed = 0; ///< number of the sites that stay; the others move, or vanish
+  /// Sites along the boundary, by their numbers in the part, with the patch to the left; none for a
+  /// patch that is the whole of a closed mesh.
+  std::vector<std::vector<std::int32_t>> rings = {};
+
+  /// In the mesh.
+  std::span<const std::int32_t> fixed_sites() const { return std::span(part.sites).first(size()); }
+  std::span<const std::int32_t> free_sites() const { return std::span(part.sites).subspan(size()); }
+
+private:
+  std::size_t size() const { return static_cast<std::size_t>(fixed); }
 };
 
 /// The patches of a mesh whose widths change, by their lowest triangle.

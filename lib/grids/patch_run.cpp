@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -23,57 +23,43 @@ namespace calotte::grids_detail {
 namespace {
 
 using base_detail::require;
+using mesh_detail::Submesh;
 
-/// Sites of a patch by themselves: in a periodic plane, in one without periods.
-struct LocalSites {
-  std::vector<std::int32_t> site; ///< of the mesh; first those that stay
-  std::unordered_map<std::int32_t, std::int32_t> local;
-  Points3 points; ///< on the sphere unit columns
-
-  std::int32_t of(std::int32_t id) const { return local.at(id); }
-};
-
+/// The sites of a patch: on the sphere unit columns, in a periodic plane as in one without periods.
 /// \throws Error invalid_argument for a patch that leads around a periodic plane.
-template <Space S>
-LocalSites local_sites(const Mesh& mesh, const S& space, const PatchRegion& patch) {
-  LocalSites out;
-  out.site = patch.fixed;
-  out.site.insert(out.site.end(), patch.free.begin(), patch.free.end());
-  for (const std::int32_t site : out.site)
-    out.local.emplace(site, static_cast<std::int32_t>(out.local.size()));
-  out.points.resize(3, std::ssize(out.site));
+template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const Submesh& part) {
+  Points3 out(3, std::ssize(part.sites));
+  const auto given = [&](std::int32_t own) {
+    return column(mesh.points, part.sites[static_cast<std::size_t>(own)]);
+  };
   if constexpr (S::on_sphere) {
-    for (std::size_t k = 0; k < out.site.size(); ++k)
-      set_column(out.points, static_cast<std::int64_t>(k),
-                 domain_detail::as_unit(column(mesh.points, out.site[k])));
+    for (std::int32_t k = 0; k < out.cols(); ++k)
+      set_column(out, k, domain_detail::as_unit(given(k)));
   } else {
     // From one triangle to the next, each corner in the copy nearest to the corners before.
-    std::vector<std::uint8_t> placed(out.site.size(), 0);
-    const auto place = [&](std::int32_t id, const auto& beside) {
-      const std::int32_t k = out.of(id);
-      const auto position = space.near(column(mesh.points, id), beside);
+    const auto& [triangles, neighbours] = part.faces;
+    std::vector<std::uint8_t> placed(part.sites.size(), 0);
+    const auto place = [&](std::int32_t k, const auto& beside) {
+      const auto position = space.near(given(k), beside);
       const Vec3 here = space.coordinates(position);
       require(std::exchange(placed[static_cast<std::size_t>(k)], std::uint8_t{1}) == 0 ||
-                  norm(column(out.points, k) - here) == 0,
+                  norm(column(out, k) - here) == 0,
               "a patch leads around the periodic plane; give a smaller region, or make a new grid");
-      set_column(out.points, k, here);
+      set_column(out, k, here);
       return position;
     };
-    std::unordered_map<std::int32_t, typename S::Position> first; // by triangle
-    std::vector<std::int32_t> queue{patch.triangles.front()};
-    first.emplace(queue.front(), space.position(column(mesh.points, mesh.triangles(0, queue[0]))));
-    const auto inside = [&](std::int32_t t) {
-      return t >= 0 && std::binary_search(patch.triangles.begin(), patch.triangles.end(), t);
-    };
+    std::vector<std::optional<typename S::Position>> first(part.triangles.size()); // by triangle
+    std::vector<std::int32_t> queue{0};
+    first[0] = space.position(given(triangles(0, 0)));
     for (std::size_t q = 0; q < queue.size(); ++q) {
       const std::int32_t t = queue[q];
-      const auto at = first.at(t);
+      const auto at = *first[static_cast<std::size_t>(t)];
       for (int i = 0; i < 3; ++i) {
-        const auto corner = place(mesh.triangles(i, t), at);
+        const auto corner = place(triangles(i, t), at);
         for (int across = 0; across < 3; ++across)
-          if (const std::int32_t beyond = mesh.neighbours(across, t);
-              across != i && inside(beyond) && !first.contains(beyond)) {
-            first.emplace(beyond, corner);
+          if (const std::int32_t beyond = neighbours(across, t);
+              across != i && beyond >= 0 && !first[static_cast<std::size_t>(beyond)]) {
+            first[static_cast<std::size_t>(beyond)] = corner;
             queue.push_back(beyond);
           }
       }
@@ -82,31 +68,12 @@ LocalSites local_sites(const Mesh& mesh, const S& space, const PatchRegion& patc
   return out;
 }
 
-/// The triangles of a patch, with its sites by themselves.
-Mesh local_mesh(const Mesh& mesh, const PatchRegion& patch, const LocalSites& sites) {
-  Mesh out;
-  out.points = sites.points;
+/// A patch by itself.
+Mesh local_mesh(const Mesh& mesh, const Submesh& part) {
+  Mesh out = as_mesh(part, mesh);
+  out.points = in_space_of(
+      mesh.surface, [&](const Space auto& space) { return local_points(mesh, space, part); });
   out.surface = mesh.surface.is_sphere() ? Surface::sphere() : Surface::plane();
-  const auto count = static_cast<Eigen::Index>(patch.triangles.size());
-  out.triangles.resize(3, count);
-  out.neighbours.resize(3, count);
-  std::unordered_map<std::int32_t, std::int32_t> local;
-  for (const std::int32_t t : patch.triangles)
-    local.emplace(t, static_cast<std::int32_t>(local.size()));
-  for (Eigen::Index k = 0; k < count; ++k)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t t = patch.triangles[static_cast<std::size_t>(k)];
-      out.triangles(i, k) = sites.of(mesh.triangles(i, t));
-      const auto beyond = local.find(mesh.neighbours(i, t));
-      out.neighbours(i, k) = beyond == local.end() ? -1 : beyond->second;
-    }
-  return out;
-}
-
-DoubleVector at_sites(const DoubleVector& of_mesh, const LocalSites& sites) {
-  DoubleVector out(std::ssize(sites.site));
-  for (Eigen::Index k = 0; k < out.size(); ++k)
-    out[k] = of_mesh[sites.site[static_cast<std::size_t>(k)]];
   return out;
 }
 
@@ -157,29 +124,27 @@ DoubleVector width_ratio(const Mesh& local, const DoubleVector& own, const Densi
 }
 
 /// The surface that the rings of a patch bound.
-Surface surface_of(const Mesh& mesh, const PatchRegion& patch, const LocalSites& sites) {
+Surface surface_of(const Mesh& mesh, const PatchRegion& patch, const Mesh& local) {
   Surface::Rings rings;
   const bool sphere = mesh.surface.is_sphere();
   for (const std::vector<std::int32_t>& ring : patch.rings) {
     DoubleMatrix corners(sphere ? 3 : 2, std::ssize(ring));
     for (Eigen::Index k = 0; k < corners.cols(); ++k)
-      corners.col(k) =
-          sites.points.col(sites.of(ring[static_cast<std::size_t>(k)])).head(corners.rows());
+      corners.col(k) = local.points.col(ring[static_cast<std::size_t>(k)]).head(corners.rows());
     rings.push_back(std::move(corners));
   }
-  const Surface whole = sphere ? Surface::sphere() : Surface::plane();
-  return rings.empty() ? mesh.surface : whole.within(std::move(rings));
+  return rings.empty() ? mesh.surface : local.surface.within(std::move(rings));
 }
 
 /// The number of sites that a patch is to have.
 std::int64_t count_of(const PatchRegion& patch, const DoubleVector& own,
                       const DoubleVector& wanted) {
   double sum = 0;
-  for (const std::int32_t site : patch.free) {
+  for (const std::int32_t site : patch.free_sites()) {
     const double ratio = own[site] / wanted[site];
     sum += ratio * ratio;
   }
-  return std::ssize(patch.fixed) + std::max<std::int64_t>(std::llround(sum), 1);
+  return patch.fixed + std::max<std::int64_t>(std::llround(sum), 1);
 }
 
 /// Midpoints of the edges that are too long, again and again; none between fixed sites. They keep
@@ -246,15 +211,13 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
 /// The Delaunay triangles of the sites of a patch, of which the fixed ones come first, within its
 /// rings: what is reached from their left without crossing them. Where the rings are straight up to
 /// rounding, it takes more than a triangle's centre to tell.
-Mesh mesh_within(Points3&& points, const PatchRegion& patch, const LocalSites& sites,
-                 const Surface& surface) {
+Mesh mesh_within(Points3&& points, const Submesh& part, const Surface& surface) {
   const auto key = [](std::int32_t from, std::int32_t to) {
     return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);
   };
   std::unordered_set<std::uint64_t> rim;
-  for (const std::vector<std::int32_t>& ring : patch.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      rim.insert(key(sites.of(ring[k]), sites.of(ring[(k + 1) % ring.size()])));
+  for (const Submesh::RimEdge& edge : part.rim)
+    rim.insert(key(edge.from, edge.to));
   Mesh mesh = delaunay(std::move(points), surface);
   std::vector<std::uint8_t> reached(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   std::vector<Eigen::Index> inside;
@@ -285,13 +248,11 @@ Mesh mesh_within(Points3&& points, const PatchRegion& patch, const LocalSites& s
 Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
                            const DoubleVector& wanted, const FineWidths* fine,
                            const RefineOptions& options) {
-  const LocalSites sites = in_space_of(
-      mesh.surface, [&](const Space auto& space) { return local_sites(mesh, space, patch); });
-  const Mesh local = local_mesh(mesh, patch, sites);
-  const DoubleVector width = at_sites(wanted, sites);
+  const Mesh local = local_mesh(mesh, patch.part);
+  const DoubleVector width = wanted(patch.part.sites);
   const Density density = density_of(local, width, fine, options.tolerance);
-  const std::int64_t fixed = std::ssize(patch.fixed);
-  const Surface surface = surface_of(mesh, patch, sites);
+  const std::int64_t fixed = patch.fixed;
+  const Surface surface = surface_of(mesh, patch, local);
   const Schedule schedule =
       schedule_of(surface, density, count_of(patch, own, wanted), fixed,
                   with_midpoints(local, surface, fixed, density, width.minCoeff()));
@@ -302,11 +263,11 @@ Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const Dou
   const std::int64_t added = grid.mesh.points.cols() - fixed;
   const Points3 places = grid.mesh.points.rightCols(added);
   Replacement out;
-  out.width_ratio = width_ratio(local, at_sites(own, sites), density, width.minCoeff(), places);
-  out.change = {std::ssize(patch.free), added, std::move(grid.report)};
+  out.width_ratio = width_ratio(local, own(patch.part.sites), density, width.minCoeff(), places);
+  out.change = {std::ssize(patch.free_sites()), added, std::move(grid.report)};
   out.mesh = patch.rings.empty()
                  ? std::move(grid.mesh)
-                 : mesh_within(std::move(grid.mesh.points), patch, sites, local.surface);
+                 : mesh_within(std::move(grid.mesh.points), patch.part, local.surface);
   return out;
 }
 

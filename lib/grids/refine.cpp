@@ -79,7 +79,7 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
   out.new_of_old = Ids::Zero(mesh.points.cols());
   std::int64_t added = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    for (const std::int32_t site : patches[p].free)
+    for (const std::int32_t site : patches[p].free_sites())
       out.new_of_old[site] = -1;
     added += replacements[p].change.added;
   }
@@ -92,9 +92,9 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
   Points3 places(3, added);
   std::int64_t next = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const std::int64_t fixed = std::ssize(patches[p].fixed);
+    const std::int64_t fixed = patches[p].fixed;
     const double length =
-        S::on_sphere && fixed > 0 ? norm(column(mesh.points, patches[p].fixed.front())) : 1;
+        S::on_sphere && fixed > 0 ? norm(column(mesh.points, patches[p].part.sites.front())) : 1;
     const double scale = std::abs(length - 1) < 1e-9 ? 1 : length;
     for (std::int64_t k = fixed; k < replacements[p].mesh.points.cols(); ++k)
       set_column(places, next++, scale * space.wrapped(column(replacements[p].mesh.points, k)));
@@ -129,10 +129,10 @@ void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
     for (const std::int32_t site : sites.added[p])
       if (!mesh.surface.contains(sites.points.col(site)))
         throw Error(ErrorCode::invalid_argument,
-                    "the patch around site " + std::to_string(patches[p].free.front()) +
+                    "the patch around site " + std::to_string(patches[p].free_sites().front()) +
                         " would reach across the boundary of the surface; give a part that is "
                         "farther from it",
-                    patches[p].free.front());
+                    patches[p].free_sites().front());
 }
 
 /// The triangles beside the patches, and those of the replacements.
@@ -141,9 +141,9 @@ Triangles new_triangles(const Mesh& mesh, const std::vector<PatchRegion>& patche
   std::vector<std::uint8_t> replaced(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   Eigen::Index count = mesh.triangles.cols();
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    for (const std::int32_t t : patches[p].triangles)
+    for (const std::int32_t t : patches[p].part.triangles)
       replaced[static_cast<std::size_t>(t)] = 1;
-    count += replacements[p].mesh.triangles.cols() - std::ssize(patches[p].triangles);
+    count += replacements[p].mesh.triangles.cols() - std::ssize(patches[p].part.triangles);
   }
   Triangles out(3, count);
   Eigen::Index next = 0;
@@ -154,12 +154,12 @@ Triangles new_triangles(const Mesh& mesh, const std::vector<PatchRegion>& patche
       ++next;
     }
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const std::int64_t fixed = std::ssize(patches[p].fixed);
+    const std::int32_t fixed = patches[p].fixed;
     for (const auto& triangle : replacements[p].mesh.triangles.colwise()) {
       for (int i = 0; i < 3; ++i)
         out(i, next) =
             triangle(i) < fixed
-                ? sites.new_of_old[patches[p].fixed[static_cast<std::size_t>(triangle(i))]]
+                ? sites.new_of_old[patches[p].part.sites[static_cast<std::size_t>(triangle(i))]]
                 : sites.added[p][static_cast<std::size_t>(triangle(i) - fixed)];
       ++next;
     }
@@ -205,9 +205,8 @@ void triangulate_anew(const Mesh& old, const S& space, const std::vector<PatchRe
                       Mesh& mesh) {
   std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(old.points.cols()), 0);
   for (const PatchRegion& patch : patches)
-    for (const auto* sites : {&patch.fixed, &patch.free})
-      for (const std::int32_t site : *sites)
-        of_patch[static_cast<std::size_t>(site)] = 1;
+    for (const std::int32_t site : patch.part.sites)
+      of_patch[static_cast<std::size_t>(site)] = 1;
   require(is_delaunay(old, space, of_patch),
           "the mesh is no Delaunay triangulation where it is to change; triangulate its sites");
   require(old.closed(),
@@ -232,7 +231,7 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
 
   std::vector<std::uint8_t> of_patch(static_cast<std::size_t>(out.mesh.points.cols()), 0);
   for (std::size_t p = 0; p < replacements.size(); ++p) {
-    for (const std::int32_t site : patches[p].fixed)
+    for (const std::int32_t site : patches[p].fixed_sites())
       of_patch[static_cast<std::size_t>(sites.new_of_old[site])] = 1;
     for (const std::int32_t site : sites.added[p])
       of_patch[static_cast<std::size_t>(site)] = 1;
