@@ -29,6 +29,7 @@ namespace {
 
 using base_detail::column;
 using base_detail::require;
+using mesh_detail::Stars;
 using namespace domain_detail;
 using namespace cvt_detail;
 
@@ -91,7 +92,7 @@ private:
     return true;
   }
 
-  mesh_detail::Stars stars_;
+  Stars stars_;
   std::vector<std::uint8_t> blocked_;
 };
 
@@ -102,29 +103,16 @@ void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t cont
               std::to_string(most_points) + " points in all");
 }
 
-/// Whether sites are on the hull of an open mesh, where rings are open.
-std::vector<std::uint8_t> on_hull(const Mesh& mesh) {
-  std::vector<std::uint8_t> hull(static_cast<std::size_t>(mesh.points.cols()), 0);
-  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (mesh.neighbours(i, t) < 0)
-        for (const int end : {(i + 1) % 3, (i + 2) % 3})
-          hull[static_cast<std::size_t>(mesh.triangles(end, t))] = 1;
-  return hull;
-}
-
-/// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others.
+/// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others and for
+/// sites on the hull of an open mesh.
 std::vector<std::int8_t> oddities(const Mesh& mesh) {
   constexpr int many = 8, few = 4;
-  std::vector<std::int32_t> degree(static_cast<std::size_t>(mesh.points.cols()), 0);
-  for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i)
-      ++degree[static_cast<std::size_t>(mesh.triangles(i, t))];
-  const std::vector<std::uint8_t> hull = on_hull(mesh);
-  std::vector<std::int8_t> odd(degree.size(), 0);
-  for (std::size_t i = 0; i < odd.size(); ++i)
-    if (hull[i] == 0)
-      odd[i] = static_cast<std::int8_t>((degree[i] >= many) - (degree[i] <= few));
+  const Stars stars(faces_of(mesh));
+  std::vector<std::int8_t> odd;
+  for (std::int32_t i = 0; i < mesh.points.cols(); ++i)
+    odd.push_back(stars.is_closed(i)
+                      ? static_cast<std::int8_t>((stars.size(i) >= many) - (stars.size(i) <= few))
+                      : std::int8_t{0});
   return odd;
 }
 

@@ -31,6 +31,12 @@ public:
   /// The number of triangles at a site, in all its fans.
   std::int32_t size(std::int32_t site) const { return size_[static_cast<std::size_t>(site)]; }
 
+  /// Whether triangles surround a site.
+  bool is_closed(std::int32_t site) const {
+    const Corner at = first(site);
+    return exists(at) && faces_.neighbour(at.triangle, previous_vertex(at.vertex)) >= 0;
+  }
+
   /// Calls body(corner) for the triangles around a site; true if they close.
   template <class Body> bool for_each_corner(std::int32_t site, const Body& body) const {
     return exists(first(site)) && !exists(walk_around(faces_, first(site), body));

@@ -4,10 +4,9 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "exact/predicates.h"
+#include "mesh/submesh.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace calotte::quality_detail {
@@ -28,70 +27,39 @@ bool is_flat(const Mesh& mesh, std::int32_t t, int i) {
          std::abs(dot(from_a, normal)) <= rounding * norm(normal);
 }
 
-bool is_flat(const Mesh& mesh, std::int32_t t) {
-  for (int i = 0; i < 3; ++i)
-    if (mesh.neighbours(i, t) < 0 && is_flat(mesh, t, i))
+bool is_flat(const Mesh& mesh, std::int32_t t, const std::vector<bool>& removed) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t beyond = mesh.neighbours(i, t);
+    if ((beyond < 0 || removed[static_cast<std::size_t>(beyond)]) && is_flat(mesh, t, i))
       return true;
+  }
   return false;
-}
-
-/// Takes a triangle out of the lists of its neighbours. \returns these, -1 for none.
-Eigen::Vector3i separate(std::int32_t t, Mesh& mesh) {
-  const Eigen::Vector3i around = mesh.neighbours.col(t);
-  for (const std::int32_t other : around)
-    if (other >= 0)
-      for (int i = 0; i < 3; ++i)
-        if (mesh.neighbours(i, other) == t)
-          mesh.neighbours(i, other) = -1;
-  return around;
-}
-
-/// Leaves out triangles that no other refers to.
-void pack(const std::vector<bool>& removed, WithoutFlatHull& out) {
-  Mesh& mesh = out.mesh;
-  std::vector<std::int32_t> number(removed.size(), -1);
-  out.triangle.clear();
-  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
-    if (!removed[static_cast<std::size_t>(t)]) {
-      number[static_cast<std::size_t>(t)] = static_cast<std::int32_t>(out.triangle.size());
-      out.triangle.push_back(t);
-    }
-  const auto kept = [&](const Triangles& all) -> Triangles {
-    return all(Eigen::all, out.triangle);
-  };
-  mesh.triangles = kept(mesh.triangles);
-  mesh.neighbours = kept(mesh.neighbours);
-  for (std::int32_t& id : mesh.neighbours.reshaped())
-    if (id >= 0)
-      id = number[static_cast<std::size_t>(id)];
 }
 
 } // namespace
 
 WithoutFlatHull without_flat_hull(Mesh mesh) {
-  WithoutFlatHull out{std::move(mesh), {}};
-  const auto triangles = static_cast<std::int32_t>(out.mesh.triangles.cols());
+  const auto triangles = static_cast<std::int32_t>(mesh.triangles.cols());
   std::vector<bool> removed(static_cast<std::size_t>(triangles));
-  std::vector<std::int32_t> flat;
-  for (std::int32_t t = 0; t < triangles; ++t)
-    if (is_flat(out.mesh, t))
-      flat.push_back(t);
-  if (flat.empty()) {
-    out.triangle.resize(removed.size());
-    std::iota(out.triangle.begin(), out.triangle.end(), 0);
-    return out;
-  }
-  while (!flat.empty()) {
-    const std::int32_t t = flat.back();
-    flat.pop_back();
-    if (removed[static_cast<std::size_t>(t)])
+  std::vector<std::int32_t> suspects = base_detail::themselves(triangles);
+  while (!suspects.empty()) {
+    const std::int32_t t = suspects.back();
+    suspects.pop_back();
+    if (removed[static_cast<std::size_t>(t)] || !is_flat(mesh, t, removed))
       continue;
     removed[static_cast<std::size_t>(t)] = true;
-    for (const std::int32_t other : separate(t, out.mesh))
-      if (other >= 0 && is_flat(out.mesh, other))
-        flat.push_back(other);
+    for (const std::int32_t other : mesh.neighbours.col(t))
+      if (other >= 0)
+        suspects.push_back(other);
   }
-  pack(removed, out);
+  WithoutFlatHull out{std::move(mesh), base_detail::themselves(triangles)};
+  std::erase_if(out.triangle, [&](std::int32_t t) { return removed[static_cast<std::size_t>(t)]; });
+  if (std::ssize(out.triangle) < triangles) { // the sites of those that are removed stay
+    mesh_detail::Submesh part =
+        mesh_detail::extract(out.mesh.triangles, out.mesh.neighbours, out.triangle);
+    out.mesh.triangles = Triangles(out.mesh.triangles(Eigen::all, out.triangle));
+    out.mesh.neighbours = std::move(part.faces.neighbours);
+  }
   return out;
 }
 

@@ -21,7 +21,7 @@ struct WithoutFlatHull {
 
 /// Removes triangles whose longest side is on the boundary, and less than 1e-14 from the vertex
 /// across, repeatedly.
-/// \param mesh of unit columns.
+/// \param mesh of unit columns, whose triangles start at their lowest site.
 WithoutFlatHull without_flat_hull(Mesh mesh);
 
 } // namespace calotte::quality_detail

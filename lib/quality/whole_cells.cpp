@@ -2,8 +2,8 @@
 #include "quality/whole_cells.h"
 
 #include "base/points.h"
-#include "base/triangle.h"
 #include "exact/predicates.h"
+#include "mesh/stars.h"
 #include "voronoi/open.h"
 
 #include <calotte/error.h>
@@ -15,30 +15,6 @@
 namespace calotte::quality_detail {
 namespace {
 
-/// By site a triangle at it, or -1.
-std::vector<std::int32_t> triangles_at(const Mesh& mesh) {
-  std::vector<std::int32_t> at(static_cast<std::size_t>(mesh.points.cols()), -1);
-  for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
-    for (const std::int32_t site : mesh.triangles.col(t))
-      at[static_cast<std::size_t>(site)] = t;
-  return at;
-}
-
-/// Sets the triangles around a site, counter-clockwise; false if they do not surround it.
-bool set_ring(const Mesh& mesh, std::int32_t site, std::int32_t first,
-              std::vector<std::int32_t>& ring) {
-  ring.clear();
-  std::int32_t t = first;
-  do {
-    if (t < 0)
-      return false;
-    ring.push_back(t);
-    const int v = mesh.triangles(0, t) == site ? 0 : mesh.triangles(1, t) == site ? 1 : 2;
-    t = mesh.neighbours(next_vertex(v), t);
-  } while (t != first);
-  return true;
-}
-
 Vec3 circumcentre_of(const Mesh& mesh, std::int32_t t) {
   const Vec3 a = column(mesh.points, mesh.triangles(0, t)),
              b = column(mesh.points, mesh.triangles(1, t)),
@@ -49,12 +25,15 @@ Vec3 circumcentre_of(const Mesh& mesh, std::int32_t t) {
 } // namespace
 
 WholeCells whole_cells(const Mesh& mesh) {
-  const std::vector<std::int32_t> first = triangles_at(mesh);
+  const mesh_detail::Stars stars(faces_of(mesh));
   std::vector<std::int32_t> ring, used; // triangles, by entry of a cell
   std::vector<std::int64_t> begin{0};
   WholeCells out;
   for (std::int32_t site = 0; site < mesh.points.cols(); ++site)
-    if (set_ring(mesh, site, first[static_cast<std::size_t>(site)], ring)) {
+    if (stars.is_closed(site)) {
+      ring.clear();
+      stars.for_each_corner(site, [&](Corner corner) { ring.push_back(corner.triangle); });
+      std::rotate(ring.begin(), std::max_element(ring.begin(), ring.end()), ring.end());
       used.insert(used.end(), ring.begin(), ring.end());
       begin.push_back(std::ssize(used));
       out.site.push_back(site);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/faces.h"
 #include "mesh/rows.h"
+#include "mesh/stars.h"
 #include "support/clouds.h"
 #include "support/errors.h"
 #include "support/meshes.h"
@@ -126,6 +128,37 @@ TEST_CASE("the neighbours of a site are the other ends of its edges, counter-clo
       CHECK(fans == 0);
       if (list.size() == triangles + 1) // one fan: it begins and ends at open edges
         CHECK(!pairs_around(mesh, i).contains({list.back(), list.front()}));
+    }
+  }
+}
+
+TEST_CASE("a walk around a site meets its triangles and its neighbours, of several fans one") {
+  for (const auto& [name, mesh] : meshes()) {
+    CAPTURE(name);
+    const mesh_detail::Faces faces = mesh_detail::faces_of(mesh);
+    const mesh_detail::Stars stars(faces);
+    const IdLists lists = neighbours(mesh);
+    for (std::int32_t i = 0; i < lists.size(); ++i) {
+      CAPTURE(i);
+      const auto triangles = static_cast<std::int64_t>(pairs_around(mesh, i).size());
+      CHECK(stars.size(i) == triangles);
+      CHECK(stars.is_closed(i) == (triangles > 0 && lists.count(i) == triangles));
+      std::vector<std::int32_t> walked;
+      std::int64_t corners = 0;
+      const bool closed =
+          stars.for_each_neighbour(i, [&](std::int32_t other) { walked.push_back(other); });
+      CHECK(closed == stars.is_closed(i));
+      CHECK(closed == stars.for_each_corner(i, [&](mesh_detail::Corner corner) {
+        CHECK(site_at(faces, corner) == i);
+        ++corners;
+      }));
+      CHECK(std::ssize(walked) == corners + (closed || corners == 0 ? 0 : 1));
+      if (closed)
+        std::rotate(walked.begin(), std::ranges::min_element(walked), walked.end());
+      if (lists.count(i) > triangles + 1) // several fans
+        CHECK(!std::ranges::search(lists[i], walked).empty());
+      else if (std::ranges::count(lists[i], lists[i].empty() ? -1 : lists[i].front()) <= 1)
+        CHECK(std::ranges::equal(lists[i], walked));
     }
   }
 }

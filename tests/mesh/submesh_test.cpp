@@ -24,7 +24,7 @@ using mesh_detail::Submesh;
 
 namespace {
 
-std::vector<NamedMesh> meshes() {
+std::vector<NamedMesh> whole_meshes() {
   std::vector<NamedMesh> all = all_meshes();
   all.push_back(
       {"plane", delaunay(random_points(200, rectangle({0, 0}, {2, 1}), {}, 5), Surface::plane())});
@@ -76,7 +76,7 @@ void check_numbers(const Submesh& part, const Mesh& mesh) {
 
 TEST_CASE("a part has numbers both ways, and its sites ascend until some are put first") {
   Random random(1);
-  for (const auto& [name, mesh] : meshes())
+  for (const auto& [name, mesh] : whole_meshes())
     for (int round = 0; round < 5; ++round) {
       CAPTURE(name);
       Submesh part =
@@ -101,7 +101,7 @@ TEST_CASE("a part has numbers both ways, and its sites ascend until some are put
 
 TEST_CASE("a part that is put back leaves the mesh as it was, in any order of parts") {
   Random random(2);
-  for (const auto& [name, mesh] : meshes())
+  for (const auto& [name, mesh] : whole_meshes())
     for (int round = 0; round < 5; ++round) {
       CAPTURE(name);
       const Submesh one =
@@ -152,7 +152,7 @@ TEST_CASE("a flip inside a part reaches the mesh, and the triangles beyond the r
 
 TEST_CASE("a part is a mesh of its own") {
   Random random(3);
-  for (const auto& [name, mesh] : meshes()) {
+  for (const auto& [name, mesh] : whole_meshes()) {
     CAPTURE(name);
     std::vector<std::int32_t> some = some_triangles(mesh, random);
     if (some.empty())
