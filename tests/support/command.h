@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/text.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <sys/wait.h>
@@ -88,10 +91,6 @@ private:
   std::filesystem::path scratch_;
 };
 
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 inline bool one_line(const std::string& text) {
   return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
 }
@@ -110,44 +109,33 @@ inline Outcome check_success(const Bench& bench, const std::string& arguments) {
   return outcome;
 }
 
-/// Checks that the command ends with this code and exactly this message, and leaves no file behind.
-inline void check_refusal(const Bench& bench, const std::string& arguments, int code,
-                          const std::string& message, const std::string& before = "") {
-  CAPTURE(arguments);
-  const auto names = bench.names();
-  const Outcome outcome = bench.run(arguments, before);
-  CHECK(outcome.code == code);
-  CHECK(outcome.err == "calotte: " + message + "\n");
-  CHECK(outcome.out.empty());
-  CHECK(bench.names() == names);
-}
-
-/// As check_refusal(), for a message that a stage of the library composes.
-inline void check_refusal_naming(const Bench& bench, const std::string& arguments, int code,
-                                 const std::string& part) {
-  CAPTURE(arguments);
-  const auto names = bench.names();
-  const Outcome outcome = bench.run(arguments);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == code);
-  CHECK(one_line(outcome.err));
-  CHECK(outcome.err.starts_with("calotte: "));
-  CHECK(outcome.err.find(part) != std::string::npos);
-  CHECK(outcome.out.empty());
-  CHECK(bench.names() == names);
-}
-
-/// Runs a command that is refused with one line that contains a part; nothing is written.
-inline void check_command_refused(const Bench& bench, const std::string& arguments,
-                                  const std::string& part) {
-  CAPTURE(arguments);
-  const auto before = bench.names();
-  const Outcome outcome = bench.run(arguments);
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.err.find(part) != std::string::npos);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-  CHECK(bench.names() == before);
+/// Checks commands that are refused: each ends with its code and one line with its text on standard
+/// error, prints nothing else and leaves no new file.
+/// \param shared the first arguments of all.
+/// \param table lines "arguments | exit code | text", where the text is the part of the message
+/// that
+///   tells what is wrong, and the remedy.
+/// \param before a command for the shell, ended by a semicolon.
+inline void check_refusals(const Bench& bench, const std::string& shared, const std::string& table,
+                           const std::string& before = "") {
+  std::istringstream rows(table);
+  for (std::string row; std::getline(rows, row);) {
+    if (row.empty())
+      continue;
+    CAPTURE(shared);
+    CAPTURE(row);
+    const std::size_t code = row.find("| "), text = row.find(" | ", code + 2);
+    REQUIRE(text != std::string::npos);
+    const auto names = bench.names();
+    const Outcome outcome = bench.run(shared + " " + row.substr(0, code), before);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == std::stoi(row.substr(code + 2)));
+    CHECK(one_line(outcome.err));
+    CHECK(outcome.err.starts_with("calotte: "));
+    CHECK(has(outcome.err, row.substr(text + 3)));
+    CHECK(outcome.out.empty());
+    CHECK(bench.names() == names);
+  }
 }
 
 } // namespace calotte::test

@@ -30,96 +30,67 @@ TEST_CASE("invalid points: the message names the line, and nothing is written") 
                              const std::string& options = "") {
     CAPTURE(text);
     bench.file("points.txt", text);
-    check_refusal(bench, "delaunay points.txt -o mesh.vtp --report report.json" + options, 2,
-                  message);
+    check_refusals(bench, "delaunay points.txt -o mesh.vtp --report report.json",
+                   options + " | 2 | " + message);
   };
-  const std::string xyz = "; write three numbers x y z on each line";
   const std::string start = octahedron_text; // lines 1 to 6
-  check_bad(start + "nan 0 1\n",
-            "points.txt line 7: NaN gives no direction; remove the point or correct it");
-  check_bad(start + "0 1 inf",
-            "points.txt line 7: an infinite number gives no direction; remove the point or correct "
-            "it");
+  check_bad(start + "nan 0 1\n", "points.txt line 7: NaN gives no direction; remove the point");
+  check_bad(start + "0 1 inf", "points.txt line 7: an infinite number gives no direction");
   check_bad("# a comment\n" + start + "0 0 0\n",
-            "points.txt line 8: the zero vector has no direction; remove the point or correct it");
-  check_bad(start + "\n1 two 3\n", "points.txt line 8: \"two\" is not a number" + xyz);
+            "points.txt line 8: the zero vector has no direction");
+  check_bad(start + "\n1 two 3\n",
+            "points.txt line 8: \"two\" is not a number; write three numbers");
   check_bad("x,y,z\n" + start + "1,2\n",
-            "points.txt line 8: 2 columns only" + xyz +
-                ", or read them as longitude and latitude, or as places in a plane "
-                "(--lonlat, --plane)");
-  check_bad("", "points.txt: no points in 0 lines" + xyz);
-  check_bad("x y z\n", "points.txt: no points in 1 line" + xyz);
+            "points.txt line 8: 2 columns only; write three numbers x y z on each line, or");
+  check_bad("x y z\n", "points.txt: no points in 1 line; write three numbers x y z on each line\n");
   check_bad("0 0\n90 91\n",
-            "points.txt line 2: latitude 91 is outside -90 to 90; write longitude first, then "
-            "latitude, in degrees",
+            "points.txt line 2: latitude 91 is outside -90 to 90; write longitude first",
             " --lonlat");
-  check_refusal(bench, "delaunay absent.txt -o mesh.vtp", 3,
-                "cannot read absent.txt: No such file or directory; check its name and its "
-                "permissions");
-  check_refusal(bench, "delaunay . -o mesh.vtp", 3,
-                "cannot read .: it is a folder; give the name of a file");
-  check_refusal(bench, "delaunay - -o mesh.vtp </dev/null", 2,
-                "standard input: no points in 0 lines" + xyz);
+  check_refusals(bench, "delaunay -o mesh.vtp", R"(
+absent.txt | 3 | cannot read absent.txt: No such file or directory; check its name and its permissions
+. | 3 | cannot read .: it is a folder; give the name of a file
+- </dev/null | 2 | standard input: no points in 0 lines
+)");
 }
 
 TEST_CASE("sets that span no mesh are refused, and nothing is written") {
   const Bench bench;
   bench.file("two.txt", "1 0 0\n0 1 0\n2 0 0\n0 3 0\n");
-  check_refusal_naming(bench, "delaunay two.txt -o mesh.vtp", 2, "3");
   bench.file("circle.txt", "1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n1 1 0\n");
-  check_refusal_naming(bench, "delaunay circle.txt -o mesh.vtp", 2, "great circle");
   bench.file("twice.txt", "# six and one again\n" + std::string(octahedron_text) + "0 7 0\n");
-  check_refusal_naming(bench, "delaunay twice.txt -o mesh.vtp --duplicates refuse", 2,
-                       "twice.txt line 8: ");
-  check_refusal_naming(bench, "delaunay - -o mesh.vtp --duplicates refuse <twice.txt", 2,
-                       "standard input line 8: ");
+  check_refusals(bench, "delaunay -o mesh.vtp", R"(
+two.txt | 2 | 3
+circle.txt | 2 | great circle
+--duplicates refuse twice.txt | 2 | twice.txt line 8:
+--duplicates refuse - <twice.txt | 2 | standard input line 8:
+)");
 }
 
 TEST_CASE("bad usage is refused before any work") {
   const Bench bench;
+  bench.file("points.txt", octahedron_text);
   // A named pipe without a writer: reading it would block, so the command must not read it.
   REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
-  const auto check_usage = [&](const std::string& arguments, const std::string& message) {
-    check_refusal(bench, arguments, 2, message);
-  };
-  const std::string suffixes =
-      "; a mesh file ends in .nc, .g, .exo, .vtp, .vtu, .vtk (read only), .off, .ply, "
-      ".msh, .geojson, .txt or .tri, or is named SaveVertices or nod2d.out";
-  check_usage("delaunay never -o mesh.stl", "mesh.stl: unknown suffix \".stl\"" + suffixes);
-  check_usage("delaunay never -o mesh", "mesh: no suffix" + suffixes);
-  check_usage("delaunay never -o mesh.vtp --regions 0",
-              "--regions: \"0\" is not an integer >= 1; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --regions many",
-              "--regions: \"many\" is not an integer >= 1; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --threads 0",
-              "--threads: \"0\" is not an integer from 1 to 4096; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --sort any",
-              "--sort: any not in {halo,distance,voronoi}; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --fast",
-              "unknown option --fast; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --centres never",
-              "--centres: never not in {sample,fibonacci}; see calotte delaunay --help");
-  check_usage("delaunay never", "--output is required; see calotte delaunay --help");
-  check_usage("delaunay -o mesh.vtp", "--points is required; see calotte delaunay --help");
-  check_usage("delaunay never -o mesh.vtp --report mesh.vtp",
-              "mesh.vtp is both mesh and report; give the report another name");
-  check_usage("", "delaunay, cvt, plan, points, check, info, draw, view, convert, cut, cull, "
-                  "refine, coarsen, interpolate, partition, jigsaw, "
-                  "marche or help is required; see calotte --help");
-  check_usage("triangulate", "unknown command triangulate; see calotte --help");
-  check_usage("check mesh.tri",
-              "mesh.tri holds triangles only; give the points they refer to (--points FILE)");
-  for (const std::string mesh : {"points.vtp", "points.nc", "points.msh", "points.tri"})
-    check_usage("points random 9 -o " + mesh,
-                mesh + ": points are text with x y z on each line; give a name such as points.txt; "
-                       "calotte delaunay makes a mesh of them");
-  check_usage("points fibonacci 9 --seed 3 -o points.txt",
-              "--seed applies to random points only; leave it out");
-  check_usage("points spiral 9 --poles -o points.txt",
-              "--poles applies to latlon points only; leave it out");
-  bench.file("points.txt", octahedron_text);
-  check_usage("delaunay points.txt -o points.txt",
-              "points.txt is both input and output; give the output another name");
+  check_refusals(bench, "delaunay -o mesh.vtp never", R"(
+--regions many | 2 | --regions: "many" is not an integer >= 1; see calotte delaunay --help
+--sort any | 2 | --sort: any not in {halo,distance,voronoi}
+--fast | 2 | unknown option --fast; see calotte delaunay --help
+--centres never | 2 | --centres: never not in {sample,fibonacci}
+--report mesh.vtp | 2 | mesh.vtp is both mesh and report; give the report another name
+)");
+  check_refusals(bench, "", R"(
+delaunay never -o mesh | 2 | mesh: no suffix; a mesh file ends in .nc,
+delaunay never | 2 | --output is required
+delaunay -o mesh.vtp | 2 | --points is required
+| 2 | delaunay, cvt, plan, points, check, info, draw, view, convert, cut, cull,
+triangulate | 2 | unknown command triangulate; see calotte --help
+check mesh.tri | 2 | mesh.tri holds triangles only; give the points they refer to (--points FILE)
+points random 9 -o points.vtp | 2 | points.vtp: points are text with x y z on each line
+points random 9 -o points.tri | 2 | points.tri: points are text with x y z on each line
+points fibonacci 9 --seed 3 -o points.txt | 2 | --seed applies to random points only
+points spiral 9 --poles -o points.txt | 2 | --poles applies to latlon points only
+delaunay points.txt -o points.txt | 2 | points.txt is both input and output
+)");
   CHECK(contents(bench.folder() / "points.txt") == octahedron_text);
 }
 
@@ -127,16 +98,12 @@ TEST_CASE("an output that cannot be written is refused before any work") {
   const Bench bench;
   REQUIRE(::mkfifo((bench.folder() / "never").c_str(), 0600) == 0);
   fs::create_directory(bench.folder() / "folder.vtp");
-  check_refusal(bench, "delaunay never -o absent/mesh.vtp", 3,
-                "cannot write absent/mesh.vtp: the folder absent does not exist; create it first");
-  check_refusal(bench, "delaunay never -o mesh.vtp --report absent/report.json", 3,
-                "cannot write absent/report.json: the folder absent does not exist; create it "
-                "first");
-  check_refusal(bench, "delaunay never -o folder.vtp", 3,
-                "cannot write folder.vtp: it is a folder; give the name of a file");
-  check_refusal(
-      bench, "points random 9 -o absent/points.txt", 3,
-      "cannot write absent/points.txt: the folder absent does not exist; create it first");
+  check_refusals(bench, "", R"(
+delaunay never -o absent/mesh.vtp | 3 | cannot write absent/mesh.vtp: the folder absent does not exist; create it first
+delaunay never -o mesh.vtp --report absent/report.json | 3 | cannot write absent/report.json: the
+delaunay never -o folder.vtp | 3 | cannot write folder.vtp: it is a folder; give the name of a file
+points random 9 -o absent/points.txt | 3 | cannot write absent/points.txt: the folder absent does
+)");
 }
 
 TEST_CASE("a full disk leaves no new file, and the old file unchanged") {
@@ -145,15 +112,14 @@ TEST_CASE("a full disk leaves no new file, and the old file unchanged") {
   REQUIRE(made.code == 0);
   bench.file("mesh.vtp", "old");
   // The shell's limit on the size of files stands for a full disk: 1 block of 512 or 1024 bytes.
-  const std::string limit = "ulimit -f 1;";
-  check_refusal(bench, "delaunay points.txt -o mesh.vtp", 3,
-                "cannot write mesh.vtp: File too large; make room or write elsewhere", limit);
-  check_refusal(bench, "delaunay points.txt -o other.off", 3,
-                "cannot write other.off: File too large; make room or write elsewhere", limit);
-  check_refusal(bench, "points random 100 -o points.txt", 3,
-                "cannot write points.txt: File too large; make room or write elsewhere", limit);
-  check_refusal(bench, "points random 100 -o /dev/full", 3,
-                "cannot write /dev/full: No space left on device; make room or write elsewhere");
+  check_refusals(bench, "", R"(
+delaunay points.txt -o mesh.vtp | 3 | cannot write mesh.vtp: File too large; make room or write elsewhere
+delaunay points.txt -o other.off | 3 | cannot write other.off: File too large
+points random 100 -o points.txt | 3 | cannot write points.txt: File too large
+)",
+                 "ulimit -f 1;");
+  check_refusals(bench, "points random 100 -o",
+                 "/dev/full | 3 | cannot write /dev/full: No space left on device");
   CHECK(contents(bench.folder() / "mesh.vtp") == "old");
   CHECK(calotte::read_points(bench.folder() / "points.txt").cols() == 100);
   CHECK(bench.run("points random 100 -o - >/dev/full").code == 3);
@@ -171,7 +137,7 @@ TEST_CASE("from points to a mesh that passes its check, in every format") {
     CHECK(made.err.empty());
     const Outcome checked = bench.run("check " + mesh + " --points points.txt");
     CHECK(checked.code == 0);
-    CHECK(checked.out.find("triangles       996\n") != std::string::npos);
+    CHECK(has(checked.out, "triangles       996\n"));
     CHECK(checked.err.empty());
   }
   const calotte::Mesh mesh = calotte::read_mesh(bench.folder() / "mesh.vtp");
@@ -196,9 +162,9 @@ TEST_CASE("a mesh that is not Delaunay fails its check with exit code 1") {
   CHECK(outcome.code == 1);
   CHECK(outcome.err == "calotte: mesh.tri: 1 of 5 edges are not Delaunay; the first is from site "
                        "2 to 3\n");
-  CHECK(outcome.out.find("sites           4\n") != std::string::npos);
-  CHECK(outcome.out.find("boundary edges  4\n") != std::string::npos);
-  CHECK(outcome.out.find("Delaunay        no\n") != std::string::npos);
+  CHECK(has(outcome.out, "sites           4\n"));
+  CHECK(has(outcome.out, "boundary edges  4\n"));
+  CHECK(has(outcome.out, "Delaunay        no\n"));
 }
 
 TEST_CASE("in the plane the other diagonal of cocircular sites passes, as on the sphere") {
@@ -213,15 +179,14 @@ TEST_CASE("in the plane the other diagonal of cocircular sites passes, as on the
                              "Delaunay        yes, every edge\n"));
   const Outcome info = bench.run("info square.off --plane --rectangle 0,0,1,1");
   CHECK(info.code == 0);
-  CHECK(info.out.find("cells                 4\n") != std::string::npos);
+  CHECK(has(info.out, "cells                 4\n"));
   const Outcome kite = bench.run("check kite.off --plane");
   CHECK(kite.code == 1);
   CHECK(kite.err == "calotte: kite.off: 1 of 5 edges are not Delaunay; the first is from site 0 to "
                     "2\n");
-  check_refusal(bench, "info kite.off --plane --rectangle 0,-1,2,1", 2,
-                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                "cells: edge (2, 0) of triangle 0 (0, 1, 2) is not Delaunay: site 3 is inside the "
-                "circumcircle; triangulate the points anew");
+  check_refusals(bench, "info kite.off --plane",
+                 "--rectangle 0,-1,2,1 | 2 | edge (2, 0) of triangle 0 (0, 1, 2) is not Delaunay: "
+                 "site 3 is inside the circumcircle; triangulate the points anew");
 }
 
 TEST_CASE("a file that deviates from its mesh fails its check with exit code 1") {
@@ -244,9 +209,9 @@ TEST_CASE("triangles of both orientations are refused with the first of the rare
   bench.file("points.txt", octahedron_text);
   bench.file("mesh.tri", "0 1 2\n0 2 4\n0 4 5\n0 5 1\n1 3 2\n1 5 3\n2 3 4\n3 4 5\n");
   for (const std::string command : {"check", "info"})
-    check_refusal(bench, command + " mesh.tri --points points.txt", 2,
-                  "mesh.tri: triangle 7 (3, 4, 5) runs clockwise, but 7 triangles run the other "
-                  "way, so the file contradicts itself; make the file again");
+    check_refusals(bench, command,
+                   "mesh.tri --points points.txt | 2 | mesh.tri: triangle 7 (3, 4, 5) runs "
+                   "clockwise, but 7 triangles run the other way");
 }
 
 TEST_CASE("duplicates are merged and counted, and triangles as text keep the input's ids") {
@@ -275,9 +240,9 @@ TEST_CASE("the report has the documented content") {
   for (const char* key :
        {"sites", "regions", "threads", "overlap", "seconds", "triangulate", "unite", "total",
         "read", "write", "duplicates", "seam_triangles", "exact_predicates", "sites_per_region"})
-    CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
-  CHECK(report.find("\"regions\": 12,") != std::string::npos);
-  CHECK(report.find("\"threads\": 2,") != std::string::npos);
+    CHECK(has(report, std::string("\"").append(key).append("\": ")));
+  CHECK(has(report, "\"regions\": 12,"));
+  CHECK(has(report, "\"threads\": 2,"));
 }
 
 TEST_CASE("the mesh file is the same bytes for any threads, regions, centres and sort") {
@@ -306,12 +271,11 @@ TEST_CASE("every kind of points") {
   CHECK(count("latlon 4") == 32);
   CHECK(count("latlon 4 --poles") == 34);
   CHECK(count("cubed 3") == 54);
-  const std::string bisected = "a bisected icosahedron has 12, 42, 162, 642 and so on points, not ";
-  check_refusal(bench, "points icosahedron 5 -o a.txt", 2, bisected + "5; give 12");
-  check_refusal(bench, "points icosahedron 100 -o a.txt", 2, bisected + "100; give 42 or 162");
-  check_refusal(
-      bench, "points icosahedron 10000000000 -o a.txt", 2,
-      "a bisected icosahedron of 10000000000 points is too large; give 671088642 or fewer");
+  check_refusals(bench, "points -o a.txt icosahedron", R"(
+5 | 2 | a bisected icosahedron has 12, 42, 162, 642 and so on points, not 5; give 12
+100 | 2 | give 42 or 162
+10000000000 | 2 | of 10000000000 points is too large; give 671088642 or fewer
+)");
 }
 
 TEST_CASE("the weather stations become a mesh") {
@@ -319,7 +283,7 @@ TEST_CASE("the weather stations become a mesh") {
   const std::string stations = CALOTTE_FIXTURES "/weather-stations.csv";
   const Outcome made = bench.run("delaunay '" + stations + "' --lonlat -o mesh.tri");
   CHECK(made.code == 0);
-  CHECK(made.out.find(", closed") != std::string::npos);
+  CHECK(has(made.out, ", closed"));
   CHECK(bench.run("check mesh.tri --lonlat --points '" + stations + "'").code == 0);
 }
 
@@ -334,34 +298,15 @@ TEST_CASE("info prints a table of the mesh as a grid, and reports the same as JS
        {"cells                 12\n", "triangles             20\n", "degree: cells         5: 12\n",
         "sigma                 1  ", "spacing, degrees      63.4349       63.4349       63.4349\n",
         "area ratio            1\n", "obtuse triangles      0\n"})
-    CHECK(shown.out.find(row) != std::string::npos);
+    CHECK(has(shown.out, row));
   const std::string report = contents(bench.folder() / "report.json");
-  for (const char* key : {"cells",
-                          "triangles",
-                          "degrees",
-                          "obtuse",
-                          "spacing",
-                          "sigma",
-                          "cell_quality",
-                          "cell_area",
-                          "area_ratio",
-                          "triangle_quality",
-                          "angles",
-                          "off_centring",
-                          "residual",
-                          "energy",
-                          "energy_times_cells",
-                          "cells_area",
-                          "triangles_area",
-                          "limit",
-                          "excess",
-                          "dc_over_h",
-                          "p50",
-                          "dv_over_dc",
-                          "short_voronoi_edges",
-                          "mismatched_edges",
-                          "bad_cells"})
-    CHECK(report.find(std::string("\"").append(key).append("\": ")) != std::string::npos);
+  std::istringstream keys(
+      "cells triangles degrees obtuse spacing sigma cell_quality cell_area area_ratio "
+      "triangle_quality angles off_centring residual energy energy_times_cells cells_area "
+      "triangles_area limit excess "
+      "dc_over_h p50 dv_over_dc short_voronoi_edges mismatched_edges bad_cells");
+  for (std::string key; keys >> key;)
+    CHECK(has(report, "\"" + key + "\": "));
 }
 
 TEST_CASE("info measures against a density") {
@@ -385,16 +330,16 @@ TEST_CASE("info converts distances to km where a radius is known") {
   CHECK(bench.run("points icosahedron 12 -o points.txt").code == 0);
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   CHECK(bench.run("convert mesh.vtp mesh.nc --sphere-radius 1000000").code == 0);
-  CHECK(bench.run("info mesh.vtp").out.find("km") == std::string::npos);
+  CHECK(!has(bench.run("info mesh.vtp").out, "km"));
   const std::string row = "spacing, km           1107.15       1107.15       1107.15\n"; // atan(2)
-  CHECK(bench.run("info mesh.nc").out.find(row) != std::string::npos);
+  CHECK(has(bench.run("info mesh.nc").out, row));
   const Outcome given = bench.run("info mesh.vtp --sphere-radius 1e6 --report report.json");
-  CHECK(given.out.find(row) != std::string::npos);
-  CHECK(bench.file("report.json").find("\"least_dc_km\": 1107.14871") != std::string::npos);
-  CHECK(bench.run("info mesh.nc --sphere-radius 1e3").out.find("spacing, km           1.10715 ") !=
-        std::string::npos);
-  check_refusal(bench, "info mesh.vtp --sphere-radius -1", 2,
-                "--sphere-radius -1 is not a positive number; give one such as 6371229, in metres");
+  CHECK(has(given.out, row));
+  CHECK(has(bench.file("report.json"), "\"least_dc_km\": 1107.14871"));
+  CHECK(has(bench.run("info mesh.nc --sphere-radius 1e3").out, "spacing, km           1.10715 "));
+  check_refusals(
+      bench, "info mesh.vtp",
+      "--sphere-radius -1 | 2 | --sphere-radius -1 is not a positive number; give one such as");
 }
 
 TEST_CASE("info counts the cells of a limited-area grid by their masks, and measures whole ones") {
@@ -405,10 +350,10 @@ TEST_CASE("info counts the cells of a limited-area grid by their masks, and meas
   const Outcome info = bench.run("info a.nc --sphere-radius earth --report report.json");
   CAPTURE(info.out);
   CHECK(info.code == 0);
-  CHECK(info.out.find("\n  relaxation, 1 to 5  ") != std::string::npos);
-  CHECK(info.out.find("\nboundary loops        1\n") != std::string::npos);
-  CHECK(info.out.find("\ndv / dc ") != std::string::npos);
-  CHECK(info.out.find("\nspacing, km ") != std::string::npos);
+  CHECK(has(info.out, "\n  relaxation, 1 to 5  "));
+  CHECK(has(info.out, "\nboundary loops        1\n"));
+  CHECK(has(info.out, "\ndv / dc "));
+  CHECK(has(info.out, "\nspacing, km "));
   const auto report = nlohmann::json::parse(bench.file("report.json"));
   const auto masks = report["cells_by_mask"].get<std::vector<int>>();
   CHECK(masks.size() == 8);
@@ -447,12 +392,12 @@ TEST_CASE("info prints the errors of operators, and reports the same as JSON") {
   }
   const double kilometres = 6371.229 * std::sqrt(8 / report["primal_eigenvalue"].get<double>());
   const std::string row = "\nlongest stable step x speed of waves, km        ";
-  REQUIRE(info.out.find(row) != std::string::npos);
+  REQUIRE(has(info.out, row));
   CHECK(std::stod(info.out.substr(info.out.find(row) + row.size())) ==
         doctest::Approx(kilometres).epsilon(1e-3));
   const std::string worst = std::to_string(report["tangential"]["cell"].get<int>());
-  CHECK(bench.run("info grid.nc --operators --cell " + worst)
-            .out.find("\ntangential velocity error   ") != std::string::npos);
+  CHECK(has(bench.run("info grid.nc --operators --cell " + worst).out,
+            "\ntangential velocity error   "));
 }
 
 TEST_CASE("info prints the errors of operators of limited areas and planes") {
@@ -460,11 +405,10 @@ TEST_CASE("info prints the errors of operators of limited areas and planes") {
   REQUIRE(
       bench.run("cvt --region circle=0,90,900km --cell-width 150km --limited-area -o a.nc").code ==
       0);
-  CHECK(bench.run("info a.nc --operators").out.find("\ntangential velocity    0.") !=
-        std::string::npos);
+  CHECK(has(bench.run("info a.nc --operators").out, "\ntangential velocity    0."));
   REQUIRE(bench.run("cvt --rectangle 0,0,4,3 --cells 200 -o plane.vtp").code == 0);
-  CHECK(bench.run("info plane.vtp --plane --rectangle 0,0,4,3 --operators")
-            .out.find("\nlongest stable step x speed of waves            ") != std::string::npos);
+  CHECK(has(bench.run("info plane.vtp --plane --rectangle 0,0,4,3 --operators").out,
+            "\nlongest stable step x speed of waves            "));
 }
 
 TEST_CASE("info measures an open mesh, and refuses a report in its place") {
@@ -473,19 +417,16 @@ TEST_CASE("info measures an open mesh, and refuses a report in its place") {
   CHECK(bench.run("delaunay points.txt -o mesh.vtp").code == 0);
   const Outcome open = bench.run("info mesh.vtp --report report.json");
   CHECK(open.code == 0);
-  CHECK(
-      bench.run("info mesh.vtp --density x8")
-          .out.find("mesh.vtp: the density x8 is not used: closed meshes and domains of a plane") !=
-      std::string::npos);
+  CHECK(has(bench.run("info mesh.vtp --density x8").out,
+            "mesh.vtp: the density x8 is not used: closed meshes and domains of a plane"));
   CHECK(open.out.starts_with("mesh.vtp: the mesh is open: 3 boundary edges in 1 loop; its "
                              "triangles and whole cells are measured\n"));
-  CHECK(bench.file("report.json").find("\"whole_cells\": 1,") != std::string::npos);
-  CHECK(bench.file("report.json").find("\"residual\"") == std::string::npos);
-  check_refusal(bench, "info mesh.vtp --report mesh.vtp", 2,
-                "mesh.vtp is both input and output; give the output another name");
-  check_refusal(bench, "info mesh.vtp --report absent/report.json", 3,
-                "cannot write absent/report.json: the folder absent does not exist; create it "
-                "first");
+  CHECK(has(bench.file("report.json"), "\"whole_cells\": 1,"));
+  CHECK(!has(bench.file("report.json"), "\"residual\""));
+  check_refusals(bench, "info mesh.vtp --report", R"(
+mesh.vtp | 2 | mesh.vtp is both input and output
+absent/report.json | 3 | the folder absent does not exist
+)");
 }
 
 TEST_CASE("a plane is triangulated, open or periodic, written and read back") {
@@ -516,17 +457,16 @@ TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay"
   CHECK(bench.run("delaunay --plane square.points -o square.tri").code == 0);
   CHECK(bench.run("delaunay --plane --periodic 10,10.392304845413264 box.points -o box.nc").code ==
         0);
-  CHECK(bench.run("check --plane lake.vtp").out.find("Delaunay        yes") != std::string::npos);
+  CHECK(has(bench.run("check --plane lake.vtp").out, "Delaunay        yes"));
   const Outcome square = bench.run("check --plane square.tri --points square.points");
-  CHECK(square.out.find("area / hull     ") != std::string::npos);
-  CHECK(square.out.find("Delaunay        yes") != std::string::npos);
-  CHECK(bench.run("check --plane box.nc").out.find("boundary edges  0\narea / box") !=
-        std::string::npos);
+  CHECK(has(square.out, "area / hull     "));
+  CHECK(has(square.out, "Delaunay        yes"));
+  CHECK(has(bench.run("check --plane box.nc").out, "boundary edges  0\narea / box"));
   CHECK(bench.run("convert lake.vtp lake.off").out.ends_with(", a plane\n"));
-  check_refusal_naming(bench, "convert lake.vtp lake.nc", 2,
-                       "need its domain, which clips them; give --domain FILE");
-  check_refusal_naming(bench, "convert box.nc lake.vtp --domain lake.txt", 2,
-                       "holds no mesh of a bounded plane; leave --domain");
+  check_refusals(bench, "convert", R"(
+lake.vtp lake.nc | 2 | need its domain, which clips them; give --domain FILE
+box.nc lake.vtp --domain lake.txt | 2 | holds no mesh of a bounded plane; leave --domain
+)");
   CHECK(bench.run("convert --plane square.tri --points square.points square.ply").code == 0);
   CHECK(bench.run("convert square.ply square.nc --rectangle=-1,-1,1,1").code == 0);
   CHECK(bench.run("check square.nc").code == 0);
@@ -540,22 +480,20 @@ TEST_CASE("planar points in a domain, and the proof that their mesh is Delaunay"
 TEST_CASE("invalid domains and planar points are refused in one line") {
   const Bench bench;
   bench.file("bow.txt", "0 0\n4 4\n4 0\n0 4\n");
-  check_refusal_naming(bench, "points hexagonal 50 -o x.txt", 2, "--domain");
-  check_refusal_naming(bench, "points fibonacci 50 --rectangle 0,0,1,1 -o x.txt", 2, "sphere");
-  check_refusal_naming(bench, "points hexagonal 50 --seed 1 --rectangle 0,0,1,1 -o x.txt", 2,
-                       "--seed");
-  check_refusal_naming(bench, "points random-plane 50 --domain bow.txt -o x.txt", 2, "meet");
-  check_refusal_naming(bench, "points random-plane 50 --domain absent.txt -o x.txt", 3,
-                       "absent.txt");
-  for (const std::string word :
-       {"1,2,3", "0,0,1", "0,0,0,1", "1,0,0,1", "0,0,1,nan", "0,0,1,1,", "a"})
-    check_refusal_naming(bench, "points random-plane 50 --rectangle " + word + " -o x.txt", 2,
-                         "--rectangle " + word + " is not a rectangle");
+  check_refusals(bench, "points -o x.txt", R"(
+hexagonal 50 | 2 | --domain
+fibonacci 50 --rectangle 0,0,1,1 | 2 | sphere
+hexagonal 50 --seed 1 --rectangle 0,0,1,1 | 2 | --seed
+random-plane 50 --domain bow.txt | 2 | meet
+random-plane 50 --domain absent.txt | 3 | absent.txt
+random-plane 9 --periodic 1,1 --rectangle 0,0,1,1 | 2 | excludes
+)");
+  for (const std::string word : {"1,2,3", "0,0,0,1", "1,0,0,1", "0,0,1,nan", "0,0,1,1,", "a"})
+    check_refusals(bench, "points random-plane 50 -o x.txt",
+                   "--rectangle " + word + " | 2 | --rectangle " + word + " is not a rectangle");
   for (const std::string word : {"1", "1,0", "-1,1", "1,1,1", "1,x"})
-    check_refusal_naming(bench, "points random-plane 50 --periodic " + word + " -o x.txt", 2,
-                         "--periodic " + word + " is not a box");
-  check_refusal_naming(bench, "points random-plane 9 --periodic 1,1 --rectangle 0,0,1,1 -o x.txt",
-                       2, "excludes");
+    check_refusals(bench, "points random-plane 50 -o x.txt",
+                   "--periodic " + word + " | 2 | --periodic " + word + " is not a box");
 }
 
 TEST_CASE("invalid planar input is refused, naming line or option") {
@@ -563,19 +501,18 @@ TEST_CASE("invalid planar input is refused, naming line or option") {
   bench.file("points.txt", "0 0\n1 0\n0.5 1\n0.7 0.2\n");
   bench.file("bad.txt", "0 0\n1 0\n0.5 inf\n");
   bench.file("line.txt", "0 0\n1 1\n2 2\n");
-  check_refusal(
-      bench, "delaunay --plane bad.txt -o mesh.vtp", 2,
-      "bad.txt line 3: an infinite number gives no place; remove the point or correct it");
-  check_refusal_naming(bench, "delaunay --plane line.txt -o mesh.vtp", 2, "on one line");
-  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc", 2, "a plane is written as");
-  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 2,2", 2,
-                       "a circle wider than half of the periodic box");
-  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 0.5,2", 2,
-                       "point 1 is outside the periodic box");
-  check_refusal_naming(bench, "delaunay --plane points.txt -o mesh.nc --periodic 5", 2,
-                       "--periodic 5 is not a box");
-  check_refusal_naming(bench, "delaunay points.txt -o mesh.nc --periodic 5,5", 2, "--plane");
   CHECK(bench.run("delaunay --plane points.txt -o good.off").code == 0);
-  check_refusal_naming(bench, "delaunay --plane good.off -o mesh.vtp", 2, "--plane requires text");
-  check_refusal_naming(bench, "delaunay --plane --lonlat points.txt -o mesh.vtp", 2, "excludes");
+  check_refusals(bench, "delaunay -o mesh.vtp --plane", R"(
+bad.txt | 2 | bad.txt line 3: an infinite number gives no place; remove the point or correct it
+line.txt | 2 | on one line
+good.off | 2 | --plane requires text
+--lonlat points.txt | 2 | excludes
+)");
+  check_refusals(bench, "delaunay -o mesh.nc points.txt", R"(
+--plane | 2 | a plane is written as
+--plane --periodic 2,2 | 2 | a circle wider than half of the periodic box
+--plane --periodic 0.5,2 | 2 | point 1 is outside the periodic box
+--plane --periodic 5 | 2 | --periodic 5 is not a box
+--periodic 5,5 | 2 | --plane
+)");
 }

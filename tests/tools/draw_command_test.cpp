@@ -51,42 +51,35 @@ TEST_CASE("a mesh and its density become a picture of the spacing law") {
 
 TEST_CASE("the options of one picture are refused for another, before anything is read") {
   const Bench bench;
-  const auto check_usage = [&](const std::string& arguments, const std::string& message) {
-    check_refusal(bench, "draw " + arguments, 2, message + "; see calotte draw --help");
-  };
-  check_usage("-o a.png", "MESH is required");
-  check_usage(
-      "a.vtp -o a.png --colour blue",
-      "--colour: \"blue\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, region, field:NAME, error:OPERATOR, none");
-  check_usage(
-      "a.vtp -o a.png --colour field:",
-      "--colour: \"field:\" is not one of spacing, angle, valence (or degree), area, quality, "
-      "density, region, field:NAME, error:OPERATOR, none");
-  check_usage("-o a.png --density uniform --what cells", "--what: MESH is required");
-  check_usage("a.vtp -o a.png --spacing-law --density uniform --view 1,2",
-              "--view excludes --spacing-law");
-  check_usage("a.vtp --history a.json -o a.png", "MESH excludes --history");
-  check_usage("--history a.json -o a.png --what cells", "--what excludes --history");
-  check_usage("--history a.json -o a.png --spacing-law", "--history excludes --spacing-law");
-  check_usage("--history a.json -o a.png --density uniform", "--density excludes --history");
-  check_usage("--history a.json -o a.png --projection globe", "--projection excludes --history");
-  check_usage("--history 1 2 3 4 5 6 7 8 9 -o a.png",
-              "--history: At Most 8 required but received 9");
-}
-
-TEST_CASE("a density without use, or a missing one, is refused before anything is read") {
-  const Bench bench;
-  check_refusal(bench, "draw a.vtp -o a.png --spacing-law", 2,
-                "--spacing-law requires a density; give --density or --cell-width");
-  check_refusal(bench, "draw a.vtp -o a.png --colour density", 2,
-                "--colour density requires a density; give --density or --cell-width");
-  check_refusal(bench, "draw a.vtp -o a.png --density uniform", 2,
-                "a mesh with a density requires --colour density or --spacing-law; give one of "
-                "these, or leave MESH out to draw the density");
-  check_refusal(bench, "draw -o a.png --density uniform --colour valence", 2,
-                "a picture of a density is coloured by density or spacing; give one of these, or a "
-                "mesh");
+  check_refusals(bench, "draw", R"(
+-o a.png | 2 | MESH is required; see calotte draw --help
+a.vtp -o a.png --colour blue | 2 | --colour: "blue" is not one of spacing, angle, valence (or degree),
+a.vtp -o a.png --colour field: | 2 | --colour: "field:" is not one of spacing,
+-o a.png --density uniform --what cells | 2 | --what: MESH is required
+a.vtp -o a.png --spacing-law --density uniform --view 1,2 | 2 | --view excludes --spacing-law
+a.vtp --history a.json -o a.png | 2 | MESH excludes --history
+--history a.json -o a.png --what cells | 2 | --what excludes --history
+--history a.json -o a.png --spacing-law | 2 | --history excludes --spacing-law
+--history a.json -o a.png --density uniform | 2 | --density excludes --history
+--history a.json -o a.png --projection globe | 2 | --projection excludes --history
+--history 1 2 3 4 5 6 7 8 9 -o a.png | 2 | --history: At Most 8 required but received 9
+--history a.json -o a.gif | 2 | a.gif: the suffix names no picture format; use .png, .svg or .pdf
+a.vtp -o a.png --spacing-law | 2 | --spacing-law requires a density; give --density or --cell-width
+a.vtp -o a.png --colour density | 2 | --colour density requires a density; give --density or
+a.vtp -o a.png --density uniform | 2 | a mesh with a density requires --colour density or --spacing-law
+-o a.png --density uniform --colour valence | 2 | a picture of a density is coloured by density or spacing
+a.vtp -o a.png --range 1 | 2 | --range 1 is no range of a colour bar; give its lower and its upper end
+a.vtp -o a.png --range 1,1 | 2 | --range 1,1 is no range
+a.vtp -o a.png --range a,b | 2 | --range a,b is no range
+a.vtp -o a.png --range 1,2,3 | 2 | --range 1,2,3 is no range
+a.vtp -o a.png --range nan,1 | 2 | --range nan,1 is no range
+a.vtp -o a.png --range 0,inf | 2 | --range 0,inf is no range
+a.vtp -o a.png --palette jet | 2 | --palette: jet not in {viridis,
+a.vtp -o a.png --zoom 0.5 | 2 | --zoom 0.5 is no enlargement; give auto, whole or a number from 1 to 2000
+a.vtp -o a.png --zoom 3000 | 2 | --zoom 3000 is no enlargement
+a.vtp -o a.png --zoom 2x | 2 | --zoom 2x is no enlargement
+a.vtp -o a.png --colour error:vorticity | 2 | is not error: with one of divergence, gradient, laplacian,
+)");
 }
 
 TEST_CASE("a mesh is drawn on either map, by its shapes and by what they are coloured by") {
@@ -125,15 +118,8 @@ TEST_CASE("range, palette and title of a picture") {
             .run("draw --density " + bump_density(2) +
                  " -o b.png --range 0,2 --palette magma --title x --size 200")
             .code == 0);
-  for (const char* range : {"1", "2,1", "1,1", "a,b", "1,2,3", "nan,1", "0,inf"})
-    check_refusal(bench, "draw a.vtp -o b.svg --range " + std::string(range), 2,
-                  "--range " + std::string(range) +
-                      " is no range of a colour bar; give its lower and its upper end, as in "
-                      "--range 30,120");
-  check_refusal(bench, "draw a.vtp -o b.svg --colour valence --range 5,7", 2,
-                "--range sets the ends of a colour bar, which this --colour does not have; leave "
-                "--range out");
-  CHECK(bench.run("draw a.vtp -o b.svg --palette jet").err.find("--palette") != std::string::npos);
+  check_refusals(bench, "draw a.vtp -o b.svg",
+                 "--colour valence --range 5,7 | 2 | does not have; leave --range out");
 }
 
 TEST_CASE("maps show the coastlines of the earth, unless they are turned off or the radius is "
@@ -212,9 +198,6 @@ TEST_CASE("the errors of operators colour cells") {
     pictures.insert(bench.file("a.png"));
   }
   CHECK(pictures.size() == 6);
-  check_refusal(bench, "draw a.nc -o a.png --colour error:vorticity", 2,
-                "--colour: \"error:vorticity\" is not error: with one of divergence, gradient, "
-                "laplacian, curl, tangential, kinetic_energy; see calotte draw --help");
 }
 
 TEST_CASE("a mesh file's variables colour its cells; an unknown one names those there are") {
@@ -225,12 +208,11 @@ TEST_CASE("a mesh file's variables colour its cells; an unknown one names those 
       bench.run("draw a.nc -o a.png --size 200 --what cells --colour field:areaCell");
   CHECK(outcome.err.empty());
   CHECK(outcome.out == "a.png: picture of 162 sites, 320 triangles\n");
-  const Outcome unknown = bench.run("draw a.nc -o b.png --colour field:area");
-  CHECK(unknown.code == 2);
-  CHECK(unknown.err.starts_with("calotte: a.nc: no variable area; there are "));
-  CHECK(unknown.err.find("areaCell") != std::string::npos);
-  CHECK(unknown.err.find("areaTriangle") == std::string::npos);
-  check_refusal_naming(bench, "draw a.vtp -o b.png --colour field:area", 2, "a.vtp");
+  check_refusals(bench, "draw -o b.png --colour field:area", R"(
+a.nc | 2 | a.nc: no variable area; there are
+a.nc | 2 | areaCell
+a.vtp | 2 | a.vtp
+)");
 }
 
 TEST_CASE("a limited-area grid fills the picture and shows its zones") {
@@ -254,15 +236,11 @@ TEST_CASE("a limited-area grid fills the picture and shows its zones") {
     CHECK(whole != picture("--what cells --zoom 2" + map));
     CHECK(picture(map) == picture("--colour spacing" + map)); // triangles
   }
-  for (const std::string zoom : {"0.5", "3000", "2x", "globe"}) {
-    check_refusal(bench, "draw a.nc -o b.png --zoom " + zoom, 2,
-                  "--zoom " + zoom +
-                      " is no enlargement; give auto, whole or a number from 1 to 2000, as in "
-                      "--zoom 5");
-  }
-  check_refusal_naming(bench, "draw a.nc -o b.png --region circle=1,2", 2, "--region");
   make_run(bench, "b");
-  check_refusal_naming(bench, "draw b.vtp -o b.png --colour region", 2, "b.vtp");
+  check_refusals(bench, "draw -o b.png", R"(
+b.vtp --colour region | 2 | b.vtp
+a.nc --region circle=1,2 | 2 | --region
+)");
   REQUIRE(bench.run("draw b.vtp -o b.png --size 200").code == 0);
   REQUIRE(bench.run("draw b.vtp -o c.png --size 200 --zoom whole").code == 0);
   CHECK(bench.file("b.png") == bench.file("c.png"));
@@ -270,20 +248,15 @@ TEST_CASE("a limited-area grid fills the picture and shows its zones") {
 
 TEST_CASE("a file that is no report is named, and nothing is written") {
   const Bench bench;
-  const std::string remedy = "; give a report of calotte cvt --report";
   bench.file("a.json", "{\"norm\": \"l2\"}\n");
-  check_refusal(bench, "draw --history a.json -o a.png", 2, "a.json: density is missing" + remedy);
   bench.file("empty.json", "");
-  check_refusal(bench, "draw --history empty.json -o a.png", 2,
-                "empty.json line 1: this is not JSON, or was cut short" + remedy);
-  check_refusal(bench, "draw --history absent.json -o a.png", 3,
-                "cannot read absent.json: No such file or directory; check its name and its "
-                "permissions");
-  check_refusal(bench, "draw --history a.json -o a.gif", 2,
-                "a.gif: the suffix names no picture format; use .png, .svg or .pdf");
   bench.file("a.png", "{}");
-  check_refusal(bench, "draw --history a.png -o a.png", 2,
-                "a.png is both input and output; give the output another name");
+  check_refusals(bench, "draw -o a.png", R"(
+--history a.json | 2 | a.json: density is missing; give a report of calotte cvt --report
+--history empty.json | 2 | empty.json line 1: this is not JSON, or was cut short; give a report of
+--history absent.json | 3 | cannot read absent.json: No such file or directory
+--history a.png | 2 | a.png is both input and output; give the output another name
+)");
 }
 
 TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
@@ -299,12 +272,12 @@ TEST_CASE("a mesh of the plane becomes a picture, with its domain") {
   CHECK(bench.run("points hexagonal 64 --periodic 1,1 -o box.txt").code == 0);
   CHECK(bench.run("delaunay --plane --periodic 1,1 box.txt -o box.nc").code == 0);
   CHECK(bench.run("draw --plane box.nc --what both --colour quality -o box.pdf").code == 0);
-  check_refusal_naming(bench, "draw --plane box.nc --periodic 1,2 -o a.png", 2,
-                       "the domain is not the one");
-  check_refusal_naming(bench, "draw --plane box.nc --rectangle 0,0,1,1 -o a.png", 2,
-                       "the domain is not the one");
-  check_refusal_naming(bench, "draw --plane mesh.vtp --colour region -o a.png", 2, "mesh.vtp");
-  check_refusal_naming(bench, "draw mesh.vtp -o a.png", 2, "(--plane)");
-  check_refusal_naming(bench, "draw mesh.vtp --domain lake.txt -o a.png", 2, "--plane");
-  check_refusal_naming(bench, "draw --plane mesh.vtp --view 1,2 -o a.png", 2, "excludes");
+  check_refusals(bench, "draw -o a.png", R"(
+--plane box.nc --periodic 1,2 | 2 | the domain is not the one
+--plane box.nc --rectangle 0,0,1,1 | 2 | the domain is not the one
+--plane mesh.vtp --colour region | 2 | mesh.vtp
+mesh.vtp | 2 | (--plane)
+mesh.vtp --domain lake.txt | 2 | --plane
+--plane mesh.vtp --view 1,2 | 2 | excludes
+)");
 }

@@ -26,16 +26,6 @@ void make_grids(const Bench& bench) {
   write_fields(bench.path("raster.nc"), raster, {height, use, steps});
 }
 
-/// Runs interpolate and checks its exit code and a part of its message.
-void check_failure(const Bench& bench, const std::string& arguments, int code,
-                   const std::string& part) {
-  CAPTURE(arguments);
-  const Outcome outcome = bench.run("interpolate " + arguments);
-  CHECK(outcome.code == code);
-  CAPTURE(outcome.err);
-  CHECK(outcome.err.find(part) != std::string::npos);
-}
-
 } // namespace
 
 TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
@@ -43,11 +33,9 @@ TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
   make_grids(bench);
   const Outcome made = bench.run("interpolate raster.nc mesh.nc -o cells.nc --weights w.nc");
   CHECK(made.code == 0);
-  CHECK(made.out.find("use holds integers without a unit, taken as categories") !=
-        std::string::npos);
-  CHECK(made.out.find("steps holds integers in m, taken as numbers") != std::string::npos);
-  CHECK(made.out.find("cells.nc: height, use, steps at 500 cells, conservative\n") !=
-        std::string::npos);
+  CHECK(has(made.out, "use holds integers without a unit, taken as categories"));
+  CHECK(has(made.out, "steps holds integers in m, taken as numbers"));
+  CHECK(has(made.out, "cells.nc: height, use, steps at 500 cells, conservative\n"));
   const Outcome applied =
       bench.run("interpolate raster.nc mesh.nc --apply w.nc -o again.nc --fields height");
   CHECK(applied.out == "again.nc: height at 500 cells, by w.nc\n");
@@ -64,43 +52,34 @@ TEST_CASE("interpolate: a raster onto a mesh and back, and its weights") {
   CHECK((raster.fields.at(0).values - exact).cwiseAbs().maxCoeff() < 150);
   const Outcome apart =
       bench.run("interpolate cells.nc 12x6 --mesh mesh.nc -o apart.nc --fields height,use");
-  CHECK(apart.out.find("apart.nc: height, use at 72 cells, conservative\n") != std::string::npos);
+  CHECK(has(apart.out, "apart.nc: height, use at 72 cells, conservative\n"));
   const Outcome weights = bench.run(
       "interpolate mesh.nc 12x6 --weights scrip.nc --weights-format scrip --method linear");
   CHECK(weights.code == 0);
-  CHECK(weights.out.find(" weights from 500 to 72 cells\n") != std::string::npos);
+  CHECK(has(weights.out, " weights from 500 to 72 cells\n"));
 }
 
 TEST_CASE("interpolate: bad input is one line, and leaves no file") {
   const Bench bench;
   make_grids(bench);
   REQUIRE(bench.run("interpolate raster.nc mesh.nc --weights w.nc").code == 0);
-  const std::set<std::string> before = bench.names();
-  check_failure(bench, "raster.nc mesh.nc", 2, "nothing to write; give -o FILE");
-  check_failure(
-      bench, "raster.nc mesh.nc -o out.nc --fields hight", 2,
-      "raster.nc has no field hight at cells; did you mean height? It has height, use, steps");
-  check_failure(bench, "mesh.nc raster.nc -o out.nc --fields height", 2,
-                "mesh.nc has no field height");
-  check_failure(bench, "raster.nc 36x18 -o out.nc --apply w.nc", 2,
-                "w.nc: the weights are for a target of 500 cells, and 36x18 has 648");
-  check_failure(bench, "mesh.nc raster.nc -o out.nc --apply w.nc", 2, "give");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --apply w.nc --method linear", 2,
-                "--method excludes --apply");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --apply raster.nc", 2,
-                "give a file of weights");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --categories height", 2,
-                "--categories height: the field does not hold integers");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --min-cover 2", 2, "--min-cover");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --method cubic", 2, "--method");
-  check_failure(bench, "raster.nc mesh.nc -o out.nc --method natural", 2,
-                "nearest and linear only");
-  check_failure(bench, "raster.nc 8x4 --mesh mesh.nc -o out.nc", 2,
-                "raster.nc: no dimension of 500, the number of cells of mesh.nc");
-  check_failure(bench, "raster.nc 8x4 --mesh raster.nc -o out.nc", 2, "raster.nc is a raster");
-  check_failure(bench, "raster.nc 2x2 -o out.nc", 2, "2 x 2");
-  check_failure(bench, "raster.nc 8x4 -o out.vtp", 2, "give a name that ends in .nc");
-  check_failure(bench, "raster.nc mesh.nc -o raster.nc", 2, "raster.nc");
-  check_failure(bench, "never.nc mesh.nc -o out.nc", 3, "never.nc");
-  CHECK(bench.names() == before);
+  check_refusals(bench, "interpolate", R"(
+raster.nc mesh.nc | 2 | nothing to write; give -o FILE
+raster.nc mesh.nc -o out.nc --fields hight | 2 | raster.nc has no field hight at cells; did you mean height?
+mesh.nc raster.nc -o out.nc --fields height | 2 | mesh.nc has no field height
+raster.nc 36x18 -o out.nc --apply w.nc | 2 | w.nc: the weights are for a target of 500 cells, and 36x18 has 648
+mesh.nc raster.nc -o out.nc --apply w.nc | 2 | give
+raster.nc mesh.nc -o out.nc --apply w.nc --method linear | 2 | --method excludes --apply
+raster.nc mesh.nc -o out.nc --apply raster.nc | 2 | give a file of weights
+raster.nc mesh.nc -o out.nc --categories height | 2 | --categories height: the field does not hold integers
+raster.nc mesh.nc -o out.nc --min-cover 2 | 2 | --min-cover
+raster.nc mesh.nc -o out.nc --method cubic | 2 | --method
+raster.nc mesh.nc -o out.nc --method natural | 2 | nearest and linear only
+raster.nc 8x4 --mesh mesh.nc -o out.nc | 2 | raster.nc: no dimension of 500, the number of cells of mesh.nc
+raster.nc 8x4 --mesh raster.nc -o out.nc | 2 | raster.nc is a raster
+raster.nc 2x2 -o out.nc | 2 | 2 x 2
+raster.nc 8x4 -o out.vtp | 2 | give a name that ends in .nc
+raster.nc mesh.nc -o raster.nc | 2 | raster.nc
+never.nc mesh.nc -o out.nc | 3 | never.nc
+)");
 }

@@ -83,27 +83,18 @@ TEST_CASE("a model does not replace what is given: a contradiction is an error")
   CHECK(radius_of(bench, "mesh.nc") == 6371229);
   CHECK(has(check_success(bench, run + "-o mesh.nc --sphere-radius 2").out,
             "mesh.nc: sphere of 2 m" + no_model));
-  check_refusal(bench, run + "-o a.nc --for mpas-atmosphere --sphere-radius earth", 2,
-                "--for mpas-atmosphere needs a sphere with a radius of 1, not --sphere-radius "
-                "6371229; leave one of them out");
-  check_refusal(bench, run + "-o a.nc --for mpas-ocean --sphere-radius 1", 2,
-                "--for mpas-ocean needs a sphere with a radius of 6371220, not --sphere-radius 1; "
-                "leave one of them out");
-  check_refusal(bench, run + "-o a.nc --for mpas-ocean --format ugrid", 2,
-                "a.nc: --for mpas-ocean writes the format mpas, not ugrid; give a name that ends "
-                "in .nc, and leave --format out");
-  check_refusal(bench, run + "-o a.vtp --for mpas-sw", 2,
-                "a.vtp: --for mpas-sw writes the format mpas, not vtp; give a name that ends in "
-                ".nc");
-  check_refusal(bench, run + "-o a.nc --for fesom", 2,
-                "a.nc: --for fesom writes the format fesom, not mpas; give the name nod2d.out");
-  check_refusal_naming(bench, "cut mesh.nc --region circle=0,0,30deg -o a.nc --for fesom", 2,
-                       "--for fesom: the grid is an MPAS file");
-  check_refusal_naming(bench,
-                       "cut mesh.nc --region circle=0,0,30deg -o a.nc --for mpas-ocean "
-                       "--sphere-radius 1",
-                       2, "--for mpas-ocean needs");
-  check_refusal_naming(bench, run + "-o a.nc --for wrf", 2, "--for");
+  check_refusals(bench, "cvt --cells 42", R"(
+-o a.nc --for mpas-atmosphere --sphere-radius earth | 2 | needs a sphere with a radius of 1, not --sphere-radius 6371229
+-o a.nc --for mpas-ocean --sphere-radius 1 | 2 | needs a sphere with a radius of 6371220, not --sphere-radius 1
+-o a.nc --for mpas-ocean --format ugrid | 2 | a.nc: --for mpas-ocean writes the format mpas, not ugrid; give
+-o a.vtp --for mpas-sw | 2 | a.vtp: --for mpas-sw writes the format mpas, not vtp; give a name that ends in .nc
+-o a.nc --for fesom | 2 | a.nc: --for fesom writes the format fesom, not mpas; give the name nod2d.out
+-o a.nc --for wrf | 2 | --for
+)");
+  check_refusals(bench, "cut mesh.nc --region circle=0,0,30deg -o a.nc", R"(
+--for fesom | 2 | --for fesom: the grid is an MPAS file
+--for mpas-ocean --sphere-radius 1 | 2 | --for mpas-ocean needs
+)");
 }
 
 TEST_CASE("a file of a plane keeps its order, and has no radius, for any model") {
@@ -179,13 +170,12 @@ TEST_CASE("FESOM: an ocean without ears, and its depths") {
   check_success(bench,
                 "convert ocean.nc nod2d.out --depth-levels levels.txt --depth mapCulledToBaseCell");
   CHECK(bench.file("aux3d.out").starts_with("3\n0\n-5\n-50\n"));
-  check_refusal(bench, "convert ocean.nc nod2d.out --depth-levels 0,5,x --depth 3", 2,
-                "--depth-levels 0,5,x: \"x\" is not a number; give metres");
-  check_refusal_naming(bench, "convert ocean.nc nod2d.out --depth-levels 0,5,9 --depth none", 2,
-                       "--depth none: the input has no field of that name");
-  check_refusal_naming(bench, "convert ocean.nc nod2d.out --depth 9", 2, "--depth-levels");
-  check_refusal_naming(bench, "convert ocean.nc a.vtp --depth 9 --depth-levels 0,5,9", 2,
-                       "a.vtp: --depth-levels applies to FESOM's nod2d.out");
+  check_refusals(bench, "convert ocean.nc", R"(
+nod2d.out --depth-levels 0,5,x --depth 3 | 2 | --depth-levels 0,5,x: "x" is not a number; give metres
+nod2d.out --depth-levels 0,5,9 --depth none | 2 | --depth none: the input has no field of that name
+nod2d.out --depth 9 | 2 | --depth-levels
+a.vtp --depth 9 --depth-levels 0,5,9 | 2 | a.vtp: --depth-levels applies to FESOM's nod2d.out
+)");
 }
 
 TEST_CASE("FESOM: the sum of a field tells heights from depths, and land has the depth 0") {

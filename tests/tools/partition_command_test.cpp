@@ -49,7 +49,7 @@ std::vector<int> parts_of(const Bench& bench, const std::string& name, std::size
   const std::string text = bench.file(name);
   CHECK(std::count(text.begin(), text.end(), '\n') == static_cast<std::ptrdiff_t>(cells));
   CHECK(text.find_first_not_of("0123456789\n") == std::string::npos);
-  CHECK(text.find("\n\n") == std::string::npos);
+  CHECK(!has(text, "\n\n"));
   std::istringstream in(text);
   std::vector<int> part;
   for (int id = 0; in >> id;)
@@ -221,21 +221,19 @@ TEST_CASE("partition: weights are a field of the file") {
     sums[static_cast<std::size_t>(part[i])] += work.values[static_cast<Eigen::Index>(i)];
   CHECK(*std::max_element(sums.begin(), sums.end()) <= 1.03005 * work.values.sum() / 7 + 3);
   CHECK(bench.run("partition global.nc 7 --weights areaCell").code == 0);
-  check_refusal(bench, "partition global.nc 7 --weights absent", 2,
-                "global.nc: no variable absent; there are latCell, lonCell, xCell, yCell, zCell, "
-                "indexToCellID, meshDensity, nEdgesOnCell, areaCell, cellQuality, gridSpacing");
-  check_refusal_naming(bench, "partition global.nc 7 --weights xVertex", 2,
-                       "xVertex has not one value for each of 900 cells");
-  check_refusal_naming(bench, "partition global.nc 7 --weights zCell", 2,
-                       "global.nc: the weight of cell ");
+  check_refusals(bench, "partition global.nc 7 --weights", R"(
+absent | 2 | global.nc: no variable absent; there are latCell, lonCell, xCell, yCell, zCell,
+xVertex | 2 | xVertex has not one value for each of 900 cells
+zCell | 2 | global.nc: the weight of cell
+)");
   {
     const Patch patch(bench.folder() / "global.nc");
     Variable area = patch.get("areaCell");
     area.values[5] = std::nan("");
     patch.put(area);
   }
-  check_refusal(bench, "partition global.nc 7 --weights areaCell", 2,
-                "global.nc: the weight of cell 5 is nan; give finite weights >= 0");
+  check_refusals(bench, "partition global.nc 7 --weights",
+                 "areaCell | 2 | the weight of cell 5 is nan; give finite weights");
 }
 
 TEST_CASE("partition: a mesh that is not connected is said to be so") {
@@ -251,7 +249,7 @@ TEST_CASE("partition: a mesh that is not connected is said to be so") {
   CHECK(made.code == 0);
   const auto graph = graph_of(bench, "two.graph.info");
   CHECK(made.out.starts_with("two.nc: the cells are not connected: 2 components, the largest of "));
-  CHECK(made.out.find("two.graph.info.part.2: 0 edges cut") != std::string::npos);
+  CHECK(has(made.out, "two.graph.info.part.2: 0 edges cut"));
   CHECK(made.out.ends_with(", 1 part is not connected\n"));
   CHECK(pieces_of(graph, parts_of(bench, "two.graph.info.part.3", graph.size(), 3)) == 4);
 }
@@ -260,44 +258,32 @@ TEST_CASE("partition: bad input is refused with its reason, and nothing is writt
   const Bench bench;
   make_global(bench);
   REQUIRE(bench.run("convert global.nc triangles.off").code == 0);
-  const auto check = [&](const std::string& arguments, int code, const std::string& message) {
-    check_refusal(bench, "partition " + arguments, code, message);
-  };
-  for (const std::string word : {"0", "many", "16:8", "4:", "4:8:0", "4:8:2:1", "1.5"}) {
-    CAPTURE(word);
-    check("global.nc 4 " + word, 2,
-          "\"" + word +
-              "\" is no number of parts; give integers >= 1, or ranges FIRST:LAST:STEP such as "
-              "16:512:16");
-  }
-  check("global.nc 4 901", 2, "global.nc: 900 cells cannot make 901 parts; give numbers up to 900");
-  check("global.nc 1:2000000000", 2,
-        "global.nc: 900 cells cannot make 2000000000 parts; give numbers up to 900");
-  check("global.nc", 2, "--parts is required; see calotte partition --help");
-  const std::string no_cells = " holds triangles or points, and no cells; give a file of cells, "
-                               "such as the MPAS file that calotte convert makes of it";
-  check("triangles.off 4", 2, "triangles.off" + no_cells);
-  check("points.txt 4", 2, "points.txt" + no_cells);
-  check("absent.nc 4", 3,
-        "cannot read absent.nc: No such file or directory; check its name and its permissions");
-  check("global.nc 4 -o absent/parts", 3,
-        "cannot write absent/parts.part.4: the folder absent does not exist; create it first");
-  check("global.nc 4 --report global.nc", 2,
-        "global.nc is both input and output; give the output another name");
-  check("global.nc 4 --report global.graph.info.part.4", 2,
-        "global.graph.info.part.4 is both report and 4 parts; give the 4 parts another name");
   fs::create_directory(bench.folder() / "folder.part.5");
-  check("global.nc 4 5 -o folder", 3,
-        "cannot write folder.part.5: it is a folder; give the name of a file");
-  check("global.nc 4 --threads 0", 2,
-        "--threads: \"0\" is not an integer from 1 to 4096; see calotte partition --help");
+  check_refusals(bench, "partition", R"(
+global.nc 4 0 | 2 | "0" is no number of parts; give integers >= 1, or ranges FIRST:LAST:STEP such as 16:512:16
+global.nc 4 many | 2 | "many" is no number of parts
+global.nc 4 16:8 | 2 | "16:8" is no number of parts
+global.nc 4 4: | 2 | "4:" is no number of parts
+global.nc 4 4:8:0 | 2 | "4:8:0" is no number of parts
+global.nc 4 4:8:2:1 | 2 | "4:8:2:1" is no number of parts
+global.nc 4 1.5 | 2 | "1.5" is no number of parts
+global.nc 4 901 | 2 | global.nc: 900 cells cannot make 901 parts; give numbers up to 900
+global.nc 1:2000000000 | 2 | 900 cells cannot make 2000000000 parts
+global.nc | 2 | --parts is required; see calotte partition --help
+triangles.off 4 | 2 | triangles.off holds triangles or points, and no cells; give a file of cells,
+points.txt 4 | 2 | points.txt holds triangles or points, and no cells
+absent.nc 4 | 3 | cannot read absent.nc: No such file or directory
+global.nc 4 -o absent/parts | 3 | cannot write absent/parts.part.4: the folder absent does not exist
+global.nc 4 5 -o folder | 3 | cannot write folder.part.5: it is a folder; give the name of a file
+global.nc 4 --report global.nc | 2 | global.nc is both input and output; give the output another name
+global.nc 4 --report global.graph.info.part.4 | 2 | global.graph.info.part.4 is both report and 4 parts
+)");
 }
 
 TEST_CASE("partition: a full disk leaves no file of parts") {
   const Bench bench;
   make_global(bench);
-  check_refusal(bench, "partition global.nc 4", 3,
-                "cannot write global.graph.info.part.4: File too large; make room or write "
-                "elsewhere",
-                "ulimit -f 1;");
+  check_refusals(bench, "partition",
+                 "global.nc 4 | 3 | cannot write global.graph.info.part.4: File too large",
+                 "ulimit -f 1;");
 }

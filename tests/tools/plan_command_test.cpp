@@ -79,9 +79,9 @@ TEST_CASE("of rules the plan tells where each gives the width") {
         doctest::Approx(16 * around / (0.5 + 4 * (0.5 - around) + 16 * around)).epsilon(0.05));
   CHECK(json["width_seconds"].get<double>() > 0);
   const std::string table = bench.run("plan --cell-width w.toml").out;
-  CHECK(table.find("time of the widths") != std::string::npos);
-  CHECK(table.find("  latitude ") != std::string::npos);
-  CHECK(table.find("% of the area, ") != std::string::npos);
+  CHECK(has(table, "time of the widths"));
+  CHECK(has(table, "  latitude "));
+  CHECK(has(table, "% of the area, "));
 }
 
 TEST_CASE("the steepest gradient of widths grows with the factor on them") {
@@ -95,7 +95,7 @@ TEST_CASE("the steepest gradient of widths grows with the factor on them") {
   CHECK(number(json, "gradient", "slope") == doctest::Approx(factor * expected).epsilon(1e-4));
   CHECK(number(json, "gradient", "latitude") == doctest::Approx(30).epsilon(0.2));
   const Outcome shown = bench.run("plan --cell-width steps.msh");
-  CHECK(shown.out.find("above 0.03, the limit for most models") != std::string::npos);
+  CHECK(has(shown.out, "above 0.03, the limit for most models"));
 }
 
 TEST_CASE("a density: spacings and their gradient are those of a profile in closed form") {
@@ -163,30 +163,21 @@ TEST_CASE("the widths are drawn on a map") {
   CHECK(bench.file("bare.png") != bench.file("widths.png"));
   bench.file("even.msh", raster([](double latitude) { return 300 + latitude; }));
   CHECK(bench.run("plan --cell-width even.msh -o widths.svg").code == 0);
-  CHECK(bench.file("widths.svg").find("<svg") != std::string::npos);
+  CHECK(has(bench.file("widths.svg"), "<svg"));
 }
 
 TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
-  const std::string files = " -o widths.png --report plan.json";
-  check_refusal(bench, "plan --density uniform" + files, 2,
-                "a density has no unit, and implies no number of cells; give --cells N, or widths "
-                "in km (--cell-width 60km)");
-  check_refusal(bench, "plan --cells auto" + files, 2,
-                "a density has no unit, and implies no number of cells; give --cells N, or widths "
-                "in km (--cell-width 60km)");
-  check_refusal(bench, "plan --cells 11" + files, 2,
-                "--cells: \"11\" is not an integer from 12 to 1073741824; see calotte plan --help");
-  check_refusal(bench, "plan --cells 100 --sphere-radius 0" + files, 2,
-                "--sphere-radius 0 is not a positive number; give one such as 6371229, in metres");
-  check_refusal(bench, "plan --cell-width a.nc --sphere-radius 6371229" + files, 2,
-                "--sphere-radius does not apply to widths in km; give --earth-radius, in km");
-  check_refusal_naming(bench, "plan --cell-width absent.nc" + files, 3, "absent.nc");
-  check_refusal_naming(bench, "plan --cells 100 -o widths.gif", 2, "widths.gif");
-  check_refusal(bench, "plan --cells 100 -o same.png --report same.png", 2,
-                "same.png is both picture and report; give the report another name");
   bench.file("metres.msh", raster([](double) { return 30000; }));
-  check_refusal(bench, "plan --cell-width metres.msh" + files, 2,
-                "the widths require 0.654413 cells, but a grid has 12 to 1073741824; give other "
-                "widths");
+  check_refusals(bench, "plan", R"(
+-o widths.png --density uniform | 2 | a density has no unit, and implies no number of cells; give --cells N, or widths in km
+-o widths.png --cells auto | 2 | a density has no unit, and implies no number of cells
+-o widths.png --cells 11 | 2 | --cells: "11" is not an integer from 12 to 1073741824; see calotte plan --help
+-o widths.png --cells 100 --sphere-radius 0 | 2 | --sphere-radius 0 is not a positive number; give one such as
+-o widths.png --cell-width a.nc --sphere-radius 6371229 | 2 | does not apply to widths in km; give --earth-radius, in km
+-o widths.png --report plan.json --cell-width absent.nc | 3 | absent.nc
+--cells 100 -o widths.gif | 2 | widths.gif
+--cells 100 -o same.png --report same.png | 2 | same.png is both picture and report; give the report another name
+-o widths.png --cell-width metres.msh | 2 | the widths require 0.654413 cells, but a grid has 12 to 1073741824
+)");
 }

@@ -78,8 +78,8 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   CHECK(obtuse("finer.nc") <= obtuse("plane.nc"));
 
   REQUIRE(bench.run("convert --plane plane.nc plane.vtp").code == 0);
-  check_command_refused(bench, "refine --plane plane.vtp --cell-width demand.toml -o finer.vtp",
-                        "a planar mesh needs its domain");
+  check_refusals(bench, "refine --plane plane.vtp --cell-width demand.toml",
+                 "-o finer.vtp | 2 | a planar mesh needs its domain");
   CHECK(bench
             .run("refine --plane plane.vtp --rectangle 0,0,60,40 --cell-width demand.toml "
                  "-o finer.vtp")
@@ -90,23 +90,21 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
 TEST_CASE("bad demands end in one line and leave no file") {
   const Bench bench;
   REQUIRE(bench.run("cvt --cells 642 -o base.nc").code == 0);
-  const auto refused = [&](const std::string& arguments, const std::string& part) {
-    check_command_refused(bench, arguments, part);
-  };
-  const std::string part = "refine base.nc --region circle=10,50,1200km ";
-  refused("refine base.nc -o new.nc", "there are no widths; give --cell-width");
-  refused(part + "-o new.nc", "--factor");
-  refused(part + "--factor 1 -o new.nc", "the factor is 1");
-  refused(part + "--factor 2 --cell-width 60 -o new.nc", "--cell-width");
-  refused(part + "--factor 2 --tolerance 3 -o new.nc", "the tolerance is 3");
-  refused(part + "--factor 2 --nearest depth -o new.nc", "no field \"depth\" at cells");
-  refused(part + "--factor 2 --conservative depth -o new.nc", "no field \"depth\" at cells");
-  refused(part + "--factor 2 --cell-map . --order curve -o new.nc", "--cell-map");
-  const Outcome nowhere = bench.run(part + "--factor 2 --cell-map no/folder -o new.nc");
-  CHECK(nowhere.code == 3);
-  CHECK(has(nowhere.err, "the folder no/folder does not exist"));
-  refused(part + "--factor 2 -o base.nc", "base.nc");
   bench.file("square.txt", "0 0\n1 0\n1 1\n0 1\n");
-  refused("refine --plane base.vtp --domain square.txt --cell-width 1 -o square.txt", "square.txt");
-  refused(part + "--factor 2 -o new.txt2", "new.txt2");
+  check_refusals(bench, "refine base.nc --region circle=10,50,1200km -o new.nc", R"(
+| 2 | --factor
+--factor 1 | 2 | the factor is 1
+--factor 2 --cell-width 60 | 2 | --cell-width
+--factor 2 --tolerance 3 | 2 | the tolerance is 3
+--factor 2 --nearest depth | 2 | no field "depth" at cells
+--factor 2 --conservative depth | 2 | no field "depth" at cells
+--factor 2 --cell-map . --order curve | 2 | --cell-map
+--factor 2 --cell-map no/folder | 3 | the folder no/folder does not exist
+)");
+  check_refusals(bench, "refine", R"(
+base.nc -o new.nc | 2 | there are no widths; give --cell-width
+base.nc --region circle=10,50,1200km --factor 2 -o base.nc | 2 | base.nc
+base.nc --region circle=10,50,1200km --factor 2 -o new.txt2 | 2 | new.txt2
+--plane base.vtp --domain square.txt --cell-width 1 -o square.txt | 2 | square.txt
+)");
 }

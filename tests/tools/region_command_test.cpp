@@ -76,16 +76,12 @@ TEST_CASE("rings of a file run either way, and --inside tells another side of th
   const Points3 arctic = made("arctic.geojson");
   CHECK(arctic.row(2).minCoeff() > std::sin(65 * degree));
   CHECK(nearest(arctic, directions_in("180 80\n", Columns::lonlat).col(0)) < 6 * degree);
-  const std::string cvt = "cvt --cells 100 -o b.vtp ";
-  check_command_refused(bench, cvt + "--inside 1,2", "--inside requires --region");
-  check_command_refused(
-      bench, cvt + "--region clockwise.geojson --inside 1",
-      "--inside 1: the number of values is 1 instead of 2; give LON,LAT, as in -105,40");
-  check_command_refused(bench, cvt + "--region clockwise.geojson --inside 1,95",
-                        "--inside 1,95: \"95\" is no angle from -90 to 90 degrees; give LON,LAT");
-  check_command_refused(
-      bench, cvt + "--region clockwise.geojson --inside 0,5",
-      "--inside 0,5: the place that is to be inside the region is on its boundary");
+  check_refusals(bench, "cvt --cells 100 -o b.vtp", R"(
+--inside 1,2 | 2 | --inside requires --region
+--region clockwise.geojson --inside 1 | 2 | --inside 1: the number of values is 1 instead of 2; give LON,LAT,
+--region clockwise.geojson --inside 1,95 | 2 | --inside 1,95: "95" is no angle from -90 to 90 degrees
+--region clockwise.geojson --inside 0,5 | 2 | --inside 0,5: the place that is to be inside the region is on
+)");
 }
 
 TEST_CASE("fixed points beside a file of others, in the plane, and in a limited area") {
@@ -116,17 +112,13 @@ TEST_CASE("bad fixed points are refused in one line that names the line of the f
   bench.file("fixed.txt", three);
   bench.file("twice.txt", three + "12 51.5\n");
   bench.file("out.txt", three + "# far\n100 0\n");
-  const std::string run = "cvt --lonlat --cells 100 -o a.vtp ",
-                    region = "--region circle=10,50,900km ";
-  check_command_refused(bench, run + "--fixed twice.txt",
-                        "twice.txt line 4: fixed generator 3 merges with fixed generator 1");
-  check_command_refused(bench, run + region + "--fixed out.txt",
-                        "out.txt line 5: fixed generator 3 is outside the region");
-  check_command_refused(bench, "cvt --lonlat --cells 3 --fixed fixed.txt -o a.vtp " + region,
-                        "fixed.txt line 3: fixed point 2 leaves no free one of the 3 cells");
-  check_command_refused(bench, run + "--fixed fixed.txt --start fibonacci",
-                        "the start fibonacci does not leave room for fixed points");
-  check_command_refused(bench, "cvt - --fixed - -o a.vtp", "both standard input");
+  check_refusals(bench, "cvt -o a.vtp", R"(
+--lonlat --cells 100 --fixed twice.txt | 2 | twice.txt line 4: fixed generator 3 merges with fixed generator 1
+--lonlat --cells 100 --region circle=10,50,900km --fixed out.txt | 2 | out.txt line 5: fixed generator 3 is outside the region
+--lonlat --cells 3 --fixed fixed.txt | 2 | fixed.txt line 3: fixed point 2 leaves no free one of the 3 cells
+--lonlat --cells 100 --fixed fixed.txt --start fibonacci | 2 | the start fibonacci does not leave room for fixed
+- --fixed - | 2 | both standard input
+)");
 }
 
 TEST_CASE("generators on the boundary: the mesh ends at them") {
@@ -152,14 +144,13 @@ TEST_CASE("generators on the boundary: the mesh ends at them") {
   CHECK(wall.code == 0);
   CHECK(has(wall.err, "the mesh leaves the boundary of the region in places"));
   CHECK(bench.run("check wall.vtp").code == 0);
-  check_command_refused(bench, "cvt --cells 100 --boundary generators -o c.vtp",
-                        "--boundary generators requires a region");
-  check_command_refused(bench, run + "--limited-area -o c.nc", "does not apply to --limited-area");
   bench.file("square.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9],
                                   [0, 9], [0, 0]]]})");
-  check_command_refused(bench,
-                        "cvt --region square.geojson --cells 4 --boundary generators -o c.vtp",
-                        "the boundary takes 4 of the 4 generators; give more cells");
+  check_refusals(bench, "cvt --boundary generators", R"(
+--cells 100 -o c.vtp | 2 | --boundary generators requires a region
+--region circle=10,50,900km --cell-width 100km --limited-area -o c.nc | 2 | does not apply to --limited-area
+--region square.geojson --cells 4 -o c.vtp | 2 | the boundary takes 4 of the 4 generators; give more cells
+)");
 }
 
 TEST_CASE("MPI-SCVT's circle is a region") {
@@ -209,8 +200,8 @@ TEST_CASE("plan: the grid of a region") {
                                    "tanh:lon=270,lat=30,beta=30deg,alpha=0.20,gamma=x8");
   CHECK(bump["cells"] == 1000);
   CHECK(bump["width_degrees"]["max"] < 3); // uniform there: 1.2 degrees
-  check_command_refused(bench, "plan --cell-width 60km --limited-area",
-                        "--limited-area requires a region; give --region");
+  check_refusals(bench, "plan --cell-width 60km",
+                 "--limited-area | 2 | --limited-area requires a region");
 }
 
 TEST_CASE("rings that meet themselves around the sphere are refused in one clear line") {
@@ -230,19 +221,15 @@ TEST_CASE("bad regions end in one clear line before any work") {
   };
   bench.file("bow.geojson", geojson("[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]"));
   bench.file("Bow.pts", "Name: bow\nType: custom\nPoint: 5, 5\n0, 0\n10, 10\n0, 10\n10, 0\n");
-  for (const std::string command : {"cvt", "plan"})
-    check_command_refused(bench,
-                          command + " --region bow.geojson --cell-width 60km" +
-                              (command == "cvt" ? " -o a.vtp" : ""),
-                          "bow.geojson: ");
-  check_command_refused(bench, "cvt --region Bow.pts --cell-width 60km -o a.vtp", "Bow.pts");
-  const std::string none = "--region circle=10,50,3km --cell-width 60km";
-  check_command_refused(bench, "cvt " + none + " -o a.vtp",
-                        "the widths require 0.00906854 cells in the region");
-  check_command_refused(bench, "plan " + none, "the widths require 0.00906854 cells in the region");
-  for (const std::string command : {"plan ", "cvt -o a.nc "})
-    check_command_refused(bench, command + none + " --limited-area",
-                          "the region has room for 0.00906854 cells only");
+  check_refusals(bench, "", R"(
+cvt --region bow.geojson --cell-width 60km -o a.vtp | 2 | bow.geojson:
+plan --region bow.geojson --cell-width 60km | 2 | bow.geojson:
+cvt --region Bow.pts --cell-width 60km -o a.vtp | 2 | Bow.pts
+cvt --region circle=10,50,3km --cell-width 60km -o a.vtp | 2 | the widths require 0.00906854 cells in the region
+plan --region circle=10,50,3km --cell-width 60km | 2 | the widths require 0.00906854 cells in the region
+cvt --region circle=10,50,3km --cell-width 60km --limited-area -o a.nc | 2 | the region has room for 0.00906854 cells only
+plan --region circle=10,50,3km --cell-width 60km --limited-area | 2 | the region has room for 0.00906854 cells only
+)");
 }
 
 TEST_CASE("a raster of a part of the sphere is enough for a region in it, with its rings") {
@@ -264,14 +251,12 @@ TEST_CASE("a raster of a part of the sphere is enough for a region in it, with i
   CHECK(has(plan.out, "cells                 90\n"));
   CHECK(bench.run("cvt --region circle=140,30,1500km --tolerance 1e-2 -o part.vtp" + widths).code ==
         0);
-  check_command_refused(bench, "plan" + widths,
-                        "leaves part of the sphere out; give a global raster");
-  check_command_refused(bench, "cvt --region circle=140,30,3600km -o a.vtp" + widths,
-                        "of the region; give a raster in degrees that covers it");
-  check_command_refused(bench, "cvt --region circle=-140,30,900km -o a.vtp" + widths,
-                        "of the region; give a raster in degrees that covers it");
-  CHECK(bench.run("plan --region circle=140,30,2500km" + widths).code == 0);
-  check_command_refused(
-      bench, "plan --limited-area --region circle=140,30,2500km" + widths,
-      "of the region; give a raster in degrees that covers it"); // the rings reach farther
+  CHECK(bench.run("plan --region circle=140,30,2500km" + widths).code ==
+        0); // its rings reach farther
+  check_refusals(bench, "", R"(
+plan --cell-width part.msh | 2 | leaves part of the sphere out; give a global raster
+cvt --cell-width part.msh --region circle=140,30,3600km -o a.vtp | 2 | of the region; give a raster in degrees that
+cvt --cell-width part.msh --region circle=-140,30,900km -o a.vtp | 2 | of the region; give a raster in degrees that
+plan --cell-width part.msh --limited-area --region circle=140,30,2500km | 2 | of the region; give a raster in
+)");
 }

@@ -2,6 +2,7 @@
 #include "draw/history.h"
 #include "support/constants.h"
 #include "support/pictures.h"
+#include "support/text.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -60,7 +61,7 @@ void check_refused(const Folder& folder, const std::string& text, const std::str
   CAPTURE(message);
   CHECK(error.code() == ErrorCode::parse);
   CHECK(message.starts_with(folder.file("report.json")));
-  CHECK(message.find(key) != std::string::npos);
+  CHECK(has(message, key));
   CHECK(message.find('\n') == std::string::npos);
 }
 

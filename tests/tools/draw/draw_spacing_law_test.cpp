@@ -159,22 +159,6 @@ TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells
   CHECK(red(page.deviation.at(x, -12)) > 0xe0);
 }
 
-TEST_CASE("every format and size; a picture that cannot be drawn leaves no file") {
-  const Folder folder;
-  const Mesh mesh = delaunay(random_sphere(60));
-  for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
-    draw_spacing_law(folder.file(name), mesh, {}, 64);
-  }
-  CHECK(Picture(folder.file("a.png")).width() == 64);
-  CHECK(bytes_of(folder.file("a.svg")).ends_with("</svg>\n"));
-  CHECK(bytes_of(folder.file("a.pdf")).ends_with("%%EOF\n"));
-  CHECK(code_of([&] { draw_spacing_law(folder.file("b.gif"), mesh, {}); }) ==
-        ErrorCode::invalid_argument);
-  CHECK(code_of([&] { draw_spacing_law(folder.file("b.png"), mesh, {}, 63); }) ==
-        ErrorCode::invalid_argument);
-  CHECK(folder.count() == 3);
-}
-
 TEST_CASE("a large mesh is drawn by a sample: the file does not grow with it") {
   const Folder folder;
   const auto size = [&](std::int64_t cells) {
