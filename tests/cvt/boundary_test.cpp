@@ -2,6 +2,7 @@
 #include "cvt/cvt.h"
 #include "support/constants.h"
 #include "support/directions.h"
+#include "support/errors.h"
 #include "support/starts.h"
 
 #include <calotte/check.h>
@@ -259,12 +260,7 @@ TEST_CASE("boundary: in the plane the same bits for all threads and regions") {
 
 TEST_CASE("boundary: too few cells are refused in one line") {
   const auto message = [](std::int64_t cells) {
-    try {
-      boundary_points(holed(), cells);
-      return std::string();
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
+    return test::message_of([&] { boundary_points(holed(), cells); });
   };
   CHECK(message(8).find("the boundary takes ") == 0);
   CHECK(message(3).find("the number of cells is 3; give 4 to") == 0);

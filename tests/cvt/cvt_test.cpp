@@ -9,6 +9,7 @@
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/descent.h"
+#include "support/errors.h"
 #include "support/sanitizer.h"
 
 #include <calotte/check.h>
@@ -387,12 +388,7 @@ TEST_CASE("directions that are equal only when they are normalised twice are two
 TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
   const auto code = [&](const Points3& points, const CvtOptions& options) {
-    try {
-      cvt(points, {}, options);
-    } catch (const Error& e) {
-      return e.code();
-    }
-    return ErrorCode::internal;
+    return code_of([&] { cvt(points, {}, options); });
   };
   CvtOptions options;
   CHECK(code(random_sphere(11), options) == ErrorCode::too_few_sites);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/insertion.h"
 #include "delaunay/delaunay.h"
-
 #include "support/densities.h"
+#include "support/errors.h"
+#include "support/text.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -61,12 +62,7 @@ Mesh graded_mesh(std::int64_t n, const Density& density) {
 
 std::string message_of(const Mesh& mesh, const Density& density, std::int64_t inserted,
                        std::int64_t contracted) {
-  try {
-    split_and_collapse(mesh, density, inserted, contracted);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::message_of([&] { split_and_collapse(mesh, density, inserted, contracted); });
 }
 
 /// Sites with 8 neighbours or more, or 4 or fewer, of a closed mesh.
@@ -209,11 +205,11 @@ TEST_CASE("insertion: in the plane midpoints lie inside the domain or the box") 
 
 TEST_CASE("insertion: bad numbers and densities are errors") {
   const Mesh mesh = delaunay(bisected_icosahedron(1));
-  CHECK(message_of(mesh, Density{}, -1, 0).find("give 0 or more") != std::string::npos);
-  CHECK(message_of(mesh, Density{}, 0, -7).find("-7") != std::string::npos);
-  CHECK(message_of(mesh, Density{}, std::int64_t{1} << 30, 0).find("at most") != std::string::npos);
-  CHECK(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1).find("beta") != std::string::npos);
+  CHECK(has(message_of(mesh, Density{}, -1, 0), "give 0 or more"));
+  CHECK(has(message_of(mesh, Density{}, 0, -7), "-7"));
+  CHECK(has(message_of(mesh, Density{}, std::int64_t{1} << 30, 0), "at most"));
+  CHECK(has(message_of(mesh, tanh_bump({0, 0, 1}, -1, 1, 0.5), 1, 1), "beta"));
   Mesh alone = mesh;
   alone.neighbours.resize(3, 0);
-  CHECK(message_of(alone, Density{}, 1, 1).find("neighbours") != std::string::npos);
+  CHECK(has(message_of(alone, Density{}, 1, 1), "neighbours"));
 }

@@ -6,7 +6,7 @@
 #include "density/surface_density.h"
 #include "support/constants.h"
 #include "support/descent.h"
-
+#include "support/errors.h"
 #include "support/random.h"
 
 #include <calotte/cvt.h>
@@ -518,12 +518,8 @@ TEST_CASE("a raster is bilinear, and constant beyond its rim") {
 TEST_CASE("bad input ends in one clear error") {
   const auto refusal = [](const Points2& start, const Surface& domain,
                           const CvtOptions& options = {}) -> std::pair<ErrorCode, std::string> {
-    try {
-      cvt(start, domain, options);
-    } catch (const Error& error) {
-      return {error.code(), error.what()};
-    }
-    return {ErrorCode::internal, ""};
+    const Error error = test::error_of([&] { cvt(start, domain, options); });
+    return {error.code(), error.what()};
   };
   Points2 start = random_start(unit_square(), 20, 1);
   start.col(7) << 1.5, 0.5;

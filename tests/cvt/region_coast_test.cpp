@@ -13,6 +13,7 @@
 #include "support/laws.h"
 #include "support/region_laws.h"
 #include "support/starts.h"
+#include "support/text.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -43,12 +44,11 @@ TEST_CASE("the land around a place: the smallest ring that contains it") {
   CHECK(land_around(coast, direction(40, 10)) == continent);
   CHECK(land_around(coast, direction(23, 10)) == continent); // in the lake
   for (const Eigen::Vector3d& sea : {direction(-160, -10), direction(60, 10)})
-    CHECK(std::string(error_of([&] { land_around(coast, sea); }).what()) ==
+    CHECK(message_of([&] { land_around(coast, sea); }) ==
           "no ring of the coast contains the place; give one on land");
-  CHECK(std::string(error_of([&] {
-                      land_around(coast, {0, 0, 0});
-                    }).what())
-            .starts_with("the place on land is no direction"));
+  CHECK(message_of([&] {
+          land_around(coast, {0, 0, 0});
+        }).starts_with("the place on land is no direction"));
 }
 
 TEST_CASE("the land around a place is without the loops in which its coast crosses itself") {
@@ -71,8 +71,7 @@ TEST_CASE("the land around a place is without the loops in which its coast cross
     CHECK(std::abs(around(again).area() / whole - 1) < 0.01);
   }
   std::swap(order[20], order[60]); // no small loop
-  CHECK(std::string(error_of([&] { around(order); }).what()).find("meet; rings may neither") !=
-        std::string::npos);
+  CHECK(has(message_of([&] { around(order); }), "meet; rings may neither"));
 }
 
 TEST_CASE("GSHHG: continents and islands around places, by their known areas") {

@@ -6,6 +6,7 @@
 #include "support/densities.h"
 #include "support/files.h"
 #include "support/sanitizer.h"
+#include "support/text.h"
 
 #include <calotte/check.h>
 #include <calotte/cvt.h>
@@ -84,12 +85,7 @@ bool same_run(const Cvt& a, const Cvt& b) {
 }
 
 std::string message_of(const CvtOptions& options) {
-  try {
-    cvt(fibonacci_sphere(20), {}, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::message_of([&] { cvt(fibonacci_sphere(20), {}, options); });
 }
 
 } // namespace
@@ -268,16 +264,16 @@ TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
 TEST_CASE("stages: bad options are errors") {
   CvtOptions options;
   options.insertion_rounds = 1;
-  CHECK(message_of(options).find("give both or neither") != std::string::npos);
+  CHECK(has(message_of(options), "give both or neither"));
   options = {};
   options.cells = 100;
-  CHECK(message_of(options).find("give both or neither") != std::string::npos);
+  CHECK(has(message_of(options), "give both or neither"));
   options.insertion_rounds = -1;
-  CHECK(message_of(options).find("give 0 or more") != std::string::npos);
+  CHECK(has(message_of(options), "give 0 or more"));
   options = {};
   options.insertion_rounds = 1;
   options.cells = 5;
-  CHECK(message_of(options).find("give at least 12") != std::string::npos);
+  CHECK(has(message_of(options), "give at least 12"));
 }
 
 TEST_CASE("stages: a round after a descent of more than 25 evaluations counts for two") {

@@ -4,6 +4,7 @@
 #include "delaunay/settings.h"
 #include "mesh/canonical_order.h"
 #include "support/clouds.h"
+#include "support/errors.h"
 #include "support/laws.h"
 
 #include <calotte/check.h>
@@ -188,29 +189,12 @@ DelaunayOptions random_options(Random& random, const Points3& points) {
   return options;
 }
 
-struct Failure {
-  ErrorCode code = ErrorCode::internal;
-  std::int64_t index = -2;
-  std::string message;
-};
-
-Failure failure_of(const Points3& points, const DelaunayOptions& options = {}) {
-  try {
-    delaunay(points, {}, options);
-  } catch (const Error& error) {
-    return {error.code(), error.index(), error.what()};
-  }
-  return {};
-}
-
 void require_error(const Points3& points, const DelaunayOptions& options, ErrorCode code,
                    std::int64_t index) {
-  const Failure failure = failure_of(points, options);
-  CAPTURE(failure.message);
-  CHECK(failure.code == code);
-  CHECK(failure.index == index);
-  CHECK_FALSE(failure.message.empty());
-  CHECK(failure.message.find('\n') == std::string::npos);
+  const Error error = test::error_of([&] { delaunay(points, {}, options); });
+  CHECK(error.code() == code);
+  CHECK(error.index() == index);
+  CHECK(error.what() != std::string());
 }
 
 void require_invariance(const std::vector<Cloud>& clouds) {
@@ -431,13 +415,15 @@ TEST_CASE("options outside their range are an error") {
   for (const double within : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
     DelaunayOptions options;
     options.merge_within = within;
-    CHECK(failure_of(points, options).code == ErrorCode::invalid_argument);
+    CHECK(test::code_of([&] { delaunay(points, {}, options); }) == ErrorCode::invalid_argument);
   }
   Points3 centres = octahedron();
   centres.col(4).setZero();
-  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::invalid_argument);
+  CHECK(test::code_of([&] { delaunay(points, {}, with_centres(centres)); }) ==
+        ErrorCode::invalid_argument);
   centres(0, 4) = std::numeric_limits<double>::quiet_NaN();
-  CHECK(failure_of(points, with_centres(centres)).code == ErrorCode::invalid_argument);
+  CHECK(test::code_of([&] { delaunay(points, {}, with_centres(centres)); }) ==
+        ErrorCode::invalid_argument);
 }
 
 TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642 (MPI-SCVT: 694)") {

@@ -4,6 +4,7 @@
 #include "delaunay/plane_chart.h"
 #include "delaunay/settings.h"
 #include "domain/surface.h"
+#include "support/errors.h"
 #include "support/joined.h"
 #include "support/laws.h"
 #include "support/plane_laws.h"
@@ -261,13 +262,9 @@ TEST_CASE("duplicates in the plane are merged, or refused by name") {
     CHECK(mesh.site_of_input[i] == static_cast<std::int32_t>(i - 100));
   DelaunayOptions refuse;
   refuse.duplicates = Duplicates::refuse;
-  try {
-    delaunay(points, Surface::plane(), refuse);
-    FAIL("duplicates were accepted");
-  } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::duplicate);
-    CHECK(error.index() == 100);
-  }
+  const Error error = test::error_of([&] { delaunay(points, Surface::plane(), refuse); });
+  CHECK(error.code() == ErrorCode::duplicate);
+  CHECK(error.index() == 100);
   DelaunayOptions near;
   near.merge_within = 0.05;
   const Mesh merged = delaunay(points, Surface::plane(), near);
@@ -289,12 +286,9 @@ TEST_CASE("places are merged by their own distance in any frame") {
 
 TEST_CASE("bad planar input ends in a typed error") {
   const auto code_of = [](const Points2& points) {
-    try {
-      delaunay(points, Surface::plane(), with_regions(3));
-    } catch (const Error& error) {
-      return std::pair(error.code(), error.index());
-    }
-    return std::pair(ErrorCode::internal, std::int64_t{-2});
+    const Error error =
+        test::error_of([&] { delaunay(points, Surface::plane(), with_regions(3)); });
+    return std::pair(error.code(), error.index());
   };
   using Found = std::pair<ErrorCode, std::int64_t>;
   CHECK(code_of(Points2(2, 0)) == Found(ErrorCode::too_few_sites, -1));
@@ -407,12 +401,7 @@ TEST_CASE("shifting a periodic box by whole steps only renames its sites") {
 
 TEST_CASE("sparse periodic boxes and points outside are refused") {
   const auto code_of = [](const Points2& points, const Eigen::Vector2d& period) {
-    try {
-      delaunay(points, UncheckedSurface::of_plane({}, period));
-    } catch (const Error& error) {
-      return error.code();
-    }
-    return ErrorCode::internal;
+    return test::code_of([&] { delaunay(points, UncheckedSurface::of_plane({}, period)); });
   };
   CHECK(code_of(random_box(5, 1, 1, 36), {1, 1}) == ErrorCode::too_few_sites);
   CHECK(code_of(random_box(500, 0.3, 0.3, 37), {1, 1}) == ErrorCode::too_few_sites);

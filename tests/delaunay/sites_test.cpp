@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/sites.h"
-
 #include "exact/predicates.h"
+#include "support/errors.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -20,14 +20,9 @@ namespace {
 
 ErrorCode refusal_of(const Points3& points, std::int64_t& index,
                      Duplicates duplicates = Duplicates::merge, double within = 0) {
-  try {
-    make_sites(points, duplicates, within);
-  } catch (const Error& e) {
-    index = e.index();
-    return e.code();
-  }
-  FAIL("no error");
-  return ErrorCode::internal;
+  const Error error = test::error_of([&] { make_sites(points, duplicates, within); });
+  index = error.index();
+  return error.code();
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/unite.h"
+#include "support/errors.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -67,12 +68,7 @@ Mesh united(RegionTriangles first, RegionTriangles second) {
 }
 
 bool is_internal_error(RegionTriangles first, RegionTriangles second) {
-  try {
-    united(std::move(first), std::move(second));
-  } catch (const Error& e) {
-    return e.code() == ErrorCode::internal;
-  }
-  return false;
+  return test::code_of([&] { united(std::move(first), std::move(second)); }) == ErrorCode::internal;
 }
 
 } // namespace

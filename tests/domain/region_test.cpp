@@ -5,6 +5,7 @@
 
 #include "support/exact.h"
 #include "support/random.h"
+#include "support/text.h"
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -451,15 +452,10 @@ std::string refusal_of(const Surface::Rings& rings) {
   return refusal([&] { Surface::sphere().within(rings); });
 }
 
-bool holds(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  return text.find(part) != std::string::npos;
-}
-
 TEST_CASE("rings that bound no region are refused, with ring and corner") {
   const Points3 triangle = spherical_ring({{0, 0}, {40, 0}, {20, 40}}),
                 inner = spherical_ring({{15, 5}, {25, 5}, {20, 15}});
-  CHECK(holds(refusal_of({}), "there are no rings"));
+  CHECK(test::has(refusal_of({}), "there are no rings"));
   CHECK(refusal_of({triangle}) == "");
   CHECK(refusal_of({triangle, reversed(inner)}) == "");
   CHECK(refusal_of({triangle, inner}) ==
@@ -467,19 +463,19 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
         "have it to their left: an outer boundary counter-clockwise, a hole clockwise");
   const Points3 innermost = spherical_ring({{19, 8}, {21, 8}, {20, 10}});
   CHECK(refusal_of({triangle, reversed(inner), reversed(innermost)}) != "");
-  CHECK(holds(refusal_of({triangle, Points3(3, 0)}), "ring 1 has 0 corners"));
-  CHECK(holds(refusal_of({Points3(triangle.leftCols(1))}), "ring 0 has 1 corner and"));
+  CHECK(test::has(refusal_of({triangle, Points3(3, 0)}), "ring 1 has 0 corners"));
+  CHECK(test::has(refusal_of({Points3(triangle.leftCols(1))}), "ring 0 has 1 corner and"));
   Points3 bad = triangle;
   bad.col(2).setZero();
-  CHECK(holds(refusal_of({inner, bad}), "ring 1, corner 2 is no direction"));
+  CHECK(test::has(refusal_of({inner, bad}), "ring 1, corner 2 is no direction"));
   bad(1, 1) = NAN;
-  CHECK(holds(refusal_of({bad}), "ring 0, corner 1 is no direction"));
-  CHECK(holds(refusal_of({spherical_ring({{0, 0}, {40, 0}, {20, 40}, {0, 0}})}),
-              "ring 0, corner 3 and the next are one place"));
-  CHECK(holds(refusal_of({spherical_ring({{0, 0}, {90, 10}, {270, -10}})}),
-              "ring 0, corner 1 and the next are opposite"));
+  CHECK(test::has(refusal_of({bad}), "ring 0, corner 1 is no direction"));
+  CHECK(test::has(refusal_of({spherical_ring({{0, 0}, {40, 0}, {20, 40}, {0, 0}})}),
+                  "ring 0, corner 3 and the next are one place"));
+  CHECK(test::has(refusal_of({spherical_ring({{0, 0}, {90, 10}, {270, -10}})}),
+                  "ring 0, corner 1 and the next are opposite"));
   const auto meet = [](const Surface::Rings& rings) {
-    return holds(refusal_of(rings), " meet; rings may neither cross nor touch");
+    return test::has(refusal_of(rings), " meet; rings may neither cross nor touch");
   };
   CHECK(refusal_of({spherical_ring({{0, 0}, {20, 20}, {20, 0}, {0, 20}})}) ==
         "the region: the edges from ring 0, corner 0 and from ring 0, corner 2 meet; rings may "
@@ -492,40 +488,44 @@ TEST_CASE("rings that bound no region are refused, with ring and corner") {
   CHECK(meet({triangle, reversed(triangle)}));                              // nothing between
   CHECK(meet({spherical_ring(
       {{0, 0}, {20, -10}, {40, 0}, {20, 0}, {10, 10}, {0, 10}, {20, 0}})})); // twice there
-  CHECK(holds(refusal([&] { region_around({triangle}, lonlat(10, 0)); }), "is on its boundary"));
-  CHECK(holds(refusal([&] { region_around({triangle}, {0, 0, 0}); }), "is no direction"));
-  CHECK(holds(refusal([&] { enclosed_region({}); }), "no rings"));
-  CHECK(holds(refusal([&] { enclosed_region({triangle, reversed(triangle)}); }), "bound nothing"));
-  CHECK(holds(refusal([&] {
-                enclosed_region({triangle, bad});
-              }),
-              "ring 1, corner 1 is no direction"));
-  CHECK(holds(refusal([&] {
-                enclosed_region({spherical_ring({{0, 0}, {20, 20}, {20, 0}, {0, 20}})});
-              }),
-              "the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
+  CHECK(
+      test::has(refusal([&] { region_around({triangle}, lonlat(10, 0)); }), "is on its boundary"));
+  CHECK(test::has(refusal([&] { region_around({triangle}, {0, 0, 0}); }), "is no direction"));
+  CHECK(test::has(refusal([&] { enclosed_region({}); }), "no rings"));
+  CHECK(test::has(refusal([&] {
+                    enclosed_region({triangle, reversed(triangle)});
+                  }),
+                  "bound nothing"));
+  CHECK(test::has(refusal([&] {
+                    enclosed_region({triangle, bad});
+                  }),
+                  "ring 1, corner 1 is no direction"));
+  CHECK(test::has(refusal([&] {
+                    enclosed_region({spherical_ring({{0, 0}, {20, 20}, {20, 0}, {0, 20}})});
+                  }),
+                  "the edges from ring 0, corner 0 and from ring 0, corner 2 meet"));
   // Parts of a millimetre are not healed where they are no cut: a needle that crosses a side.
-  CHECK(holds(refusal([&] {
-                enclosed_region({spherical_ring(
-                    {{0, 0}, {20, 0}, {20, 20}, {10, -1e-6}, {10 + 1e-6, 20}, {0, 20}})});
-              }),
-              " meet; rings may neither cross nor touch"));
+  CHECK(test::has(refusal([&] {
+                    enclosed_region({spherical_ring(
+                        {{0, 0}, {20, 0}, {20, 20}, {10, -1e-6}, {10 + 1e-6, 20}, {0, 20}})});
+                  }),
+                  " meet; rings may neither cross nor touch"));
 }
 
 TEST_CASE("values out of range") {
-  CHECK(holds(refusal([] { circle({0, 0, 0}, 1); }), "the circle's centre is no direction"));
-  CHECK(holds(refusal([] { circle({1, 0, 0}, 4); }), "the circle's radius is 4; give 1e-6"));
-  CHECK(holds(refusal([] { circle({1, 0, 0}, NAN); }), "the circle's radius is nan"));
-  CHECK(holds(refusal([] { circle({1, 0, 0}, 1, 7); }), "the number of corners is 7"));
-  CHECK(holds(refusal([] { ellipse({NAN, 0, 0}, 1, 1, 0); }), "the ellipse's centre is no"));
-  CHECK(holds(refusal([] {
-                ellipse({1, 0, 0}, 1, 1.1, 0);
-              }),
-              "the ellipse's semi-axes are 1 and 1.1"));
-  CHECK(holds(refusal([] { ellipse({1, 0, 0}, 1, 1, INFINITY); }), "the ellipse's bearing"));
-  CHECK(holds(refusal([] { channel(1, 0.5); }), "the channel's latitudes are 1 and 0.5"));
-  CHECK(holds(refusal([] { channel(0, 2); }), "the channel's latitudes are 0 and 2"));
-  CHECK(holds(refusal([] { channel(-pi / 2, pi / 2); }), "is the whole sphere"));
+  CHECK(test::has(refusal([] { circle({0, 0, 0}, 1); }), "the circle's centre is no direction"));
+  CHECK(test::has(refusal([] { circle({1, 0, 0}, 4); }), "the circle's radius is 4; give 1e-6"));
+  CHECK(test::has(refusal([] { circle({1, 0, 0}, NAN); }), "the circle's radius is nan"));
+  CHECK(test::has(refusal([] { circle({1, 0, 0}, 1, 7); }), "the number of corners is 7"));
+  CHECK(test::has(refusal([] { ellipse({NAN, 0, 0}, 1, 1, 0); }), "the ellipse's centre is no"));
+  CHECK(test::has(refusal([] {
+                    ellipse({1, 0, 0}, 1, 1.1, 0);
+                  }),
+                  "the ellipse's semi-axes are 1 and 1.1"));
+  CHECK(test::has(refusal([] { ellipse({1, 0, 0}, 1, 1, INFINITY); }), "the ellipse's bearing"));
+  CHECK(test::has(refusal([] { channel(1, 0.5); }), "the channel's latitudes are 1 and 0.5"));
+  CHECK(test::has(refusal([] { channel(0, 2); }), "the channel's latitudes are 0 and 2"));
+  CHECK(test::has(refusal([] { channel(-pi / 2, pi / 2); }), "is the whole sphere"));
 }
 
 TEST_CASE("the whole sphere contains each direction and nothing else") {

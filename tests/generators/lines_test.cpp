@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/directions.h"
+#include "support/errors.h"
 
 #include <calotte/density.h>
 #include <calotte/error.h>
@@ -54,12 +55,7 @@ double farthest(const std::vector<Points3>& lines, const Points3& points) {
 }
 
 std::string message_of(const std::vector<Points3>& lines, const Surface& surface = {}) {
-  try {
-    line_points(lines, surface, 1000);
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
+  return test::message_of([&] { line_points(lines, surface, 1000); });
 }
 
 /// Three rivers, one over the date line, that meet at 175 E 10 N.

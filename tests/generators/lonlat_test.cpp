@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/errors.h"
+
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/lonlat.h>
@@ -15,12 +17,7 @@ using namespace calotte;
 namespace {
 
 Error error_of(const Points2& lonlat) {
-  try {
-    from_lonlat(lonlat);
-  } catch (const Error& error) {
-    return error;
-  }
-  return {ErrorCode::internal, "no error"};
+  return test::error_of([&] { from_lonlat(lonlat); });
 }
 
 } // namespace

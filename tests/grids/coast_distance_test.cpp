@@ -84,7 +84,7 @@ TEST_CASE("land that is there twice, or overlaps, has no sides") {
     return ring;
   };
   const auto message = [](const Coast& coast) {
-    return std::string(error_of([&] { Widths::by_coast(coast, tells); }).what());
+    return message_of([&] { Widths::by_coast(coast, tells); });
   };
   CHECK(message({{square(0, 10), square(0, 10)}})
             .find("areas of land are there twice, one with a corner at longitude ") == 0);
@@ -110,7 +110,7 @@ TEST_CASE("shares of a raster are linear between its nodes") {
 
 TEST_CASE("profiles of a coast that are none are refused by name") {
   const auto message = [](const Coast& coast, const WidthProfile& profile, CoastSide side) {
-    return std::string(error_of([&] { Widths::by_coast(coast, profile, side); }).what());
+    return message_of([&] { Widths::by_coast(coast, profile, side); });
   };
   CHECK(message({}, {{{0, 1}}}, CoastSide::both) ==
         "the coast has no shore to be distant from; give rings");

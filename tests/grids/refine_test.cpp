@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/files.h"
+#include "support/text.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -272,7 +273,7 @@ TEST_CASE("a part that is too small for coarser cells is told") {
       (base.points.col(base.triangles(0, 5)) + base.points.col(base.triangles(1, 5)) +
        base.points.col(base.triangles(2, 5)))
           .normalized();
-  CHECK(test::error_of([&] { coarsen(base, in_circle(between, 0.001, 1.5)); }).code() ==
+  CHECK(test::code_of([&] { coarsen(base, in_circle(between, 0.001, 1.5)); }) ==
         ErrorCode::invalid_argument);
 }
 
@@ -334,8 +335,7 @@ TEST_CASE("a patch over the seams of a periodic box") {
   WidthDemand all;
   all.region = rectangle({-1, 10}, {61, 20});
   all.factor = 2;
-  CHECK(std::string(test::error_of([&] { refine(base, all); }).what()).find("leads around") !=
-        std::string::npos);
+  CHECK(test::has(test::message_of([&] { refine(base, all); }), "leads around"));
 }
 
 TEST_CASE("sites at a boundary stay, and are counted where they do not meet the demand [slow]") {
@@ -472,7 +472,7 @@ TEST_CASE("a patch does not reach both sides of a site where the boundary meets 
   const Error error = test::error_of([&] { refine(open, wide); });
   CHECK(error.code() == ErrorCode::invalid_argument);
   CHECK(error.index() == a);
-  CHECK(std::string(error.what()).find("meets itself") != std::string::npos);
+  CHECK(test::has(error.what(), "meets itself"));
 }
 
 TEST_CASE("meshes of irregular cells change, too [slow]") {

@@ -2,6 +2,7 @@
 #include "support/files.h"
 #include "support/netcdf_content.h"
 #include "support/spoilt_files.h"
+#include "support/text.h"
 
 #include <calotte/cull.h>
 #include <calotte/cut.h>
@@ -340,6 +341,6 @@ TEST_CASE("a check tells a cell whose vertices have another order than the other
     Mpas file(path);
     file.rotate_row("verticesOnCell", 17, 1, static_cast<Index>(file.at("nEdgesOnCell", 17)));
     file.write(path);
-    CHECK(in_lines(deviations_of(path)).find("verticesOnCell") != std::string::npos);
+    CHECK(has(in_lines(deviations_of(path)), "verticesOnCell"));
   }
 }

@@ -343,7 +343,7 @@ TEST_CASE("groups, and dimensions without records, are named") {
     file.group("ocean");
     file.group("ice");
   }
-  const auto refusal = [](const auto& read) { return std::string(error_of(read).what()); };
+  const auto refusal = [](const auto& read) { return message_of(read); };
   const std::string remedy = " beside its groups (ocean, ice), which are not read; ncks -G : -g "
                              "ocean IN OUT takes what one holds out";
   for (const auto& read : std::vector<std::function<void()>>{

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/files.h"
+#include "support/text.h"
 
 #include <calotte/check_file.h>
 #include <calotte/conservative.h>
@@ -91,8 +92,8 @@ TEST_CASE("fields and density follow the cells of a mesh that changed") {
   }
   CHECK(density.maxCoeff() == 1);
   CHECK(std::abs(kept_density - std::pow(1.8, -4)) < 0.02);
-  CHECK(std::string(error_of([&] { changed_file(old, changed, {.nearest = {"depth"}}); }).what())
-            .find("no field \"depth\" at cells") != std::string::npos);
+  CHECK(has(message_of([&] { changed_file(old, changed, {.nearest = {"depth"}}); }),
+            "no field \"depth\" at cells"));
 }
 
 TEST_CASE("conservative fields are means over new cells, also without values somewhere") {
@@ -127,11 +128,11 @@ TEST_CASE("conservative fields are means over new cells, also without values som
   }
   CHECK(without > 0);
   const auto problem = [&](const FieldMethods& methods) {
-    return std::string(error_of([&] { changed_file(old, changed, methods); }).what());
+    return message_of([&] { changed_file(old, changed, methods); });
   };
-  CHECK(problem({.conservative = {"depth"}}).find("no field \"depth\"") != std::string::npos);
-  CHECK(problem({.nearest = {"height"}, .conservative = {"height"}})
-            .find("both nearest and conservative") != std::string::npos);
+  CHECK(has(problem({.conservative = {"depth"}}), "no field \"depth\""));
+  CHECK(has(problem({.nearest = {"height"}, .conservative = {"height"}}),
+            "both nearest and conservative"));
 }
 
 TEST_CASE("conservative fields where nothing changes") {

@@ -4,6 +4,7 @@
 #include "support/files.h"
 #include "support/global_file.h"
 #include "support/random.h"
+#include "support/text.h"
 
 #include <calotte/cull.h>
 #include <calotte/generators.h>
@@ -212,7 +213,7 @@ TEST_CASE("a passage joins two seas, a barrier parts them again, seeds choose") 
   options.seeds = {0, 1999};
   CHECK(divided.report(options, sea).severed == 0);
   options.seeds = {1000};
-  CHECK(std::string(error_of([&] { divided.report(options, sea); }).what()) ==
+  CHECK(message_of([&] { divided.report(options, sea); }) ==
         "seed 0 is on land, in cell 1000; give a place in the sea");
 }
 
@@ -365,12 +366,12 @@ TEST_CASE("the sea by a field, and what is refused") {
   };
   CHECK(refusal({}) == "there is no land; give a coast, a raster, a field or a barrier");
   options.field.variable = "absent";
-  CHECK(refusal(options).find("absent") != std::string::npos);
+  CHECK(has(refusal(options), "absent"));
   options.field = {"", "zCell", 2, 3};
   CHECK(refusal(options) == "no cell is sea; check the land");
   options.field = {"", "zCell", 0, 1};
   options.land_fraction = 1;
-  CHECK(refusal(options).find("fraction of land") != std::string::npos);
+  CHECK(has(refusal(options), "fraction of land"));
   options.land_fraction = 0.5;
   options.seeds = Points3(Eigen::Vector3d(0, 0, -1));
   CHECK(refusal(options).starts_with("seed 0 is on land, in cell "));
@@ -387,11 +388,11 @@ TEST_CASE("the sea by a field, and what is refused") {
         "passage 0 lies on land only and reaches no sea; begin and end it in the sea");
   options = {};
   options.coast = coast_of({circle({0, 0, 1}, 0.5), circle({0, 0.1, 1}, 0.5)});
-  CHECK(refusal(options).find("times, as its polygons overlap or cross") != std::string::npos);
+  CHECK(has(refusal(options), "times, as its polygons overlap or cross"));
   Points3 bow(3, 4); // of which one half is to the left, the other to the right
   bow << 1, 1, 1, 1, -0.3, 0.3, 0.3, -0.3, -0.3, 0.3, -0.3, 0.3;
   options.coast = {{bow.colwise().normalized()}, 0};
-  CHECK(refusal(options).find("times, as its polygons overlap or cross") != std::string::npos);
+  CHECK(has(refusal(options), "times, as its polygons overlap or cross"));
 }
 
 TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along the date line") {
@@ -409,7 +410,7 @@ TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along th
   CHECK(area_of("[" + turned + "]") == doctest::Approx(whole).epsilon(1e-14));
   CHECK(area_of("[" + turned + "," + hole + "]") == doctest::Approx(whole - small).epsilon(1e-14));
   const std::string absent = scratch / "binned_GSHHS_h.nc";
-  CHECK(std::string(error_of([&] { read_coast(absent); }).what()) ==
+  CHECK(message_of([&] { read_coast(absent); }) ==
         "cannot read " + absent +
             ": No such file; it comes with Debian's package gmt-gshhg-high, in "
             "/usr/share/gmt-gshhg; install it, or give other polygons of land");
@@ -491,5 +492,5 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
   Variable spoilt = Patch(path).get("Id_of_first_point_in_a_segment");
   spoilt.values[2] = 1000;
   Patch(path).put(spoilt);
-  CHECK(std::string(error_of([&] { read_coast(path); }).what()).find("GSHHG") != std::string::npos);
+  CHECK(has(message_of([&] { read_coast(path); }), "GSHHG"));
 }

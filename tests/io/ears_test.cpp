@@ -135,8 +135,8 @@ TEST_CASE("a closed mesh stays, and a mesh of ears alone is refused") {
   MeshFile strip; // three triangles in a row
   strip.mesh = delaunay(Points3{{1, 1, 1, 1, 1}, {0, 0.1, 0.2, 0.05, 0.15}, {0, 0, 0, 0.1, 0.1}});
   REQUIRE(strip.mesh->triangles.cols() == 3);
-  CHECK(error_of([&] { without_ears(strip); }).code() == ErrorCode::invalid_argument);
-  CHECK(error_of([] { without_ears(MeshFile{}); }).code() == ErrorCode::invalid_argument);
+  CHECK(code_of([&] { without_ears(strip); }) == ErrorCode::invalid_argument);
+  CHECK(code_of([] { without_ears(MeshFile{}); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("FESOM's depths: levels and bottoms below 0, in the order of the nodes") {
@@ -174,7 +174,7 @@ TEST_CASE("depths that FESOM refuses are refused before any file is written") {
   good.depth_levels = Eigen::Vector3d(0, 10, 100);
   good.site_depth = Eigen::VectorXd::Constant(40, 50);
   const auto refuses = [&](const WriteOptions& options) {
-    CHECK(error_of([&] { write(scratch / "nod2d.out", mesh, options); }).code() ==
+    CHECK(code_of([&] { write(scratch / "nod2d.out", mesh, options); }) ==
           ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
   };

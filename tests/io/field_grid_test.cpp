@@ -3,6 +3,7 @@
 #include "support/files.h"
 
 #include "io/netcdf/netcdf_writer.h"
+#include "support/text.h"
 
 #include <calotte/cut.h>
 #include <calotte/delaunay.h>
@@ -138,17 +139,15 @@ TEST_CASE("what is wrong with a raster is said") {
   file = {};
   file.latitudes[3] = 95;
   file.write(path);
-  CHECK(problem_with_grid(path).find("latitude[3] = 95.000000 is outside -90 to 90") !=
-        std::string::npos);
+  CHECK(has(problem_with_grid(path), "latitude[3] = 95.000000 is outside -90 to 90"));
   file = {};
   file.latitude_bounds = {-90, -40, -40, 0, 10, 40, 40, 90};
   file.write(path);
-  CHECK(problem_with_grid(path).find("lat_b[2] does not begin where the one before ends") !=
-        std::string::npos);
+  CHECK(has(problem_with_grid(path), "lat_b[2] does not begin where the one before ends"));
   file = {};
   file.longitudes = {0, 100, 200, 300, 400, 500};
   file.write(path);
-  CHECK(problem_with_grid(path).find("span") != std::string::npos);
+  CHECK(has(problem_with_grid(path), "span"));
   CHECK(!raster_of("720"));
   CHECK(!raster_of("720x"));
   CHECK(!raster_of("720x360.nc"));

@@ -63,7 +63,7 @@ TEST_CASE("a mesh that is refused remains") {
   const Scratch scratch;
   Mesh mesh = delaunay(random_sphere(100, 1));
   const Points3 points = mesh.points;
-  CHECK(error_of([&] { write(scratch / "mesh.unknown", std::move(mesh)); }).code() ==
+  CHECK(code_of([&] { write(scratch / "mesh.unknown", std::move(mesh)); }) ==
         ErrorCode::invalid_argument);
   CHECK(mesh.points == points); // NOLINT(bugprone-use-after-move): as documented
   CHECK(mesh.closed());

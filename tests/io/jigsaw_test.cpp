@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/command.h"
-#include "io/messages.h"
 #include "io/shapes/jigsaw.h"
 #include "support/constants.h"
+#include "support/errors.h"
 #include "support/files.h"
+#include "support/text.h"
 
 #include <calotte/generators.h>
 #include <calotte/io.h>
@@ -84,11 +85,9 @@ TEST_CASE("jigsaw: an ellipsoid with equal radii is a sphere, its edges lines") 
   CHECK(geometry.lines[1].cols() == 1);
   const JigsawPoints points = read_jigsaw_points(scratch / "file.msh", false);
   CHECK(points.fixed == std::vector<bool>{false, false, true});
-  CHECK(message_of([&] { read_domain(scratch / "file.msh"); }).find("geometry of the sphere") !=
-        std::string::npos);
-  CHECK(message_of([&] {
-          read_jigsaw_points(scratch / "file.msh", true);
-        }).find("give those of a") != std::string::npos);
+  CHECK(has(message_of([&] { read_domain(scratch / "file.msh"); }), "geometry of the sphere"));
+  CHECK(
+      has(message_of([&] { read_jigsaw_points(scratch / "file.msh", true); }), "give those of a"));
 }
 
 TEST_CASE("jigsaw: geometries that cannot be meshed are refused") {
@@ -96,7 +95,7 @@ TEST_CASE("jigsaw: geometries that cannot be meshed are refused") {
   const auto refused = [&](const std::string& text, const std::string& words) {
     CAPTURE(words);
     const std::string path = jigsaw_file(scratch, text);
-    CHECK(message_of([&] { read_jigsaw_geometry(path); }).find(words) != std::string::npos);
+    CHECK(has(message_of([&] { read_jigsaw_geometry(path); }), words));
   };
   refused("MSHID=3;ELLIPSOID-MESH\nRADII=1;1;2\n", "the radii differ");
   refused("MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=1\n0;0;1;0\n", "only a sphere");
@@ -137,10 +136,11 @@ TEST_CASE("jigsaw: widths of a plane on a grid and at points") {
       worst = std::max(worst,
                        std::abs(at_points.values(i, j) - linear(at_points.x[i], at_points.y[j])));
   CHECK(worst < 0.01); // beyond the hull of the points the nearest one's
-  CHECK(message_of([&] {
-          read_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"), {},
-                          Surface::plane());
-        }).find("no cell widths of a plane") != std::string::npos);
+  CHECK(has(message_of([&] {
+              read_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"), {},
+                                Surface::plane());
+            }),
+            "no cell widths of a plane"));
 }
 
 TEST_CASE("jigsaw: a limited grid keeps its nodes, and is a cone around a low value") {
@@ -182,12 +182,10 @@ TEST_CASE("jigsaw: slopes that are missing or differ are refused, and the file s
   JigsawFile file = grid("euclidean-grid", 3, 3, 1, [](double, double) { return 9; });
   io_detail::write_jigsaw_grid(path, file);
   const std::string before = calotte::test::read_file(path);
-  CHECK(message_of([&] { limit_jigsaw_values(path, 1); }).find("no SLOPE section") !=
-        std::string::npos);
+  CHECK(has(message_of([&] { limit_jigsaw_values(path, 1); }), "no SLOPE section"));
   CHECK(calotte::test::read_file(path) == before);
   file.slopes.assign(9, 0.1);
   file.slopes[4] = 0.2;
   io_detail::write_jigsaw_grid(path, file);
-  CHECK(message_of([&] { limit_jigsaw_values(path, 1); }).find("SLOPE differs") !=
-        std::string::npos);
+  CHECK(has(message_of([&] { limit_jigsaw_values(path, 1); }), "SLOPE differs"));
 }

@@ -15,6 +15,7 @@
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "support/spoilt_files.h"
+#include "support/text.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
@@ -307,7 +308,7 @@ void check_bad_file(const std::string& path, Read read, const std::string& words
   CAPTURE(message);
   CHECK(error.code() == ErrorCode::parse);
   CHECK(message.starts_with(path + ": "));
-  CHECK(message.find(words) != std::string::npos);
+  CHECK(has(message, words));
 }
 
 /// A UGRID file of others: names of their own, no attributes that are ours.

@@ -145,7 +145,7 @@ TEST_CASE("cull converts lengths and areas to another radius") {
         doctest::Approx(radius * radius * first_value(same, "areaCell")).epsilon(1e-14));
   CHECK(read_mesh_file(sea).sphere_radius == radius);
   options.sphere_radius = -1;
-  CHECK(error_of([&] { cull(whole, sea, options); }).code() == ErrorCode::invalid_argument);
+  CHECK(code_of([&] { cull(whole, sea, options); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("the nominal spacing of a limited area is that of its cells, not of the closed mesh") {

@@ -4,6 +4,7 @@
 #include "support/files.h"
 #include "support/open_mpas.h"
 #include "support/spoilt_files.h"
+#include "support/text.h"
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -283,7 +284,7 @@ TEST_CASE("a bounded plane as cells of VTK and GeoJSON") {
     CHECK(file.mesh->points == plane.mesh.points);
     const std::string text = test::read_file(scratch / "a.geojson");
     for (const char* property : {"\"area\"", "\"spacing\"", "\"degree\""})
-      CHECK(text.find(property) != std::string::npos);
+      CHECK(has(text, property));
   }
 }
 
@@ -293,15 +294,14 @@ TEST_CASE("what a bounded plane cannot be written as is refused, naming the reme
   const Points3 points = random_points(20, domain, {}, 1);
   const auto problem = [&](const std::string& name, Format format, bool bounded) {
     const Mesh mesh = delaunay(points, bounded ? domain : Surface::plane());
-    return std::string(error_of([&] { write(scratch / name, mesh, {.format = format}); }).what());
+    return message_of([&] { write(scratch / name, mesh, {.format = format}); });
   };
-  CHECK(problem("a.nc", Format::by_name, false).find("with its domain") != std::string::npos);
+  CHECK(has(problem("a.nc", Format::by_name, false), "with its domain"));
   for (const Format format : {Format::scrip, Format::esmf, Format::mpas_minimal})
-    CHECK(problem("a.nc", format, true).find("written as mpas, ugrid, vtp-cells") !=
-          std::string::npos);
+    CHECK(has(problem("a.nc", format, true), "written as mpas, ugrid, vtp-cells"));
   const Points3 far = random_points(20, rectangle({2, 2}, {3, 3}), {}, 1);
-  CHECK(std::string(error_of([&] { write(scratch / "a.nc", delaunay(far, domain)); }).what())
-            .find("is outside of the domain") != std::string::npos);
+  CHECK(has(message_of([&] { write(scratch / "a.nc", delaunay(far, domain)); }),
+            "is outside of the domain"));
   CHECK(scratch.files() == 0);
 }
 
@@ -414,13 +414,13 @@ TEST_CASE("cells that MPAS cannot hold are refused with the reason") {
   const auto problem = [&] {
     source.create(scratch / "open.nc", NC_DOUBLE, put_attributes);
     const MeshFile file = read_mesh_file(scratch / "open.nc");
-    return std::string(error_of([&] { write(scratch / "out.nc", file); }).what());
+    return message_of([&] { write(scratch / "out.nc", file); });
   };
   std::size_t inner = 0;
   while (source.at("boundaryVertex", inner) == 1)
     ++inner;
   source.at("xVertex", inner) += 0.01 * radius;
   const std::string text = problem();
-  CHECK(text.find("MPAS needs Voronoi cells, but the common corner of cells") != std::string::npos);
-  CHECK(text.find("write ugrid") != std::string::npos);
+  CHECK(has(text, "MPAS needs Voronoi cells, but the common corner of cells"));
+  CHECK(has(text, "write ugrid"));
 }

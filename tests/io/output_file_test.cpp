@@ -4,6 +4,7 @@
 #include "io/bytes/output_queue.h"
 #include "support/files.h"
 #include "support/full_disk.h"
+#include "support/text.h"
 
 #include <calotte/error.h>
 
@@ -27,6 +28,7 @@ using calotte::ErrorCode;
 using calotte::io_detail::OutputBlock;
 using calotte::io_detail::OutputFile;
 using calotte::io_detail::OutputQueue;
+using calotte::test::has;
 using calotte::test::Scratch;
 
 namespace {
@@ -128,8 +130,7 @@ TEST_CASE("a reservation larger than the disk fails before anything is written")
     const Scratch scratch(parent);
     {
       OutputFile file(scratch / "a");
-      CHECK(message_of_file_error([&] { file.reserve(std::int64_t{1} << 60); }).find("make room") !=
-            std::string::npos);
+      CHECK(has(message_of_file_error([&] { file.reserve(std::int64_t{1} << 60); }), "make room"));
     }
     CHECK(scratch.files() == 0);
   }

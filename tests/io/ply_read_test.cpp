@@ -5,6 +5,7 @@
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/polyhedra.h"
+#include "support/text.h"
 
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
@@ -163,7 +164,7 @@ TEST_CASE("PLY: what is not a mesh is refused by name") {
       {replaced(text, "element face", "element tristrips"), "triangle strips"}};
   for (const auto& [bad, part] : cases) {
     CAPTURE(part);
-    CHECK(problem_of(scratch / "mesh.ply", bad).find(part) != std::string::npos);
+    CHECK(has(problem_of(scratch / "mesh.ply", bad), part));
   }
 }
 
@@ -181,7 +182,7 @@ TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face"
     Faces two = faces_of(calotte::delaunay(octahedron()));
     two.ends[4] -= 1;
     const std::string problem = problem_of(scratch / "mesh.ply", ply_text(two, {.format = format}));
-    CHECK(problem.find("array \"face\": polygon 4 runs from 12 to 14") != std::string::npos);
+    CHECK(has(problem, "array \"face\": polygon 4 runs from 12 to 14"));
     for (const char* count : {"char", "int"}) {
       Faces faces = faces_of(calotte::delaunay(octahedron()));
       std::string text = ply_text(faces, {.format = format, .count = count});
@@ -192,8 +193,7 @@ TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face"
       text.replace(last, three.size(),
                    format == "ascii" ? std::string("-3\n")
                                      : bytes_of(vtk_types.at(count), {-3}, big));
-      CHECK(problem_of(scratch / "mesh.ply", text).find("\"vertex_indices\" is invalid") !=
-            std::string::npos);
+      CHECK(has(problem_of(scratch / "mesh.ply", text), "\"vertex_indices\" is invalid"));
     }
   }
 }

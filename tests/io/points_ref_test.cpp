@@ -2,7 +2,7 @@
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
-#include "io/messages.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/laws.h"
 
@@ -136,12 +136,12 @@ TEST_CASE("in the plane a third row that is not 0 is refused") {
   const Eigen::MatrixXd above = Eigen::MatrixXd::Constant(3, 9, 0.5);
   for (const Call& call : calls_in_plane()) {
     CAPTURE(call.name);
-    CHECK(error_of([&] { call.call(above); }).code() == ErrorCode::invalid_argument);
+    CHECK(code_of([&] { call.call(above); }) == ErrorCode::invalid_argument);
   }
 }
 
 TEST_CASE("a matrix of another number of rows that is handed over is refused, too") {
-  const auto code = [](const auto& act) { return error_of(act).code(); };
+  const auto code = [](const auto& act) { return code_of(act); };
   CHECK(code([] { delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Points2(2, 1000)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { cvt(Eigen::MatrixXd(2, 1000), {}); }) == ErrorCode::invalid_argument);
@@ -167,7 +167,7 @@ TEST_CASE("the message names the rows and the remedy") {
 }
 
 TEST_CASE("empty matrices are refused, or give nothing") {
-  const auto code = [](const auto& act) { return error_of(act).code(); };
+  const auto code = [](const auto& act) { return code_of(act); };
   CHECK(code([] { delaunay(Eigen::MatrixXd()); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Eigen::MatrixXd(0, 9)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
@@ -305,8 +305,8 @@ TEST_CASE("points of 2 or 3 rows are written, others are refused before there is
   const std::string path = scratch / "points.txt";
   for (const Eigen::Index rows : {0, 1, 4}) {
     const Eigen::MatrixXd other = Eigen::MatrixXd::Zero(rows, 5);
-    CHECK(error_of([&] { write_points(path, other); }).code() == ErrorCode::invalid_argument);
-    CHECK(error_of([&] { write_points(out, other); }).code() == ErrorCode::invalid_argument);
+    CHECK(code_of([&] { write_points(path, other); }) == ErrorCode::invalid_argument);
+    CHECK(code_of([&] { write_points(out, other); }) == ErrorCode::invalid_argument);
     CHECK(scratch.files() == 0);
   }
 }

@@ -188,11 +188,10 @@ TEST_CASE("outside of make_grid() stop is as cancel") {
     return progress.fraction > 0.1 ? Next::stop : Next::proceed;
   };
   const Points3 points = random_sphere(20'000, 4);
-  CHECK(error_of([&] { delaunay(points, {}, with(stop)); }).code() == ErrorCode::cancelled);
+  CHECK(code_of([&] { delaunay(points, {}, with(stop)); }) == ErrorCode::cancelled);
   const Scratch scratch;
   const Mesh mesh = delaunay(points);
-  CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(stop)); }).code() ==
-        ErrorCode::cancelled);
+  CHECK(code_of([&] { write(scratch / "a.nc", mesh, told(stop)); }) == ErrorCode::cancelled);
   CHECK(scratch.files() == 0);
 }
 
@@ -203,8 +202,7 @@ TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
   const auto cancel = [](const Progress& progress) {
     return progress.stage == "write" ? Next::cancel : Next::proceed;
   };
-  CHECK(error_of([&] { write(scratch / "a.nc", mesh, told(cancel)); }).code() ==
-        ErrorCode::cancelled);
+  CHECK(code_of([&] { write(scratch / "a.nc", mesh, told(cancel)); }) == ErrorCode::cancelled);
   CHECK(scratch.files() == 1);
   CHECK(test::read_file(scratch / "a.nc") == "older");
 }

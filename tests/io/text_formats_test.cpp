@@ -2,6 +2,7 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/text.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
@@ -81,8 +82,8 @@ TEST_CASE("JIGSAW: the file is what its readers expect") {
   const Scratch scratch;
   calotte::write(scratch / "mesh.msh", calotte::delaunay(octahedron()));
   const std::string text = calotte::test::read_file(scratch / "mesh.msh");
-  CHECK(text.find("\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n") != std::string::npos);
-  CHECK(text.find("\nTRIA3=8\n0;1;2;0\n") != std::string::npos);
+  CHECK(has(text, "\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=3\nPOINT=6\n1;0;0;0\n"));
+  CHECK(has(text, "\nTRIA3=8\n0;1;2;0\n"));
 }
 
 TEST_CASE("JIGSAW: keywords in any case, comments, line ends and other sections change nothing") {
@@ -118,7 +119,7 @@ TEST_CASE("JIGSAW: longitudes and latitudes in radians") {
   REQUIRE(read.cols() == 40);
   CHECK((read / 6371 - points).colwise().norm().maxCoeff() < 1e-14);
   write_text(scratch / "mesh.msh", "MSHID=3;ELLIPSOID-MESH\nNDIMS=2\nPOINT=1\n0;2;0\n");
-  CHECK(error_of([&] { calotte::read_sites(scratch / "mesh.msh"); }).code() == ErrorCode::parse);
+  CHECK(code_of([&] { calotte::read_sites(scratch / "mesh.msh"); }) == ErrorCode::parse);
 }
 
 TEST_CASE(
@@ -154,8 +155,7 @@ TEST_CASE("JIGSAW: errors name the defect") {
   CHECK(error(head + "POINT=99999999999\n1;0;0;0\n").code() == ErrorCode::parse);
   CHECK(error(head + all_replaced(points, "1;0;0;0", "0;0;0;0")).index() == 0);
   CHECK(error("MSHID=3;ELLIPSOID-GRID\nNDIMS=2\nCOORD=1;2\n0\n1\n").code() == ErrorCode::parse);
-  CHECK(std::string(error(head + "POINT=2\n1;0;0;0\n0;1;0;0\n").what()).find("at least 3") !=
-        std::string::npos);
+  CHECK(has(error(head + "POINT=2\n1;0;0;0\n0;1;0;0\n").what(), "at least 3"));
 }
 
 // ---- MPI-SCVT
@@ -247,16 +247,14 @@ TEST_CASE("MPI-SCVT: a missing final newline and CRLF lose nothing; what is no p
   const Error few = error_of([&] { calotte::read_mesh(path); });
   CHECK(few.code() == ErrorCode::too_few_sites);
   CHECK(std::string(few.what()).starts_with(path));
-  CHECK(error_of([&] { calotte::read_mesh(scratch / "SaveVertices.absent"); }).code() ==
-        ErrorCode::file);
+  CHECK(code_of([&] { calotte::read_mesh(scratch / "SaveVertices.absent"); }) == ErrorCode::file);
 }
 
 TEST_CASE("MPI-SCVT: a file that cannot be written leaves none of the three") {
   const Scratch scratch;
   const Mesh mesh = calotte::delaunay(octahedron());
   std::filesystem::create_directory(scratch / "SaveTriangles");
-  CHECK(error_of([&] { calotte::write(scratch / "SaveVertices", mesh); }).code() ==
-        ErrorCode::file);
+  CHECK(code_of([&] { calotte::write(scratch / "SaveVertices", mesh); }) == ErrorCode::file);
   CHECK(scratch.files() == 1);
 }
 

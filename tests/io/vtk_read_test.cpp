@@ -4,6 +4,7 @@
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/polyhedra.h"
+#include "support/text.h"
 #include "support/vtk_text.h"
 
 #include <calotte/mesh_file.h>
@@ -91,11 +92,9 @@ TEST_CASE("VTK: polygons are cells, with unit corners, and centres if there are 
           CHECK((file.polygons->centres - centres.colwise().normalized()).norm() < 1e-15);
         CHECK(!file.mesh); // they are not Voronoi cells
       }
-  CHECK(error_of([&] { calotte::read_mesh(scratch / "mesh.vtp"); }).code() ==
-        ErrorCode::invalid_argument);
+  CHECK(code_of([&] { calotte::read_mesh(scratch / "mesh.vtp"); }) == ErrorCode::invalid_argument);
   write_text(scratch / "mesh.vtp", vtk_text("PolyData", faces, {}));
-  CHECK(std::string(error_of([&] { calotte::read_sites(scratch / "mesh.vtp"); }).what())
-            .find("no centres") != std::string::npos);
+  CHECK(has(message_of([&] { calotte::read_sites(scratch / "mesh.vtp"); }), "no centres"));
 }
 
 TEST_CASE("VTK: arrays of one component are fields at the cells or at the vertices") {
@@ -244,7 +243,7 @@ TEST_CASE("VTK: what is not read is refused by name") {
       {"1 2 3", "it does not start with XML"}};
   for (const auto& [text, part] : cases) {
     CAPTURE(part);
-    CHECK(problem_of(scratch / "mesh.vtp", text).find(part) != std::string::npos);
+    CHECK(has(problem_of(scratch / "mesh.vtp", text), part));
   }
 }
 
@@ -265,8 +264,7 @@ TEST_CASE("VTK: ids, offsets and sizes that contradict each other are refused by
       Faces faces = whole;
       spoil(faces);
       CAPTURE(part);
-      CHECK(problem_of(scratch / "mesh.vtp", vtk_text("PolyData", faces, style)).find(part) !=
-            std::string::npos);
+      CHECK(has(problem_of(scratch / "mesh.vtp", vtk_text("PolyData", faces, style)), part));
     }
     const std::string text = vtk_text("PolyData", whole, style);
     for (const char* count : {"NumberOfPoints=\"6\"", "NumberOfPolys=\"8\""})
@@ -282,7 +280,7 @@ TEST_CASE("VTK: cells that another program changed are not taken for Voronoi cel
   calotte::write(scratch / "a.vtp", mesh, {.format = calotte::Format::vtp_cells});
   std::string text = calotte::test::read_file(scratch / "a.vtp");
   std::swap(text[text.find("\n_") + 2 + 8], text[text.find("\n_") + 2 + 8 + 1200]);
-  CHECK(problem_of(scratch / "a.vtp", text).find("array \"triangle\": ") != std::string::npos);
+  CHECK(has(problem_of(scratch / "a.vtp", text), "array \"triangle\": "));
 }
 
 TEST_CASE("VTK: a file that is cut anywhere, or whose bytes change, is read or refused") {

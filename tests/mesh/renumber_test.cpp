@@ -2,6 +2,7 @@
 #include "delaunay/delaunay.h"
 #include "mesh/renumber.h"
 #include "support/clouds.h"
+#include "support/errors.h"
 #include "support/laws.h"
 #include "support/random.h"
 #include "support/shuffled.h"
@@ -218,12 +219,7 @@ TEST_CASE("the order does not depend on the number of threads") {
 TEST_CASE("ids out of range and points without a direction are refused") {
   const Mesh mesh = calotte::delaunay(octahedron());
   const auto code = [](const Mesh& bad) {
-    try {
-      calotte::renumbered(bad, Numbering::curve);
-    } catch (const calotte::Error& error) {
-      return error.code();
-    }
-    return calotte::ErrorCode::internal;
+    return code_of([&] { calotte::renumbered(bad, Numbering::curve); });
   };
   for (const std::int32_t id : {-1, 6}) {
     Mesh bad = mesh;

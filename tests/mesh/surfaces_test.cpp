@@ -3,6 +3,7 @@
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/text.h"
 
 #include <calotte/calotte.h>
 
@@ -212,7 +213,7 @@ TEST_CASE("errors name the point and the remedy") {
   const auto names = [](const std::function<void()>& work, const std::string& part) {
     const std::string text = error_of(work).what();
     CAPTURE(text);
-    CHECK(text.find(part) != std::string::npos);
+    CHECK(test::has(text, part));
   };
   for (const Surface& surface : {box, plane})
     CHECK(error_of([&] { delaunay(points, surface); }).index() == 4);

@@ -3,6 +3,7 @@
 #include "partition/child_process.h"
 #include "partition/connected_parts.h"
 #include "partition/graph.h"
+#include "support/errors.h"
 
 #include <calotte/error.h>
 #include <calotte/partition.h>
@@ -96,16 +97,6 @@ void check_parts(const std::vector<Pair>& edges, std::int64_t parts, const CellP
     unconnected += count > 1;
   }
   CHECK(made.unconnected == unconnected);
-}
-
-std::string message_of(const auto& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::invalid_argument);
-    return error.what();
-  }
-  return "";
 }
 
 } // namespace
@@ -233,13 +224,13 @@ TEST_CASE("missing neighbours, repetitions and the cell itself have no effect") 
 TEST_CASE("invalid arguments are refused with the index and the remedy") {
   const IdLists graph = lists_of(6, lattice(3, 2));
   const auto refusal = [&](const DoubleVector& weights) {
-    return message_of([&] { partition(graph, 2, {.weights = weights}); });
+    return test::refusal_of([&] { partition(graph, 2, {.weights = weights}); });
   };
-  CHECK(message_of([&] { partition(graph, 7); }) ==
+  CHECK(test::refusal_of([&] { partition(graph, 7); }) ==
         "6 cells cannot make 7 parts; give a number from 1 to 6");
-  CHECK(message_of([&] { partition(graph, 0); }) ==
+  CHECK(test::refusal_of([&] { partition(graph, 0); }) ==
         "6 cells cannot make 0 parts; give a number from 1 to 6");
-  CHECK(message_of([&] { partition({}, 1); }) ==
+  CHECK(test::refusal_of([&] { partition({}, 1); }) ==
         "there are no cells; give the neighbours of at least one");
   CHECK(refusal(DoubleVector::Ones(5)) ==
         "there are 5 weights, but 6 cells; give one for each cell");
@@ -255,11 +246,11 @@ TEST_CASE("invalid arguments are refused with the index and the remedy") {
         "the sum of the weights is infinite; give smaller ones");
   IdLists bad = graph;
   bad.items[0] = 6;
-  CHECK(message_of([&] { partition(bad, 2); }) ==
+  CHECK(test::refusal_of([&] { partition(bad, 2); }) ==
         "cell 0 has a neighbour that is not one of the 6 cells; number them from 0, and give -1 "
         "for none");
   bad.items[0] = 5; // which does not have 0
-  CHECK(message_of([&] { partition(bad, 2); }) ==
+  CHECK(test::refusal_of([&] { partition(bad, 2); }) ==
         "cell 0 has a neighbour that does not have it as a neighbour; give both");
 }
 
@@ -271,12 +262,8 @@ TEST_CASE("a callback ends the call, and so does an exception of the visitor") {
     CHECK(progress.stage == "partition");
     return Next::cancel;
   };
-  try {
-    partition(graph, counts, options, [](const CellParts&) {});
-    FAIL("not cancelled");
-  } catch (const Error& error) {
-    CHECK(error.code() == ErrorCode::cancelled);
-  }
+  CHECK(test::code_of([&] { partition(graph, counts, options, [](const CellParts&) {}); }) ==
+        ErrorCode::cancelled);
   CHECK_THROWS_AS(
       partition(graph, counts, {}, [](const CellParts&) { throw std::runtime_error("full"); }),
       std::runtime_error);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "support/errors.h"
 #include "support/sanitizer.h"
 
 #include <calotte/error.h>
@@ -44,18 +45,6 @@ inline std::string read_file(const std::string& path) {
 
 inline void write_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
-}
-
-/// The error that the function throws, checked to be one line.
-template <class Work> Error error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return error;
-  }
-  FAIL("no error");
-  std::abort();
 }
 
 /// From one byte of a file to the next at which a test cuts or damages it.
