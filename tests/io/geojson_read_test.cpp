@@ -6,6 +6,7 @@
 #include "support/constants.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/text.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
@@ -193,26 +194,23 @@ TEST_CASE("GeoJSON: what is no cell of one ring is refused by its feature") {
   const std::string path = scratch / "cells.geojson", ring = "[[0,0],[9,0],[9,9],[0,0]]";
   const std::string good = cell("[" + ring + "]");
   const std::string apart = "[[20,0],[29,0],[29,9],[20,0]]";
-  CHECK(problem_with_features(
-            path, {good, cell("[[" + apart + "],[" + ring + "]]", "{}", "MultiPolygon")}) ==
-        "feature 1 is a MultiPolygon whose parts do not share one side; only cells of one ring are "
-        "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
-  CHECK(problem_with_features(path, {cell("[" + ring + "," + ring + "]")}) ==
-        "feature 0 has a hole; only cells of one ring are read");
-  CHECK(problem_with_features(path, {good, good, cell("[[[0,0],[9,0],[0,0]]]")}) ==
-        "feature 2 has a ring of fewer than 3 places; leave it out");
-  CHECK(problem_with_features(path, {cell("[[[0,0],[9,91],[9,9],[0,0]]]")}) ==
-        "feature 0 has a position that is no longitude and latitude in degrees; correct it");
-  CHECK(problem_with_features(path, {cell("[]")}) ==
-        "feature 0 has no ring of positions; give GeoJSON as RFC 7946 has it");
-  CHECK(problem_with_features(path, {good, cell("[0,0]", "{}", "Point")}) ==
-        "feature 1 is no polygon, unlike those before it");
-  CHECK(problem_with_features(path, {cell("[0,0]", "{}", "Point"), good}) ==
-        "feature 1 is a cell, unlike those before it");
-  CHECK(problem_with_features(path, {cell("[[0,0],[9,9]]", "{}", "LineString")})
-            .starts_with("feature 0 is neither a polygon nor a point"));
-  CHECK(problem_with_features(path, {good, good}).find("cell 0 and cell 1 overlap") !=
-        std::string::npos);
+  const auto refused = [&](const std::vector<std::string>& features, const std::string& words) {
+    CHECK(has(problem_with_features(path, features), words));
+  };
+  refused({good, cell("[[" + apart + "],[" + ring + "]]", "{}", "MultiPolygon")},
+          "feature 1 is a MultiPolygon whose parts do not share one side; only cells of one ring "
+          "are read");
+  refused({cell("[" + ring + "," + ring + "]")}, "feature 0 has a hole; only cells of one ring");
+  refused({good, good, cell("[[[0,0],[9,0],[0,0]]]")},
+          "feature 2 has a ring of fewer than 3 places");
+  refused({cell("[[[0,0],[9,91],[9,9],[0,0]]]")},
+          "feature 0 has a position that is no longitude and");
+  refused({cell("[]")}, "feature 0 has no ring of positions; give GeoJSON as RFC 7946 has it");
+  refused({good, cell("[0,0]", "{}", "Point")}, "feature 1 is no polygon, unlike those before it");
+  refused({cell("[0,0]", "{}", "Point"), good}, "feature 1 is a cell, unlike those before it");
+  refused({cell("[[0,0],[9,9]]", "{}", "LineString")},
+          "feature 0 is neither a polygon nor a point");
+  refused({good, good}, "cell 0 and cell 1 overlap");
 }
 
 TEST_CASE("shapes: convex cells, and how far centres are from centroids") {
@@ -306,7 +304,7 @@ TEST_CASE("shapes: lines and the shores of polygons, of one file or of two") {
   CHECK(of_polygon == calotte::shores(calotte::read_coast(path)));
   CHECK(read(collection({line, polygon})).size() == 4);
   const auto message = [&](const std::string& text) {
-    return std::string(error_of([&] { read(text); }).what()).substr(path.size() + 2);
+    return message_of([&] { read(text); }).substr(path.size() + 2);
   };
   CHECK(message(collection({})) == "no lines or polygons; give geometries of these");
   CHECK(message(collection({polygon, R"({"type":"Polygon","coordinates":[[[5,5],[6,5]]]})"})) ==
