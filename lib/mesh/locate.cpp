@@ -88,7 +88,7 @@ private:
       while (v < 3 && (v == came || seen_.side(t, v, p) >= 0))
         ++v;
       if (v == 3)
-        return t;
+        return is_behind(t, came, p) ? t : lost;
       const std::int32_t beyond = mesh_.neighbours(v, t);
       if (beyond < 0)
         return outside;
@@ -96,6 +96,12 @@ private:
       t = beyond;
     }
     return lost;
+  }
+
+  /// Whether p is not beyond the edge that a walk came across last. Half a period away the next
+  /// triangle may see another copy of p.
+  bool is_behind(std::int32_t t, int came, const Position& p) const {
+    return S::on_sphere || came == 3 || seen_.side(t, came, p) >= 0;
   }
 
   bool holds(std::int64_t t, const Position& p) const {
