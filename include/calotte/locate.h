@@ -5,7 +5,7 @@
 #include <calotte/export.h>
 #include <calotte/types.h>
 
-#include <cstdint>
+#include <memory>
 
 CALOTTE_API_BEGIN
 namespace calotte {
@@ -24,20 +24,45 @@ struct Locations {
   Ids nearest;
 };
 
-/// Locates positions in a triangulation. With a period the positions may lie outside of the box:
-/// their copies inside are located.
+/// Where positions are in a mesh, prepared once for many calls, which threads may make at the same
+/// time. With a period the positions may lie outside of the box: their copies inside are located.
 ///
-/// The positions are sorted along a space-filling curve; from the triangle of each, a walk leads to
-/// that of the next across edges that separate them (Lawson, in: Mathematical Software III, 1977),
-/// in parallel.
-/// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest site
-///        may be another one; the triangle is exact.
-/// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0, in
-///        the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
-/// \throws Error invalid_argument: another number of rows, a mesh without triangles, and with the
-///         index of the position a z in the plane, or a distance above 2^30 periods, which a site
-///         must not have either; not_finite and zero_vector (on the sphere), with the index of the
-///         position.
+///     const Locator locator(mesh);
+///     const Locations before = locator.find(positions);
+///     const Locations after = locator.find(moved, before.triangle);
+///
+/// From a triangle near a position a walk leads to it across edges that separate them (Lawson, in:
+/// Mathematical Software III, 1977), for many positions in parallel. Positions without hints are
+/// sorted along a space-filling curve; positions with hints should be in such an order.
+class Locator {
+public:
+  /// \param mesh a Delaunay triangulation, or a part of one. In a mesh that is none, the nearest
+  ///        site may be another one; the triangle is exact. The locator and its copies refer to the
+  ///        mesh, which must outlive them and stay as it is. They add 1 to 24 bytes a triangle, 1
+  ///        to 4 if the mesh is closed; more once a position is beside the boundary of an open one.
+  /// \throws Error invalid_argument: a mesh without triangles; in a plane, with its index, a site
+  ///         that is more than 2^30 periods from the box.
+  explicit Locator(const Mesh& mesh);
+  explicit Locator(Mesh&& mesh) = delete; ///< the mesh must outlive the locator
+
+  /// \param positions 3 x n directions of any norm but 0; in the plane 2 x n, or 3 x n with z = 0,
+  ///        in the unit of the mesh, and in a periodic direction at most 2^30 periods from the box.
+  /// \param hints for each position a triangle near it, or -1 for none, as an earlier result has
+  ///        them. They change no result in a Delaunay triangulation. Default: none.
+  /// \throws Error invalid_argument: another number of rows or of hints; with the index of the
+  ///         position a z in the plane, a distance above 2^30 periods, or a hint that is no
+  ///         triangle; not_finite and zero_vector (on the sphere), with the index of the position.
+  Locations find(const PointsRef& positions, const Ids& hints = {}) const;
+
+  /// As find(...).nearest, in less time. \throws Error as find().
+  Ids nearest(const PointsRef& positions, const Ids& hints = {}) const;
+
+private:
+  struct Prepared;
+  std::shared_ptr<const Prepared> prepared_;
+};
+
+/// As Locator(mesh).find(positions), in less time where it is the only search in the mesh.
 Locations locate(const Mesh& mesh, const PointsRef& positions);
 
 } // namespace calotte

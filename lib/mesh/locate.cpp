@@ -6,11 +6,11 @@
 #include "base/require.h"
 #include "base/triangle.h"
 #include "curve/box_tree.h"
-#include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/seen_mesh.h"
+#include "mesh/triangle_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +19,8 @@
 #include <limits>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace calotte {
@@ -29,52 +31,122 @@ using base_detail::require;
 
 enum class Rim { exact, within_rounding };
 
-template <Space S> class Locator {
+/// \param bad(p) whether a position cannot be located.
+template <class Bad>
+void refuse_positions(const PointsRef& positions, const Bad& bad, ErrorCode code,
+                      const std::string& what) {
+  for (std::int64_t i = 0; i < positions.cols(); ++i)
+    if (bad(positions.col(i)))
+      throw Error(code, "position " + std::to_string(i) + what, i);
+}
+
+void require_finite(const PointsRef& positions) {
+  refuse_positions(
+      positions, [](const auto& p) { return !p.allFinite(); }, ErrorCode::not_finite,
+      " is not finite; leave it out");
+}
+
+void require_queries(const Sphere&, const PointsRef& given) {
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  require_finite(positions);
+  refuse_positions(
+      positions, [](const auto& p) { return (p.array() == 0).all(); }, ErrorCode::zero_vector,
+      " is the zero vector, which is no direction; leave it out");
+}
+
+void require_queries(const Plane& plane, const PointsRef& given) {
+  require_finite(base_detail::plane_points_of(given));
+  require_positions(plane, given, "position");
+}
+
+void require_hints(const Ids& hints, std::int64_t positions, std::int64_t triangles) {
+  require(hints.size() == 0 || hints.size() == positions,
+          "there are " + std::to_string(hints.size()) + " hints for " + std::to_string(positions) +
+              " positions; give one for each, or none");
+  for (std::int64_t i = 0; i < hints.size(); ++i)
+    if (hints[i] < -1 || hints[i] >= triangles)
+      throw Error(ErrorCode::invalid_argument,
+                  "hint " + std::to_string(i) + " is " + std::to_string(hints[i]) +
+                      "; give a triangle, 0 to " + std::to_string(triangles - 1) + ", or -1",
+                  i);
+}
+
+/// A Locator in a space.
+template <Space S> class LocatorIn {
 public:
   using Position = typename S::Position;
 
-  Locator(const SeenMesh<S>& mesh, Rim rim)
-      : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)), rim_(rim) {
-    set_starts();
+  /// \param known number of triangles that the grid is made of, at most all.
+  LocatorIn(const Mesh& mesh, const S& space, std::int64_t known)
+      : space_(space), mesh_(mesh), seen_(mesh, space), faces_(faces_of(mesh)),
+        grid_(mesh, space, std::min(known, mesh.triangles.cols())) {}
+
+  Locations find(const PointsRef& positions, const Ids& hints, Rim rim) const {
+    const std::int64_t count = positions.cols();
+    Locations out{Ids(count), Triples(3, count), Ids(count)};
+    for_each_position(positions, hints, [&](const Position& p, std::int32_t from, std::int64_t i) {
+      return locate(p, from, rim, i, out);
+    });
+    return out;
   }
 
-  /// Any triangle near a key along the curve.
-  std::int32_t start_near(std::uint64_t key) const {
-    const auto found = std::lower_bound(
-        starts_.begin(), starts_.end(), key,
-        [](const KeyedItem& start, std::uint64_t value) { return start.key < value; });
-    return found == starts_.end() ? starts_.back().item : found->item;
-  }
-
-  /// Sets the location of a position. Returns a triangle near it.
-  std::int32_t locate(const Position& p, std::int32_t from, std::int64_t i, Locations& out) const {
-    const std::int32_t end = walk(p, from);
-    std::int32_t holder = end >= 0                     ? lowest_at(end, p)
-                          : end == outside && convex() ? outside
-                                                       : search(p);
-    if (holder < 0 && rim_ == Rim::within_rounding)
-      holder = search_rim(p);
-    out.triangle[i] = holder;
-    set_weights(holder, p, i, out);
-    const std::int32_t near = holder >= 0 ? holder : from;
-    out.nearest[i] = nearest_from(near, p);
-    return near;
+  Ids nearest(const PointsRef& positions, const Ids& hints) const {
+    Ids out(positions.cols());
+    for_each_position(positions, hints, [&](const Position& p, std::int32_t from, std::int64_t i) {
+      const Near near = nearest_from(from, p);
+      out[i] = near.site;
+      return near.triangle;
+    });
+    return out;
   }
 
 private:
   static constexpr std::int32_t outside = -1, lost = -2; ///< instead of a triangle
 
-  void set_starts() {
-    constexpr std::int64_t most = 4096;
-    const std::int64_t triangles = mesh_.triangles.cols(), count = std::min(most, triangles);
-    for (std::int64_t k = 0; k < count; ++k) {
-      const auto t = static_cast<std::int32_t>(k * triangles / count);
-      starts_.push_back({key_of(t), t});
-    }
-    std::sort(starts_.begin(), starts_.end(), precedes);
+  /// Calls body(p, t, i) for each position, which returns a triangle near it. t is near, too: the
+  /// hint; without hints that of the position before along the curve, or of few positions that of
+  /// the grid.
+  template <class Body>
+  void for_each_position(const PointsRef& positions, const Ids& hints, const Body& body) const {
+    require_queries(space_, positions);
+    const std::int64_t count = positions.cols();
+    require_hints(hints, count, mesh_.triangles.cols());
+    const bool hinted = hints.size() > 0, few = !hinted && count < grid_.cells();
+    const auto position = [&](std::int64_t i) { return seen_.position(point(positions, i)); };
+    Array<std::uint64_t> keys(hinted ? 0 : count);
+    for_each_block(keys.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i != end; ++i)
+        keys[i] = grid_.key_of(seen_.coordinates(position(i)));
+    });
+    const Order order = order_by_key(std::move(keys));
+    for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+      std::int32_t t = 0;
+      for (std::int64_t k = begin; k != end; ++k) {
+        const std::int64_t i = hinted ? k : order.items[k];
+        const Position p = position(i);
+        if (hinted && hints[i] >= 0)
+          t = hints[i];
+        else if (hinted || few || k == begin)
+          t = grid_.start(seen_.coordinates(p));
+        t = body(p, t, i);
+      }
+    });
   }
-  std::uint64_t key_of(std::int64_t t) const {
-    return curve_key(seen_.square(seen_.vertex(mesh_.triangles(0, t))));
+
+  /// Sets the location of a position. Returns a triangle near it.
+  std::int32_t locate(const Position& p, std::int32_t from, Rim rim, std::int64_t i,
+                      Locations& out) const {
+    const std::int32_t end = walk(p, from);
+    std::int32_t holder = end >= 0                     ? lowest_at(end, p)
+                          : end == outside && convex() ? outside
+                                                       : search(p);
+    if (holder < 0 && rim == Rim::within_rounding)
+      holder = search_rim(p);
+    out.triangle[i] = holder;
+    set_weights(holder, p, i, out);
+    const Near near = nearest_from(holder >= 0 ? holder : from, p);
+    out.nearest[i] = near.site;
+    return near.triangle;
   }
 
   /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
@@ -190,9 +262,14 @@ private:
     return !exists(last) || has_all_sites();
   }
 
+  /// A site, and a triangle near it.
+  struct Near {
+    std::int32_t site, triangle;
+  };
+
   /// From site to site, each nearer than the last. A site of a Delaunay triangulation is nearest if
   /// none of its neighbours is nearer; where the mesh lacks some, all sites are searched.
-  std::int32_t nearest_from(std::int32_t t, const Position& p) const {
+  Near nearest_from(std::int32_t t, const Position& p) const {
     for (Corner here{t, 0};;) {
       Corner best = here;
       bool tied = false;
@@ -204,7 +281,10 @@ private:
       });
       const std::int32_t site = site_at(faces_, here);
       if (site_at(faces_, best) == site)
-        return !all ? nearest_of_all(here.triangle, p) : tied ? lowest_tie(here, p) : site;
+        return {!all   ? nearest_of_all(here.triangle, p)
+                : tied ? lowest_tie(here, p)
+                       : site,
+                here.triangle};
       here = best;
     }
   }
@@ -291,7 +371,7 @@ private:
       std::vector<std::uint64_t> keys(boxes.size());
       for (std::int64_t t = 0; t < count; ++t) {
         boxes[static_cast<std::size_t>(t)] = seen_.box(t);
-        keys[static_cast<std::size_t>(t)] = key_of(t);
+        keys[static_cast<std::size_t>(t)] = grid_.key_of(seen_.vertex(mesh_.triangles(0, t)));
       }
       tree_ = BoxTree(boxes, keys);
     });
@@ -306,18 +386,18 @@ private:
       for (std::size_t i = 0; i < count; ++i) {
         const Vec3 x = seen_.vertex(static_cast<std::int32_t>(i));
         boxes[i] = {x, x};
-        keys[i] = curve_key(seen_.square(x));
+        keys[i] = grid_.key_of(x);
       }
       site_tree_ = BoxTree(boxes, keys);
     });
     return site_tree_;
   }
 
-  const SeenMesh<S>& seen_;
+  S space_;
   const Mesh& mesh_;
+  SeenMesh<S> seen_;
   Faces faces_;
-  Rim rim_;
-  std::vector<KeyedItem> starts_; ///< some triangles, by key
+  TriangleGrid<S> grid_;
   mutable std::once_flag asked_;
   mutable bool convex_ = false, has_all_sites_ = false; ///< once a position is near the boundary
   mutable std::once_flag made_;
@@ -326,61 +406,20 @@ private:
   mutable BoxTree site_tree_; ///< of all sites, once a position is nearest to one at a boundary
 };
 
-template <Space S>
-Locations locate_all(const SeenMesh<S>& mesh, const PointsRef& positions, Rim rim) {
-  const std::int64_t count = positions.cols();
-  Locations out{Ids(count), Triples(3, count), Ids(count)};
-  const Locator<S> locator(mesh, rim);
-  Array<std::uint64_t> keys(count);
-  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i)
-      keys[i] = curve_key(mesh.square(mesh.coordinates(mesh.position(point(positions, i)))));
-  });
-  const Order order = order_by_key(std::move(keys));
-  for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    std::int32_t t = locator.start_near(order.keys[begin]);
-    for (std::int64_t k = begin; k != end; ++k) {
-      const std::int32_t i = order.items[k];
-      t = locator.locate(mesh.position(point(positions, i)), t, i, out);
-    }
-  });
-  return out;
-}
-
-/// \param bad(p) whether a position cannot be located.
-template <class Bad>
-void refuse_positions(const PointsRef& positions, const Bad& bad, ErrorCode code,
-                      const std::string& what) {
-  for (std::int64_t i = 0; i < positions.cols(); ++i)
-    if (bad(positions.col(i)))
-      throw Error(code, "position " + std::to_string(i) + what, i);
-}
-
-void require_finite(const PointsRef& positions) {
-  refuse_positions(
-      positions, [](const auto& p) { return !p.allFinite(); }, ErrorCode::not_finite,
-      " is not finite; leave it out");
-}
-
-void require_queries(const Sphere&, const PointsRef& given) {
-  const base_detail::Points3Ref positions = base_detail::directions_of(given);
-  require_finite(positions);
-  refuse_positions(
-      positions, [](const auto& p) { return (p.array() == 0).all(); }, ErrorCode::zero_vector,
-      " is the zero vector, which is no direction; leave it out");
-}
-
-void require_queries(const Plane& plane, const PointsRef& given) {
-  require_finite(base_detail::plane_points_of(given));
-  require_positions(plane, given, "position");
-}
-
-Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
+/// Calls body(space) for a mesh in which positions can be.
+template <class Body> decltype(auto) in_space_of_mesh(const Mesh& mesh, const Body& body) {
   require(mesh.triangles.cols() > 0, "the mesh has no triangles; give one that has");
   return in_space_of(mesh.surface, [&](const Space auto& space) {
-    require_queries(space, positions);
     require_positions(space, mesh.points, "site");
-    return locate_all(SeenMesh(mesh, space), positions, rim);
+    return body(space);
+  });
+}
+
+/// For one search only the grid knows few triangles: to look at all takes longer than the walks.
+Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
+  constexpr std::int64_t known = 4096;
+  return in_space_of_mesh(mesh, [&](const Space auto& space) {
+    return LocatorIn(mesh, space, known).find(positions, {}, rim);
   });
 }
 
@@ -391,6 +430,31 @@ Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions) {
 }
 
 } // namespace mesh_detail
+
+struct Locator::Prepared {
+  template <class S>
+  Prepared(const Mesh& mesh, const S& space)
+      : in(std::in_place_type<mesh_detail::LocatorIn<S>>, mesh, space, mesh.triangles.cols()) {}
+
+  std::variant<mesh_detail::LocatorIn<exact_detail::Sphere>,
+               mesh_detail::LocatorIn<exact_detail::Plane>>
+      in;
+};
+
+Locator::Locator(const Mesh& mesh)
+    : prepared_(mesh_detail::in_space_of_mesh(mesh, [&](const auto& space) {
+        return std::make_shared<const Prepared>(mesh, space);
+      })) {}
+
+Locations Locator::find(const PointsRef& positions, const Ids& hints) const {
+  return std::visit(
+      [&](const auto& in) { return in.find(positions, hints, mesh_detail::Rim::exact); },
+      prepared_->in);
+}
+
+Ids Locator::nearest(const PointsRef& positions, const Ids& hints) const {
+  return std::visit([&](const auto& in) { return in.nearest(positions, hints); }, prepared_->in);
+}
 
 Locations locate(const Mesh& mesh, const PointsRef& positions) {
   return mesh_detail::locate(mesh, positions, mesh_detail::Rim::exact);

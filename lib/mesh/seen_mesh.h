@@ -4,8 +4,6 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "curve/box_tree.h"
-#include "curve/curve_squares.h"
-#include "curve/hilbert.h"
 #include "exact/space.h"
 #include "mesh/convex_boundary.h"
 #include "mesh/room.h"
@@ -20,7 +18,7 @@
 
 namespace calotte::mesh_detail {
 
-/// A mesh as positions see it, for locate() and interpolation: on which side of an edge a position
+/// A mesh as positions see it, for Locator and interpolation: on which side of an edge a position
 /// is, whether it is in a circle, and which site is nearer, all exact.
 template <Space S> class SeenMesh {
 public:
@@ -28,7 +26,7 @@ public:
   static constexpr int copies = S::copies;
 
   /// \pre the mesh has triangles.
-  SeenMesh(const Mesh& mesh, const S& space) : mesh_(mesh), space_(space), squares_(mesh.points) {}
+  SeenMesh(const Mesh& mesh, const S& space) : mesh_(mesh), space_(space) {}
 
   const Mesh& mesh() const { return mesh_; }
 
@@ -38,7 +36,6 @@ public:
   Position copy(const Position& p, int k) const { return space_.copy(p, k); }
   Vec3 coordinates(const Position& p) const { return space_.coordinates(p); }
   Vec3 vertex(std::int32_t site) const { return coordinates(position(at(site))); }
-  CubePoint square(const Vec3& coordinates) const { return squares_(coordinates); }
   /// Whether a walk that leaves the mesh leaves it for good, and sites at the boundary have all
   /// neighbours that they have anywhere. Beside a part of the sphere there is its far side.
   bool has_convex_boundary() const {
@@ -130,7 +127,6 @@ private:
 
   const Mesh& mesh_;
   S space_;
-  CurveSquares<S> squares_; ///< around the sites
 };
 
 } // namespace calotte::mesh_detail

@@ -15,10 +15,15 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 using namespace calotte;
@@ -102,6 +107,7 @@ void check_located(const Mesh& mesh, const PointsRef& at) {
   const Locations found = locate(mesh, at);
   REQUIRE(found.triangle.size() == at.cols());
   REQUIRE(found.nearest.size() == at.cols());
+  CHECK(Locator(mesh).nearest(at) == found.nearest);
   for (Eigen::Index i = 0; i < at.cols(); ++i) {
     CAPTURE(i);
     const Found wanted = mesh.surface.is_sphere() ? by_all(mesh, at.col(i))
@@ -283,6 +289,63 @@ TEST_CASE("a channel, and a periodic box with land") {
   }
 }
 
+TEST_CASE("a locator finds what locate() does, from any hints and in many threads") {
+  const Surface rectangular = rectangle({0, 0}, {4, 3}), box = Surface::periodic({4, 3});
+  const Mesh sphere = delaunay(random_sphere(3000)),
+             open = part_of(sphere,
+                            [&](Eigen::Index t) {
+                              return sphere.points(2, sphere.triangles(0, t)) < 0.6 &&
+                                     std::abs(sphere.points(0, sphere.triangles(1, t))) > 0.1;
+                            }),
+             plane = delaunay(random_points(3000, rectangular), Surface::plane()),
+             periodic = delaunay(random_points(3000, box), box), few = delaunay(random_sphere(6));
+  const Points3 around = random_points(2500, rectangle({-2, -1}, {8, 5}), {}, 3);
+  for (const Mesh* mesh : {&sphere, &open, &plane, &periodic, &few}) {
+    CAPTURE(mesh->triangles.cols());
+    const Points3 random = mesh->surface.is_sphere() ? random_sphere(2500, 3) : around;
+    Points3 at(3, random.cols() + mesh->points.cols());
+    at << random, mesh->points;
+    const Locations wanted = locate(*mesh, at);
+    const Locator locator(*mesh);
+    const auto check_found = [&](const Ids& hints) {
+      const Locations found = locator.find(at, hints);
+      // NaN is not equal to itself
+      const auto same = found.weights.array() == wanted.weights.array() ||
+                        (found.weights.array().isNaN() && wanted.weights.array().isNaN());
+      return found.triangle == wanted.triangle && found.nearest == wanted.nearest && same.all() &&
+             locator.nearest(at, hints) == wanted.nearest;
+    };
+    const Ids wrong = Ids::LinSpaced(at.cols(), 0, static_cast<std::int32_t>(at.cols()) - 1)
+                          .unaryExpr([&](std::int32_t i) {
+                            return static_cast<std::int32_t>(i * 7919LL % mesh->triangles.cols());
+                          });
+    for (const Ids& hints : {Ids(), wanted.triangle, wrong, Ids(Ids::Constant(at.cols(), -1))})
+      CHECK(check_found(hints));
+    std::array<bool, 8> same{};
+    const Locator fresh(*mesh); // whose trees the threads make
+    tbb::parallel_for(std::size_t{0}, same.size(), [&](std::size_t k) {
+      const Locations found = fresh.find(at, k % 2 == 0 ? wrong : Ids());
+      same[k] = found.triangle == wanted.triangle && found.nearest == wanted.nearest &&
+                fresh.nearest(at) == wanted.nearest;
+    });
+    CHECK(std::ranges::all_of(same, [](bool each) { return each; }));
+  }
+}
+
+TEST_CASE("few positions in a large mesh, one by one, and a copy of a locator") {
+  const Mesh mesh = delaunay(random_sphere(20000));
+  const Points3 at = random_sphere(50, 4);
+  const Locations wanted = locate(mesh, at);
+  const auto locator = std::make_unique<Locator>(mesh);
+  const Locator copy = *locator;
+  for (Eigen::Index i = 0; i < at.cols(); ++i) {
+    const Locations found = locator->find(at.col(i));
+    CHECK(found.triangle[0] == wanted.triangle[i]);
+    CHECK(found.weights.col(0) == wanted.weights.col(i));
+    CHECK(copy.nearest(at.col(i))[0] == by_all(mesh, at.col(i)).nearest);
+  }
+}
+
 TEST_CASE("weights give the position back") {
   const Mesh mesh = delaunay(random_sphere(5000));
   const Points3 at = random_sphere(3000, 8);
@@ -302,6 +365,28 @@ TEST_CASE("the same for any number of threads and order of positions") {
   CHECK(one.nearest == four.nearest);
   CHECK(one.triangle == Ids(back.triangle.reverse()));
   CHECK(one.nearest == Ids(back.nearest.reverse()));
+}
+
+TEST_CASE("bad hints of a locator are one clear line with the index") {
+  const Mesh mesh = delaunay(random_sphere(8));
+  const Locator locator(mesh);
+  const Points3 at = random_sphere(5);
+  Ids hints = Ids::Zero(5);
+  for (const std::int32_t bad : {12, -2}) {
+    hints[3] = bad;
+    const std::string text =
+        "hint 3 is " + std::to_string(bad) + "; give a triangle, 0 to 11, or -1";
+    CHECK_THROWS_WITH_AS(locator.find(at, hints), text.c_str(), Error);
+    CHECK_THROWS_WITH_AS(locator.nearest(at, hints), text.c_str(), Error);
+  }
+  CHECK_THROWS_WITH_AS(locator.find(at, Ids::Zero(4)),
+                       "there are 4 hints for 5 positions; give one for each, or none", Error);
+  CHECK(locator.find(Points3(3, 0)).nearest.size() == 0);
+  CHECK_THROWS_WITH_AS(locator.find(Points3(Points3::Zero(3, 1))),
+                       "position 0 is the zero vector, which is no direction; leave it out", Error);
+  const Mesh none;
+  CHECK_THROWS_WITH_AS(Locator{none}, "the mesh has no triangles; give one that has", Error);
+  static_assert(!std::is_constructible_v<Locator, Mesh&&>);
 }
 
 TEST_CASE("bad input of locate is one clear line with the index") {
