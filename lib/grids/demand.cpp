@@ -6,8 +6,6 @@
 #include "density/width_rules.h"
 #include "exact/space.h"
 
-#include <calotte/locate.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,10 +76,11 @@ Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const
 Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface& region) {
   constexpr std::int64_t most = 1 << 20;
   Samples samples;
+  const Locator locator(mesh);
   for (const DoubleMatrix& ring : region.rings()) {
     Points3 corners = Points3::Zero(3, ring.cols());
     corners.topRows(ring.rows()) = ring;
-    const Ids nearest = locate(mesh, corners).nearest;
+    const Ids nearest = locator.nearest(corners);
     for (Eigen::Index k = 0; k < corners.cols(); ++k) {
       const Vec3 from = column(corners, k), way = column(corners, (k + 1) % corners.cols()) - from;
       const double step = std::max(0.25 * own[nearest[k]], 1e-12);
@@ -90,7 +89,7 @@ Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface&
         samples.places.push_back(from + static_cast<double>(p) / static_cast<double>(parts) * way);
     }
   }
-  for (const std::int32_t site : locate(mesh, samples.points()).nearest)
+  for (const std::int32_t site : locator.nearest(samples.points()))
     samples.sites.push_back({site, -1, -1});
   return samples;
 }
@@ -98,10 +97,11 @@ Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface&
 } // namespace
 
 Demand::Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own)
-    : demand_(demand), mesh_(mesh), own_(own),
-      unit_(mesh.surface.is_sphere() ? 1 / demand.radius_km : 1),
+    : demand_(demand), own_(own), unit_(mesh.surface.is_sphere() ? 1 / demand.radius_km : 1),
       factor_(way == Way::finer ? 1 / demand.factor : demand.factor),
       nothing_(way == Way::finer ? infinite : 0) {
+  if (demand.region)
+    sites_.emplace(mesh);
   if (demand.widths)
     widths_ = demand.widths->on_sphere(demand.radius_km);
   if (widths_ && way == Way::finer)
@@ -132,7 +132,7 @@ DoubleVector Demand::of_region(const Points3& points) const {
 }
 
 DoubleVector Demand::within_region(const Points3& points) const {
-  return factor_ * own_(locate(mesh_, points).nearest);
+  return factor_ * own_(sites_->nearest(points));
 }
 
 DoubleVector Demand::on_cells(const Mesh& mesh, const DoubleVector& own, const Marks& may_change,

@@ -5,6 +5,7 @@
 #include "grids/patch_run.h"
 #include "grids/room.h"
 
+#include <calotte/locate.h>
 #include <calotte/refine.h>
 #include <calotte/types.h>
 
@@ -40,8 +41,8 @@ private:
   DoubleVector within_region(const Points3& points) const; ///< at places that it has
 
   const WidthDemand& demand_;
-  const Mesh& mesh_; ///< as it was given
   const DoubleVector& own_;
+  std::optional<Locator> sites_; ///< of the mesh as it was given, for a region
   std::optional<Widths> widths_; ///< on the sphere that they refer to
   double unit_;                  ///< of a width, in that of the mesh
   double factor_;

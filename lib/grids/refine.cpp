@@ -349,7 +349,7 @@ ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
     if (old_of_new[k] < 0)
       added.push_back(k);
   }
-  const Ids nearest = locate(first.mesh, Points3(second.mesh.points(Eigen::all, last))).nearest;
+  const Ids nearest = Locator(first.mesh).nearest(Points3(second.mesh.points(Eigen::all, last)));
   for (std::size_t k = 0; k < last.size(); ++k)
     ratio[last[k]] *= first.width_ratio[nearest[static_cast<Eigen::Index>(k)]];
   Array<std::int32_t> order(count);

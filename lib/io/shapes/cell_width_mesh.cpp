@@ -31,6 +31,7 @@ DoubleVector of_sites(const Mesh& mesh, const DoubleVector& widths) {
 template <class Place>
 void fill(const Mesh& mesh, const DoubleVector& of_site, const Place& place, DoubleMatrix& values) {
   constexpr Eigen::Index at_once = 1 << 20; // positions
+  const Locator locator(mesh);
   const Eigen::Index nx = values.rows(), rows = std::max<Eigen::Index>(1, at_once / nx);
   for (Eigen::Index begin = 0; begin < values.cols(); begin += rows) {
     const Eigen::Index end = std::min(begin + rows, values.cols());
@@ -38,7 +39,7 @@ void fill(const Mesh& mesh, const DoubleVector& of_site, const Place& place, Dou
     for (Eigen::Index j = begin; j < end; ++j)
       for (Eigen::Index i = 0; i < nx; ++i)
         base_detail::set_column(places, (j - begin) * nx + i, place(i, j));
-    const Locations found = locate(mesh, places);
+    const Locations found = locator.find(places);
     for (Eigen::Index k = 0; k < places.cols(); ++k) {
       double width = of_site[found.nearest[k]];
       if (const std::int32_t t = found.triangle[k]; t >= 0) {
