@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cull.h>
 
-#include "base/points.h"
 #include "base/require.h"
 #include "io/command.h"
 #include "io/mpas/mpas_cull.h"
 #include "io/mpas/mpas_subset.h"
 #include "io/mpas/mpas_variables.h"
-#include "voronoi/cell_walk.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
@@ -96,14 +94,6 @@ Land land_of(const std::string& source, const Ground& ground, const CullOptions&
   return land;
 }
 
-std::vector<std::int32_t> cells_at(const Voronoi& cells, const Points3& places) {
-  const voronoi_detail::CellWalk walk(cells);
-  std::vector<std::int32_t> found;
-  for (Eigen::Index k = 0; k < places.cols(); ++k)
-    found.push_back(walk.locate(0, column(places, k)));
-  return found;
-}
-
 SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
   SeaOptions sea;
   sea.fill = options.fill;
@@ -111,8 +101,8 @@ SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
     sea.opened = cells_on_lines(*ground.cells, options.passages);
   if (!options.barriers.empty())
     sea.closed = cells_on_lines(*ground.cells, options.barriers);
-  if (options.seeds.cols() > 0)
-    sea.seeds = cells_at(*ground.cells, options.seeds);
+  for (const auto seed : options.seeds.colwise())
+    sea.seeds.push_back(cells_on_lines(*ground.cells, {Points3(seed)}).front());
   return sea;
 }
 
