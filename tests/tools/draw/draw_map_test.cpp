@@ -69,9 +69,9 @@ std::optional<Vector3d> place_of_pixel(const MapSize& size, Projection projectio
 
 /// The shape that contains a place, by its definition: the cell of the nearest site, or the
 /// triangle all of whose sides have the place to their left; -1 if rounding leaves it undecided.
-class Locator {
+class ShapeSearch {
 public:
-  Locator(const Mesh& mesh, Shapes shapes)
+  ShapeSearch(const Mesh& mesh, Shapes shapes)
       : sites_(mesh.points.colwise().normalized()), shapes_(shapes) {
     for (Eigen::Index t = 0; shapes == Shapes::triangles && t < mesh.triangles.cols(); ++t) {
       const Vector3d a = sites_.col(mesh.triangles(0, t));
@@ -134,12 +134,12 @@ constexpr int near = 2; ///< pixels that a line may reach
 /// The shape at each pixel, or -1; with `near` rows beyond either pole, which are on its far side.
 Eigen::ArrayXXi shapes_at(const Mesh& mesh, Shapes shapes, Projection projection,
                           const LonLat& view, const MapSize& size) {
-  const Locator locator(mesh, shapes);
+  const ShapeSearch search(mesh, shapes);
   Eigen::ArrayXXi result = Eigen::ArrayXXi::Constant(size.width, size.height + 2 * near, -1);
   for (int row = 0; row < result.cols(); ++row) {
     for (int x = 0; x < size.width; ++x) {
       if (const auto place = place_of_pixel(size, projection, view, x, row - near)) {
-        result(x, row) = locator.at(*place);
+        result(x, row) = search.at(*place);
       }
     }
   }
@@ -216,7 +216,7 @@ TEST_CASE("each pixel has the colour of the cell of the nearest site, or of its 
 
 TEST_CASE("an enlarged map shows the cells of the nearest sites") {
   const Mesh mesh = delaunay(random_sphere(400, 5));
-  const Locator locator(mesh, Shapes::cells);
+  const ShapeSearch search(mesh, Shapes::cells);
   for (const MapWindow& window :
        {MapWindow(Projection::globe, 1.2, 0), MapWindow(Projection::globe, 5, 0),
         MapWindow(Projection::plate_carree, 4, 0.7)}) {
@@ -232,7 +232,7 @@ TEST_CASE("an enlarged map shows the cells of the nearest sites") {
           size, projection, view,
           (x + 0.5 - size.width / 2.0) / window.zoom + size.width / 2.0 - 0.5,
           (y + 0.5 - size.height / 2.0) / window.zoom + size.height / 2.0 - 0.5 - up);
-      return place ? locator.at(*place) : -1;
+      return place ? search.at(*place) : -1;
     };
     int wrong = 0, inner = 0;
     for (int x = 0; x < size.width; ++x) {
