@@ -173,7 +173,7 @@ private:
   /// Whether p is not beyond the edge that a walk came across last. Half a period away the next
   /// triangle may see another copy of p.
   bool is_behind(std::int32_t t, int came, const Position& p) const {
-    return S::on_sphere || came == 3 || seen_.side(t, came, p) >= 0;
+    return came == 3 || mesh_.surface.period().isZero() || seen_.side(t, came, p) >= 0;
   }
 
   bool holds(std::int64_t t, const Position& p) const {
