@@ -352,8 +352,7 @@ void write_hexagons(const CvtRequest& request) {
   const bool open = file.polygons.has_value();
   std::cout << request.mesh + ": " +
                    std::to_string(open ? file.polygons->size() : file.mesh->points.cols()) +
-                   " hexagons, " +
-                   kind_of_plane(open ? file.polygons->period : file.mesh->surface.period()) + "\n";
+                   " hexagons, " + kind_of_plane(file.surface().period()) + "\n";
 }
 
 void run(CvtRequest request) {

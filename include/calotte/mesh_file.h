@@ -83,6 +83,8 @@ struct MeshFile {
       changes; ///< what reading changed, such as "turned 12 clockwise triangles"
   std::vector<std::string> ignored; ///< names of variables that were not read
 
+  /// Where the mesh and the polygons live.
+  const Surface& surface() const { return mesh ? mesh->surface : polygons->surface; }
   /// The mesh if it is one of the sphere; otherwise null.
   const Mesh* sphere() const { return mesh && mesh->surface.is_sphere() ? &*mesh : nullptr; }
   /// The mesh if it is one of a plane; otherwise null.

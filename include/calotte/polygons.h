@@ -4,6 +4,7 @@
 #include <calotte/export.h>
 #include <calotte/lists.h>
 #include <calotte/matrices.h>
+#include <calotte/surface.h>
 
 #include <cstdint>
 
@@ -14,11 +15,11 @@ namespace calotte {
 /// sides are arcs of great circles. Or n polygons in a plane, with z = 0. In a direction in which
 /// the plane is periodic, the corners of a polygon are the copies nearest to its first corner.
 struct Polygons {
-  Points3 corners;       ///< 3 x m unit columns; in a plane in any unit of length
-  IdLists ids;           ///< 0-based corners of each polygon, counter-clockwise seen from outside
-  Points3 centres;       ///< 3 x n, as the corners; 3 x 0 if the file gives none
-  bool on_sphere = true; ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it
+  Points3 corners; ///< 3 x m unit columns; in a plane in any unit of length
+  IdLists ids;     ///< 0-based corners of each polygon, counter-clockwise seen from outside
+  Points3 centres; ///< 3 x n, as the corners; 3 x 0 if the file gives none
+  /// Where the corners live. Rings have no effect: the polygons are their own boundary.
+  Surface surface = {};
 
   /// Their number.
   std::int64_t size() const { return ids.size(); }

@@ -3,6 +3,7 @@
 
 #include <calotte/density.h>
 #include <calotte/export.h>
+#include <calotte/polygons.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
@@ -27,8 +28,9 @@ namespace calotte {
 /// domain to the left. Edges along the boundary have one cell; they follow the edges between two
 /// cells, of which a pair may have several. A missing cell or edge has the id -1.
 struct Voronoi {
-  bool on_sphere = true;        ///< false in a plane
-  Eigen::Vector2d period{0, 0}; ///< of the plane, as Surface has it; 0 on the sphere
+  /// What the cells cover: the surface of the mesh, but on the sphere without its rings. In a plane
+  /// they clip the cells.
+  Surface surface = {};
 
   Points3 cells; ///< 3 x n: the sites; unit columns on the sphere
   Points3 edges; ///< 3 x e: midpoints of the Delaunay edges, which the Voronoi edges cross; of an
@@ -88,6 +90,9 @@ struct Voronoi {
 ///         the index: the first point outside; the first cell that is no single polygon, because
 ///         the boundary cuts it into several parts or encloses an island in it.
 Voronoi voronoi(const Mesh& mesh);
+
+/// The cells alone.
+Polygons polygons_of(Voronoi voronoi);
 
 /// TRiSK weights, which reconstruct the tangential velocity from the normal velocity: v_e is the
 /// sum of weight times u_e' over the other edges e' of the two cells of e, first those of

@@ -266,8 +266,11 @@ private:
 /// The longest waves of a periodic plane, or of the box around the cells.
 Waves waves_of(const Voronoi& of) {
   constexpr double turn = 2 * std::numbers::pi;
-  if (of.period.minCoeff() > 0)
-    return {{0, 0, 0}, turn / of.period[0], turn / of.period[1], Plane(of.period)};
+  if (of.surface.period().minCoeff() > 0)
+    return {{0, 0, 0},
+            turn / of.surface.period()[0],
+            turn / of.surface.period()[1],
+            Plane(of.surface.period())};
   const Eigen::Vector3d low = of.vertices.rowwise().minCoeff(),
                         extent = of.vertices.rowwise().maxCoeff() - low;
   return {{low[0], low[1], 0}, turn / extent[0], turn / extent[1], Plane()};
@@ -276,7 +279,7 @@ Waves waves_of(const Voronoi& of) {
 } // namespace
 
 void set_truncation(const Voronoi& of, OperatorErrors& out) {
-  if (of.on_sphere)
+  if (of.surface.is_sphere())
     Truncation(of, Harmonics{}).measure(out);
   else
     Truncation(of, waves_of(of)).measure(out);

@@ -334,7 +334,7 @@ Voronoi bounded(const Mesh& mesh, const Outline& outline) {
       vertex_of_triangle[t] = inner++;
 
   Voronoi out;
-  out.on_sphere = false;
+  out.surface = mesh.surface;
   out.cells = with_z(mesh.points.topRows<2>());
   set_vertices(mesh, vertex_of_triangle, rings, inner, out);
   std::vector<ClippedSide> sides;

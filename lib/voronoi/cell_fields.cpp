@@ -14,7 +14,8 @@ namespace calotte {
 namespace voronoi_detail {
 
 DoubleVector relative_density(const Voronoi& voronoi, const Density& density) {
-  require(density.uniform() || voronoi.on_sphere, "a plane supports uniform density only");
+  require(density.uniform() || voronoi.surface.is_sphere(),
+          "a plane supports uniform density only");
   if (density.uniform())
     return {};
   DoubleVector rho = evaluate(density, voronoi.cells);

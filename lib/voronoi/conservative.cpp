@@ -129,8 +129,9 @@ struct SharedWithBoxes {
 };
 
 SharedWithBoxes shared_with_boxes(const Polygons& polygons, const LonLatBoxes& boxes) {
-  base_detail::require(polygons.on_sphere, "the cells are in a plane, and longitudes and latitudes "
-                                           "on the sphere; give grids of one surface");
+  base_detail::require(polygons.surface.is_sphere(),
+                       "the cells are in a plane, and longitudes and latitudes "
+                       "on the sphere; give grids of one surface");
   require_polygons(polygons);
   const BoxTiling tiling(boxes);
   struct Worker {
@@ -321,13 +322,14 @@ private:
 
 GridWeights conservative_weights(const Polygons& source, const Polygons& target) {
   using namespace voronoi_detail;
-  base_detail::require(source.on_sphere == target.on_sphere && source.period == target.period,
+  base_detail::require(source.surface.is_sphere() == target.surface.is_sphere() &&
+                           source.surface.period() == target.surface.period(),
                        "the cells are on different surfaces, or in planes of different periods; "
                        "give grids of one surface");
   require_polygons(source);
   require_polygons(target);
-  return source.on_sphere ? weights_in(exact_detail::Sphere(), source, target)
-                          : weights_in(exact_detail::Plane(source.period), source, target);
+  return exact_detail::in_space_of(
+      source.surface, [&](const auto& space) { return weights_in(space, source, target); });
 }
 
 GridWeights conservative_weights(const Polygons& source, const LonLatBoxes& target) {
@@ -373,14 +375,14 @@ Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
         found[i] = worker.holder_of(position_of(i));
     });
   };
-  if (polygons.on_sphere) {
+  if (polygons.surface.is_sphere()) {
     const base_detail::Points3Ref directions = checked_directions(positions);
     locate_in(exact_detail::Sphere(), [&](std::int64_t i) {
       return exact_detail::unit_of_any_norm(column(directions, i));
     });
   } else {
     const base_detail::Points2Ref places = base_detail::plane_points_of(positions);
-    const exact_detail::Plane plane(polygons.period);
+    const exact_detail::Plane plane(polygons.surface.period());
     exact_detail::require_positions(plane, places, "position");
     locate_in(plane, [&](std::int64_t i) {
       return plane.wrapped(Vec3{places(0, i), places(1, i), 0});

@@ -211,10 +211,10 @@ void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, V
 /// body(measures) of the tessellation's.
 template <class Body>
 void with_measures(const Voronoi& of, const Array<double>& surplus, const Body& body) {
-  if (of.on_sphere)
+  if (of.surface.is_sphere())
     body(SphereMeasures{surplus});
   else
-    body(PlaneMeasures{of.period[0], of.period[1]});
+    body(PlaneMeasures{of.surface.period()[0], of.surface.period()[1]});
 }
 
 /// The columns of points from `first` on.
@@ -240,7 +240,7 @@ Array<double> begin_measures(Voronoi& out) {
   make_room(out.kites, 3, out.cells_on_vertex.cols());
   make_room(out.dv, out.cells_on_edge.cols(), 1);
   make_room(out.dc, out.cells_on_edge.cols(), 1);
-  if (!out.on_sphere)
+  if (!out.surface.is_sphere())
     return {};
   const Points3& cells = out.cells;
   Array<double> surplus(cells.cols());

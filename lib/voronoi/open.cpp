@@ -304,10 +304,7 @@ void measure_open(Voronoi& out, const Points3& cut_edges) {
   make_room(out.kites, 3, vertices);
   make_room(out.vertex_area, vertices, 1);
   make_room(out.cell_area, out.cells.cols(), 1);
-  if (out.on_sphere)
-    measure_part(Sphere(), cut_edges, out);
-  else
-    measure_part(Plane(out.period), cut_edges, out);
+  in_space_of(out.surface, [&](const auto& space) { measure_part(space, cut_edges, out); });
 }
 
 } // namespace calotte::voronoi_detail

@@ -73,8 +73,7 @@ void set_space(const Mesh& mesh, Voronoi& out) {
                              std::to_string(mesh.triangles.cols()) +
                              " triangles, and one that covers a periodic box has two for each "
                              "site: give such a mesh");
-  out.on_sphere = false;
-  out.period = period;
+  out.surface = mesh.surface;
 }
 
 /// Sets cells, where their edges begin, and the kind of the space.
@@ -165,6 +164,11 @@ Voronoi voronoi(const Mesh& mesh) {
   if (!surface.is_sphere() && surface.is_bounded())
     return bounded(mesh);
   return surface.is_sphere() && !mesh.closed() ? voronoi_of_open(mesh) : voronoi_of_closed(mesh);
+}
+
+Polygons polygons_of(Voronoi voronoi) {
+  return {std::move(voronoi.vertices), std::move(voronoi.vertices_on_cell),
+          std::move(voronoi.cells), std::move(voronoi.surface)};
 }
 
 } // namespace calotte

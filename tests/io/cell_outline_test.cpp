@@ -52,8 +52,7 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
     const Points3& sites = sets[s];
     Voronoi voronoi = calotte::voronoi(delaunay(sites));
     const Eigen::VectorXd areas = voronoi.cell_area; // lattices have corners an ulp apart
-    const Polygons cells =
-        io_detail::with_merged_corners(io_detail::polygons_of(std::move(voronoi)), areas);
+    const Polygons cells = io_detail::with_merged_corners(polygons_of(std::move(voronoi)), areas);
     std::set<std::pair<std::uint64_t, std::uint64_t>> of_corners;
     for (Eigen::Index v = 0; v < cells.corners.cols(); ++v)
       of_corners.insert(bits_of(base_detail::lonlat_of(base_detail::column(cells.corners, v))));

@@ -108,10 +108,7 @@ TEST_CASE("conservative fields are means over new cells, also without values som
   const ChangedFile out = changed_file(old, changed, {.conservative = {"height", "kind"}});
   CHECK(out.nearest.empty());
   const Voronoi before = voronoi(*old.mesh), after = voronoi(changed.mesh);
-  const auto cells = [](const Voronoi& of) {
-    return Polygons{of.vertices, of.vertices_on_cell, of.cells};
-  };
-  const GridWeights all = conservative_weights(cells(before), cells(after));
+  const GridWeights all = conservative_weights(polygons_of(before), polygons_of(after));
   const DoubleVector height = all.weights * field(old, "height").values,
                      share = all.weights * field(old, "kind").values;
   std::int64_t without = 0;

@@ -247,7 +247,7 @@ TEST_CASE("shapes: convex cells, and how far centres are from centroids") {
 
 TEST_CASE("shapes in a plane: the corners of an L, its notch and its centroid") {
   Polygons cell;
-  cell.on_sphere = false;
+  cell.surface = Surface::plane();
   cell.corners.resize(3, 6);
   cell.corners << 0, 2, 2, 1, 1, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 0, 0, 0;
   cell.ids = {calotte::Offsets{{0, 6}}, calotte::Ids::LinSpaced(6, 0, 5)};

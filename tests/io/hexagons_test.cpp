@@ -41,8 +41,8 @@ std::map<int, int> cells_at_corners(const Polygons& polygons, double spacing) {
     CHECK(polygons.ids.count(i) == 6);
     for (const std::int32_t corner : polygons.ids[i]) {
       ++count[static_cast<std::size_t>(corner)];
-      CHECK(apart(polygons.corners.col(corner), polygons.centres.col(i), polygons.period) ==
-            doctest::Approx(spacing / root3));
+      CHECK(apart(polygons.corners.col(corner), polygons.centres.col(i),
+                  polygons.surface.period()) == doctest::Approx(spacing / root3));
     }
   }
   std::map<int, int> out;
@@ -91,7 +91,7 @@ TEST_CASE("at walls cells are whole hexagons, as planar_hex has them after its c
   const MeshFile channel = planar_hexagons(5, 4, d, {.y = true});
   REQUIRE(channel.polygons);
   CHECK(channel.polygons->size() == 20);
-  CHECK(channel.polygons->period == Eigen::Vector2d(50, 0));
+  CHECK(channel.polygons->surface.period() == Eigen::Vector2d(50, 0));
   CHECK(cells_at_corners(*channel.polygons, d) ==
         std::map<int, int>{{3, 2 * 5 * 3}, {2, 2 * 5}, {1, 2 * 5}});
   for (int row = 0; row < 4; ++row)
@@ -99,7 +99,7 @@ TEST_CASE("at walls cells are whole hexagons, as planar_hex has them after its c
       const Eigen::Vector3d expected(d * (column + (row % 2 == 0 ? 1 : 0.5)),
                                      d * (row + 2) * root3 / 2, 0);
       const Eigen::Vector3d place = channel.polygons->centres.col(5 * row + column);
-      CHECK(apart(place, expected, channel.polygons->period) < 1e-12);
+      CHECK(apart(place, expected, channel.polygons->surface.period()) < 1e-12);
       CHECK(place.y() == doctest::Approx(expected.y()).epsilon(1e-15));
       CHECK((place.x() >= 0 && place.x() < 50));
     }
@@ -108,12 +108,12 @@ TEST_CASE("at walls cells are whole hexagons, as planar_hex has them after its c
   CHECK(cells_at_corners(*planar_hexagons(3, 5, d, {.y = true}).polygons, d)[3] == 2 * 3 * 4);
   // Walls in x, whose corners of one cell are those at both ends of each row.
   const MeshFile upright = planar_hexagons(4, 6, d, {.x = true});
-  CHECK(upright.polygons->period.x() == 0);
-  CHECK(upright.polygons->period.y() == doctest::Approx(6 * d * root3 / 2));
+  CHECK(upright.polygons->surface.period().x() == 0);
+  CHECK(upright.polygons->surface.period().y() == doctest::Approx(6 * d * root3 / 2));
   CHECK(upright.polygons->size() == 24);
   // All around: Euler's formula for one outer boundary, V - E + F = 1.
   const MeshFile all = planar_hexagons(4, 6, d, {true, true});
-  CHECK(all.polygons->period == Eigen::Vector2d(0, 0));
+  CHECK(all.polygons->surface.period() == Eigen::Vector2d(0, 0));
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
   for (std::int64_t i = 0; i < 24; ++i)
     for (std::size_t k = 0; k < 6; ++k) {
@@ -134,7 +134,7 @@ TEST_CASE("an MPAS file of a channel keeps its cells, and passes its check") {
     const MeshFile read = read_mesh_file(path);
     REQUIRE(read.plane());
     REQUIRE(read.polygons);
-    CHECK(read.mesh->surface.period() == made.polygons->period);
+    CHECK(read.mesh->surface.period() == made.polygons->surface.period());
     CHECK(read.polygons->centres == made.polygons->centres);
     CHECK(read.polygons->size() == 24);
     CHECK((areas(*read.polygons).array() / (root3 / 2 * 500 * 500) - 1).abs().maxCoeff() < 1e-12);
@@ -166,7 +166,7 @@ TEST_CASE("between walls stay the cells whose sites are there, with corners besi
   const Voronoi cells = voronoi(mesh);
   const MeshFile file = walled(mesh, {10, 6}, {.y = true});
   REQUIRE(file.polygons);
-  CHECK(file.polygons->period == Eigen::Vector2d(10, 0));
+  CHECK(file.polygons->surface.period() == Eigen::Vector2d(10, 0));
   std::int64_t next = 0;
   const Eigen::VectorXd found = areas(*file.polygons);
   for (Eigen::Index i = 0; i < 400; ++i)

@@ -547,7 +547,7 @@ TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no
   for (const NamedMesh& c : tessellated_meshes()) {
     CAPTURE(c.name);
     const Points3 centres = c.mesh.points;
-    const calotte::Polygons cells = io_detail::polygons_of(voronoi(c.mesh));
+    const calotte::Polygons cells = polygons_of(voronoi(c.mesh));
     const auto mesh_of = [&](Points3 sites, const calotte::Polygons& polygons) {
       std::vector<MeshField> fields{
           {.name = "t",

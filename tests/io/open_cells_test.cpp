@@ -89,10 +89,6 @@ bool same_cells(const Polygons& a, const Polygons& b, double rounding = 0) {
   return true;
 }
 
-Polygons polygons_of(const Voronoi& v) {
-  return {v.vertices, v.vertices_on_cell, v.cells, v.on_sphere};
-}
-
 double edge_length(Mpas& file, std::size_t e, const std::string& kind, const std::string& ends) {
   const std::size_t a = file.id(ends, e, 0), b = file.id(ends, e, 1);
   return std::hypot(file.at("x" + kind, a) - file.at("x" + kind, b),

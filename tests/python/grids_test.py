@@ -116,7 +116,7 @@ def test_cells_of_any_shape(tmp_path):
         file.createVariable("grid_imask", "i4", ("grid_size",))[:] = 1
     grid = calotte.read(tmp_path / "scrip.nc")
     cells = polygons_of(grid)
-    assert len(cells) == 72 and cells.on_sphere
+    assert len(cells) == 72 and cells.surface.is_sphere
     # The spherical excess of a quadrilateral with sides of great circles, by its four angles.
     corners = calotte.from_lonlat([0, 30, 30, 0], [0, 0, 20, 20])
     angles = 0.0

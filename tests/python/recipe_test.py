@@ -111,7 +111,7 @@ def test_a_channel(tmp_path, walls, density):
             assert (a[name][:] == b[name][:]).all(), name
         assert len(grid.cells) == a.dimensions["nCells"].size < len(grid.mesh)
     k = "xy".index(walls)
-    assert grid.cells.period[k] == 0 and grid.mesh.surface.period[k] > BOX.period[k]
+    assert grid.cells.surface.period[k] == 0 and grid.mesh.surface.period[k] > BOX.period[k]
     assert calotte.check(grid.mesh) and len(grid.voronoi().cells) == len(grid.cells)
     assert repr(grid).startswith(f"<calotte.Cvt: {len(grid.cells)} cells")
 

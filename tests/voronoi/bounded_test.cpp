@@ -224,7 +224,7 @@ void check_weights(const Voronoi& v) {
 Voronoi checked(const PointsRef& places, const Surface& domain) {
   const Mesh mesh = delaunay(places, domain);
   const Voronoi v = voronoi(mesh);
-  CHECK(!v.on_sphere);
+  CHECK(!v.surface.is_sphere());
   check_areas(v, mesh.points, domain);
   check_lists(v);
   check_duality(v, domain);

@@ -27,10 +27,7 @@ using namespace calotte;
 
 namespace {
 
-Polygons cells_of(const Mesh& mesh) {
-  const Voronoi cells = voronoi(mesh);
-  return {cells.vertices, cells.vertices_on_cell, cells.cells, cells.on_sphere, cells.period};
-}
+Polygons cells_of(const Mesh& mesh) { return polygons_of(voronoi(mesh)); }
 Polygons cells_of(const Points3& points) { return cells_of(delaunay(points)); }
 
 DoubleVector steps(double first, double step, Eigen::Index n) {

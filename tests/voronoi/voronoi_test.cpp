@@ -96,14 +96,14 @@ int place_of(const Voronoi& v, std::int32_t vertex, std::int32_t cell) {
 /// The offset from a place to the nearest copy of another.
 Vector difference(const Voronoi& v, const Vector& from, const Vector& to) {
   Vector d = to - from;
-  for (int axis = 0; axis < 2 && !v.on_sphere; ++axis)
-    d[axis] -= v.period[axis] * std::round(d[axis] / v.period[axis]);
+  for (int axis = 0; axis < 2 && !v.surface.is_sphere(); ++axis)
+    d[axis] -= v.surface.period()[axis] * std::round(d[axis] / v.surface.period()[axis]);
   return d;
 }
 
 Vector cell(const Voronoi& v, std::int32_t i) {
   const Vector x = v.cells.col(i).cast<Real>();
-  return v.on_sphere ? Vector(x.normalized()) : x;
+  return v.surface.is_sphere() ? Vector(x.normalized()) : x;
 }
 
 /// True if some sites are equal up to rounding.
@@ -191,7 +191,7 @@ TEST_CASE("laws: Euler's counts, and edges in the order of their cells") {
     const Voronoi& v = c.v;
     CAPTURE(c.name);
     const std::int64_t n = v.cells.cols(), e = v.edges.cols(), m = v.vertices.cols();
-    CHECK(n - e + m == (v.on_sphere ? 2 : 0));
+    CHECK(n - e + m == (v.surface.is_sphere() ? 2 : 0));
     CHECK(2 * e == 3 * m);
     for (const IdLists* lists : {&v.edges_on_cell, &v.vertices_on_cell, &v.cells_on_cell}) {
       REQUIRE(lists->size() == n);
@@ -260,7 +260,7 @@ TEST_CASE("laws: cells, vertices and kites fill the sphere or the box") {
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
     CAPTURE(c.name);
-    const double whole = v.on_sphere ? 4 * pi : v.period.prod();
+    const double whole = v.surface.is_sphere() ? 4 * pi : v.surface.period().prod();
     CHECK(std::abs(sum(v.cell_area) / whole - 1) < 1e-12L);
     CHECK(std::abs(sum(v.vertex_area) / whole - 1) < 1e-12L);
     CHECK(std::abs(sum(v.kites.reshaped()) / whole - 1) < 1e-12L);
@@ -272,13 +272,13 @@ TEST_CASE("laws: cells, vertices and kites fill the sphere or the box") {
     CHECK(v.vertices.allFinite());
     CHECK(v.angle.allFinite());
     CHECK(v.dc.allFinite());
-    if (v.on_sphere)
+    if (v.surface.is_sphere())
       for (const Points3* places : {&v.cells, &v.edges, &v.vertices})
         CHECK((places->colwise().norm().array() - 1).abs().maxCoeff() < 4 * epsilon);
     else
       for (const Points3* places : {&v.cells, &v.edges, &v.vertices}) {
         CHECK(places->minCoeff() >= 0);
-        CHECK((places->topRows(2).rowwise().maxCoeff().array() < v.period.array()).all());
+        CHECK((places->topRows(2).rowwise().maxCoeff().array() < v.surface.period().array()).all());
         CHECK(places->row(2).maxCoeff() == 0);
       }
   }
@@ -288,7 +288,7 @@ TEST_CASE("circumcentres, kites and lengths agree with their definitions") {
   std::int64_t compared = 0;
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
-    if (!v.on_sphere)
+    if (!v.surface.is_sphere())
       continue;
     CAPTURE(c.name);
     std::vector<Triangle> triangles;
@@ -332,16 +332,19 @@ TEST_CASE("laws: edges and vertices run counter-clockwise, normals and tangents 
           difference(v, cell(v, v.cells_on_edge(0, e)), cell(v, v.cells_on_edge(1, e)));
       const Vector tangent = difference(v, v.vertices.col(v.vertices_on_edge(0, e)).cast<Real>(),
                                         v.vertices.col(v.vertices_on_edge(1, e)).cast<Real>());
-      const Vector up = v.on_sphere ? Vector(v.edges.col(e).cast<Real>()) : Vector::UnitZ();
+      const Vector up =
+          v.surface.is_sphere() ? Vector(v.edges.col(e).cast<Real>()) : Vector::UnitZ();
       REQUIRE(normal.cross(tangent).dot(up) > 0);
     }
     for (std::int32_t i = 0; i < v.cells.cols(); ++i) {
-      const Vector centre = cell(v, i), up = v.on_sphere ? centre : Vector(Vector::UnitZ());
+      const Vector centre = cell(v, i),
+                   up = v.surface.is_sphere() ? centre : Vector(Vector::UnitZ());
       const auto cells = v.cells_on_cell[i];
       for (std::size_t k = 0; k < cells.size(); ++k) {
         const Vector d = difference(v, centre, cell(v, cells[k])),
                      f = difference(v, centre, cell(v, cells[(k + 1) % cells.size()]));
-        if (std::min(d.norm(), f.norm()) > 1e-12L * (v.on_sphere ? 1 : v.period[0]))
+        if (std::min(d.norm(), f.norm()) >
+            1e-12L * (v.surface.is_sphere() ? 1 : v.surface.period()[0]))
           REQUIRE(d.cross(f).dot(up) > -16 * epsilon * d.norm() * f.norm());
       }
     }
@@ -354,7 +357,7 @@ TEST_CASE("angles are those of the normal from east, or from x") {
   };
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
-    if (!v.on_sphere)
+    if (!v.surface.is_sphere())
       continue;
     CAPTURE(c.name);
     CHECK(v.angle.cwiseAbs().maxCoeff() <= pi);
@@ -370,7 +373,7 @@ TEST_CASE("angles are those of the normal from east, or from x") {
   }
   for (const Case& c : all_cases()) {
     const Voronoi& v = c.v;
-    if (v.on_sphere)
+    if (v.surface.is_sphere())
       continue;
     CAPTURE(c.name);
     CHECK(v.angle.minCoeff() >= 0);

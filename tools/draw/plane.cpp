@@ -50,7 +50,7 @@ template <class Visit> void each_side(const Polygons& cells, const Visit& visit)
     const Vector2d start = cells.corners.col(from).head<2>();
     Vector2d way = cells.corners.col(to).head<2>() - start;
     for (int k = 0; k < 2; ++k)
-      if (const double period = cells.period[k]; period > 0)
+      if (const double period = cells.surface.period()[k]; period > 0)
         way[k] = std::remainder(way[k], period);
     return {start, start + way};
   };
@@ -166,11 +166,6 @@ void set_domain(Mesh& mesh, const Surface& domain) {
            "or both with other periods; leave the domain out");
   }
   mesh.surface = domain;
-}
-
-Polygons polygons_of(Voronoi cells) {
-  return {std::move(cells.vertices), std::move(cells.vertices_on_cell), std::move(cells.cells),
-          cells.on_sphere, cells.period};
 }
 
 Window window_of(const Mesh& mesh, const Polygons* cells) {

@@ -21,9 +21,6 @@ inline bool has_walls(const Mesh& mesh) {
 /// \throws Error invalid_argument for a domain with another period.
 void set_domain(Mesh& mesh, const Surface& domain);
 
-/// The cells of a tessellation as polygons.
-Polygons polygons_of(Voronoi cells);
-
 /// The visible part of the plane.
 struct Window {
   Eigen::Vector2d low, high;

@@ -291,7 +291,7 @@ std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, con
   table.row("sides: cells", degrees(counts));
   const PolygonShapes found = shapes(polygons);
   table.row<std::string>("", "min", "mean", "max");
-  const bool plane = !polygons.on_sphere;
+  const bool plane = !polygons.surface.is_sphere();
   if (found.spacing.max > 0)
     table.row(plane ? "spacing" : "spacing, " + unit.name, scaled(found.spacing, unit.of_radian));
   table.row(plane ? "cell area" : "cell area, " + unit.area, scaled(found.area, unit.of_steradian));
@@ -312,7 +312,8 @@ std::string to_json(const Polygons& polygons, const std::optional<Mesh>& mesh,
   if (found.spacing.max > 0)
     json["spacing"] = to_json(found.spacing);
   json["cell_area"] = to_json(found.area);
-  json["cells_area"] = areas(polygons).sum() / (polygons.on_sphere ? 4 * std::numbers::pi : 1);
+  json["cells_area"] =
+      areas(polygons).sum() / (polygons.surface.is_sphere() ? 4 * std::numbers::pi : 1);
   add_shapes(found, mesh, json);
   return json.dump(2) + "\n";
 }

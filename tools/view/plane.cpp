@@ -9,7 +9,7 @@ namespace calotte::tools {
 
 void set_plane(ViewMesh& mesh, const Mesh& planar, const Polygons& cells) {
   const Eigen::Index sites = planar.points.cols();
-  Polygons triangles{planar.points, {}, {}, false, planar.surface.period()};
+  Polygons triangles{planar.points, {}, {}, planar.surface};
   const Eigen::Index count = planar.triangles.cols();
   triangles.ids.begin.setLinSpaced(count + 1, 0, 3 * count);
   triangles.ids.items = planar.triangles.reshaped();

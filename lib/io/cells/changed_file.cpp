@@ -243,8 +243,7 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
   const mesh_detail::Stars stars(faces_of(mesh));
   const IdLists before = neighbours(old_mesh), now = neighbours(mesh); // from the lowest on
   Polygons out;
-  out.on_sphere = old.on_sphere;
-  out.period = old.period;
+  out.surface = old.surface;
   out.centres.resize(3, mesh.points.cols());
   constexpr std::int32_t unknown = -1;
   std::vector<std::int32_t> corner(static_cast<std::size_t>(mesh.triangles.cols()), unknown);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/points.h"
 #include "base/require.h"
+#include "domain/surface.h"
 #include "exact/space.h"
 #include "io/cells/polygons.h"
 
@@ -88,8 +89,8 @@ Vec3 within(const Eigen::Vector2d& place, const Eigen::Vector2d& period) {
 Polygons polygons_of(const Lattice& lattice) {
   const std::int64_t cells = lattice.columns * lattice.rows;
   Polygons out;
-  out.on_sphere = false;
-  out.period = lattice.period();
+  const Eigen::Vector2d period = lattice.period();
+  out.surface = domain_detail::UncheckedSurface::of_plane({}, period);
   out.centres.resize(3, cells);
   out.ids.begin.resize(cells + 1);
   out.ids.begin[0] = 0;
@@ -97,7 +98,7 @@ Polygons polygons_of(const Lattice& lattice) {
   ids.reserve(static_cast<std::size_t>(6 * cells));
   std::int64_t next = 0;
   for_each_cell(lattice, [&](std::int64_t row, std::int64_t column) {
-    set_column(out.centres, next, within(lattice.centre(row, column), out.period));
+    set_column(out.centres, next, within(lattice.centre(row, column), period));
     for (const std::int64_t corner : lattice.corners(row, column))
       ids.push_back(static_cast<std::int32_t>(corner));
     out.ids.begin[++next] = std::ssize(ids);
@@ -108,7 +109,7 @@ Polygons polygons_of(const Lattice& lattice) {
     for (std::int64_t column = 0; column < lattice.wide; ++column)
       for (int which = 0; which < 2; ++which)
         set_column(out.corners, 2 * lattice.id(row, column) + which,
-                   within(lattice.corner(row, column, which), out.period));
+                   within(lattice.corner(row, column, which), period));
   return io_detail::with_used_corners(std::move(out));
 }
 
@@ -144,8 +145,8 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
   file.format = "cells between walls";
   file.not_voronoi = "they have a boundary";
   Polygons& out = file.polygons.emplace();
-  out.on_sphere = false;
-  out.period = {walls.x ? 0 : period.x(), walls.y ? 0 : period.y()};
+  out.surface = domain_detail::UncheckedSurface::of_plane(
+      {}, {walls.x ? 0 : period.x(), walls.y ? 0 : period.y()});
   std::vector<std::int32_t> number(static_cast<std::size_t>(cells.vertices.cols()), -1), ids;
   std::vector<std::int64_t> begin{0}, site;
   std::vector<Eigen::Vector3d> corners;
@@ -160,7 +161,7 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
         to = static_cast<std::int32_t>(corners.size());
         Eigen::Vector3d corner = cells.vertices.col(vertex);
         for (int axis = 0; axis < 2; ++axis) // across a wall the copy beside the cell
-          if (out.period[axis] == 0)
+          if (axis == 0 ? walls.x : walls.y)
             corner[axis] += period[axis] * std::round((centre[axis] - corner[axis]) / period[axis]);
         corners.push_back(corner);
       }

@@ -4,7 +4,6 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "domain/surface.h"
 #include "io/cells/dual.h"
 #include "io/cells/field_order.h"
 #include "io/cells/polygons.h"
@@ -302,7 +301,7 @@ MeshFile planar_mesh_file(const std::string& name, const std::string& format, Ra
   require_places(name, raw.points);
   raw.points.row(2).setZero(); // not -0
   MeshFile file = rest_of(format, raw);
-  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.on_sphere)
+  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
     throw Error(ErrorCode::invalid_argument,
                 name + ": it holds cells of the sphere; of a plane only triangles are read");
   if (raw.triangles.cols() == 0) {
@@ -322,11 +321,7 @@ MeshFile planar_mesh_file(const std::string& name, const std::string& format, Ra
 /// periods.
 MeshFile periodic_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
   MeshFile file = rest_of(format, raw);
-  Mesh mesh{std::move(raw.points),
-            std::move(raw.triangles),
-            {},
-            {},
-            domain_detail::UncheckedSurface::of_plane({}, raw.period)};
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, raw.surface};
   complete(name, mesh, file);
   settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
   file.mesh = std::move(mesh);
@@ -374,10 +369,10 @@ double radius_of(const Points3& points) {
 }
 
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
-  if (raw.period.maxCoeff() > 0)
+  if (raw.surface.period().maxCoeff() > 0)
     return periodic_mesh_file(name, format, std::move(raw));
-  return raw.planar ? planar_mesh_file(name, format, std::move(raw))
-                    : spherical_mesh_file(name, format, std::move(raw));
+  return raw.surface.is_sphere() ? spherical_mesh_file(name, format, std::move(raw))
+                                 : planar_mesh_file(name, format, std::move(raw));
 }
 
 namespace {

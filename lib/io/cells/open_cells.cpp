@@ -24,8 +24,7 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
   std::int32_t count = 0;
   for (std::int32_t& id : vertex)
     id = id < 0 ? -1 : count++;
-  out.on_sphere = polygons.on_sphere;
-  out.period = polygons.period;
+  out.surface = polygons.surface;
   out.cells = polygons.centres;
   out.vertices.resize(3, count);
   for (std::size_t k = 0; k < vertex.size(); ++k)
@@ -38,7 +37,8 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
 
 /// The length of a chord; in a periodic plane to the nearest copy.
 double chord_length(const Voronoi& cells, const Vec3& from, const Vec3& to) {
-  return norm(cells.on_sphere ? to - from : Plane(cells.period).offset(from, to));
+  return in_space_of(cells.surface,
+                     [&](const auto& space) { return norm(space.offset(from, to)); });
 }
 
 /// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
@@ -72,8 +72,7 @@ Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
   const Vec3 &a = column(cells.cells, cells.cells_on_vertex(0, v)),
              &b = column(cells.cells, cells.cells_on_vertex(1, v)),
              &c = column(cells.cells, cells.cells_on_vertex(2, v));
-  return cells.on_sphere ? Sphere::circumcentre(a, b, c)
-                         : Plane(cells.period).circumcentre(a, b, c);
+  return in_space_of(cells.surface, [&](const auto& space) { return space.circumcentre(a, b, c); });
 }
 
 OpenCells open_cells(const Polygons& polygons) {

@@ -41,7 +41,8 @@ double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
 bool is_convex(const PolygonRing& ring) {
   constexpr double rounding = 1e-9;
   for (std::size_t k = 0; k < ring.size(); ++k)
-    if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.on_sphere) < -rounding)
+    if (turn(ring.at(k), ring.at(k + 1), ring.at(k + 2), ring.polygons.surface.is_sphere()) <
+        -rounding)
       return false;
   return true;
 }
@@ -73,14 +74,14 @@ Vec3 planar_centroid(const PolygonRing& ring) {
 }
 
 Vec3 centroid(const PolygonRing& ring) {
-  return ring.polygons.on_sphere ? normalised(first_moment(ring)) : planar_centroid(ring);
+  return ring.polygons.surface.is_sphere() ? normalised(first_moment(ring)) : planar_centroid(ring);
 }
 
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
   const Vec3 &centre = column(polygons.centres, i), middle = centroid(ring_of(polygons, i));
-  const double distance =
-      norm(polygons.on_sphere ? centre - middle : Plane(polygons.period).offset(centre, middle));
+  const double distance = in_space_of(
+      polygons.surface, [&](const auto& space) { return norm(space.offset(centre, middle)); });
   return distance / std::sqrt(area);
 }
 
@@ -147,8 +148,8 @@ Range area_range(const Polygons& polygons, const DoubleVector& areas) {
 
 /// In a periodic plane to the nearest copy.
 double centre_distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
-  return polygons.on_sphere ? 2 * std::atan2(length(b - a), length(a + b))
-                            : length(Plane(polygons.period).offset(a, b));
+  return polygons.surface.is_sphere() ? 2 * std::atan2(length(b - a), length(a + b))
+                                      : length(Plane(polygons.surface.period()).offset(a, b));
 }
 
 /// Between the centres of polygons that share a side.

@@ -28,7 +28,7 @@ const Vec3& place(const Polygons& polygons, std::int32_t corner) {
 template <class Add>
 void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
   const std::span<const std::int32_t> ids = polygons.ids[polygon];
-  const bool periodic = polygons.period.maxCoeff() > 0;
+  const bool periodic = polygons.surface.period().maxCoeff() > 0;
   for (std::size_t k = 1; k + 1 < ids.size(); ++k)
     if (periodic)
       add(place(polygons, ids[0]), copy_near(polygons, ids[0], ids[k]),
@@ -58,7 +58,8 @@ double planar_area(const Polygons& polygons, std::int64_t polygon) {
 }
 
 double signed_area(const Polygons& polygons, std::int64_t polygon) {
-  return polygons.on_sphere ? spherical_area(polygons, polygon) : planar_area(polygons, polygon);
+  return polygons.surface.is_sphere() ? spherical_area(polygons, polygon)
+                                      : planar_area(polygons, polygon);
 }
 
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
@@ -91,7 +92,7 @@ int turn_of(const Polygons& polygons, std::int64_t polygon) {
   bool left = false, right = false;
   for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 normal = cross(b - a, c - a);
-    const double turn = polygons.on_sphere ? dot(a, normal) : normal.z;
+    const double turn = polygons.surface.is_sphere() ? dot(a, normal) : normal.z;
     left = left || turn > 0;
     right = right || turn < 0;
   });
@@ -114,15 +115,10 @@ Array<int> turns_of(const Polygons& polygons) {
 
 Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner) {
   const Vec3 &from = place(polygons, first), &to = place(polygons, corner);
-  if (polygons.on_sphere)
+  if (polygons.surface.is_sphere())
     return to;
-  const Vec3 way = Plane(polygons.period).offset(from, to);
+  const Vec3 way = Plane(polygons.surface.period()).offset(from, to);
   return {from.x + way.x, from.y + way.y, 0};
-}
-
-Polygons polygons_of(Voronoi&& voronoi) {
-  return {std::move(voronoi.vertices), std::move(voronoi.vertices_on_cell),
-          std::move(voronoi.cells), voronoi.on_sphere, voronoi.period};
 }
 
 Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
@@ -311,7 +307,7 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
       known = k;
     }
   }
-  if (!polygons.on_sphere)
+  if (!polygons.surface.is_sphere())
     return;
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
   const double area = areas_of(polygons).sum();
@@ -334,7 +330,7 @@ double corner_tolerance(double mean_width, double rounding) { return 1e-6 * mean
 
 bool cover_sphere(const Polygons& polygons) {
   const double whole = 4 * std::numbers::pi, mean = whole / static_cast<double>(polygons.size());
-  return polygons.on_sphere && areas_of(polygons).sum() > whole - mean / 2;
+  return polygons.surface.is_sphere() && areas_of(polygons).sum() > whole - mean / 2;
 }
 
 std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding) {

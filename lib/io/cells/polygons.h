@@ -40,9 +40,6 @@ struct Sides {
   bool is_open(std::int32_t start) const;
 };
 
-/// The cells of a tessellation, which is used up.
-Polygons polygons_of(Voronoi&& voronoi);
-
 /// Polygons from rows of corners, in which consecutive equal ones count once, and -1 is none.
 /// \param corners those of polygon i from i * most on.
 /// \param places of the corners.

@@ -22,8 +22,7 @@ struct RawMesh {
   bool turns_each = false;
   /// How far a corner may be from its place by the file's digits alone, radians.
   double corner_rounding = 0;
-  bool planar = false;          ///< in a plane, where z is 0
-  Eigen::Vector2d period{0, 0}; ///< of a plane whose triangles are joined across it
+  Surface surface = {}; ///< in a plane z is 0; triangles of a periodic one are joined across it
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
   DoubleVector density = {};                           ///< by site, or empty
   std::vector<MeshField> fields = {};

@@ -28,7 +28,7 @@ SideLengths arcs(const Voronoi& voronoi, std::int64_t vertex) {
 
 /// Of the flat triangle.
 SideLengths chords(const Voronoi& voronoi, std::int64_t vertex) {
-  if (!voronoi.on_sphere)
+  if (!voronoi.surface.is_sphere())
     return arcs(voronoi, vertex);
   const auto corner = [&](int j) {
     return column(voronoi.cells, voronoi.cells_on_vertex(j, vertex));

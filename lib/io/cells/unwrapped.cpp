@@ -52,9 +52,9 @@ private:
 } // namespace
 
 Polygons unwrapped(Polygons polygons) {
-  if (!(polygons.period.maxCoeff() > 0))
+  if (!(polygons.surface.period().maxCoeff() > 0))
     return polygons;
-  Copies copies(polygons.corners, Plane(polygons.period));
+  Copies copies(polygons.corners, Plane(polygons.surface.period()));
   const bool centred = polygons.centres.cols() == polygons.size();
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     const std::span<std::int32_t> ids = polygons.ids[i];
@@ -66,7 +66,7 @@ Polygons unwrapped(Polygons polygons) {
   }
   Points3 corners = copies.all();
   polygons.corners = std::move(corners);
-  polygons.period.setZero();
+  polygons.surface = Surface::plane();
   return polygons;
 }
 

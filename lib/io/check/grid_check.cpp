@@ -78,7 +78,7 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector&
   const Broken open = broken(sides.from.size(), [&](std::int64_t node) {
     return verdict_of(!sides.is_open(static_cast<std::int32_t>(node)));
   });
-  if (!grid.polygons.on_sphere)
+  if (!grid.polygons.surface.is_sphere())
     return;
   const double whole = 4 * std::numbers::pi, sum = std::abs(areas.sum());
   if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
@@ -100,7 +100,7 @@ double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre)
     const std::int32_t next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
     const Vec3 from = column(polygons.corners, ids[k]) - centre,
                to = column(polygons.corners, next) - centre;
-    if (!polygons.on_sphere) {
+    if (!polygons.surface.is_sphere()) {
       turn += std::atan2(cross(from, to).z, dot(from, to));
       continue;
     }
@@ -120,7 +120,7 @@ void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations&
       return Verdict::untested;
     const double turn = turn_around(polygons, i, column(polygons.centres, i));
     return verdict_of((areas[i] < 0 ? -turn : turn) >
-                      (polygons.on_sphere ? std::numbers::pi : on_boundary));
+                      (polygons.surface.is_sphere() ? std::numbers::pi : on_boundary));
   });
   if (found.any())
     deviations.add(grid.centres,
@@ -220,7 +220,7 @@ void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& devi
 
 void check_areas(const StoredGrid& grid, const std::string& variable, Deviations& deviations) {
   const std::string units = deviations.file().text(variable, "units");
-  const bool on_sphere = grid.polygons.on_sphere;
+  const bool on_sphere = grid.polygons.surface.is_sphere();
   const bool on_unit_sphere =
       units.empty() || units.starts_with("rad") || units.starts_with("ster") || units == "sr";
   if ((on_sphere && !on_unit_sphere) || !deviations.has(variable, {grid.polygons.size()}))

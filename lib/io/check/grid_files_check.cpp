@@ -215,7 +215,7 @@ void check_ugrid(const MeshFile& file, Deviations& deviations) {
   const Sides sides(grid.polygons);
   check_polygons(grid, sides, deviations);
   check_areas(grid, "cell_area", deviations);
-  for (std::size_t k = 0; k < topology.faces.size() && grid.polygons.on_sphere; ++k)
+  for (std::size_t k = 0; k < topology.faces.size() && grid.polygons.surface.is_sphere(); ++k)
     check_bounds(topology.faces[k], k == 0, grid, deviations);
   check_ugrid_connectivity(grid.polygons, sides, topology.mesh, deviations);
 }

@@ -68,9 +68,9 @@ void check_sphere(MeshFile& file, Deviations& deviations) {
 
 double MpasCheck::rounding(const std::string& variable) const {
   const NetcdfReader& file = deviations.file();
-  const double size =
-      voronoi.on_sphere ? 1
-                        : std::max(voronoi.period.maxCoeff(), voronoi.cells.cwiseAbs().maxCoeff());
+  const double size = voronoi.surface.is_sphere() ? 1
+                                                  : std::max(voronoi.surface.period().maxCoeff(),
+                                                             voronoi.cells.cwiseAbs().maxCoeff());
   return file.is_float(variable) || file.is_float("xCell") ? float_digits * size : 0;
 }
 

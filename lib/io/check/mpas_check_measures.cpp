@@ -51,7 +51,7 @@ void check_kind(const MpasCheck& check, const Kind& kind, const std::string& var
 void check_coordinates(const MpasCheck& check, const Kind& kind) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name = kind.names.axis(axis);
-    const double period = !check.voronoi.on_sphere && axis < 2 ? check.voronoi.period[axis] : 0.0;
+    const double period = axis < 2 ? check.voronoi.surface.period()[axis] : 0.0;
     const double rounding = check.deviations.file().has_variable(name) ? check.rounding(name) : 0.0;
     check_kind<double>(check, kind, name, kind.rule,
                        [&](std::int64_t row, std::int32_t i, double stored, Differences& out) {
@@ -69,7 +69,7 @@ void check_coordinates(const MpasCheck& check, const Kind& kind) {
 constexpr double arc_sine_rounding = 2e-8;
 
 void check_angles(const MpasCheck& check, const Kind& kind) {
-  const bool on_sphere = check.voronoi.on_sphere;
+  const bool on_sphere = check.voronoi.surface.is_sphere();
   const auto tolerance = [&](const std::string& name) {
     return rounding_of_others * check.width + arc_sine_rounding +
            (check.deviations.file().has_variable(name) ? 2 * std::numbers::pi * check.rounding(name)
@@ -113,12 +113,13 @@ void check_places(const MpasCheck& check, const Kind& kind) {
 double circumradius(const Voronoi& voronoi, std::int64_t v) {
   const std::int32_t cell = voronoi.cells_on_vertex.col(v).maxCoeff(); // one that is there
   const Vec3 apart = column(voronoi.vertices, v) - column(voronoi.cells, cell);
-  if (voronoi.on_sphere)
+  if (voronoi.surface.is_sphere())
     return norm(apart);
   const auto nearest = [](double way, double period) {
     return period > 0 ? std::remainder(way, period) : way;
   };
-  return std::hypot(nearest(apart.x, voronoi.period[0]), nearest(apart.y, voronoi.period[1]));
+  return std::hypot(nearest(apart.x, voronoi.surface.period()[0]),
+                    nearest(apart.y, voronoi.surface.period()[1]));
 }
 
 // ---- Lengths, areas and angles
@@ -162,7 +163,7 @@ double angle_of_converter(const Voronoi& voronoi, std::int32_t e, bool reversed,
 bool is_angle_of_converter(const Voronoi& voronoi, std::int32_t e, bool reversed, double stored,
                            double exact) {
   const double formula = angle_of_converter(voronoi, e, reversed, exact);
-  return voronoi.on_sphere && std::abs(std::cos(stored) - std::cos(formula)) <= 1e-5 &&
+  return voronoi.surface.is_sphere() && std::abs(std::cos(stored) - std::cos(formula)) <= 1e-5 &&
          std::sin(stored) * std::sin(formula) >= -1e-4;
 }
 
@@ -183,7 +184,8 @@ void check_edge_angles(const MpasCheck& check) {
         const double across = std::hypot(voronoi.edges(0, e), voronoi.edges(1, e));
         // East turns by the edge's place, infinitely fast at a pole; the normal by that of its
         // cells.
-        const double free = digits * ((voronoi.on_sphere ? 1 / across : 0) + 1 / voronoi.dc[e]);
+        const double free =
+            digits * ((voronoi.surface.is_sphere() ? 1 / across : 0) + 1 / voronoi.dc[e]);
         out.compare(row, *stored, derived, 1, rounding_of_others + free);
         if (!is_angle_of_converter(voronoi, e, reversed, *stored, exact))
           ++out.unlike_fault;
@@ -239,7 +241,7 @@ void check_triangle_areas(const MpasCheck& check) {
 
 void check_mpas_places(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
-  const bool on_sphere = voronoi.on_sphere;
+  const bool on_sphere = voronoi.surface.is_sphere();
   check_places(check, {mpas_cell, voronoi.cells, nullptr,
                        on_sphere ? "on the sphere of sphere_radius" : "in the plane",
                        [](std::int64_t) { return 1.0; }});

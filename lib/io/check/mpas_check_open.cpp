@@ -111,15 +111,16 @@ void place_vertices(Points3 stored, Voronoi& out) {
 Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
   constexpr double halves_agree = 1e-5; // the edge is half way to the missing cell
   const std::int64_t edges = part.cells_on_edge.cols();
-  Points3 places = stored_places(mpas_edge, edges, part.on_sphere, deviations);
+  Points3 places = stored_places(mpas_edge, edges, part.surface.is_sphere(), deviations);
   if (places.cols() == 0 || !deviations.has(mpas::dc_edge, {edges}))
     return {};
   const std::vector<double> lengths = deviations.file().doubles(mpas::dc_edge, {edges});
   for (std::int64_t e = 0; e < edges; ++e) {
     const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
-                 way = part.on_sphere ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
-                                      : norm(Plane(part.period).offset(cell, edge));
+                 way = part.surface.is_sphere()
+                           ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
+                           : norm(Plane(part.surface.period()).offset(cell, edge));
     if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
       places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
@@ -179,12 +180,11 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   Voronoi part;
   MpasNumbering numbering;
   OpenLists lists;
-  part.on_sphere = file.sphere() != nullptr;
-  part.period = file.mesh->surface.period();
+  part.surface = file.mesh->surface;
   part.cells = cells_of(file);
   Points3 vertices =
       stored_places(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
-                    part.on_sphere, deviations);
+                    part.surface.is_sphere(), deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (whole && !check_open_lists(lists, deviations))

@@ -29,24 +29,19 @@ namespace {
 
 using base_detail::require;
 
-bool on_sphere(const FieldGrid& grid) {
-  return grid.boxes ||
-         (grid.mesh.polygons ? grid.mesh.polygons->on_sphere : grid.mesh.mesh->surface.is_sphere());
-}
-
-Eigen::Vector2d period_of(const FieldGrid& grid) {
-  if (grid.boxes)
-    return {0, 0};
-  return grid.mesh.polygons ? grid.mesh.polygons->period : grid.mesh.mesh->surface.period();
+Surface surface_of(const FieldGrid& grid) {
+  return grid.boxes ? Surface::sphere() : grid.mesh.surface();
 }
 
 void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
   const auto words = [](const FieldGrid& grid) {
-    return std::string(on_sphere(grid)             ? " is on the sphere"
-                       : period_of(grid).isZero(0) ? " is in a plane"
-                                                   : " is in a periodic plane");
+    const Surface surface = surface_of(grid);
+    return std::string(surface.is_sphere()          ? " is on the sphere"
+                       : surface.period().isZero(0) ? " is in a plane"
+                                                    : " is in a periodic plane");
   };
-  require(on_sphere(source) == on_sphere(target) && period_of(source) == period_of(target),
+  const Surface from = surface_of(source), to = surface_of(target);
+  require(from.is_sphere() == to.is_sphere() && from.period() == to.period(),
           source.name + words(source) + ", and " + target.name + words(target) +
               (words(source) == words(target) ? " of another period" : "") +
               "; give grids of one surface");
@@ -90,7 +85,8 @@ Weights on_triangles(const FieldGrid& source, const Points3& positions, Interpol
   if (source.mesh.mesh)
     return interpolation_weights(*source.mesh.mesh, positions, kind);
   const Points3 centres = centres_of(source);
-  const Mesh mesh = delaunay(centres, on_sphere(source) ? Surface::sphere() : Surface::plane());
+  const Mesh mesh =
+      delaunay(centres, surface_of(source).is_sphere() ? Surface::sphere() : Surface::plane());
   require(mesh.points.cols() == centres.cols(),
           source.name + " has cells with the same centre; give --method conservative or nearest");
   Weights weights = interpolation_weights(mesh, positions, kind);
@@ -290,7 +286,7 @@ Polygons cells_of(const FieldGrid& grid) {
   base_detail::require(mesh.closed() || (!mesh.surface.is_sphere() && mesh.surface.is_bounded()),
                        grid.name + " has triangles of a part of the surface, without cells; give "
                                    "linear or nearest as the method");
-  return io_detail::polygons_of(voronoi(mesh));
+  return polygons_of(voronoi(mesh));
 }
 
 GridWeights interpolation_weights(const FieldGrid& source, const FieldGrid& target,

@@ -71,8 +71,7 @@ DescribedGrid described(const FieldGrid& grid, const DoubleVector& area, DoubleV
 }
 
 void require_sphere(const FieldGrid& grid) {
-  require(grid.boxes || (grid.mesh.polygons ? grid.mesh.polygons->on_sphere
-                                            : grid.mesh.mesh->surface.is_sphere()),
+  require(grid.boxes || grid.mesh.surface().is_sphere(),
           grid.name + " is in a plane, and files of weights hold longitudes and latitudes; leave "
                       "the weights out");
 }

@@ -130,8 +130,7 @@ void write_cells(const std::string& path, const FieldGrid& grid,
                           : grid.mesh.polygons->centres.cols() > 0
                               ? grid.mesh.polygons->centres
                               : centroids_of(*grid.mesh.polygons);
-  const bool sphere =
-      grid.mesh.polygons ? grid.mesh.polygons->on_sphere : grid.mesh.mesh->surface.is_sphere();
+  const bool sphere = grid.mesh.surface().is_sphere();
   NetcdfGridFile file(path, options, "CF-1.8");
   const int cells = file.netcdf().dimension(cell_dimension(grid.mesh.format), grid.size());
   if (sphere) {

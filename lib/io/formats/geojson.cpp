@@ -81,7 +81,7 @@ std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
 /// In a plane x and y stand in place of longitude and latitude.
 std::vector<std::vector<LonLat>> rings_of(const Polygons& cells, std::int64_t cell) {
   const std::vector<Vec3> corners = corners_of(cells, cell);
-  if (cells.on_sphere)
+  if (cells.surface.is_sphere())
     return outline_of(corners);
   std::vector<LonLat> ring;
   for (const Vec3& corner : corners)

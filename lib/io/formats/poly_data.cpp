@@ -125,7 +125,8 @@ RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* 
                       ": z is 0 at all points; of a plane only triangles, and cells with an array "
                       "site, are read");
     raw.points = points_of(*centres);
-    raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points, false};
+    raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points,
+                    Surface::plane()};
     return raw;
   }
   raw.polygons = {directions(name, poly_data.points), std::move(poly_data.ids), Points3(3, 0)};

@@ -84,7 +84,8 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
   if (file.row->read == nullptr)
     refuse_triangles_alone(path);
   RawMesh raw = file.row->read(file.input(path, choice));
-  raw.planar |= file.row->reads_planes && lies_in_plane(raw.points);
+  if (raw.surface.is_sphere() && file.row->reads_planes && lies_in_plane(raw.points))
+    raw.surface = Surface::plane();
   return mesh_file_of(path, file.row->label, std::move(raw));
 }
 

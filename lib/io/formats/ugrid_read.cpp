@@ -165,7 +165,10 @@ Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& na
 
 /// The faces as polygons.
 Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
-  Polygons polygons{std::move(nodes), {Offsets(faces.cols() + 1), {}}, std::move(centres), !planar};
+  Polygons polygons{std::move(nodes),
+                    {Offsets(faces.cols() + 1), {}},
+                    std::move(centres),
+                    planar ? Surface::plane() : Surface::sphere()};
   auto& [begin, ids] = polygons.ids;
   begin[0] = 0;
   for (Eigen::Index face = 0; face < faces.cols(); ++face)

@@ -159,7 +159,7 @@ NetcdfMeshNames ugrid_names(bool of_cells) {
 
 void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptions& options) {
   const Polygons& cells = grid.polygons;
-  const bool on_sphere = cells.on_sphere;
+  const bool on_sphere = cells.surface.is_sphere();
   NetcdfGridFile file(path, on_sphere ? options : of_plane(options), conventions);
   const auto add_coordinates = [&](const std::string& prefix, int dimension, const std::string& of,
                                    const Points3& points) {

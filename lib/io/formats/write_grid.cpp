@@ -50,7 +50,7 @@ GridFile write_between_walls(const std::string& path, const Mesh& mesh, const Re
         evaluate(std::exchange(options.density, {}), file.polygons->centres, mesh.surface);
   write(path, file, options);
   const std::int64_t cells = file.polygons->size();
-  return {cells, cells, file.polygons->period};
+  return {cells, cells, file.polygons->surface.period()};
 }
 
 } // namespace

@@ -29,7 +29,7 @@ using namespace io_detail;
 
 /// \throws Error invalid_argument, where the format does not hold cells of any shape.
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
-  const std::string others = "; write " + polygon_formats(file.polygons->on_sphere);
+  const std::string others = "; write " + polygon_formats(file.polygons->surface.is_sphere());
   if (format == Format::mpas_minimal)
     refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
                               file.not_voronoi + others);
@@ -49,7 +49,7 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
 /// plane.
 Points3 places_of(const MeshFile& file, double radius) {
   const Points3& centres = file.polygons->centres;
-  if (!file.polygons->on_sphere)
+  if (!file.polygons->surface.is_sphere())
     return {};
   const bool same = file.mesh && file.mesh->points.cols() == centres.cols();
   return on_sphere(same ? file.mesh->points : centres, radius);
@@ -59,7 +59,7 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   const OpenCells cells = open_cells(file);
   if (!cells.problem.empty())
     refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem + "; write " +
-                              polygon_formats(file.polygons->on_sphere));
+                              polygon_formats(file.polygons->surface.is_sphere()));
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
@@ -68,7 +68,8 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
 bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
   return field.location == Location::cells ||
          (field.location == Location::vertices && format != Format::mpas &&
-          !(polygons.period.maxCoeff() > 0) && has_values_for(field, polygons.corners.cols()));
+          !(polygons.surface.period().maxCoeff() > 0) &&
+          has_values_for(field, polygons.corners.cols()));
 }
 
 void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
@@ -91,7 +92,7 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
       polygons.centres = centroids_of(polygons);
     const FormatRow& format = row_of(options.format);
-    if (!polygons.on_sphere && !format.planes.clipped && format.info.cells)
+    if (!polygons.surface.is_sphere() && !format.planes.clipped && format.info.cells)
       refuse_to_write(path, "the format holds cells of the sphere, but the mesh is planar; write " +
                                 polygon_formats(false) + ", or mpas");
     format.write_polygons(path, cell_grid(polygons), options);

@@ -71,12 +71,14 @@ Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int
 } // namespace
 
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
-    : NetcdfGridFile(path, mesh.voronoi.on_sphere ? options : of_plane(options), "CF-1.8 MPAS") {
-  const bool on_sphere = mesh.voronoi.on_sphere, periodic = mesh.voronoi.period.maxCoeff() > 0;
+    : NetcdfGridFile(path, mesh.voronoi.surface.is_sphere() ? options : of_plane(options),
+                     "CF-1.8 MPAS") {
+  const bool on_sphere = mesh.voronoi.surface.is_sphere(),
+             periodic = mesh.voronoi.surface.period().maxCoeff() > 0;
   netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
   netcdf().attribute({"is_periodic", std::string(periodic ? "YES" : "NO")});
-  netcdf().attribute({"x_period", mesh.voronoi.period[0]});
-  netcdf().attribute({"y_period", mesh.voronoi.period[1]});
+  netcdf().attribute({"x_period", mesh.voronoi.surface.period()[0]});
+  netcdf().attribute({"y_period", mesh.voronoi.surface.period()[1]});
   netcdf().attribute({"mesh_spec", std::string("1.0")});
   netcdf().attribute({"file_id", fingerprint(mesh)});
   netcdf().attribute({"parent_id", std::string()});

@@ -32,7 +32,7 @@ struct MpasMesh {
   DoubleVector density = {};          ///< as density_of()
 
   bool whole() const { return !connect; }
-  const Points3& sites() const { return voronoi.on_sphere ? places : voronoi.cells; }
+  const Points3& sites() const { return voronoi.surface.is_sphere() ? places : voronoi.cells; }
   std::int64_t edges() const {
     return whole() ? voronoi.cells_on_edge.cols() : voronoi.cells_on_vertex.size() / 2;
   }

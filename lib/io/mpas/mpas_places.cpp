@@ -61,7 +61,7 @@ void fill_angles(const Vec3* directions, bool on_sphere, std::int64_t count,
 /// The first columns of a group: lat, lon, x, y and z; and the numbers from 1 on.
 void fill_places(const MpasMesh& mesh, const Vec3* places, std::int64_t begin, std::int64_t end,
                  std::int32_t* const* ints, double* const* doubles) {
-  fill_angles(places, mesh.voronoi.on_sphere, end - begin, doubles);
+  fill_angles(places, mesh.voronoi.surface.is_sphere(), end - begin, doubles);
   fill_coordinates(places, mesh.radius, end - begin, doubles + 2);
   std::iota(ints[0], ints[0] + (end - begin), static_cast<std::int32_t>(begin + 1));
 }

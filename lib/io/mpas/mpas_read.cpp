@@ -182,16 +182,14 @@ void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool
 }
 
 /// The cells of a channel, or of a box with land.
-Polygons cells_between_walls(const NetcdfReader& file, Points3 cells,
-                             const Eigen::Vector2d& period) {
+Polygons cells_between_walls(const NetcdfReader& file, Points3 cells, const Surface& plane) {
   if (!holds_cells(file))
     file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
               "xVertex); make the file again");
   Points3 vertices = read_finite_coordinates(file, mpas_vertex);
-  wrap(vertices, period);
+  wrap(vertices, plane.period());
   Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
-  polygons.on_sphere = false;
-  polygons.period = period;
+  polygons.surface = plane;
   return polygons;
 }
 
@@ -200,11 +198,12 @@ RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
   if (!holds_cells(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
-  RawMesh raw{.points = read_coordinates(file, mpas_cell), .has_cells = true, .planar = true};
+  RawMesh raw{
+      .points = read_coordinates(file, mpas_cell), .has_cells = true, .surface = Surface::plane()};
   Points3 vertices = read_finite_coordinates(file, mpas_vertex);
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   raw.polygons = cells_of(file, raw.points, std::move(vertices));
-  raw.polygons.on_sphere = false;
+  raw.polygons.surface = raw.surface;
   return raw;
 }
 
@@ -212,14 +211,13 @@ RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
   const Eigen::Vector2d period = periods_of(file);
   RawMesh raw{.points = read_finite_coordinates(file, mpas_cell),
               .has_cells = true,
-              .planar = true,
-              .period = period};
+              .surface = domain_detail::UncheckedSurface::of_plane({}, period)};
   wrap(raw.points, period);
   CompleteVertices complete = complete_vertices(file, raw.points.cols());
   read_density_and_fields(file, raw.points.cols(), choice, raw);
   require_walls(file, period, complete.all);
   if (!complete.all) {
-    raw.polygons = cells_between_walls(file, raw.points, period);
+    raw.polygons = cells_between_walls(file, raw.points, raw.surface);
     select_vertices(raw.fields, complete.vertex);
   }
   raw.triangles = std::move(complete.triangles);

@@ -255,7 +255,7 @@ void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options)
 
 void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
                 const WriteOptions& options) {
-  const double radius = voronoi.on_sphere ? options.sphere_radius : 1;
+  const double radius = voronoi.surface.is_sphere() ? options.sphere_radius : 1;
   write_full(path, {voronoi, std::move(places), radius}, options);
 }
 

@@ -51,11 +51,6 @@ def points_of(surface, points, what="points"):
     return (sphere_points if surface.is_sphere else plane_points)(points, what)
 
 
-def on_sphere(grid):
-    """Whether a mesh or polygons are."""
-    return grid.on_sphere if isinstance(grid, _calotte.Polygons) else grid.surface.is_sphere
-
-
 def direction(point, what):
     """A longitude and latitude in degrees, or a vector."""
     return sphere_points(np.asarray(point)[np.newaxis], what)[0]

@@ -35,7 +35,7 @@ def _mesh(mesh):
 
 
 def _polygons(cells):
-    plane = "" if cells.on_sphere else ", in a plane"
+    plane = "" if cells.surface.is_sphere else ", in a plane"
     centres = "" if len(cells.centres) else ", without centres"
     return (f"<calotte.Polygons: {counted(len(cells), 'cell')}, "
             f"{counted(len(cells.corners), 'corner')}{centres}{plane}>")
@@ -47,7 +47,7 @@ def _shapes(shapes):
 
 
 def _voronoi(cells):
-    plane = "" if cells.on_sphere else ", in a plane"
+    plane = "" if cells.surface.is_sphere else ", in a plane"
     return (f"<calotte.Voronoi: {counted(len(cells.cells), 'cell')}, "
             f"{counted(len(cells.edges), 'edge')}, {len(cells.vertices)} vertices{plane}>")
 

@@ -138,7 +138,7 @@ def _require_mesh(grid):
 
 def _density_for(grid, density, cell_width):
     """The density of a name or of widths, of the space that the grid is in."""
-    plane = not _arguments.on_sphere(grid)
+    plane = not grid.surface.is_sphere
     widths = None if cell_width is None else _arguments.widths(cell_width, plane)
     return _arguments.density(density, widths, plane)
 

@@ -47,7 +47,7 @@ def _to_xarray(grid, kind="mpas", **options):
 
 def _topology(mesh):
     """The arguments of uxarray.Grid.from_topology for the cells of the mesh."""
-    if not _arguments.on_sphere(mesh):
+    if not mesh.surface.is_sphere:
         raise _calotte.Error("the topology has longitudes and latitudes, and a plane has none")
     begin, ids, corners = _plot.rings(mesh)
     degrees = np.diff(begin)

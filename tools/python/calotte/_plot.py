@@ -87,7 +87,7 @@ def rings(grid, surface=None):
     """begin, ids and corners of the cells of a mesh or of polygons; some may have no corners."""
     polygons = grid if isinstance(grid, _calotte.Polygons) else grid.cells
     if polygons is not None and (surface is None or polygons is grid):
-        return _unrolled(polygons.begin, polygons.ids, polygons.corners, polygons.period)
+        return _unrolled(polygons.begin, polygons.ids, polygons.corners, polygons.surface.period)
     mesh = _functions.within(grid, surface)
     surface = mesh.surface
     if surface.is_sphere and not mesh.closed:
@@ -319,7 +319,7 @@ def plot(self, field=None, *, ax=None, projection=None, view=None, coast=True, s
     """
     _matplotlib()
     from matplotlib.collections import PolyCollection
-    spherical = _arguments.on_sphere(self)
+    spherical = self.surface.is_sphere
     _require_projection(spherical, ax, projection, view)
     begin, ids, corners = rings(self, surface)
     if not len(ids):

@@ -97,8 +97,9 @@ void add_voronoi(py::module_& module) {
       "all orders are counter-clockwise. Lengths are radians and areas steradians of the unit\n"
       "sphere; in the plane they are in the unit of the points and its square, and z is 0.");
   add_members(
-      cells, Member{"on_sphere", &Voronoi::on_sphere, "False in a plane."},
-      Member{"period", &Voronoi::period, "(2,) side lengths of a periodic box; 0 elsewhere."},
+      cells,
+      Member{"surface", &Voronoi::surface,
+             "The Surface that the cells cover; in a plane its rings clip them."},
       Member{"cells", &Voronoi::cells, "(n, 3) sites; unit vectors on the sphere."},
       Member{"edges", &Voronoi::edges, "(e, 3) midpoints between neighbours."},
       Member{"vertices", &Voronoi::vertices, "(m, 3) corners of the cells."},

@@ -169,9 +169,7 @@ void add_content(py::module_& module) {
                               "ids[begin[i + 1] - 1], counter-clockwise."});
   add_member(polygons, Member{"centres", &Polygons::centres,
                               "(n, 3) as the corners; (0, 3) if the file gives none."});
-  add_member(polygons, Member{"on_sphere", &Polygons::on_sphere, "False in a plane."});
-  add_member(polygons, Member{"period", &Polygons::period,
-                              "(2,) side lengths of a periodic plane; 0 in other directions."});
+  add_member(polygons, Member{"surface", &Polygons::surface, "The Surface that they live on."});
   polygons.def("__len__", &Polygons::size)
       .def_property_readonly(
           "areas",
@@ -184,16 +182,15 @@ void add_content(py::module_& module) {
           [](const py::object& self) {
             const auto& cells = self.cast<const Polygons&>();
             return py::make_tuple(cells.corners, cells.ids.begin, cells.ids.items, cells.centres,
-                                  cells.on_sphere, cells.period, self.attr("__dict__"));
+                                  cells.surface, self.attr("__dict__"));
           },
           [](const py::tuple& state) {
             auto cells = std::make_shared<Polygons>();
             cells->corners = state[0].cast<Points3>();
             cells->ids = {state[1].cast<Offsets>(), state[2].cast<Ids>()};
             cells->centres = state[3].cast<Points3>();
-            cells->on_sphere = state[4].cast<bool>();
-            cells->period = state[5].cast<Eigen::Vector2d>();
-            return std::pair(std::move(cells), state[6].cast<py::dict>());
+            cells->surface = state[4].cast<Surface>();
+            return std::pair(std::move(cells), state[5].cast<py::dict>());
           }));
   py::class_<MeshFile, Content>(module, "Content")
       .def_property_readonly("polygons", &polygons_of)
