@@ -100,7 +100,7 @@ std::string table(const PolygonShapes& found, const MeshFile& file) {
   std::ostringstream out;
   out << "cells           " << file.polygons->size() << "\n"
       << "corners         " << file.polygons->corners.cols() << "\n"
-      << "Voronoi         no: " << file.not_voronoi << "\n";
+      << "Voronoi         no: " << file.not_voronoi.text() << "\n";
   const bool counted = !file.sphere() || !file.mesh->closed(); // with the open mesh
   return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
 }

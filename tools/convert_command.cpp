@@ -97,8 +97,8 @@ std::string describe_mesh(const MeshFile& file) {
     return std::to_string(plane->points.cols()) + " sites, " +
            std::to_string(plane->triangles.cols()) + " triangles, a " +
            (plane->surface.is_box() ? "periodic plane" : "plane");
-  if (!file.mesh || (file.polygons && file.mesh->closed()))
-    return std::to_string(file.polygons->size()) + " cells, not Voronoi cells: " + file.not_voronoi;
+  if (const Polygons* cells = file.other_cells())
+    return std::to_string(cells->size()) + " cells, not Voronoi cells: " + file.not_voronoi.text();
   return std::to_string(file.mesh->points.cols()) + " sites, " +
          std::to_string(file.mesh->triangles.cols()) + " triangles, " +
          (file.mesh->closed() ? "closed" : "open");

@@ -142,8 +142,8 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
 /// Cells that are not Voronoi cells have no triangles and no spacing law.
 void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
   const Polygons& cells = *file.polygons;
-  const std::string not_voronoi =
-      arguments.source->path + ": the cells are not Voronoi cells (" + file.not_voronoi + ")";
+  const std::string not_voronoi = arguments.source->path + ": the cells are not Voronoi cells (" +
+                                  file.not_voronoi.text() + ")";
   if (arguments.spacing_law ||
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
     refuse(not_voronoi + "; draw them with --what cells");
@@ -177,7 +177,7 @@ void draw_mesh(const DrawArguments& arguments) {
   if (!plane && file.plane()) {
     refuse(arguments.source->path + ": it holds a mesh of the plane; read it as one of the plane");
   }
-  if (!plane && file.polygons && !(file.mesh && !file.mesh->closed())) {
+  if (!plane && file.other_cells()) {
     draw_cells(arguments, file);
     return;
   }

@@ -164,7 +164,7 @@ bool as_polygons(const InfoRequest& request, const MeshFile& file,
     return false;
   if (file.plane())
     return !request.operators && file.mesh->surface.period().maxCoeff() == 0 && !covered;
-  return !file.mesh || file.mesh->closed();
+  return file.other_cells() != nullptr;
 }
 
 std::string remarks_of(const InfoRequest& request, const Measured& measured) {
@@ -206,7 +206,7 @@ std::string read_and_measure(const InfoRequest& request) {
                                   "the measures of a CVT");
     measured.unit = {"", 1, "", 1};
   } else if (by_corners) {
-    measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi);
+    measured.remarks.push_back("the cells are not Voronoi cells: " + file.not_voronoi.text());
     if (request.operators)
       measured.remarks.emplace_back(no_operators);
     measured.unit = unit_of(request.units, radius_of(request, file));

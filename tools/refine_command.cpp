@@ -239,8 +239,8 @@ void run(const RefineRequest& request) {
     MeshFile base;
     const double read =
         seconds_of([&] { base = read_mesh_file(*request.source, FieldChoice::all); });
-    if (!base.mesh || (base.polygons && !base.not_voronoi.empty() && base.mesh->closed()))
-      refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi +
+    if (base.other_cells())
+      refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi.text() +
              "; give the file of a Voronoi mesh");
     require_fields(base, request.methods);
     set_known_surface(request, base);

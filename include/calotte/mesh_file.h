@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/check.h>
 #include <calotte/export.h>
 #include <calotte/mesh_field.h>
 #include <calotte/polygons.h>
@@ -54,6 +55,49 @@ struct PolygonShapes {
 /// \pre counter-clockwise, each smaller than a hemisphere.
 PolygonShapes shapes(const Polygons& polygons);
 
+/// What keeps polygons from being the Voronoi cells of their centres.
+enum class CellFault {
+  none,              ///< they are those of the whole sphere
+  open,              ///< nothing, but they cover a part of the surface, and so does their mesh
+  walls,             ///< nothing, but they are whole cells with a boundary
+  clipped,           ///< nothing, but they have the boundary of a part of the plane
+  no_centres,        ///< the file gives none
+  no_triangulation,  ///< of their centres: NotVoronoi::detail says why
+  other_number,      ///< some have one centre
+  no_corners,        ///< a cell has none
+  other_corner,      ///< a corner of a cell is not that of the Voronoi cell of its centre
+  not_circumcentres, ///< of three centres each, which the corners of a part of the sphere would be
+  common_corner,     ///< that of three cells is not the circumcentre of their centres
+  no_tessellation,   ///< they overlap, or too many meet in a corner: NotVoronoi::detail
+};
+
+/// Whether polygons are the Voronoi cells of their centres, and if not, the first fault.
+struct NotVoronoi {
+  CellFault fault = CellFault::none;
+  std::array<std::int64_t, 3> cells{-1, -1, -1}; ///< the cell, or the three cells, at fault
+  std::int64_t polygons = 0;                     ///< of other_number, their number
+  std::int64_t centres = 0;                      ///< of other_number, that of distinct centres
+  double distance = 0; ///< of a corner from its place, in mean cell widths
+  std::string detail = {};
+
+  /// True if they are a Voronoi tessellation, or a part of one.
+  bool passed() const { return fault <= CellFault::clipped; }
+  /// The fault as a clause; empty for none.
+  std::string text() const;
+};
+
+/// Compares polygons with the Voronoi cells of their centres. Corners are equal within a millionth
+/// of the mean cell width. Those of a part of the sphere or of a plane need to be Voronoi vertices
+/// only where three cells meet.
+/// \pre counter-clockwise, each smaller than a hemisphere.
+NotVoronoi not_voronoi(const Polygons& polygons);
+
+/// Checks that polygons are cells: counter-clockwise, without overlap, and a Voronoi tessellation
+/// or a part of one. A violated law is a result, not an error; it names the first polygon.
+/// \returns sites is the number of polygons, area the sum of theirs, expected_area that of the
+///          sphere if they cover it, else 0.
+Check check(const Polygons& polygons);
+
 /// What a mesh file holds. At least one of `mesh` and `polygons` is present.
 struct MeshFile {
   std::string format; ///< for messages, such as "MPAS" or "SCRIP"
@@ -67,8 +111,7 @@ struct MeshFile {
   /// The file's cells, unless they are all the Voronoi cells of `mesh`; those of a part of the
   /// sphere and of a plane with a boundary always.
   std::optional<Polygons> polygons;
-  /// Why `polygons` do not follow from `mesh`, as a clause; empty without polygons.
-  std::string not_voronoi;
+  NotVoronoi not_voronoi; ///< why `polygons` do not follow from `mesh`; none without polygons
   /// Whether the file holds cells, in its own order: `polygons`, or the Voronoi cells of `mesh`. In
   /// other files `mesh` is what they hold, triangles or points.
   bool has_cells = false;
@@ -83,6 +126,12 @@ struct MeshFile {
       changes; ///< what reading changed, such as "turned 12 clockwise triangles"
   std::vector<std::string> ignored; ///< names of variables that were not read
 
+  /// The polygons if they are other than Voronoi cells: without a mesh, or beside a closed one.
+  const Polygons* other_cells() const {
+    return polygons && !(mesh && !mesh->closed()) ? &*polygons : nullptr;
+  }
+  /// True if the rings of a plane's surface clip the cells of the mesh.
+  bool is_clipped() const { return plane() && mesh->surface.is_bounded(); }
   /// Where the mesh and the polygons live.
   const Surface& surface() const { return mesh ? mesh->surface : polygons->surface; }
   /// The mesh if it is one of the sphere; otherwise null.

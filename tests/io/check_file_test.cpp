@@ -281,7 +281,7 @@ MeshFile file_of_cells(const Mesh& mesh, int every) {
     centres.push_back(sum.normalized());
   }
   MeshFile file;
-  file.not_voronoi = "they have other centres";
+  file.not_voronoi.fault = CellFault::other_corner;
   file.polygons = Polygons{cells.vertices,
                            {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
                             Eigen::Map<const Ids>(ids.data(), std::ssize(ids))},

@@ -101,7 +101,7 @@ TEST_CASE("GeoJSON: polygons are cells of either orientation, their numbers fiel
   const MeshFile file = calotte::read_mesh_file(scratch / "cells.geojson");
   REQUIRE(file.polygons);
   CHECK(!file.mesh);
-  CHECK(file.not_voronoi == "the cells have no centres");
+  CHECK(file.not_voronoi.fault == calotte::CellFault::no_centres);
   CHECK(file.changes == std::vector<std::string>{"turned 4 clockwise cells"});
   CHECK(file.polygons->corners.cols() == 6);
   for (const double area : calotte::areas(*file.polygons))

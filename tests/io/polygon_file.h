@@ -11,7 +11,7 @@ namespace calotte::test {
 inline MeshFile file_of(Polygons polygons) {
   MeshFile file;
   file.polygons = std::move(polygons);
-  file.not_voronoi = "made for a test";
+  file.not_voronoi = {.fault = CellFault::no_tessellation, .detail = "made for a test"};
   return file;
 }
 

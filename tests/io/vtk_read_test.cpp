@@ -189,7 +189,7 @@ TEST_CASE(
             "PolyData", faces, {.points = points},
             [&](VtkText& text) { text.array("Float64", "z", values_of(z)); },
             [&](VtkText& text) { text.array("Float64", "site", values_of(mesh.points), 3); }));
-    CAPTURE(file.not_voronoi);
+    CAPTURE(file.not_voronoi.text());
     REQUIRE(!file.polygons);
     check_equal(*file.mesh, mesh);
     CHECK((file.fields.at(0).values - cells.vertices.row(2).transpose()).norm() < 1e-13);

@@ -315,7 +315,7 @@ ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMe
   out.file.not_voronoi = old.not_voronoi;
   out.file.sphere_radius = old.sphere_radius;
   out.file.vertex_order = old.vertex_order;
-  const bool clipped = old.plane() && old.mesh->surface.is_bounded(); // the rings give the cells
+  const bool clipped = old.is_clipped(); // the rings give the cells
   if (old.polygons && !clipped)
     out.file.polygons =
         exact_detail::in_space_of(old.mesh->surface, [&](const exact_detail::Space auto& space) {

@@ -11,9 +11,10 @@ namespace {
 
 Voronoi of_polygons(const MeshFile& file) {
   io_detail::OpenCells cells = io_detail::open_cells(file);
-  if (!cells.problem.empty())
-    throw Error(ErrorCode::invalid_argument, "the cells are not Voronoi cells: " + cells.problem +
-                                                 "; use areas() and the corners of the polygons");
+  if (!cells.problem.passed())
+    throw Error(ErrorCode::invalid_argument,
+                "the cells are not Voronoi cells: " + cells.problem.text() +
+                    "; use areas() and the corners of the polygons");
   return std::move(cells.voronoi);
 }
 
@@ -22,8 +23,7 @@ Voronoi of_polygons(const MeshFile& file) {
 Voronoi voronoi(const MeshFile& file) {
   if (!file.mesh && !file.polygons)
     throw Error(ErrorCode::invalid_argument, "the file holds neither a mesh nor cells");
-  const bool clipped = file.plane() && file.mesh->surface.is_bounded();
-  return file.polygons && !clipped ? of_polygons(file) : voronoi(*file.mesh);
+  return file.polygons && !file.is_clipped() ? of_polygons(file) : voronoi(*file.mesh);
 }
 
 } // namespace calotte

@@ -121,7 +121,7 @@ MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing
   file.format = "hexagons";
   if (walls.x || walls.y) {
     file.polygons = polygons_of(lattice);
-    file.not_voronoi = "they have a boundary";
+    file.not_voronoi.fault = CellFault::walls;
     return file;
   }
   Points3 points(3, columns * rows);
@@ -143,7 +143,7 @@ MeshFile walled(const Mesh& box, const Eigen::Vector2d& extent, Walls walls) {
   const Voronoi cells = voronoi(box);
   MeshFile file;
   file.format = "cells between walls";
-  file.not_voronoi = "they have a boundary";
+  file.not_voronoi.fault = CellFault::walls;
   Polygons& out = file.polygons.emplace();
   out.surface = domain_detail::UncheckedSurface::of_plane(
       {}, {walls.x ? 0 : period.x(), walls.y ? 0 : period.y()});

@@ -4,9 +4,9 @@
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
-#include "io/cells/dual.h"
 #include "io/cells/field_order.h"
 #include "io/cells/polygons.h"
+#include "io/cells/voronoi_cells.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
 #include "mesh/orientation.h"
@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <utility>
 
 namespace calotte::io_detail {
@@ -135,11 +134,6 @@ void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* pol
 
 // ---- Cells
 
-/// Whether polygons are worth comparing: one for each site.
-bool may_be_voronoi(const Mesh& mesh, const Polygons& polygons) {
-  return mesh.closed() && polygons.size() == mesh.points.cols();
-}
-
 /// Values by corner become values by triangle.
 void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
                        std::vector<MeshField>& fields) {
@@ -160,74 +154,42 @@ void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile
     file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
 }
 
-/// Keeps the polygons unless they are the Voronoi cells of the mesh.
-void settle_polygons(const std::string& name, RawMesh raw, MeshFile& file) {
-  Polygons& polygons = raw.polygons;
-  if (file.mesh && may_be_voronoi(*file.mesh, polygons)) {
-    const Voronoi cells = voronoi(*file.mesh);
-    file.not_voronoi = difference_from(cells, polygons, raw.corner_rounding);
-    if (file.not_voronoi.empty())
-      return move_to_triangles(cells, polygons, file.fields);
-  } else if (file.mesh) {
-    file.not_voronoi = !file.mesh->closed()
-                           ? "the mesh is open"
-                           : "there are " + std::to_string(polygons.size()) + " cells, but " +
-                                 std::to_string(file.mesh->points.cols()) + " distinct centres";
-  }
-  require_no_overlap(polygons, name);
-  file.polygons = std::move(polygons);
-}
-
-/// Cells whose centres have no Delaunay triangulation stay polygons.
-void triangulate_centres(const Points3& centres, MeshFile& file) {
-  try {
-    file.mesh = delaunay(centres);
-  } catch (const Error& error) {
-    file.not_voronoi = error.what();
-  }
-}
-
-/// Cells without triangles. A mesh is what their own corners make of them. Corners of more than
-/// three cells are those of Voronoi cells if they agree with the triangulation of the centres.
-void settle_cells(const std::string& name, RawMesh raw, MeshFile& file) {
-  if (raw.points.cols() == 0) {
-    file.not_voronoi = "the cells have no centres";
-    return settle_polygons(name, std::move(raw), file);
-  }
-  file.mesh = mesh_of_cells(raw.points, raw.polygons, raw.corner_rounding, file.fields);
-  if (file.mesh && file.mesh->closed())
-    return;
-  if (!file.mesh && cover_sphere(raw.polygons)) {
-    triangulate_centres(raw.points, file);
-    settle_polygons(name, std::move(raw), file);
-    if (file.polygons) // triangles of the centres are not the file's
-      file.mesh.reset();
-    return;
-  }
-  if (!file.mesh)
-    file.not_voronoi = "they are a part of the sphere, and their corners are not the circumcentres "
-                       "of three centres each";
-  settle_polygons(name, std::move(raw), file);
-}
-
-/// Keeps the polygons: their boundary is the file's alone. Each has a site.
-void settle_clipped(const std::string& name, Polygons polygons, MeshFile& file) {
-  const auto& sites = file.mesh->site_of_input;
+/// Each cell of a plane has a site. Its boundary is the file's alone, and corners are no triangles.
+void require_one_site_each(const std::string& name, const Mesh& mesh) {
+  const auto& sites = mesh.site_of_input;
   for (std::size_t i = 0; i < sites.size(); ++i)
     if (sites[i] != static_cast<std::int32_t>(i))
       fail_mesh(name,
                 "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
                     " have one centre",
                 static_cast<std::int64_t>(i));
-  turn_cells(name, polygons, false, file);
-  require_no_overlap(polygons, name);
-  std::erase_if(file.fields, [&](const MeshField& field) { // corners are no triangles
+}
+
+void ignore_other_fields(MeshFile& file) {
+  std::erase_if(file.fields, [&](const MeshField& field) {
     if (field.location != Location::cells)
       file.ignored.push_back(field.name);
     return field.location != Location::cells;
   });
-  file.not_voronoi = "the boundary of the plane clips them";
-  file.polygons = std::move(polygons);
+}
+
+/// Keeps the polygons unless they are the Voronoi cells of a mesh.
+void take_cells(const std::string& name, RawMesh raw, MeshFile& file) {
+  ComparedCells found =
+      file.mesh
+          ? compare_cells(*std::move(file.mesh), raw.polygons, raw.corner_rounding)
+          : compare_cells(std::move(raw.points), raw.polygons, raw.corner_rounding, file.fields);
+  file.mesh = std::move(found.mesh);
+  file.not_voronoi = std::move(found.answer);
+  if (file.not_voronoi.fault == CellFault::none) {
+    if (found.voronoi)
+      move_to_triangles(*found.voronoi, raw.polygons, file.fields);
+    return;
+  }
+  require_no_overlap(raw.polygons, name);
+  if (file.not_voronoi.fault == CellFault::clipped)
+    ignore_other_fields(file);
+  file.polygons = std::move(raw.polygons);
 }
 
 /// Values by input column become values by site: a site has those of its lowest column.
@@ -269,69 +231,39 @@ void require_places(const std::string& name, const Points3& points) {
   }
 }
 
-MeshFile spherical_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
-  require_sphere(name, raw.points);
-  require_directions(name, raw.points);
-  MeshFile file = rest_of(format, raw);
-  const bool has_cells = raw.polygons.size() > 0;
-  if (has_cells)
-    turn_cells(name, raw.polygons, raw.turns_each, file);
-  if (raw.triangles.cols() > 0) {
-    require_ids(name, raw.triangles, raw.points.cols());
-    Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, {}};
-    complete(name, mesh, file, &raw.polygons);
-    settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
-    file.mesh = std::move(mesh);
-    if (has_cells)
-      settle_polygons(name, std::move(raw), file);
-  } else if (!has_cells) {
-    file.mesh = named(name, [&] { return delaunay(raw.points); });
-    merge_values(*file.mesh, file);
-    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
-  } else {
-    settle_cells(name, std::move(raw), file);
+/// Directions, or places with z = 0. Readers have moved those of a periodic plane into it.
+void require_points(const std::string& name, RawMesh& raw) {
+  if (raw.surface.is_sphere()) {
+    require_sphere(name, raw.points);
+    require_directions(name, raw.points);
+  } else if (raw.surface.period().isZero(0)) {
+    require_places(name, raw.points);
+    raw.points.row(2).setZero(); // not -0
+    if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
+      throw Error(ErrorCode::invalid_argument,
+                  name + ": it holds cells of the sphere; of a plane only triangles are read");
   }
-  if (file.mesh)
-    file.sphere_radius = radius_of(file.mesh->points);
-  return file;
 }
 
-/// With z = 0 at all points.
-MeshFile planar_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
-  require_places(name, raw.points);
-  raw.points.row(2).setZero(); // not -0
-  MeshFile file = rest_of(format, raw);
-  if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
-    throw Error(ErrorCode::invalid_argument,
-                name + ": it holds cells of the sphere; of a plane only triangles are read");
-  if (raw.triangles.cols() == 0) {
-    file.mesh = named(name, [&] { return delaunay(raw.points, Surface::plane()); });
-    if (raw.polygons.size() > 0)
-      settle_clipped(name, std::move(raw.polygons), file);
-    return file;
-  }
+/// The mesh of the file's triangles.
+Mesh mesh_of_triangles(const std::string& name, RawMesh& raw, MeshFile& file) {
   require_ids(name, raw.triangles, raw.points.cols());
-  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, Surface::plane()};
-  complete(name, mesh, file);
-  file.mesh = std::move(mesh);
-  return file;
+  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, raw.surface};
+  complete(name, mesh, file, &raw.polygons);
+  settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
+  return mesh;
 }
 
-/// It has a boundary where there are polygons, one for each point. \pre the points are within the
-/// periods.
-MeshFile periodic_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
-  MeshFile file = rest_of(format, raw);
-  Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, raw.surface};
-  complete(name, mesh, file);
-  settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
-  file.mesh = std::move(mesh);
+/// The mesh of points, or of the centres of a plane's cells, which the file gives no triangles.
+Mesh mesh_of_points(const std::string& name, const RawMesh& raw, MeshFile& file) {
+  Mesh mesh = named(name, [&] { return delaunay(raw.points, raw.surface); });
   if (raw.polygons.size() > 0) {
-    turn_cells(name, raw.polygons, false, file);
-    require_no_overlap(raw.polygons, name);
-    file.not_voronoi = "the mesh is open";
-    file.polygons = std::move(raw.polygons);
+    require_one_site_each(name, mesh);
+  } else if (raw.surface.is_sphere()) {
+    merge_values(mesh, file);
+    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
   }
-  return file;
+  return mesh;
 }
 
 } // namespace
@@ -369,10 +301,21 @@ double radius_of(const Points3& points) {
 }
 
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
-  if (raw.surface.period().maxCoeff() > 0)
-    return periodic_mesh_file(name, format, std::move(raw));
-  return raw.surface.is_sphere() ? spherical_mesh_file(name, format, std::move(raw))
-                                 : planar_mesh_file(name, format, std::move(raw));
+  require_points(name, raw);
+  MeshFile file = rest_of(format, raw);
+  const bool sphere = raw.surface.is_sphere(), has_cells = raw.polygons.size() > 0,
+             has_triangles = raw.triangles.cols() > 0 || !raw.surface.period().isZero(0);
+  if (has_cells)
+    turn_cells(name, raw.polygons, raw.turns_each, file);
+  if (has_triangles)
+    file.mesh = mesh_of_triangles(name, raw, file);
+  else if (!sphere || !has_cells)
+    file.mesh = mesh_of_points(name, raw, file);
+  if (has_cells)
+    take_cells(name, std::move(raw), file);
+  if (sphere && file.mesh)
+    file.sphere_radius = radius_of(file.mesh->points);
+  return file;
 }
 
 namespace {

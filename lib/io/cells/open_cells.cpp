@@ -50,7 +50,7 @@ double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double w
 }
 
 /// The first vertex that is no circumcentre.
-std::string first_difference(const Voronoi& cells) {
+NotVoronoi first_difference(const Voronoi& cells) {
   const double width = std::sqrt(
       cells.cell_area.sum() / static_cast<double>(std::max<Eigen::Index>(cells.cells.cols(), 1)));
   for (Eigen::Index v = 0; v < cells.vertices.cols(); ++v) {
@@ -58,10 +58,10 @@ std::string first_difference(const Voronoi& cells) {
       continue;
     const double distance = distance_from_circumcentre(cells, v, width);
     if (!(distance <= 1e-6))
-      return "the common corner of cells " + std::to_string(cells.cells_on_vertex(0, v)) + ", " +
-             std::to_string(cells.cells_on_vertex(1, v)) + " and " +
-             std::to_string(cells.cells_on_vertex(2, v)) + " is " + std::to_string(distance) +
-             " cell widths away from the circumcentre of their centres";
+      return {.fault = CellFault::common_corner,
+              .cells = {cells.cells_on_vertex(0, v), cells.cells_on_vertex(1, v),
+                        cells.cells_on_vertex(2, v)},
+              .distance = distance};
   }
   return {};
 }
@@ -78,14 +78,14 @@ Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
 OpenCells open_cells(const Polygons& polygons) {
   OpenCells out;
   if (polygons.centres.cols() != polygons.size()) {
-    out.problem = "the cells have no centres";
+    out.problem.fault = CellFault::no_centres;
     return out;
   }
   set_cells(polygons, out.voronoi);
   try {
     voronoi_detail::connect_open(out.voronoi);
   } catch (const Error& error) {
-    out.problem = error.what();
+    out.problem = {.fault = CellFault::no_tessellation, .detail = error.what()};
     return out;
   }
   voronoi_detail::measure_open(out.voronoi);
@@ -95,7 +95,8 @@ OpenCells open_cells(const Polygons& polygons) {
 
 OpenCells open_cells(const MeshFile& file) {
   OpenCells cells = open_cells(*file.polygons);
-  if (!cells.problem.empty() && (file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons)))
+  const bool whole = file.mesh ? file.mesh->closed() : cover_sphere(*file.polygons);
+  if (whole && !cells.problem.passed() && !file.not_voronoi.passed())
     cells.problem = file.not_voronoi;
   return cells;
 }

@@ -7,14 +7,12 @@
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
-#include <string>
-
 namespace calotte::io_detail {
 
 /// A part of a Voronoi tessellation that has a boundary.
 struct OpenCells {
-  Voronoi voronoi;     ///< whole; its vertices are the polygons' corners that are used
-  std::string problem; ///< why polygons are no such part, as a clause; empty if they are
+  Voronoi voronoi;    ///< whole; its vertices are the polygons' corners that are used
+  NotVoronoi problem; ///< why polygons are no such part
 };
 
 /// Polygons whose corners are those of Voronoi cells: each corner of three polygons is the

@@ -64,28 +64,6 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
 
 std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
 
-/// The square of the distance from a point to the nearest of some columns.
-double nearest(const Vec3& p, const Points3& points, std::span<const std::int32_t> ids) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::int32_t id : ids) {
-    const Vec3 apart = p - column(points, id);
-    least = std::min(least, dot(apart, apart));
-  }
-  return least;
-}
-
-/// The largest distance from a corner of either cell to the nearest corner of the other.
-double corner_distance(const Voronoi& voronoi, const Polygons& polygons, std::int64_t cell) {
-  const std::span<const std::int32_t> corners = polygons.ids[cell],
-                                      vertices = voronoi.vertices_on_cell[cell];
-  double most = 0;
-  for (const std::int32_t id : corners)
-    most = std::max(most, nearest(place(polygons, id), voronoi.vertices, vertices));
-  for (const std::int32_t id : vertices)
-    most = std::max(most, nearest(column(voronoi.vertices, id), polygons.corners, corners));
-  return std::sqrt(most);
-}
-
 /// The turn of a polygon: 1 counter-clockwise, -1 clockwise, 0 of no area. The triangles of most
 /// fans all turn one way, and their areas need not be known.
 int turn_of(const Polygons& polygons, std::int64_t polygon) {
@@ -287,7 +265,7 @@ bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
   return std::abs(area) > rounding * perimeter * size;
 }
 
-void require_no_overlap(const Polygons& polygons, const std::string& name) {
+PolygonFault overlap_in(const Polygons& polygons) {
   const Sides all(polygons);
   const auto covers = [&](const Side& side) {
     return has_area(polygons, side.polygon, signed_area(polygons, side.polygon));
@@ -300,21 +278,26 @@ void require_no_overlap(const Polygons& polygons, const std::string& name) {
       if (side.to == next.to && !covers(next))
         continue;
       if (side.to == next.to && covers(side))
-        throw Error(ErrorCode::parse,
-                    name + ": " + name_of(side.polygon) + " and " + name_of(next.polygon) +
-                        " overlap, as both lie to the left of one side; make the file again",
-                    side.polygon);
+        return {name_of(side.polygon) + " and " + name_of(next.polygon) +
+                    " overlap, as both lie to the left of one side",
+                side.polygon};
       known = k;
     }
   }
   if (!polygons.surface.is_sphere())
-    return;
+    return {};
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
   const double area = areas_of(polygons).sum();
   if (area > whole * (1 + rounding))
-    throw Error(ErrorCode::parse, name + ": the cells overlap: their areas sum to " +
-                                      std::to_string(area / whole) +
-                                      " times the sphere's; make the file again");
+    return {"the cells overlap: their areas sum to " + std::to_string(area / whole) +
+            " times the sphere's"};
+  return {};
+}
+
+void require_no_overlap(const Polygons& polygons, const std::string& name) {
+  if (const PolygonFault fault = overlap_in(polygons); !fault.text.empty())
+    throw Error(ErrorCode::parse, name + ": " + fault.text + "; make the file again",
+                fault.polygon);
 }
 
 double mean_width(std::int64_t cells) {
@@ -331,30 +314,6 @@ double corner_tolerance(double mean_width, double rounding) { return 1e-6 * mean
 bool cover_sphere(const Polygons& polygons) {
   const double whole = 4 * std::numbers::pi, mean = whole / static_cast<double>(polygons.size());
   return polygons.surface.is_sphere() && areas_of(polygons).sum() > whole - mean / 2;
-}
-
-std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding) {
-  const std::int64_t count = polygons.size();
-  if (voronoi.cells.cols() != count)
-    return "there are " + std::to_string(count) + " cells, but " +
-           std::to_string(voronoi.cells.cols()) + " distinct centres";
-  const double width = mean_width(count), tolerance = corner_tolerance(width, rounding);
-  std::vector<std::int64_t> first(static_cast<std::size_t>(block_count(count)), -1);
-  for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::int64_t& found = first[static_cast<std::size_t>(block)];
-    for (std::int64_t i = begin; i != end && found < 0; ++i)
-      if (!(corner_distance(voronoi, polygons, i) <= tolerance))
-        found = i;
-  });
-  const auto found =
-      std::find_if(first.begin(), first.end(), [](std::int64_t cell) { return cell >= 0; });
-  if (found == first.end())
-    return {};
-  if (polygons.ids.count(*found) == 0)
-    return name_of(*found) + " has no corners";
-  return "a corner of " + name_of(*found) + " is " +
-         std::to_string(corner_distance(voronoi, polygons, *found) / width) +
-         " mean cell widths away from that of the Voronoi cell of its centre";
 }
 
 Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons) {

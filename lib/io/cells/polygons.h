@@ -76,8 +76,15 @@ Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas);
 /// its perimeter. \param area of the polygon.
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area);
 
-/// \throws Error parse, where two polygons with an area run through one side in the same direction,
-/// or all together are larger than the sphere. \pre counter-clockwise.
+/// A fault of polygons as a clause, and the polygon; without one empty.
+struct PolygonFault {
+  std::string text;
+  std::int64_t polygon = -1;
+};
+/// Where two polygons with an area run through one side in the same direction, or all together are
+/// larger than the sphere. \pre counter-clockwise.
+PolygonFault overlap_in(const Polygons& polygons);
+/// \throws Error parse for such an overlap.
 void require_no_overlap(const Polygons& polygons, const std::string& name);
 
 /// The square root of the mean area: of so many cells that cover the sphere, or of polygons.
@@ -91,13 +98,8 @@ double corner_tolerance(double mean_width, double rounding);
 /// Whether polygons leave less than half of their mean area of the sphere uncovered.
 bool cover_sphere(const Polygons& polygons);
 
-/// Why polygons are not the Voronoi cells of their centres, as a clause that names the first such
-/// cell; empty if they are. Corners count as
-/// equal within corner_tolerance().
-std::string difference_from(const Voronoi& voronoi, const Polygons& polygons, double rounding);
-
 /// For each Voronoi vertex the nearest corner of the polygon of one of its cells.
-/// \pre the polygons are the Voronoi cells, see difference_from().
+/// \pre the polygons are the Voronoi cells, see not_voronoi().
 Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons);
 
 /// The most corners of a polygon.

@@ -10,7 +10,7 @@ DoubleVector spacing_density(const MeshFile& file) {
     return spacing_density(voronoi(*plane));
   if (file.polygons) {
     const io_detail::OpenCells cells = io_detail::open_cells(file);
-    return cells.problem.empty() ? spacing_density(cells.voronoi) : DoubleVector();
+    return cells.problem.passed() ? spacing_density(cells.voronoi) : DoubleVector();
   }
   if (file.sphere() && file.mesh->closed())
     return spacing_density(voronoi(*file.mesh));

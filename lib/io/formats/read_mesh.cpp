@@ -138,12 +138,12 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
 
 Mesh read_mesh(const std::string& path, const Points3* points) {
   MeshFile file = read_mesh_file(path, points, FieldChoice::none);
-  if (file.polygons && !file.plane() && !(file.mesh && !file.mesh->closed()))
+  if (file.other_cells() && !file.plane())
     throw Error(ErrorCode::invalid_argument,
                 path +
                     ": the cells are not the Voronoi cells of their "
                     "centres (" +
-                    file.not_voronoi +
+                    file.not_voronoi.text() +
                     "); read them with read_mesh_file(), or read their "
                     "centres with read_sites() and triangulate these");
   return std::move(*file.mesh);

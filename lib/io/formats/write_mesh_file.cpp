@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace calotte {
@@ -32,10 +33,10 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
   const std::string others = "; write " + polygon_formats(file.polygons->surface.is_sphere());
   if (format == Format::mpas_minimal)
     refuse_to_write(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
-                              file.not_voronoi + others);
+                              file.not_voronoi.text() + others);
   if (!row_of(format).polygons_as)
     refuse_to_write(path, "the format holds triangles, but the mesh consists of cells, and " +
-                              file.not_voronoi + others);
+                              file.not_voronoi.text() + others);
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (file.polygons->ids.count(i) == 0)
       refuse_to_write(
@@ -57,8 +58,8 @@ Points3 places_of(const MeshFile& file, double radius) {
 
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   const OpenCells cells = open_cells(file);
-  if (!cells.problem.empty())
-    refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem + "; write " +
+  if (!cells.problem.passed())
+    refuse_to_write(path, "MPAS needs Voronoi cells, but " + cells.problem.text() + "; write " +
                               polygon_formats(file.polygons->surface.is_sphere()));
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
@@ -100,24 +101,22 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
   Monitor(options.progress).finish("write");
 }
 
-/// Whether the rings of a plane's surface clip the cells of its mesh.
-bool is_clipped(const MeshFile& file) { return file.plane() && file.mesh->surface.is_bounded(); }
+/// What of a file a format holds: its polygons, or a mesh.
+struct WrittenShape {
+  bool polygons = false;
+  std::optional<Mesh> inner = {}; ///< triangles of the clipped cells of a plane; else the file's
+};
 
 /// Cells are written as they are, to formats of triangles only where the file has no triangles.
-/// \param triangles of the cells of a plane, if there are any.
-bool writes_polygons(const MeshFile& file, const std::optional<Mesh>& triangles, Format format) {
+WrittenShape shape_for(const MeshFile& file, Format format) {
   if (!file.polygons || info_of(format).cells)
-    return file.polygons.has_value() && !is_clipped(file);
-  return file.plane() ? !triangles && file.mesh->surface.period().maxCoeff() == 0
-                      : !file.mesh || file.mesh->closed();
-}
-
-/// What formats of triangles hold of the clipped cells of a plane. A periodic one has triangles.
-std::optional<Mesh> triangles_of(const MeshFile& file, Format format) {
-  if (!file.plane() || file.mesh->surface.period().maxCoeff() > 0 || !file.polygons ||
-      info_of(format).cells)
+    return {.polygons = file.polygons && !file.is_clipped()};
+  if (file.other_cells())
+    return {.polygons = true};
+  if (file.sphere() || file.mesh->surface.period().maxCoeff() > 0)
     return {};
-  return planar_mesh_of_cells(file.mesh->points, *file.polygons);
+  std::optional<Mesh> inner = planar_mesh_of_cells(file.mesh->points, *file.polygons);
+  return {.polygons = !inner, .inner = std::move(inner)};
 }
 
 /// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
@@ -144,7 +143,7 @@ bool is_at_corners(const MeshFile& file, const MeshField& field) {
 /// Names of the fields that a format cannot hold. Masks at edges and vertices follow in MPAS files
 /// alone.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
-  const bool clipped = !polygons && is_clipped(file) && info_of(format).cells;
+  const bool clipped = !polygons && file.is_clipped() && info_of(format).cells;
   std::vector<std::string> dropped;
   const auto is_held = [&](const MeshField& field) {
     if (format == Format::mpas && is_derived_mask(field.name, file.fields))
@@ -173,24 +172,20 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
   WrittenFields written;
   if (info_of(resolved.format).netcdf)
     written.renamed = replace_names(resolved.fields);
-  const std::optional<Mesh> triangles = triangles_of(file, resolved.format);
-  const bool polygons = writes_polygons(file, triangles, resolved.format);
-  if (!polygons && options.density.uniform() && options.site_density.size() == 0)
-    resolved.site_density = file.density;
-  if (!polygons)
-    std::erase_if(resolved.fields,
-                  [&](const MeshField& field) { return is_at_corners(file, field); });
-  if (polygons) {
+  const WrittenShape shape = shape_for(file, resolved.format);
+  if (shape.polygons) {
     resolved.format = row_of(resolved.format).polygons_as.value_or(resolved.format);
     write_polygons_of(path, file, resolved);
-  } else if (triangles) {
-    write(path, *triangles, resolved);
   } else {
+    if (options.density.uniform() && options.site_density.size() == 0)
+      resolved.site_density = file.density;
+    std::erase_if(resolved.fields,
+                  [&](const MeshField& field) { return is_at_corners(file, field); });
     if (file.sphere())
       require_voronoi(path, *file.mesh, resolved.format);
-    write(path, *file.mesh, resolved);
+    write(path, shape.inner ? *shape.inner : *file.mesh, resolved);
   }
-  written.dropped = dropped_fields(file, resolved.format, polygons);
+  written.dropped = dropped_fields(file, resolved.format, shape.polygons);
   return written;
 }
 

@@ -17,6 +17,7 @@
 #include <calotte/write.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -65,6 +66,20 @@ std::shared_ptr<Voronoi> cells_of(const MeshFile& content, const py::object& gri
   return call([&] { return std::make_shared<Voronoi>(voronoi(file)); });
 }
 
+py::tuple state_of_answer(const NotVoronoi& answer) {
+  return py::make_tuple(static_cast<int>(answer.fault), answer.cells, answer.polygons,
+                        answer.centres, answer.distance, answer.detail);
+}
+
+NotVoronoi answer_of(const py::tuple& state) {
+  return {.fault = static_cast<CellFault>(state[0].cast<int>()),
+          .cells = state[1].cast<std::array<std::int64_t, 3>>(),
+          .polygons = state[2].cast<std::int64_t>(),
+          .centres = state[3].cast<std::int64_t>(),
+          .distance = state[4].cast<double>(),
+          .detail = state[5].cast<std::string>()};
+}
+
 py::tuple state_of(const MeshFile& content) {
   py::list fields;
   for (const MeshField& field : content.fields) {
@@ -76,8 +91,8 @@ py::tuple state_of(const MeshFile& content) {
         dimensions, field.leading, field.integer, field.single, field.directed, field.attributes));
   }
   return py::make_tuple(content.format, polygons_of(std::make_shared<MeshFile>(content)),
-                        content.not_voronoi, content.sphere_radius, content.density, fields,
-                        static_cast<int>(content.vertex_order));
+                        state_of_answer(content.not_voronoi), content.sphere_radius,
+                        content.density, fields, static_cast<int>(content.vertex_order));
 }
 
 MeshField field_of(const py::tuple& state) {
@@ -102,7 +117,7 @@ Content of_state(const py::tuple& state) {
   content->format = state[0].cast<std::string>();
   if (!state[1].is_none())
     content->polygons = state[1].cast<const Polygons&>();
-  content->not_voronoi = state[2].cast<std::string>();
+  content->not_voronoi = answer_of(state[2].cast<py::tuple>());
   content->sphere_radius = state[3].cast<double>();
   content->density = state[4].cast<Eigen::VectorXd>();
   for (const py::handle field : state[5])
@@ -196,7 +211,8 @@ void add_content(py::module_& module) {
       .def_property_readonly("polygons", &polygons_of)
       .def_property_readonly("fields", &fields_of)
       .def_readonly("format", &MeshFile::format)
-      .def_readonly("not_voronoi", &MeshFile::not_voronoi)
+      .def_property_readonly("not_voronoi",
+                             [](const MeshFile& file) { return file.not_voronoi.text(); })
       .def_readonly("sphere_radius", &MeshFile::sphere_radius)
       .def_readonly("changes", &MeshFile::changes)
       .def_property_readonly(
