@@ -86,7 +86,8 @@ TEST_CASE("widths of a plane: within a part, blended from its boundary, of a ras
   const Surface bay = rectangle({2, 2}, {6, 6});
   const Widths inside = Widths::where(bay, 0.5, 2);
   const Widths blend = Widths::blend(2, 0.5, Share(bay, {{{-1, 1}, {1, 0}}}));
-  const Raster raster{DoubleVector{{0, 20}}, DoubleVector{{0, 10}}, DoubleMatrix{{1, 1}, {3, 3}}};
+  const Raster raster{DoubleVector{{0, 20}}, DoubleVector{{0, 10}}, DoubleMatrix{{1, 1}, {3, 3}},
+                      true};
   const Points2 places{{4, 8, 6, 2.5}, {4, 4, 4, 4}};
   CHECK(evaluate(inside, places) == DoubleVector{{0.5, 2, 2 - 1.5, 0.5}});
   const DoubleVector mixed = evaluate(blend, places);

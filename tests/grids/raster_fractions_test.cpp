@@ -155,5 +155,5 @@ TEST_CASE("rasters that are refused") {
   CHECK(refusal([](Raster& r) { r.values.resize(4, 8); }).find("longitudes x latitudes") !=
         std::string::npos);
   CHECK(refusal([](Raster& r) { r.y.reverseInPlace(); }).find("sort them") != std::string::npos);
-  CHECK(refusal([](Raster& r) { r.x[7] = 300; }).find("sort them") != std::string::npos);
+  CHECK(refusal([](Raster& r) { r.x[7] = 300; }).find("repeated longitudes") != std::string::npos);
 }

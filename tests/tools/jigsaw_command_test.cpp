@@ -74,7 +74,7 @@ TEST_CASE("jigsaw: widths of 0 take the least one") {
   bench.file("a.jig", options + "HFUN_HMIN=1\n");
   CHECK(bench.run("jigsaw a.jig").code == 0);
   std::filesystem::remove(bench.folder() / "mesh.msh");
-  check_refused(bench, options, "hfun.msh: VALUE[0][0] is not positive and finite");
+  check_refused(bench, options, "hfun.msh: VALUE[0][0] = 0 is not positive and finite");
 }
 
 TEST_CASE("jigsaw: points of negative tags stay, lines are followed, a start alone is kept") {
