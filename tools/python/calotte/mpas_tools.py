@@ -37,7 +37,7 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     """
     widths = _arguments.planar_cell_width((1000 * _arguments.numbers(cellWidth, "cell widths"), x, y))
     surface = _calotte.planar_polygon(_rings(geom_points, geom_edges))
-    rho = widths.density()
+    rho = _calotte.density_of_widths(widths)
     cells = _functions.plan(widths, surface=surface).cells
     grid = _functions.cvt(cells, surface=surface, density=rho)
     if logger is not None:
