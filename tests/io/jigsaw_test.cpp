@@ -138,7 +138,7 @@ TEST_CASE("jigsaw: widths of a plane on a grid and at points") {
   CHECK(worst < 0.01); // beyond the hull of the points the nearest one's
   CHECK(has(message_of([&] {
               read_cell_width(jigsaw_file(scratch, "MSHID=3;ELLIPSOID-GRID\nNDIMS=2\n"), {},
-                                Surface::plane());
+                              Surface::plane());
             }),
             "no cell widths of a plane"));
 }
