@@ -15,14 +15,13 @@ namespace calotte {
 /// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
-// Cell widths, the distances between the centres of neighbouring cells, at the nodes of a raster
-// are > 0 and finite, and their max / min is at most 1e30. They are in km, in a plane in its unit.
-
 /// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
 /// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
 /// The result is a callable that returns the same bits for any number of threads and on every
 /// x86-64 machine.
-/// \throws Error invalid_argument if the widths violate the conditions of Raster, or those above.
+/// \param widths distances between the centres of neighbouring cells, here and below in km, in a
+///        plane in its unit: > 0 and finite, max / min at most 1e30.
+/// \throws Error invalid_argument if the widths violate these conditions or those of Raster.
 Density density_of(const Raster& widths);
 
 /// Relative widths rho^(-1/4), of which the least is 1, of a density at nodes.

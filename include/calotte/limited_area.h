@@ -44,8 +44,9 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 /// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger
 /// than widened() allows.
 /// \param surface a region of the sphere.
+/// \param widths of the sphere, km, see density_of(const Raster&).
 /// \param radius_km radius of the sphere of the widths.
-/// \throws Error as widened() and evaluate(); invalid_argument for a plane.
+/// \throws Error as widened() and density_of(); invalid_argument for a plane.
 Surface with_rings(const Surface& surface, const Raster& widths,
                    double radius_km = earth_radius_km);
 

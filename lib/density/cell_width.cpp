@@ -176,7 +176,12 @@ double implied_cells(const Raster& widths, const Surface& surface, double radius
   }
   constexpr std::int64_t samples = 1 << 18;
   const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
-  const double mean = evaluate(widths, places).array().square().inverse().mean();
+  DoubleVector at(samples);
+  base_detail::for_each_block(samples, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    density_detail::evaluate_block(field, places.middleCols(begin, end - begin),
+                                   at.segment(begin, end - begin));
+  });
+  const double mean = at.array().square().inverse().mean();
   return 2 / std::numbers::sqrt3 * unit * unit * surface.area() * mean;
 }
 

@@ -57,14 +57,9 @@ public:
       : WidthRule(raster.of_plane ? RuleSpace::plane : RuleSpace::sphere),
         field_(width_field(raster)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    constexpr std::size_t most = 128;
-    std::array<double, most> x, y, z;
-    for (std::size_t begin = 0; begin < places.size(); begin += most) {
-      const std::size_t count = std::min(most, places.size() - begin);
-      for (std::size_t k = 0; k < count; ++k)
-        x[k] = places[begin + k].x, y[k] = places[begin + k].y, z[k] = places[begin + k].z;
-      field_(x.data(), y.data(), z.data(), count, widths.data() + begin);
-    }
+    if (!places.empty())
+      evaluate_block(field_, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
+                     Eigen::Map<Eigen::VectorXd>(widths.data(), std::ssize(places)));
   }
   double least() const override { return field_.least(); }
   const RasterField* raster() const override { return &field_; }

@@ -3,6 +3,7 @@
 
 #include "base/lists.h"
 #include "base/require.h"
+#include "density/raster_field.h"
 #include "domain/surface.h"
 #include "grids/room.h"
 #include "mesh/rows.h"
@@ -92,6 +93,8 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count) {
 Surface with_rings(const Surface& surface, const Raster& widths, double radius_km) {
   constexpr int beyond = 4; // cells
   domain_detail::require_sphere(surface, "a limited area is");
+  density_detail::require_kind(widths, surface);
+  density_detail::require_widths(widths);
   Surface meshed = surface;
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;

@@ -58,11 +58,7 @@ Mesh torus(std::int32_t columns, std::int32_t rows) {
 /// Meshes of all kinds, of which some have sites where the boundary passes more than once, and
 /// sites in no triangle.
 std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = all_meshes();
-  all.push_back(
-      {"plane", delaunay(random_points(200, rectangle({0, 0}, {2, 1}), {}, 5), Surface::plane())});
-  const Surface box = Surface::periodic({2, 1});
-  all.push_back({"box", delaunay(random_points(300, box, {}, 6), box)});
+  std::vector<NamedMesh> all = meshes_of_all_surfaces();
   all.push_back({"2 x 2 sites of a box", torus(2, 2)});
   all.push_back({"2 x 5 sites of a box", torus(2, 5)});
   Random random(7);

@@ -24,15 +24,6 @@ using mesh_detail::Submesh;
 
 namespace {
 
-std::vector<NamedMesh> whole_meshes() {
-  std::vector<NamedMesh> all = all_meshes();
-  all.push_back(
-      {"plane", delaunay(random_points(200, rectangle({0, 0}, {2, 1}), {}, 5), Surface::plane())});
-  const Surface box = Surface::periodic({2, 1});
-  all.push_back({"box", delaunay(random_points(300, box, {}, 6), box)});
-  return all;
-}
-
 /// Some triangles, in any order.
 std::vector<std::int32_t> some_triangles(const Mesh& mesh, Random& random) {
   const int share = random.integer(1, 10);
@@ -76,7 +67,7 @@ void check_numbers(const Submesh& part, const Mesh& mesh) {
 
 TEST_CASE("a part has numbers both ways, and its sites ascend until some are put first") {
   Random random(1);
-  for (const auto& [name, mesh] : whole_meshes())
+  for (const auto& [name, mesh] : meshes_of_all_surfaces())
     for (int round = 0; round < 5; ++round) {
       CAPTURE(name);
       Submesh part =
@@ -101,7 +92,7 @@ TEST_CASE("a part has numbers both ways, and its sites ascend until some are put
 
 TEST_CASE("a part that is put back leaves the mesh as it was, in any order of parts") {
   Random random(2);
-  for (const auto& [name, mesh] : whole_meshes())
+  for (const auto& [name, mesh] : meshes_of_all_surfaces())
     for (int round = 0; round < 5; ++round) {
       CAPTURE(name);
       const Submesh one =
@@ -152,7 +143,7 @@ TEST_CASE("a flip inside a part reaches the mesh, and the triangles beyond the r
 
 TEST_CASE("a part is a mesh of its own") {
   Random random(3);
-  for (const auto& [name, mesh] : whole_meshes()) {
+  for (const auto& [name, mesh] : meshes_of_all_surfaces()) {
     CAPTURE(name);
     std::vector<std::int32_t> some = some_triangles(mesh, random);
     if (some.empty())

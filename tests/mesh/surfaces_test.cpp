@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -175,6 +176,13 @@ TEST_CASE("points and densities are those of the surface") {
                       Eigen::MatrixXd::Constant(3, 2, 300)};
   CHECK(with_rings(cap(), widths).area() > cap().area());
   CHECK_NOTHROW(require_covering(widths));
+  for (const double bad : {0.0, -300.0, std::nan("")}) {
+    Raster spoilt = widths;
+    spoilt.values(1, 0) = bad;
+    CHECK_THROWS_WITH_AS(with_rings(cap(), spoilt),
+                         "cell width: value (1, 0) is not positive and finite; correct it", Error);
+  }
+  CHECK_THROWS_AS(with_rings(cap(), {widths.x, widths.y, widths.values, true}), Error);
 }
 
 TEST_CASE("midpoints stay on the surface") {

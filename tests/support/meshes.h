@@ -56,6 +56,16 @@ inline std::vector<NamedMesh> all_meshes() {
   return all;
 }
 
+/// all_meshes(), and one of the plane and one of a periodic box.
+inline std::vector<NamedMesh> meshes_of_all_surfaces() {
+  std::vector<NamedMesh> all = all_meshes();
+  all.push_back(
+      {"plane", delaunay(random_points(200, rectangle({0, 0}, {2, 1}), {}, 5), Surface::plane())});
+  const Surface box = Surface::periodic({2, 1});
+  all.push_back({"box", delaunay(random_points(300, box, {}, 6), box)});
+  return all;
+}
+
 /// closed_meshes(), and those with spacings that differ and with a cell of more corners than a byte
 /// counts.
 inline std::vector<NamedMesh> uneven_meshes() {
