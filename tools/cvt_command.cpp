@@ -141,7 +141,7 @@ Run prepare(const CvtRequest& request, Progress& progress) {
   require_used(request, run.schedule);
   run.input.recipe.start.points.resize(3, 0); // the schedule has them
   const Recipe& recipe = run.schedule.recipe;
-  require_space(request.mesh, file_bytes(format, recipe.cells, recipe.density.uniform()));
+  require_space(request.mesh, file_bytes(format, recipe.cells, run.schedule.density.uniform()));
   run.configuration = configuration_of(request, run.input, run.schedule);
   if (!request.resume.empty()) {
     run.state = read_checkpoint(request.resume, run.configuration);

@@ -218,7 +218,7 @@ std::function<DoubleVector(const Points3&)> spacings_by(const Density& density, 
 
 /// The widths of a file, otherwise the density; --colour selects the other.
 SphereField field_of(const DrawArguments& arguments) {
-  const Resolution resolution = resolution_of(*arguments.density);
+  const DensityOfWidths resolution = sampled(*arguments.density);
   const Density& density = resolution.density;
   const std::string title = title_of(*arguments.density);
   const bool asked = arguments.colour->count() > 0;

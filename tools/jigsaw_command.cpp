@@ -47,8 +47,8 @@ JigsawSizes sizes_of(const JigFile& jig, const JigsawGeometry& geometry) {
 void take_widths(const JigFile& jig, const JigsawGeometry& geometry, Recipe& recipe) {
   const JigsawSizes sizes = sizes_of(jig, geometry);
   const std::optional<std::string> file = jig.text("HFUN_FILE");
-  recipe.widths = file ? read_jigsaw_widths(*file, sizes, geometry.surface)
-                       : uniform_widths(sizes.most, geometry.surface);
+  recipe.resolution =
+      file ? Widths(read_jigsaw_widths(*file, sizes, geometry.surface)) : Widths(sizes.most);
 }
 
 /// The points of INIT_FILE: fixed ones, or with MESH_ITER = 0 all generators.

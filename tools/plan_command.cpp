@@ -69,8 +69,7 @@ struct Plan {
 /// What a plan begins with.
 struct PlanInput {
   Recipe recipe;
-  std::optional<WidthRules> rules;
-  double seconds = 0; ///< that the widths took
+  WidthRules rules; ///< of widths, if there are any
 };
 
 PlanInput input_of(const PlanRequest& request) {
@@ -79,15 +78,11 @@ PlanInput input_of(const PlanRequest& request) {
   const WidthWords& words = request.density->widths;
   if (!request.part.region.empty())
     recipe.surface = region_of(request.part.region, request.part.inside, words.radius);
-  const auto start = std::chrono::steady_clock::now();
-  Resolution resolution = resolution_of(*request.density, recipe.surface);
-  input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  input.rules = std::move(resolution.rules);
+  const Resolution resolution = resolution_of(*request.density, recipe.surface);
+  recipe.resolution = for_recipe(resolution);
+  if (const auto* const rules = std::get_if<WidthRules>(&resolution))
+    input.rules = *rules;
   recipe.cells = request.cells.value_or(0);
-  if (resolution.widths)
-    recipe.widths = std::move(resolution.widths);
-  else
-    recipe.density = std::move(resolution.density);
   recipe.radius_km = words.radius;
   recipe.limited_area = request.part.limited_area;
   recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
@@ -95,17 +90,18 @@ PlanInput input_of(const PlanRequest& request) {
 }
 
 /// Widths in km: on the whole sphere all quantities follow from the file's nodes.
-SpacingSurvey survey(const Recipe& asked, const Recipe& made, double factor,
-                     const WidthWords& words) {
-  if (!asked.widths)
-    return survey_spacing(made.density, made.cells, made.surface);
-  Raster scaled = *asked.widths;
+SpacingSurvey survey(const Schedule& schedule, double factor, const WidthWords& words,
+                     std::optional<double> limit) {
+  const Recipe& made = schedule.recipe;
+  if (!schedule.widths)
+    return survey_spacing(schedule.density, made.cells, made.surface);
+  Raster scaled = *schedule.widths;
   scaled.values *= factor;
-  const double least = scaled.values.minCoeff() / asked.radius_km;
+  const double least = scaled.values.minCoeff() / made.radius_km;
   if (made.surface.is_bounded())
-    return survey_spacing(made.density, made.cells, made.surface, least);
-  return {least, least, scaled.values.maxCoeff() / asked.radius_km,
-          steepest_of(scaled, words, factor)};
+    return survey_spacing(schedule.density, made.cells, made.surface, least);
+  return {least, least, scaled.values.maxCoeff() / made.radius_km,
+          steepest_of(scaled, words, limit, factor)};
 }
 
 Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule& schedule) {
@@ -119,19 +115,17 @@ Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule&
   plan.levels = schedule.levels;
   if (plan.implied > 0)
     plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
-  if (recipe.widths)
+  if (schedule.widths)
     plan.radius_km = recipe.radius_km;
   else if (request.sphere_radius)
     plan.radius_km = *request.sphere_radius / metres_per_km;
-  plan.spacing = survey(recipe, made, plan.factor, request.density->widths);
-  if (recipe.widths) {
-    plan.doubt = doubt_of(*recipe.widths, request.density->widths);
-    plan.width_seconds = input.seconds;
-  }
-  if (input.rules)
-    plan.rules = rule_shares(*input.rules, recipe.surface, made.density);
+  plan.spacing = survey(schedule, plan.factor, request.density->widths, input.rules.gradient);
+  if (schedule.widths)
+    plan.doubt = doubt_of(*schedule.widths, request.density->widths);
+  if (!input.rules.names.empty())
+    plan.rules = rule_shares(input.rules, recipe.surface, schedule.density);
   plan.threads = tbb::this_task_arena::max_concurrency();
-  plan.costs = cvt_costs(plan.cells, made.density, made.surface, plan.threads);
+  plan.costs = cvt_costs(plan.cells, schedule.density, made.surface, plan.threads);
   return plan;
 }
 
@@ -289,17 +283,20 @@ void require_request(const PlanRequest& request) {
 Plan make_plan(const PlanRequest& request) {
   Progress progress;
   progress.stage("reading the density");
-  const PlanInput input = input_of(request);
   Plan plan;
   with_threads(request.threads, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    const PlanInput input = input_of(request);
     const Schedule schedule = calotte::plan(input.recipe);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     plan = plan_of(request, input, schedule);
+    plan.width_seconds = schedule.widths ? taken.count() : 0;
     progress.stage("drawing " + request.picture);
     if (!request.picture.empty())
-      draw_widths(request, schedule.recipe.density, plan);
+      draw_widths(request, schedule.density, plan);
+    if (!request.raster.empty())
+      calotte::write(request.raster, *schedule.widths);
   });
-  if (!request.raster.empty())
-    calotte::write(request.raster, *input.recipe.widths);
   if (!request.report.empty())
     write_file(request.report, to_json(plan));
   return plan;

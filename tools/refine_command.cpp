@@ -112,7 +112,7 @@ WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
   words.radius = radius_km(file, words).value_or(words.radius);
   demand.radius_km = words.radius;
   if (request.region.empty()) {
-    demand.widths = read_demand(words, surface);
+    demand.widths = read_widths(words, surface).widths;
     return demand;
   }
   if (!surface.is_sphere())

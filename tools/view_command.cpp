@@ -149,7 +149,7 @@ ViewPage view_of_meshes(const ViewRequest& request, Progress& progress) {
 
 ViewPage view_of_plan(const ViewRequest& request) {
   const WidthWords& widths = request.density->widths;
-  const Resolution resolution = resolution_of(*request.density);
+  const DensityOfWidths resolution = sampled(*request.density);
   ViewPage view;
   view.title = "plan: " + density_name(*request.density);
   std::optional<double> radius =

@@ -205,7 +205,7 @@ typedef struct calotte_recipe {
    * points. */
   int64_t cells;
   const calotte_surface* surface; /**< null: the sphere */
-  calotte_density density;        /**< null: uniform, or that of the widths */
+  calotte_density density;        /**< null: uniform, or that of widths */
   void* density_data;             /**< its last argument */
   /** Cell widths: the distances between the centres of neighbouring cells, which set the density.
    * widths_nx times widths_ny numbers, those of the first y first; km on the sphere, in a plane its
@@ -244,6 +244,10 @@ typedef struct calotte_recipe {
                                   boundary; 0: the boundary clips cells */
   int64_t refuse_duplicates;   /**< 1: equal points of the start are an error; 0: they merge */
   double merge_within; /**< points of the start at most this far apart merge; 0: equal ones */
+  /** A file of widths in place of a density and of widths, as the command's --cell-width reads it:
+   * rules (.toml), NetCDF (.nc), JIGSAW's spacings (.msh), polygons that have widths (.geojson).
+   * Null: none. */
+  const char* widths_file;
 } calotte_recipe;
 
 /** The course of a run, as calotte::CvtReport. */

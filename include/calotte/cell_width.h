@@ -17,8 +17,8 @@ inline constexpr double earth_radius_km = 6371;
 
 /// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
 /// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
-/// The result is a callable that returns the same bits for any number of threads and on every
-/// x86-64 machine.
+/// It returns the same bits for any number of threads and on every x86-64 machine. Widths of one
+/// size give a uniform density.
 /// \param widths distances between the centres of neighbouring cells, here and below in km, in a
 ///        plane in its unit: > 0 and finite, max / min at most 1e30.
 /// \throws Error invalid_argument if the widths violate these conditions or those of Raster.
@@ -77,6 +77,7 @@ Gradient largest_gradient(const Raster& widths, double radius_km = earth_radius_
 /// \param gradient g, > 0 and finite.
 /// \param surface the sphere, whose boundary has no effect, or a plane.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
+/// \param widths as for density_of(), or infinite where there is no demand.
 /// \throws Error as density_of; invalid_argument for a gradient or a radius out of range, and for a
 ///         surface of another kind than the raster.
 Raster limit_gradient(const Raster& widths, double gradient, const Surface& surface = {},

@@ -7,6 +7,7 @@
 #include <calotte/types.h>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 CALOTTE_API_BEGIN
@@ -34,11 +35,15 @@ struct Bump {
   Eigen::Vector3d major{1, 0, 0};
 };
 
-/// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, or a
-/// callable. Only its ratios matter. Default: uniform.
+namespace density_detail {
+class WidthDensity;
+}
+
+/// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, that of cell
+/// widths, or a callable. Only its ratios matter. Default: uniform.
 struct Density {
-  /// Uniform, the maximum or the sum of the bumps, or the callable.
-  enum class Kind { uniform, maximum, sum, callable };
+  /// Uniform, the maximum or the sum of the bumps, that of widths, or the callable.
+  enum class Kind { uniform, maximum, sum, widths, callable };
   /// Sets rho(j) to the density at column j of x (3 x k, unit columns). rho(j) is 0 or from 1e-150
   /// to 1e150 and depends on column j alone. Many threads call it concurrently, with blocks of a
   /// few dozen columns; the last columns of a block may repeat. In the plane the columns are (x, y,
@@ -49,7 +54,9 @@ struct Density {
 
   Kind kind = Kind::uniform; ///< what determines the density
   std::vector<Bump> bumps;   ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
-  Callable callable;         ///< not empty for Kind::callable; no effect for other kinds
+  /// Of Kind::widths, as density_of() makes them; no effect for other kinds.
+  std::shared_ptr<const density_detail::WidthDensity> widths;
+  Callable callable; ///< not empty for Kind::callable; no effect for other kinds
 
   /// True if the density is 1 everywhere.
   bool uniform() const { return kind == Kind::uniform; }

@@ -10,16 +10,18 @@
 #include <calotte/raster.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 /// Grids: a recipe, the schedule of descents that follows from it, and the run.
 ///
-///     const Recipe recipe{.cells = 40'962, .density = tanh_bump(centre, beta, alpha, gamma)};
+///     const Recipe recipe{.cells = 40'962, .resolution = tanh_bump(centre, beta, alpha, gamma)};
 ///     const Cvt grid = make_grid(recipe);
 ///     if (!grid.report.converged || !grid.report.well_centred)
 ///       ...
@@ -98,14 +100,14 @@ struct Recipe {
   /// generators among them. 0, the default: as many as the widths imply, or of the start's points.
   /// The number that rounds of insertion come nearest to, where fixed ones leave no edge to change.
   std::int64_t cells = 0;
-  Density density = {}; ///< default uniform
-  /// Cell widths in km, in a plane in its unit, which set the density in place of `density`.
-  /// Default: none.
-  std::optional<Raster> widths = {};
-  double radius_km = earth_radius_km; ///< of the sphere that `widths` refer to; > 0 and finite
+  /// How large cells are beside each other, by a density; or cell widths in km, in a plane in its
+  /// unit, which cover the surface. A number is a width, and a raster has widths. Default: a
+  /// uniform density.
+  std::variant<Density, Widths> resolution = {};
+  double radius_km = earth_radius_km; ///< of the sphere that widths refer to; > 0 and finite
   Surface surface = {};               ///< default: the sphere
   /// The grid is a limited area: the run covers the surface, a part of the sphere, with the rings
-  /// around it that write_limited_area() writes. It requires `widths`.
+  /// around it that write_limited_area() writes. It requires widths.
   bool limited_area = false;
   /// Directions of a box in which it ends at walls. The run covers a wider box, whose gap beyond
   /// the walls holds more cells; walled() takes those between them. Default: none.
@@ -127,13 +129,15 @@ struct Recipe {
 
 /// What follows from a recipe before any generator moves.
 struct Schedule {
-  /// The recipe with its choices made: the number of cells, the density, the surface that the run
-  /// covers, the fixed generators with those on lines and on the boundary, the kind of start, its
-  /// rounds, and the end.
+  /// The recipe with its choices made: the number of cells, the surface that the run covers, the
+  /// fixed generators with those on lines and on the boundary, the kind of start, its rounds, and
+  /// the end. The resolution is as given.
   Recipe recipe;
+  Density density;                          ///< that the run follows, on its surface
+  std::optional<Raster> widths;             ///< that give it, as sampled() makes them; none without
   Start::Kind first = Start::Kind::density; ///< how the points of the first level are made
   std::vector<CvtLevel> levels;             ///< from the coarsest to that of the result
-  double implied_cells = 0;                 ///< by the widths of the recipe; 0 without
+  double implied_cells = 0;                 ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
   std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
   double from_lines = 0;        ///< see LinePoints::farthest
@@ -141,9 +145,9 @@ struct Schedule {
 
 /// Makes all choices of a recipe.
 /// \throws Error invalid_argument, with what is out of range or does not fit together, and the
-///         remedy; with the index of a fixed generator that leaves no free one. As implied_cells(),
-///         require_covering(), with_rings(), boundary_points(), line_points() and
-///         evaluate().
+///         remedy; with the index of a fixed generator that leaves no free one; naming a place
+///         without a width. As sampled(), implied_cells(), require_covering(), with_rings(),
+///         boundary_points(), line_points() and evaluate().
 Schedule plan(Recipe recipe);
 
 /// What affects a run's course, but not its result, and where it goes on.

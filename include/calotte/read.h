@@ -256,7 +256,7 @@ double kilometres_in(const std::string& unit);
 /// applies. The sampling interval of the widths is a sixteenth of the transition, from 0.05 to 1
 /// degree.
 ///
-/// .toml: rules, see read_width_rules(), as sampled() has them.
+/// .toml: rules, see read_width_rules(), as sampled() has them on the surface.
 ///
 /// \param polygons widths for GeoJSON; its radius is also that of rules. Other formats ignore them.
 /// \param surface the sphere, a part of it or a plane, which the widths must cover; default the
@@ -270,30 +270,23 @@ Raster read_cell_width(const std::string& path, const PolygonWidths& polygons = 
 
 /// Rules for widths, of a file.
 struct WidthRules {
-  std::string path = {};             ///< of the file
-  Widths widths = Widths::no_demand; ///< of all of it
-  double step = 0;                   ///< of their raster, as sampled() has it
-  /// Of a plane: the limit of all of it, which is that of the raster in its domain.
-  std::optional<double> gradient = {};
+  Widths widths = Widths::no_demand;   ///< of all of it, with the file's step
+  std::optional<double> gradient = {}; ///< that all of it is limited to
   std::vector<std::string> names = {}; ///< of the rules that active_rules() numbers
 };
 
 /// Reads the table [cell-width] of a TOML file, whose keys the manual's page on cell widths lists.
 /// Names of files are relative to its folder.
-/// \param surface the sphere or a plane, which the rules are of.
+/// \param surface the sphere, or a plane: the domain in which the gradient of all is limited.
 /// \param radius_km of the sphere that widths and distances refer to.
-/// \throws Error parse, naming the line and the key; as the readers of the files.
+/// \throws Error parse, naming the line and the key; as the readers of the files; in a plane with a
+///         limited gradient as sampled().
 WidthRules read_width_rules(const std::string& path, const Surface& surface = {},
                             double radius_km = earth_radius_km);
 
-/// Their raster with the file's step; in a plane with the file's limit of the gradient.
-/// \throws Error as sampled(), naming the file.
-Raster sampled(const WidthRules& rules, const Surface& surface = {});
-
-/// The widths of a file of any kind as an expression: rules themselves, others as a raster. In a
-/// plane, rules with a gradient of all become a raster, too.
+/// The widths of a file of any kind as an expression: rules themselves, others as a raster.
 /// \param polygons as for read_cell_width().
-/// \param surface the sphere or a plane.
+/// \param surface as for read_width_rules().
 /// \throws Error as read_cell_width(), but for places without a demand.
 Widths read_widths(const std::string& path, const PolygonWidths& polygons = {},
                    const Surface& surface = {});

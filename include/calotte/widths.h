@@ -8,6 +8,7 @@
 #include <calotte/types.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct Coast;
 
 namespace density_detail {
 class WidthRule;
-class RuleOfRadius;
+class ShareRule;
+template <class Rule> class OfRadius;
 } // namespace density_detail
 
 /// How a width changes with a number, such as a distance or a latitude.
@@ -74,11 +76,14 @@ public:
   ///         node, for a value that is not 0 to 1.
   Share(const Raster& raster); // NOLINT(google-explicit-constructor)
 
-  /// A rule of the library: 1 more than the share, as widths are positive.
-  const std::shared_ptr<const density_detail::RuleOfRadius>& rule() const { return rule_; }
+  /// What copies share, for any sphere.
+  const std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>>&
+  rule_of_radius() const {
+    return rule_of_radius_;
+  }
 
 private:
-  std::shared_ptr<const density_detail::RuleOfRadius> rule_;
+  std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>> rule_of_radius_;
 };
 
 /// Cell widths as an expression: rules, each a width for every place, and what is made of them.
@@ -93,13 +98,13 @@ private:
 ///     const Raster raster = sampled(Widths::minimum({coast, zones}).limit_gradient(0.03));
 class Widths {
 public:
-  /// One width everywhere.
-  /// \throws Error invalid_argument unless it is > 0 and finite.
+  /// One width everywhere, or no_demand.
+  /// \throws Error invalid_argument unless it is > 0.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
   /// Those of a raster. \throws Error invalid_argument as density_of().
   Widths(const Raster& raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
-  explicit Widths(std::shared_ptr<const density_detail::RuleOfRadius> rule,
+  explicit Widths(std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>> rule,
                   double radius_km = earth_radius_km);
 
   /// \param profile of the latitude in degrees, from -90 to 90.
@@ -160,11 +165,10 @@ public:
   ///         its sphere, and as delaunay() for a shore along one great circle.
   static Widths by_channel(const Coast& coast, const ChannelRule& rule);
 
-  /// What a rule says of places where it says nothing, km: wider than any other, so that others
-  /// hold in a minimum.
-  static constexpr double no_demand = 1e9;
-  /// Whether a width is one that a rule gives, and not no_demand, also after rules were combined.
-  static bool is_demand(double width) { return width < 0.5 * no_demand; }
+  /// What a rule says of places where it says nothing: infinity, so that others hold in a minimum.
+  static constexpr double no_demand = std::numeric_limits<double>::infinity();
+  /// Whether a width is one that a rule gives, and not no_demand.
+  static bool is_demand(double width) { return width < no_demand; }
 
   /// The least of several, place by place. Widths of the Earth go to the sphere of the others.
   /// \throws Error invalid_argument for an empty list, and for widths of a sphere and of a plane,
@@ -189,11 +193,20 @@ public:
   /// Others are limited at the nodes of a raster whose step is their least width, from 0.05 to 1
   /// degree, see limit_gradient(); the result is the lesser of that and these
   /// widths. What lies between the nodes lowers them: each node of a rule's own raster, and for
-  /// other rules places up to four times as dense. In a plane such rules are refused: limit their
-  /// raster in its domain, see limit_gradient(const Raster&).
+  /// other rules places up to four times as dense. A raster is limited at its own nodes. In a plane
+  /// rules that are not limited exactly are refused: give their domain.
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
   Widths limit_gradient(double gradient) const;
+  /// The same on the sphere. In a plane the raster of these widths with a limited gradient in its
+  /// domain, see limit_gradient(const Raster&).
+  /// \throws Error invalid_argument for a gradient out of range, and as sampled().
+  Widths limit_gradient(double gradient, const Surface& surface) const;
+
+  /// The same with a step of the rasters that sampled() makes of them; what is made of them has
+  /// none. \throws Error invalid_argument unless it is > 0 and finite.
+  Widths with_step(double step) const;
+  double step() const { return step_; } ///< 0: by their least width
 
   /// The same rules on a sphere of another radius: distances, slopes and gradients are km of it. A
   /// Rossby radius has the Earth's gravity and rotation. Rules of a plane stay.
@@ -207,13 +220,15 @@ public:
   /// What copies share. It is prepared when it is first asked for.
   std::shared_ptr<const density_detail::WidthRule> rule() const;
   /// The same for any sphere.
-  const std::shared_ptr<const density_detail::RuleOfRadius>& rule_of_radius() const {
+  const std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>>&
+  rule_of_radius() const {
     return rule_of_radius_;
   }
 
 private:
-  std::shared_ptr<const density_detail::RuleOfRadius> rule_of_radius_;
+  std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>> rule_of_radius_;
   double radius_km_;
+  double step_ = 0;
 };
 
 /// The widths at n places.
@@ -231,11 +246,13 @@ Ids active_rules(const Widths& minimum, const PointsRef& places);
 
 /// The widths at the nodes of a regular raster: of the sphere, with nodes at the poles; of a plane,
 /// over the box around its boundary or over its periods. Nodes outside a bounded surface without a
-/// demand have the largest width of the others.
+/// demand have the largest width of the others. Widths that are a raster have its nodes, without a
+/// step.
 /// \param surface the sphere, a part of it, or a plane of finite area.
 /// \param step largest distance of rows and of columns: 0.01 to 10 degrees; in a plane > 0, for at
-///        most 20 million nodes. Default 0: that of the least width, within 0.05 to 1 degree; in a
-///        plane half of the least width, or what gives 4 million nodes.
+///        most 20 million nodes. Default 0: their own, see Widths::with_step(), or that of the
+///        least width, within 0.05 to 1 degree; in a plane half of the least width, or what gives 4
+///        million nodes.
 /// \throws Error invalid_argument for a step out of range, widths of another surface or whose
 /// ratios
 ///         exceed 1e30, and naming a node of the surface where no rule gives a width.

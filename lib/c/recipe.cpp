@@ -2,6 +2,7 @@
 #include "c/recipe.h"
 
 #include <calotte/error.h>
+#include <calotte/read.h>
 
 #include <algorithm>
 #include <limits>
@@ -83,9 +84,21 @@ Points3 spatial_points(const double* values, std::int64_t n, bool sphere, const 
   return points;
 }
 
-void take_widths(const calotte_recipe& given, Recipe& recipe) {
-  if (given.widths == nullptr && given.widths_nx == 0 && given.widths_ny == 0)
+/// \pre the surface and the radius are taken.
+void take_resolution(const calotte_recipe& given, Recipe& recipe) {
+  const bool raster = given.widths != nullptr || given.widths_nx != 0 || given.widths_ny != 0,
+             file = given.widths_file != nullptr;
+  require((given.density != nullptr) + raster + file <= 1,
+          "the recipe has more than one of a density, widths and a file of widths; give one of "
+          "them");
+  if (file)
+    recipe.resolution =
+        read_widths(given.widths_file, {.radius_km = recipe.radius_km}, recipe.surface);
+  if (!raster) {
+    if (!file)
+      recipe.resolution = density_of(given.density, given.density_data);
     return;
+  }
   constexpr std::int64_t most = 1 << 20;
   require(given.widths != nullptr && given.widths_x != nullptr && given.widths_y != nullptr,
           "the widths, or the coordinates of their nodes, are a null pointer; give widths, "
@@ -98,8 +111,8 @@ void take_widths(const calotte_recipe& given, Recipe& recipe) {
                y = Eigen::Map<const DoubleVector>(given.widths_y, given.widths_ny);
   DoubleMatrix widths =
       Eigen::Map<const DoubleMatrix>(given.widths, given.widths_nx, given.widths_ny);
-  recipe.widths =
-      Raster{std::move(x), std::move(y), std::move(widths), !recipe.surface.is_sphere()};
+  recipe.resolution =
+      Widths({std::move(x), std::move(y), std::move(widths), !recipe.surface.is_sphere()});
 }
 
 Start start_of(const calotte_recipe& given, bool sphere) {
@@ -171,10 +184,9 @@ Recipe recipe_of(const calotte_recipe* pointer) {
   recipe.cells = given.cells;
   recipe.surface = surface_of(given.surface);
   const bool sphere = recipe.surface.is_sphere();
-  recipe.density = density_of(given.density, given.density_data);
-  take_widths(given, recipe);
   if (given.earth_radius_km != 0)
     recipe.radius_km = given.earth_radius_km;
+  take_resolution(given, recipe);
   recipe.limited_area = flag_of(given.limited_area, "limited_area");
   recipe.walls = {flag_of(given.walls_x, "walls_x"), flag_of(given.walls_y, "walls_y")};
   if (flag_of(given.boundary_generators, "boundary_generators"))

@@ -121,22 +121,25 @@ void require_radius(double radius_km) {
 
 void WidthDensity::operator()(const Eigen::Ref<const Points3>& points,
                               Eigen::Ref<Eigen::VectorXd> rho) const {
-  density_detail::evaluate_block(*field_, points, rho);
-  densities_of_widths(field_->least(), static_cast<std::size_t>(rho.size()), rho.data());
+  density_detail::evaluate_block(field_, points, rho);
+  densities_of_widths(field_.least(), static_cast<std::size_t>(rho.size()), rho.data());
 }
 
 void WidthDensity::operator()(const double* x, const double* y, const double* z, std::size_t count,
                               double* rho) const {
-  (*field_)(x, y, z, count, rho);
-  densities_of_widths(field_->least(), count, rho);
+  field_(x, y, z, count, rho);
+  densities_of_widths(field_.least(), count, rho);
 }
 
 } // namespace density_detail
 
 Density density_of(const Raster& widths) {
+  density_detail::require_widths(widths);
   Density density;
-  density.kind = Density::Kind::callable;
-  density.callable = density_detail::WidthDensity(widths);
+  if (widths.values.minCoeff() == widths.values.maxCoeff())
+    return density;
+  density.kind = Density::Kind::widths;
+  density.widths = std::make_shared<const density_detail::WidthDensity>(widths);
   return density;
 }
 

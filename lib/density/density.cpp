@@ -94,16 +94,19 @@ void join(const double* values, std::size_t count, bool maximum, double* rho) {
 }
 
 std::vector<Profile> profiles_of(const Density& density) {
-  const bool has_bumps =
-      density.kind == Density::Kind::maximum || density.kind == Density::Kind::sum;
-  if (!has_bumps && !density.uniform() && density.kind != Density::Kind::callable)
+  using Kind = Density::Kind;
+  const bool bumps = has_bumps(density);
+  if (!bumps && !density.uniform() && density.kind != Kind::widths &&
+      density.kind != Kind::callable)
     refuse("the density is of an unknown kind; give one of Density::Kind");
-  if (has_bumps && density.bumps.empty())
+  if (bumps && density.bumps.empty())
     refuse("the density has no bump: give one, or make it uniform");
-  if (density.kind == Density::Kind::callable && !density.callable)
+  if (density.kind == Kind::widths && density.widths == nullptr)
+    refuse("the density is that of cell widths, but has none; see density_of()");
+  if (density.kind == Kind::callable && !density.callable)
     refuse("the density is a callable, but none is given");
   std::vector<Profile> profiles;
-  for (std::size_t b = 0; has_bumps && b < density.bumps.size(); ++b) {
+  for (std::size_t b = 0; bumps && b < density.bumps.size(); ++b) {
     profiles.push_back(profile_of(density.bumps[b], b));
   }
   return profiles;
@@ -130,16 +133,12 @@ Profile profile_without_place(const Bump& bump, const std::string& name) {
 }
 
 DensityEvaluator::DensityEvaluator(const Density& density)
-    : density_(density), profiles_(profiles_of(density)) {
-  if (density_.kind == Density::Kind::callable)
-    if (const auto* widths = density_.callable.target<WidthDensity>())
-      widths_ = *widths;
-}
+    : density_(density), profiles_(profiles_of(density)) {}
 
 void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
                                   std::span<const double> z, std::span<double> rho) const {
-  if (widths_) {
-    (*widths_)(x.data(), y.data(), z.data(), rho.size(), rho.data());
+  if (density_.kind == Density::Kind::widths) {
+    (*density_.widths)(x.data(), y.data(), z.data(), rho.size(), rho.data());
     return;
   }
   if (density_.kind == Density::Kind::callable) {

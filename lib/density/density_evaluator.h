@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,7 +66,6 @@ private:
 
   Density density_;
   std::vector<Profile> profiles_;
-  std::optional<WidthDensity> widths_; ///< the callable, if it is that of cell widths
 };
 
 } // namespace calotte::density_detail

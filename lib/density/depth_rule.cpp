@@ -86,10 +86,9 @@ Raster widths_of(const Raster& raster, const DepthRule& rule, double radius) {
         length = rossby_radius(depth, raster.y[j], radius);
       else if (depth > 0)
         length = 2 * std::numbers::pi * depth / std::max(slope(i, j), 1e-12);
-      widths.values(i, j) =
-          depth > 0 || near_sea(raster, i, j)
-              ? std::clamp(length / 1000 / rule.cells, rule.least, Widths::no_demand)
-              : Widths::no_demand;
+      widths.values(i, j) = depth > 0 || near_sea(raster, i, j)
+                                ? std::max(length / 1000 / rule.cells, rule.least)
+                                : Widths::no_demand;
     }
   });
   return widths;
@@ -105,10 +104,10 @@ Widths Widths::by_depth(const Raster& raster, const DepthRule& rule) {
   using namespace density_detail;
   require(!raster.of_plane, "depths are those of a raster of longitudes and latitudes; give one");
   require_values(raster, "heights", finite);
-  return Widths(std::make_shared<RuleOfRadius>(
+  return Widths(std::make_shared<WidthsOfRadius>(
       RuleSpace::sphere,
       [heights = std::make_shared<const Raster>(raster), rule](double radius_km) {
-        return Widths(widths_of(*heights, rule, 1000 * radius_km)).rule();
+        return rule_of_field(widths_of(*heights, rule, 1000 * radius_km));
       }));
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/parallel.h"
+#include "density/surface_density.h"
 #include "domain/surface.h"
 
 #include <calotte/error.h>
@@ -152,7 +153,7 @@ void EnvelopeOf<Map>::add_quarters(const Box& box, std::vector<Box>& out) const 
 template <class Map>
 EnvelopeOf<Map>::EnvelopeOf(const Density& density, Map map)
     : map_(std::move(map)), density_(density),
-      sampled_(density.kind == Density::Kind::callable || !map_.is_certain(density)) {
+      sampled_(!(density.uniform() || has_bumps(density)) || !map_.is_certain(density)) {
   const auto is_zero = [](const Box& box) { return !(box.bounds.greatest > 0); };
   int depth = sampled_ ? first_depth : 0;
   cover(depth);

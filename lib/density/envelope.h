@@ -45,7 +45,7 @@ struct Hemispheres {
   static bool holds(double x, double y, const Vec3&) { return x * x + y * y < 1; }
   /// The map's point that is nearest to (x, y), where the density is known.
   static std::array<double, 2> nearest(double x, double y);
-  /// True if bounds() is certain for a density that is not a callable.
+  /// True if bounds() is certain for a density that is uniform or made of bumps.
   static bool is_certain(const Density&) { return true; }
   static DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box);
 };

@@ -319,7 +319,6 @@ void density_detail::require_gradient(double gradient) {
 namespace {
 
 Raster limited_in_plane(const Raster& widths, double gradient, const Surface& surface) {
-  require_widths(widths);
   PlaneNodes nodes(widths, surface);
   constexpr double none = std::numeric_limits<double>::infinity();
   const auto given = widths.values.reshaped();
@@ -346,7 +345,7 @@ Raster limited_in_plane(const Raster& widths, double gradient, const Surface& su
 }
 
 Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km) {
-  const RasterField field = width_field(widths);
+  const RasterField field(widths);
   const SphereNodes nodes(field, widths, radius_km);
   const std::int64_t columns = widths.x.size(), rows = field.y().intervals() - 1;
   std::vector<double> values(static_cast<std::size_t>(nodes.size()));
@@ -358,8 +357,6 @@ Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km
   for (std::int64_t j = 0; j < rows; ++j)
     for (std::int64_t i = 0; i < columns; ++i)
       values[static_cast<std::size_t>(1 + j * columns + i)] = field.value(i, j + 1);
-  for (double& value : values)
-    value = Widths::is_demand(value) ? value : none;
   if (std::find_if(values.begin(), values.end(),
                    [](double value) { return std::isfinite(value); }) == values.end())
     return widths;
@@ -384,6 +381,7 @@ Raster limit_gradient(const Raster& widths, double gradient, const Surface& surf
   require_gradient(gradient);
   require_kind(widths, surface);
   require_radius(radius_km);
+  require_values(widths, "cell width", positive);
   return widths.of_plane ? limited_in_plane(widths, gradient, surface)
                          : limited_on_sphere(widths, gradient, radius_km);
 }

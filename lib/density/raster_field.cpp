@@ -222,6 +222,13 @@ void evaluate_block(const RasterField& field, const Eigen::Ref<const Points3>& p
   }
 }
 
+void evaluate_block(const RasterField& field, std::span<const Vec3> places,
+                    std::span<double> values) {
+  if (!places.empty())
+    evaluate_block(field, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
+                   Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values)));
+}
+
 // ---- Grids
 
 Raster regular_grid(double step) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vec3.h"
 #include "density/room.h"
 #include "density/width_table.h"
 
@@ -11,8 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct ValueLaw {
 inline constexpr ValueLaw positive_and_finite{
     [](double value) { return value > 0 && value <= std::numeric_limits<double>::max(); },
     "positive and finite"},
+    positive{[](double value) { return value > 0; }, "positive"},
     not_negative{
         [](double value) { return value >= 0 && value <= std::numeric_limits<double>::max(); },
         "0 or positive, and finite"},
@@ -106,6 +108,9 @@ RasterField width_field(const Raster& widths);
 /// The values of a field at the columns of a block.
 void evaluate_block(const RasterField& field, const Eigen::Ref<const Points3>& points,
                     Eigen::Ref<Eigen::VectorXd> values);
+/// The same at a list of places.
+void evaluate_block(const RasterField& field, std::span<const Vec3> places,
+                    std::span<double> values);
 
 /// \throws Error invalid_argument unless widths are those of a surface of this kind.
 void require_kind(const Raster& widths, const Surface& surface);
@@ -118,18 +123,17 @@ void require_radius(double radius_km);
 std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
                       const std::string& y);
 
-/// The callable of a density (h_min/h)^4. DensityEvaluator calls the second operator.
+/// A density (h_min/h)^4.
 class WidthDensity {
 public:
-  explicit WidthDensity(const Raster& widths)
-      : field_(std::make_shared<const RasterField>(width_field(widths))) {}
+  explicit WidthDensity(const Raster& widths) : field_(width_field(widths)) {}
 
   void operator()(const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) const;
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* rho) const;
 
 private:
-  std::shared_ptr<const RasterField> field_;
+  RasterField field_;
 };
 
 /// The regular grid of the sphere, poles included, with the largest step of at most `step` degrees

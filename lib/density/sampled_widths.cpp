@@ -38,6 +38,15 @@ PlaneBox box_of(const Surface& plane) {
   return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
 }
 
+/// Of a width that is the same everywhere.
+Raster one_width(double width, const Surface& surface) {
+  constexpr double far = 1e30; // the largest coordinate of a domain
+  const bool plane = !surface.is_sphere();
+  return {plane ? DoubleVector{{-far, far}} : DoubleVector{{0, 180}},
+          plane ? DoubleVector{{-far, far}} : DoubleVector{{-90, 90}},
+          DoubleMatrix::Constant(2, 2, width), plane};
+}
+
 Raster sample_on_sphere(const Widths& widths, double step) {
   require(step == 0 || (step >= 0.01 && step <= 10),
           "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
@@ -56,8 +65,10 @@ Raster sample_in_plane(const Widths& widths, const Surface& plane, double step) 
               (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
           "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
               shortly(most_nodes) + " nodes; give another one");
-  Raster raster = step > 0 ? grid_over(box.low, box.size, step, 2 * most_nodes)
-                           : grid_over(box.low, box.size, rule->least() / 2, usual_nodes);
+  Raster raster = step > 0
+                      ? grid_over(box.low, box.size, step, 2 * most_nodes)
+                      : grid_over(box.low, box.size,
+                                  std::min(rule->least() / 2, box.size.maxCoeff()), usual_nodes);
   base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
     std::vector<Vec3> row;
     for (const double x : raster.x)
@@ -93,10 +104,23 @@ Raster sample(const WidthRule& rule, double step) {
 }
 
 Raster sample(const Widths& widths, const Surface& surface, double step) {
+  if (step == 0)
+    step = widths.step();
+  const std::shared_ptr<const WidthRule> rule = widths.rule();
+  if (const Raster* const given = rule->raster(); given != nullptr && step == 0) {
+    require_kind(*given, surface);
+    return *given;
+  }
+  if (rule->space() == RuleSpace::any && step == 0)
+    return one_width(rule->least(), surface);
   return surface.is_sphere() ? sample_on_sphere(widths, step)
                              : sample_in_plane(widths, surface, step);
 }
 
+namespace {
+
+/// Gives nodes outside a surface without a demand the largest width of the others.
+/// \throws Error invalid_argument for one inside.
 void fill_outside(Raster& raster, const Surface& surface) {
   const auto is_inside = [&](double x, double y) {
     if (!surface.is_bounded())
@@ -121,10 +145,29 @@ void fill_outside(Raster& raster, const Surface& surface) {
       [&](double width) { return Widths::is_demand(width) ? width : widest; });
 }
 
+} // namespace
 } // namespace density_detail
 
 Raster sampled(const Widths& widths, const Surface& surface, double step) {
   Raster raster = density_detail::sample(widths, surface, step);
+  density_detail::fill_outside(raster, surface);
+  return raster;
+}
+
+Widths Widths::with_step(double step) const {
+  base_detail::require(step > 0 && std::isfinite(step),
+                       "the step " + base_detail::shortly(step) +
+                           " of a raster is not a positive number; give one");
+  Widths widths = *this;
+  widths.step_ = step;
+  return widths;
+}
+
+Widths Widths::limit_gradient(double gradient, const Surface& surface) const {
+  if (surface.is_sphere())
+    return limit_gradient(gradient);
+  Raster raster =
+      calotte::limit_gradient(density_detail::sample(*this, surface, 0), gradient, surface);
   density_detail::fill_outside(raster, surface);
   return raster;
 }

@@ -72,17 +72,24 @@ Density::Callable in_box(Density::Callable callable, const Plane& plane) {
 Density surface_density(const Density& density, const Surface& surface) {
   if (surface.is_sphere() || density.uniform())
     return density;
+  const bool bumps = has_bumps(density);
+  const Density::Callable given = callable_of(density);
+  if (!bumps && (!given || surface.period().isZero(0))) // none is rejected at its use
+    return density;
   Density planar;
   planar.kind = Density::Kind::callable;
-  if (density.kind != Density::Kind::callable)
-    planar.callable = bump_values(density, Plane(surface.period()));
-  else if (!density.callable) // rejected at its use
-    return density;
-  else
-    planar.callable = surface.period().isZero(0)
-                          ? density.callable
-                          : in_box(density.callable, Plane(surface.period()));
+  const Plane plane(surface.period());
+  planar.callable = bumps ? bump_values(density, plane) : in_box(given, plane);
   return planar;
+}
+
+Density::Callable callable_of(const Density& density) {
+  if (density.kind == Density::Kind::callable)
+    return density.callable;
+  if (density.kind != Density::Kind::widths || density.widths == nullptr)
+    return {};
+  return [widths = density.widths](const Eigen::Ref<const Points3>& x,
+                                   Eigen::Ref<Eigen::VectorXd> rho) { (*widths)(x, rho); };
 }
 
 Density checked_surface_density(const Density& density, const Surface& surface) {

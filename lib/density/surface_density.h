@@ -8,8 +8,16 @@
 
 namespace calotte::density_detail {
 
+/// Whether a density is made of bumps.
+inline bool has_bumps(const Density& density) {
+  return density.kind == Density::Kind::maximum || density.kind == Density::Kind::sum;
+}
+
+/// A density of widths or a callable as a callable; empty for others.
+Density::Callable callable_of(const Density& density);
+
 /// The density in the form that the rooms above evaluate: on the sphere itself; in a plane uniform,
-/// or a callable of columns (x, y, 0) that accounts for the periods.
+/// of widths, or a callable of columns (x, y, 0) that accounts for the periods.
 /// \throws Error invalid_argument in a plane, if bumps are ill-formed.
 Density surface_density(const Density& density, const Surface& surface);
 

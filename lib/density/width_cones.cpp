@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -24,8 +23,6 @@ using base_detail::Vec3;
 /// Rows of places from pole to pole, each at the same longitudes.
 struct PlaceRows {
   std::vector<double> longitudes, latitudes; ///< degrees, latitudes ascending
-  /// Sets the widths of a row, one by longitude.
-  std::function<void(std::int64_t row, std::vector<double>& widths)> widths;
 };
 
 PlaceRows rows_of(const RasterField& field) {
@@ -36,27 +33,13 @@ PlaceRows rows_of(const RasterField& field) {
     rows.longitudes.push_back(x[i] * degrees);
   for (std::int64_t j = 0; j <= y.intervals(); ++j)
     rows.latitudes.push_back(y[j] * degrees);
-  rows.widths = [&field](std::int64_t j, std::vector<double>& widths) {
-    for (std::size_t i = 0; i < widths.size(); ++i)
-      widths[i] = field.value(static_cast<std::int64_t>(i), j);
-  };
   return rows;
 }
 
 /// A raster `parts` times as fine.
-PlaceRows rows_of(const WidthRule& rule, const Raster& raster, int parts) {
+PlaceRows rows_of(const Raster& raster, int parts) {
   const Raster fine = regular_grid(180.0 / static_cast<double>((raster.y.size() - 1) * parts));
-  PlaceRows rows;
-  rows.longitudes.assign(fine.x.begin(), fine.x.end());
-  rows.latitudes.assign(fine.y.begin(), fine.y.end());
-  rows.widths = [&rule, longitudes = rows.longitudes,
-                 latitudes = rows.latitudes](std::int64_t j, std::vector<double>& widths) {
-    std::vector<Vec3> places;
-    for (const double longitude : longitudes)
-      places.push_back(base_detail::from_lonlat(longitude, latitudes[static_cast<std::size_t>(j)]));
-    rule.evaluate(places, widths);
-  };
-  return rows;
+  return {{fine.x.begin(), fine.x.end()}, {fine.y.begin(), fine.y.end()}};
 }
 
 double distance(const Vec3& a, const Vec3& b) {
@@ -64,15 +47,19 @@ double distance(const Vec3& a, const Vec3& b) {
 }
 
 /// Lowers a row of the raster by the places within a step of its latitude.
-void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, Raster& raster) {
+void lower_row(const WidthRule& rule, const PlaceRows& places, double gradient, Eigen::Index j,
+               Raster& raster) {
   const Eigen::Index columns = raster.x.size();
   const double step = 360 / static_cast<double>(columns), latitude = raster.y[j];
   const auto first = std::upper_bound(places.latitudes.begin(), places.latitudes.end(),
                                       latitude - step),
              last = std::lower_bound(first, places.latitudes.end(), latitude + step);
   std::vector<double> widths(places.longitudes.size());
+  std::vector<Vec3> row(widths.size());
   for (auto at = first; at != last; ++at) {
-    places.widths(at - places.latitudes.begin(), widths);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      row[k] = base_detail::from_lonlat(places.longitudes[k], *at);
+    rule.evaluate(row, widths);
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const double longitude = places.longitudes[k];
       const auto west = static_cast<Eigen::Index>(std::floor((longitude + 180) / step));
@@ -80,10 +67,9 @@ void lower_row(const PlaceRows& places, double gradient, Eigen::Index j, Raster&
         const Eigen::Index i = (beside % columns + columns) % columns;
         double& width = raster.values(i, j);
         if (widths[k] < width)
-          width = std::min(
-              width,
-              widths[k] + gradient * distance(base_detail::from_lonlat(longitude, *at),
-                                              base_detail::from_lonlat(raster.x[i], latitude)));
+          width =
+              std::min(width, widths[k] + gradient * distance(row[k], base_detail::from_lonlat(
+                                                                          raster.x[i], latitude)));
       }
     }
   }
@@ -105,9 +91,9 @@ int parts_for(const Raster& raster) {
 
 Raster with_cones(const WidthRule& rule, Raster raster, double gradient) {
   const PlaceRows places =
-      rule.raster() != nullptr ? rows_of(*rule.raster()) : rows_of(rule, raster, parts_for(raster));
+      rule.field() != nullptr ? rows_of(*rule.field()) : rows_of(raster, parts_for(raster));
   base_detail::for_each_task(raster.y.size(),
-                             [&](std::int64_t j) { lower_row(places, gradient, j, raster); });
+                             [&](std::int64_t j) { lower_row(rule, places, gradient, j, raster); });
   join_pole(0, raster);
   join_pole(raster.y.size() - 1, raster);
   return raster;

@@ -46,17 +46,18 @@ template <class Node> std::vector<Node> mirrored(const std::vector<Node>& nodes)
 
 } // namespace
 
-ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double low, double high) {
+ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double low, double high,
+                           const char* value, const ValueLaw& law) {
   const auto& given = profile.nodes;
   require(!given.empty(), std::string("a profile of ") + what + " has no node; give one or more");
   for (std::size_t k = 0; k < given.size(); ++k) {
-    const auto& [x, width] = given[k];
+    const double x = given[k][0], width = given[k][1];
     const std::string node = "node " + std::to_string(k) + " of a profile of " + what;
     require(x >= low && x <= high, node + " is at " + shortly(x) + ", outside " + shortly(low) +
                                        " to " + shortly(high) + "; correct it");
     require(k == 0 || x > given[k - 1][0], node + " is not above the one before; sort them");
-    require(width > 0 && std::isfinite(width),
-            node + " has the width " + shortly(width) + "; give km, > 0");
+    require(law.holds(width), node + " has the " + value + " " + shortly(width) +
+                                  ", which is not " + law.name + "; correct it");
   }
   nodes_.push_back({given[0][0], given[0][1]});
   for (std::size_t k = 1; k < given.size(); ++k) {
@@ -71,30 +72,60 @@ ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double
   }
 }
 
+ProfileCurve ProfileCurve::within(double low, double high) const {
+  ProfileCurve part = *this;
+  part.low_ = low;
+  part.high_ = high;
+  return part;
+}
+
+std::vector<ProfileCurve::Node> ProfileCurve::demanded() const {
+  std::vector<Node> nodes;
+  if (std::isfinite(low_))
+    nodes.push_back({low_, (*this)(low_)});
+  for (const Node& node : nodes_)
+    if (node.x > low_ && node.x < high_)
+      nodes.push_back(node);
+  if (std::isfinite(high_))
+    nodes.push_back({high_, (*this)(high_)});
+  return nodes;
+}
+
 double ProfileCurve::least() const {
-  return std::min_element(nodes_.begin(), nodes_.end(),
-                          [](const Node& a, const Node& b) { return a.width < b.width; })
-      ->width;
+  double least = Widths::no_demand;
+  for (const Node& node : demanded())
+    least = std::min(least, node.width);
+  return least;
 }
 
 bool ProfileCurve::grows_from_zero() const {
-  return std::adjacent_find(nodes_.begin(), nodes_.end(), [](const Node& from, const Node& to) {
+  const std::vector<Node> nodes = demanded();
+  return std::adjacent_find(nodes.begin(), nodes.end(), [](const Node& from, const Node& to) {
            return (to.x > 0 && to.width < from.width) || (from.x < 0 && to.width > from.width);
-         }) == nodes_.end();
+         }) == nodes.end();
 }
 
 ProfileCurve ProfileCurve::limited(double slope) const {
   // The constant ends take part: from them the width may grow beyond the last node.
-  std::vector<Node> nodes = nodes_;
-  const double most = std::max_element(nodes_.begin(), nodes_.end(),
-                                       [](const Node&a, const Node&b) { return a.width < b.width; })
-                          ->width,
-               reach = (most - least()) / slope;
-  if (reach > 0) {
+  std::vector<Node> nodes = demanded();
+  double most = 0;
+  for (const Node& node : nodes)
+    most = std::max(most, node.width);
+  const double reach = (most - least()) / slope;
+  const bool begins = std::isfinite(low_) || low_slope_ > 0,
+             ends = std::isfinite(high_) || high_slope_ > 0; // without a constant
+  if (reach > 0 && !begins)
     nodes.insert(nodes.begin(), {nodes.front().x - reach, nodes.front().width});
+  if (reach > 0 && !ends)
     nodes.push_back({nodes.back().x + reach, nodes.back().width});
-  }
-  return ProfileCurve(mirrored(limited_forwards(mirrored(limited_forwards(nodes, slope)), slope)));
+  ProfileCurve result(mirrored(limited_forwards(mirrored(limited_forwards(nodes, slope)), slope)));
+  // Where there was no demand, or a slope, the width grows without an end.
+  const auto growth = [slope](double own) { return own > 0 ? std::min(own, slope) : slope; };
+  if (begins)
+    result.low_slope_ = growth(low_slope_);
+  if (ends)
+    result.high_slope_ = growth(high_slope_);
+  return result;
 }
 
 } // namespace calotte::density_detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "density/raster_field.h"
 #include "density/room.h"
 
 #include <calotte/widths.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -13,21 +15,28 @@ namespace calotte::density_detail {
 /// A distance on a sphere, km: half round the largest planets.
 constexpr double farthest_on_sphere = 3e5;
 
-/// A profile as straight pieces.
+/// A profile as straight pieces, of widths or of shares.
 class ProfileCurve {
 public:
-  /// \param what, unit for messages: "a distance", "km".
+  /// \param what its numbers are, for messages: "a distance".
   /// \param low, high the range of its numbers.
+  /// \param value what its values are, for messages, and their law.
   /// \throws Error invalid_argument, naming the node.
-  ProfileCurve(const WidthProfile& profile, const char* what, double low, double high);
+  ProfileCurve(const WidthProfile& profile, const char* what, double low, double high,
+               const char* value = "width", const ValueLaw& law = positive_and_finite);
+
+  /// The same from a number to another one, and no demand beyond.
+  ProfileCurve within(double low, double high) const;
 
   double operator()(double x) const {
+    if (x < low_ || x > high_)
+      return Widths::no_demand;
     const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), x,
                                         [](double at, const Node& node) { return at < node.x; });
     if (after == nodes_.begin())
-      return nodes_.front().width;
+      return nodes_.front().width + low_slope_ * (nodes_.front().x - x);
     if (after == nodes_.end())
-      return nodes_.back().width;
+      return nodes_.back().width + high_slope_ * (x - nodes_.back().x);
     const Node& before = *(after - 1);
     return before.width + (after->width - before.width) * ((x - before.x) / (after->x - before.x));
   }
@@ -46,7 +55,13 @@ private:
 
   explicit ProfileCurve(std::vector<Node> nodes) : nodes_(std::move(nodes)) {}
 
+  /// The nodes in the range where there is a demand, and at its ends.
+  std::vector<Node> demanded() const;
+
   std::vector<Node> nodes_;
+  double low_ = -std::numeric_limits<double>::infinity(),
+         high_ = std::numeric_limits<double>::infinity(); ///< beyond, there is no demand
+  double low_slope_ = 0, high_slope_ = 0;                 ///< beyond the nodes, away from them
 };
 
 } // namespace calotte::density_detail

@@ -14,13 +14,11 @@
 #include "density/width_profile.h"
 #include "domain/surface.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <mutex>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,8 +37,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 class ConstantRule : public WidthRule {
 public:
   explicit ConstantRule(double width) : WidthRule(RuleSpace::any), width_(width) {
-    require(width > 0 && std::isfinite(width),
-            "the cell width " + shortly(width) + " is not a positive number; give one");
+    require(width > 0, "the cell width " + shortly(width) + " is not a positive number; give one");
   }
   void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
     std::fill(widths.begin(), widths.end(), width_);
@@ -51,21 +48,66 @@ private:
   double width_;
 };
 
+RuleSpace space_of(const Raster& raster) {
+  return raster.of_plane ? RuleSpace::plane : RuleSpace::sphere;
+}
+
+/// The raster that was given, which is prepared when a place is asked for.
 class RasterRule : public WidthRule {
 public:
-  explicit RasterRule(const Raster& raster)
-      : WidthRule(raster.of_plane ? RuleSpace::plane : RuleSpace::sphere),
-        field_(width_field(raster)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    if (!places.empty())
-      evaluate_block(field_, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
-                     Eigen::Map<Eigen::VectorXd>(widths.data(), std::ssize(places)));
+  explicit RasterRule(Raster raster) : WidthRule(space_of(raster)), raster_(std::move(raster)) {
+    require_widths(raster_);
   }
-  double least() const override { return field_.least(); }
-  const RasterField* raster() const override { return &field_; }
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    evaluate_block(*field(), places, widths);
+  }
+  double least() const override { return raster_.values.minCoeff(); }
+  const Raster* raster() const override { return &raster_; }
+  const RasterField* field() const override {
+    std::call_once(once_, [&] { tbb::this_task_arena::isolate([&] { field_.emplace(raster_); }); });
+    return &*field_;
+  }
+  /// At its own nodes.
+  Rule limited(double gradient, double radius_km) const override {
+    return raster_.of_plane
+               ? nullptr
+               : std::make_shared<RasterRule>(limit_gradient(raster_, gradient, {}, radius_km));
+  }
 
 private:
-  RasterField field_;
+  Raster raster_;
+  mutable std::once_flag once_;
+  mutable std::optional<RasterField> field_;
+};
+
+/// The nodes of a raster, by a function of their values.
+template <class Of> Raster mapped(Raster raster, const Of& of) {
+  raster.values = raster.values.unaryExpr(of);
+  return raster;
+}
+
+/// What follows from the values of a raster, with no demand next to a node without one.
+class FieldRule : public WidthRule {
+public:
+  explicit FieldRule(const Raster& raster)
+      : WidthRule(space_of(raster)), least_(raster.values.minCoeff()),
+        field_(mapped(raster, [](double width) { return Widths::is_demand(width) ? width : 1; })),
+        silent_(mapped(raster, [](double width) { return Widths::is_demand(width) ? 0.0 : 1.0; })) {
+  }
+  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+    constexpr double rounding = 1e-9; // at a node the weights of the others may differ from 0
+    std::vector<double> silent(widths.size());
+    evaluate_block(field_, places, widths);
+    evaluate_block(silent_, places, silent);
+    for (std::size_t k = 0; k < widths.size(); ++k)
+      widths[k] = silent[k] > rounding ? Widths::no_demand : widths[k];
+  }
+  double least() const override { return least_; }
+  const RasterField* field() const override { return &field_; }
+
+private:
+  double least_;
+  RasterField field_, silent_; ///< the widths, and 1 at nodes without one
 };
 
 class LatitudeRule : public WidthRule {
@@ -93,48 +135,60 @@ private:
   ProfileCurve curve_;
 };
 
-class DistanceRule : public WidthRule {
+/// A curve by the distance from lines, which is negative where a place is behind them.
+/// \tparam Of widths or shares.
+template <class Of> class DistanceRule : public Of {
 public:
   using IsBehind = std::function<bool(const Vec3&)>;
 
-  /// \param is_behind of places where distances are negative; null for none.
+  /// \param is_behind null for nowhere.
   DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve,
                double radius_km)
-      : WidthRule(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
+      : Of(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
         distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)),
         unit_(distance_->on_sphere() ? radius_km : 1) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    (*distance_)(places, widths);
+  void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
+    (*distance_)(places, values);
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double distance = widths[k] * unit_;
-      widths[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
+      const double distance = values[k] * unit_;
+      values[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
     }
   }
-  double least() const override { return curve_.least(); }
-  /// The distance changes by no more than the way; towards the line by as much.
-  Rule limited(double gradient, double radius_km) const override {
-    return curve_.grows_from_zero()
-               ? std::make_shared<DistanceRule>(distance_, is_behind_, curve_.limited(gradient),
-                                                radius_km)
-               : nullptr;
-  }
 
-private:
+protected:
+  const ProfileCurve& curve() const { return curve_; }
   std::shared_ptr<const LineDistance> distance_;
   IsBehind is_behind_;
+
+private:
   ProfileCurve curve_;
   double unit_; ///< of the curve's distances
 };
 
-/// Where several rules hold together.
+class WidthByDistance : public DistanceRule<WidthRule> {
+public:
+  using DistanceRule::DistanceRule;
+  double least() const override { return curve().least(); }
+  /// The distance changes by no more than the way; towards the line by as much.
+  Rule limited(double gradient, double radius_km) const override {
+    return curve().grows_from_zero()
+               ? std::make_shared<WidthByDistance>(distance_, is_behind_, curve().limited(gradient),
+                                                   radius_km)
+               : nullptr;
+  }
+};
+
+/// Where two rules hold together.
+RuleSpace common_space(RuleSpace a, RuleSpace b) {
+  require(a == RuleSpace::any || b == RuleSpace::any || a == b,
+          "some widths are of the sphere and some of a plane; give those of one of them");
+  return a == RuleSpace::any ? b : a;
+}
+
 template <class Rules> RuleSpace common_space(const Rules& rules) {
   RuleSpace space = RuleSpace::any;
-  for (const auto& rule : rules) {
-    require(space == RuleSpace::any || rule->space() == RuleSpace::any || rule->space() == space,
-            "some widths are of the sphere and some of a plane; give those of one of them");
-    if (rule->space() != RuleSpace::any)
-      space = rule->space();
-  }
+  for (const auto& rule : rules)
+    space = common_space(space, rule->space());
   return space;
 }
 
@@ -177,8 +231,8 @@ class MinimumRule : public CombinedRule {
 public:
   explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
   void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const override {
-    std::vector<double> least(places.size(), std::numeric_limits<double>::infinity()),
-        widths(least);
+    std::fill(active.begin(), active.end(), 0);
+    std::vector<double> least(places.size(), Widths::no_demand), widths(least);
     for (std::size_t part = 0; part < parts().size(); ++part) {
       parts()[part]->evaluate(places, widths);
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -196,46 +250,57 @@ public:
   }
 };
 
-/// 2 within a region, 1 outside: a share and 1.
-class RegionRule : public WidthRule {
+/// 1 within a region, 0 outside.
+class ShareOfRegion : public ShareRule {
 public:
-  explicit RegionRule(Surface region)
-      : WidthRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
+  explicit ShareOfRegion(Surface region)
+      : ShareRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
         region_(std::move(region)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
+  void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
-      values[k] = region_.contains({places[k].x, places[k].y, places[k].z}) ? 2 : 1;
+      shares[k] = region_.contains({places[k].x, places[k].y, places[k].z}) ? 1 : 0;
   }
-  double least() const override { return 1; }
 
 private:
   Surface region_;
 };
 
+class ShareOfRaster : public ShareRule {
+public:
+  explicit ShareOfRaster(const Raster& raster) : ShareRule(space_of(raster)), field_(raster) {}
+  void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
+    evaluate_block(field_, places, shares);
+  }
+
+private:
+  RasterField field_;
+};
+
 /// (1 - t) a + t b. \tparam Weight t of a share.
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
-  BlendRule(Rule a, Rule b, Rule share)
-      : WidthRule(common_space(std::array{a, b, share})), a_(std::move(a)), b_(std::move(b)),
-        share_(std::move(share)) {}
+  BlendRule(RuleSpace space, Rule a, Rule b, std::shared_ptr<const ShareRule> share)
+      : WidthRule(space), a_(std::move(a)), b_(std::move(b)), share_(std::move(share)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     std::vector<double> others(widths.size()), shares(widths.size());
     a_->evaluate(places, widths);
     b_->evaluate(places, others);
     share_->evaluate(places, shares);
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double t = Weight(shares[k] - 1);
-      const bool silent = !Widths::is_demand(std::max(widths[k], others[k]));
-      if (t == 1 || (silent && t > 0)) // what says nothing has no mean with a width
-        widths[k] = t == 1 ? others[k] : Widths::no_demand;
-      else
-        widths[k] += t * (others[k] - widths[k]);
+      const double t = Weight(shares[k]);
+      if (t > 0 && t < 1) // what says nothing has no mean with a width
+        widths[k] = Widths::is_demand(std::max(widths[k], others[k]))
+                        ? widths[k] + t * (others[k] - widths[k])
+                        : Widths::no_demand;
+      else if (t == 1)
+        widths[k] = others[k];
     }
   }
   double least() const override { return std::min(a_->least(), b_->least()); }
 
 private:
-  Rule a_, b_, share_;
+  Rule a_, b_;
+  std::shared_ptr<const ShareRule> share_;
 };
 
 double all_of(double share) { return share; }
@@ -252,8 +317,8 @@ std::vector<Points3> boundary_of(const Surface& region) {
   return lines;
 }
 
-std::shared_ptr<const RuleOfRadius> for_any_radius(Rule rule) {
-  return std::make_shared<RuleOfRadius>(std::move(rule));
+std::shared_ptr<const WidthsOfRadius> for_any_radius(Rule rule) {
+  return std::make_shared<WidthsOfRadius>(std::move(rule));
 }
 
 /// That of some widths together: those of the Earth go to the other's sphere.
@@ -272,18 +337,17 @@ double common_radius(const std::vector<Widths>& widths) {
 /// make(rules) of the rules of some widths.
 template <class Make> Widths made_of(const std::vector<Widths>& widths, const Make& make) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
-  std::vector<std::shared_ptr<const RuleOfRadius>> parts;
+  std::vector<std::shared_ptr<const WidthsOfRadius>> parts;
   for (const Widths& one : widths)
     parts.push_back(one.rule_of_radius());
   const RuleSpace space = common_space(parts);
-  return Widths(std::make_shared<RuleOfRadius>(space,
-                                               [parts = std::move(parts), make](double radius_km) {
-                                                 std::vector<Rule> rules;
-                                                 for (const auto& part : parts)
-                                                   rules.push_back((*part)(radius_km));
-                                                 return make(std::move(rules));
-                                               }),
-                common_radius(widths));
+  const auto of_radius = [parts = std::move(parts), make](double radius_km) {
+    std::vector<Rule> rules;
+    for (const auto& part : parts)
+      rules.push_back((*part)(radius_km));
+    return make(std::move(rules));
+  };
+  return Widths(std::make_shared<WidthsOfRadius>(space, of_radius), common_radius(widths));
 }
 
 Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
@@ -294,9 +358,29 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
 
 template <double (*Weight)(double)>
 Widths blended(const Widths& a, const Widths& b, const Share& share) {
-  return made_of({a, b, Widths(share.rule())}, [](const std::vector<Rule>& rules) {
-    return std::make_shared<BlendRule<Weight>>(rules[0], rules[1], rules[2]);
-  });
+  const auto of_a = a.rule_of_radius(), of_b = b.rule_of_radius();
+  const auto of_share = share.rule_of_radius();
+  const RuleSpace space =
+      common_space(common_space(of_a->space(), of_b->space()), of_share->space());
+  const auto make = [=](double radius_km) {
+    return std::make_shared<BlendRule<Weight>>(space, (*of_a)(radius_km), (*of_b)(radius_km),
+                                               (*of_share)(radius_km));
+  };
+  return Widths(std::make_shared<WidthsOfRadius>(space, make), common_radius({a, b}));
+}
+
+/// of(curve, radius) of the distance from lines.
+/// \tparam Made a rule by distance, of widths or of shares.
+template <class Made, class Of>
+std::shared_ptr<const OfRadius<Of>> of_sides(const std::vector<Points3>& lines,
+                                             std::function<bool(const Vec3&)> is_behind,
+                                             const ProfileCurve& curve, const Surface& surface) {
+  const auto distance = std::make_shared<LineDistance>(lines, surface);
+  return std::make_shared<OfRadius<Of>>(
+      surface.is_sphere() ? RuleSpace::sphere : RuleSpace::plane,
+      [curve, distance, is_behind = std::move(is_behind)](double radius_km) {
+        return std::make_shared<Made>(distance, is_behind, curve, radius_km);
+      });
 }
 
 /// body(block, begin) for blocks of places of a rule's space: unit vectors, or x y 0.
@@ -318,7 +402,11 @@ void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& bod
 }
 
 constexpr double quarter = 90;
-constexpr double farthest_in_plane = 1e30;
+
+double farthest_on(const Surface& surface) {
+  constexpr double farthest_in_plane = 1e30;
+  return surface.is_sphere() ? farthest_on_sphere : farthest_in_plane;
+}
 
 } // namespace
 
@@ -328,28 +416,15 @@ void WidthRule::find_active(std::span<const Vec3>, std::span<std::int32_t> activ
 
 std::shared_ptr<const WidthRule> WidthRule::limited(double, double) const { return nullptr; }
 
-Rule RuleOfRadius::operator()(double radius_km) const {
-  const std::lock_guard lock(mutex_);
-  if (rule_ == nullptr || radius_km != radius_km_) {
-    // A task of the caller, taken up meanwhile, could ask for the same.
-    tbb::this_task_arena::isolate([&] { rule_ = make_(radius_km); });
-    radius_km_ = radius_km;
-  }
-  return rule_;
+std::shared_ptr<const WidthsOfRadius> rule_of_sides(const std::vector<Points3>& lines,
+                                                    std::function<bool(const Vec3&)> is_behind,
+                                                    const ProfileCurve& curve,
+                                                    const Surface& surface) {
+  return of_sides<WidthByDistance, WidthRule>(lines, std::move(is_behind), curve, surface);
 }
 
-std::shared_ptr<const RuleOfRadius> rule_of_sides(const std::vector<Points3>& lines,
-                                                  std::function<bool(const Vec3&)> is_behind,
-                                                  const WidthProfile& profile,
-                                                  const Surface& surface) {
-  const double farthest = surface.is_sphere() ? farthest_on_sphere : farthest_in_plane;
-  const ProfileCurve curve(profile, "a distance", is_behind ? -farthest : 0, farthest);
-  const auto distance = std::make_shared<LineDistance>(lines, surface);
-  return std::make_shared<RuleOfRadius>(
-      surface.is_sphere() ? RuleSpace::sphere : RuleSpace::plane,
-      [curve, distance, is_behind = std::move(is_behind)](double radius_km) {
-        return std::make_shared<DistanceRule>(distance, is_behind, curve, radius_km);
-      });
+std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster) {
+  return std::make_shared<FieldRule>(raster);
 }
 
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
@@ -361,9 +436,11 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
   require(
       rule->space() != RuleSpace::plane,
       "the gradient of such widths of a plane depends on the domain; limit that of their raster");
-  const Rule raster = std::make_shared<RasterRule>(limit_gradient(
-      with_cones(*rule, sample(*rule, step_for(*rule, radius_km)), gradient * radius_km), gradient,
-      {}, radius_km));
+  const Raster nodes =
+      with_cones(*rule, sample(*rule, step_for(*rule, radius_km)), gradient * radius_km);
+  if (!Widths::is_demand(nodes.values.minCoeff()))
+    return rule;
+  const Rule raster = std::make_shared<RasterRule>(limit_gradient(nodes, gradient, {}, radius_km));
   return std::make_shared<CombinedRule>(std::vector<Rule>{rule, raster}, least_of);
 }
 
@@ -374,7 +451,7 @@ using namespace density_detail;
 Widths::Widths(double width) : Widths(for_any_radius(std::make_shared<ConstantRule>(width))) {}
 Widths::Widths(const Raster& raster)
     : Widths(for_any_radius(std::make_shared<RasterRule>(raster))) {}
-Widths::Widths(std::shared_ptr<const RuleOfRadius> rule, double radius_km)
+Widths::Widths(std::shared_ptr<const WidthsOfRadius> rule, double radius_km)
     : rule_of_radius_(std::move(rule)), radius_km_(radius_km) {}
 
 std::shared_ptr<const WidthRule> Widths::rule() const { return (*rule_of_radius_)(radius_km_); }
@@ -383,12 +460,10 @@ bool Widths::is_of_plane() const { return rule_of_radius_->space() == RuleSpace:
 
 Widths Widths::limit_gradient(double gradient) const {
   require_gradient(gradient);
-  const Widths limits(
-      std::make_shared<RuleOfRadius>(rule_of_radius_->space(),
-                                     [rule = rule_of_radius_, gradient](double radius_km) {
-                                       return limited((*rule)(radius_km), gradient, radius_km);
-                                     }),
-      radius_km_);
+  const auto make = [rule = rule_of_radius_, gradient](double radius_km) {
+    return limited((*rule)(radius_km), gradient, radius_km);
+  };
+  const Widths limits(std::make_shared<WidthsOfRadius>(rule_of_radius_->space(), make), radius_km_);
   if (is_of_plane())
     limits.rule(); // which not every rule has
   return limits;
@@ -401,7 +476,9 @@ Widths Widths::on_sphere(double radius_km) const {
   require(radius_km_ == earth_radius_km, "the widths are those of a sphere of " +
                                              shortly(radius_km_) + " km, not of " +
                                              shortly(radius_km) + "; give one radius");
-  return Widths(rule_of_radius_, radius_km);
+  Widths there = *this;
+  there.radius_km_ = radius_km;
+  return there;
 }
 
 DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
@@ -429,13 +506,14 @@ Widths Widths::by_latitude(const WidthProfile& profile) {
 
 Widths Widths::by_distance(const std::vector<Points3>& lines, const WidthProfile& profile,
                            const Surface& surface) {
-  return Widths(rule_of_sides(lines, nullptr, profile, surface));
+  return Widths(rule_of_sides(
+      lines, nullptr, ProfileCurve(profile, "a distance", 0, farthest_on(surface)), surface));
 }
 
 Widths Widths::around(const std::vector<Points3>& lines, double width, double over,
                       const Surface& surface) {
-  const double edge = 1e-9 * over;
-  return by_distance(lines, {{{0, width}, {over, width}, {over + edge, no_demand}}}, surface);
+  const ProfileCurve curve({{{0, width}, {over, width}}}, "a distance", 0, farthest_on(surface));
+  return Widths(rule_of_sides(lines, nullptr, curve.within(0, over), surface));
 }
 
 Widths Widths::minimum(const std::vector<Widths>& of) {
@@ -459,32 +537,24 @@ Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
   return blended<all_of>(a, b, t);
 }
 
-Share::Share(const Surface& region) : rule_(for_any_radius(std::make_shared<RegionRule>(region))) {}
+Share::Share(const Surface& region)
+    : rule_of_radius_(std::make_shared<SharesOfRadius>(std::make_shared<ShareOfRegion>(region))) {}
 
 Share::Share(const Raster& raster) {
   require_values(raster, "shares", a_fraction);
-  Raster more = raster;
-  more.values.array() += 1;
-  rule_ = Widths(more).rule_of_radius();
+  rule_of_radius_ = std::make_shared<SharesOfRadius>(std::make_shared<ShareOfRaster>(raster));
 }
 
 Share::Share(const Surface& region, const WidthProfile& profile) {
   require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "
                                "region");
-  WidthProfile more = profile;
-  for (std::size_t k = 0; k < more.nodes.size(); ++k) {
-    double& share = more.nodes[k][1];
-    require(share >= 0 && share <= 1, "node " + std::to_string(k) +
-                                          " of a profile of a distance has the share " +
-                                          shortly(share) + "; give 0 to 1");
-    share += 1;
-  }
-  rule_ = rule_of_sides(
-      boundary_of(region),
-      [region](const Vec3& place) {
-        return region.contains({place.x, place.y, place.z});
-      },
-      more, region);
+  const double farthest = farthest_on(region);
+  const auto is_inside = [region](const Vec3& place) {
+    return region.contains({place.x, place.y, place.z});
+  };
+  rule_of_radius_ = of_sides<DistanceRule<ShareRule>, ShareRule>(
+      boundary_of(region), is_inside,
+      ProfileCurve(profile, "a distance", -farthest, farthest, "share", a_fraction), region);
 }
 
 } // namespace calotte

@@ -2,9 +2,13 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "density/raster_field.h"
 #include "density/room.h"
+#include "density/width_profile.h"
 
 #include <calotte/widths.h>
+
+#include <tbb/task_arena.h>
 
 #include <cstdint>
 #include <functional>
@@ -16,12 +20,10 @@
 
 namespace calotte::density_detail {
 
-class RasterField;
-
 /// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
 
-/// A width for every place. Immutable.
+/// A width for every place, or Widths::no_demand. Immutable.
 class WidthRule {
 public:
   explicit WidthRule(RuleSpace space = RuleSpace::sphere) : space_(space) {}
@@ -41,49 +43,82 @@ public:
   /// A bound from below of all widths, km, > 0.
   virtual double least() const = 0;
 
-  /// The raster whose values the rule gives; null for other rules.
-  virtual const RasterField* raster() const { return nullptr; }
+  /// The raster that was given as the rule; null for other rules.
+  virtual const Raster* raster() const { return nullptr; }
+  /// Places that matter for a limit of the gradient, beside those of a regular raster: the nodes
+  /// of the rule's own; null for other rules.
+  virtual const RasterField* field() const { return nullptr; }
 
-  /// The rule with a limited gradient if no raster is needed for that; else null.
+  /// The rule with a limited gradient if no other raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const;
 
 private:
   RuleSpace space_;
 };
 
-/// A rule as a function of the radius of its sphere. What it makes for a radius it keeps, so that
-/// rules that are made of others share it. Threads may ask at once.
-class RuleOfRadius {
+/// A share from 0 to 1 for every place. Immutable.
+class ShareRule {
 public:
-  using Make = std::function<std::shared_ptr<const WidthRule>(double radius_km)>;
-
-  RuleOfRadius(RuleSpace space, Make make) : space_(space), make_(std::move(make)) {}
-  /// Of a rule that depends on no radius.
-  explicit RuleOfRadius(std::shared_ptr<const WidthRule> rule)
-      : RuleOfRadius(rule->space(), [rule](double) { return rule; }) {}
+  explicit ShareRule(RuleSpace space) : space_(space) {}
+  ShareRule(const ShareRule&) = delete;
+  ShareRule& operator=(const ShareRule&) = delete;
+  virtual ~ShareRule() = default;
 
   RuleSpace space() const { return space_; }
-  std::shared_ptr<const WidthRule> operator()(double radius_km) const;
+  virtual void evaluate(std::span<const Vec3> places, std::span<double> shares) const = 0;
+
+private:
+  RuleSpace space_;
+};
+
+/// A rule of widths or of shares as a function of the radius of its sphere. What it makes for a
+/// radius it keeps, so that rules that are made of others share it. Threads may ask at once.
+template <class Rule> class OfRadius {
+public:
+  using Make = std::function<std::shared_ptr<const Rule>(double radius_km)>;
+
+  OfRadius(RuleSpace space, Make make) : space_(space), make_(std::move(make)) {}
+  /// Of a rule that depends on no radius.
+  explicit OfRadius(std::shared_ptr<const Rule> rule)
+      : OfRadius(rule->space(), [rule](double) { return rule; }) {}
+
+  RuleSpace space() const { return space_; }
+
+  std::shared_ptr<const Rule> operator()(double radius_km) const {
+    const std::lock_guard lock(mutex_);
+    if (rule_ == nullptr || radius_km != radius_km_) {
+      // A task of the caller, taken up meanwhile, could ask for the same.
+      tbb::this_task_arena::isolate([&] { rule_ = make_(radius_km); });
+      radius_km_ = radius_km;
+    }
+    return rule_;
+  }
 
 private:
   RuleSpace space_;
   Make make_;
   mutable std::mutex mutex_; ///< of what follows: the last one that was asked for
   mutable double radius_km_ = 0;
-  mutable std::shared_ptr<const WidthRule> rule_;
+  mutable std::shared_ptr<const Rule> rule_;
 };
+
+using WidthsOfRadius = OfRadius<WidthRule>;
+using SharesOfRadius = OfRadius<ShareRule>;
 
 /// A rule by the distance from lines, which is negative at places where `is_behind` is true.
 /// \param lines closed boundaries of these places.
 ///
-/// \param profile of the distance, on the sphere in km.
+/// \param curve by the distance, on the sphere in km.
 ///
 /// \param surface the sphere or a plane.
 /// \throws Error invalid_argument as Widths::by_distance().
-std::shared_ptr<const RuleOfRadius> rule_of_sides(const std::vector<Points3>& lines,
-                                                  std::function<bool(const Vec3&)> is_behind,
-                                                  const WidthProfile& profile,
-                                                  const Surface& surface = {});
+std::shared_ptr<const WidthsOfRadius> rule_of_sides(const std::vector<Points3>& lines,
+                                                    std::function<bool(const Vec3&)> is_behind,
+                                                    const ProfileCurve& curve,
+                                                    const Surface& surface = {});
+
+/// The values of a raster, with no demand next to a node whose value is none.
+std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster);
 
 /// Any rule with a limited gradient: nowhere above the rule.
 /// \param radius_km for which the rule was made.
@@ -95,10 +130,7 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
 double step_for(const WidthRule& rule, double radius_km);
 /// The widths of a rule at the nodes of a raster of the sphere.
 Raster sample(const WidthRule& rule, double step);
-/// The raster of sampled(). \throws Error as there, but for places without a demand.
+/// The raster of sampled(), with Widths::no_demand where there is none. \throws Error as there.
 Raster sample(const Widths& widths, const Surface& surface, double step);
-/// Gives nodes outside a surface without a demand the largest width of the others.
-/// \throws Error invalid_argument for one inside.
-void fill_outside(Raster& raster, const Surface& surface);
 
 } // namespace calotte::density_detail

@@ -166,7 +166,7 @@ Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
         discs_of(points_along(shore, step), *sides, rule, step, radius_km));
   };
   return Widths(
-      std::make_shared<density_detail::RuleOfRadius>(density_detail::RuleSpace::sphere, make));
+      std::make_shared<density_detail::WidthsOfRadius>(density_detail::RuleSpace::sphere, make));
 }
 
 } // namespace calotte

@@ -6,40 +6,34 @@
 
 #include <calotte/widths.h>
 
-#include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
 namespace calotte {
 namespace {
 
-/// A profile of distances on one side, with nothing on the other.
-WidthProfile one_sided(WidthProfile profile, CoastSide side) {
-  constexpr double edge = 1e-6; // km
-  const density_detail::ProfileCurve given(profile, "a distance", 0,
-                                           density_detail::farthest_on_sphere); // refuses bad nodes
-  auto& nodes = profile.nodes;
-  if (const auto [distance, width] = nodes.front(); distance > 0)
-    nodes.insert(nodes.begin(), {0, width});
-  nodes.insert(nodes.begin(), {-edge, Widths::no_demand});
-  if (side == CoastSide::land) {
-    std::reverse(nodes.begin(), nodes.end());
-    for (auto& [distance, width] : nodes)
-      distance = -distance;
-  }
-  return profile;
+/// A profile of distances in the sea, negative on land; or on one side.
+density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide side) {
+  constexpr double farthest = density_detail::farthest_on_sphere;
+  const bool both = side == CoastSide::both;
+  const density_detail::ProfileCurve curve(profile, "a distance", both ? -farthest : 0, farthest);
+  return both ? curve : curve.within(0, std::numeric_limits<double>::infinity());
 }
 
 } // namespace
 
 Widths Widths::by_coast(const Coast& coast, const WidthProfile& profile, CoastSide side) {
   using namespace grids_detail;
-  const WidthProfile both = side == CoastSide::both ? profile : one_sided(profile, side);
+  const density_detail::ProfileCurve curve = curve_of(profile, side);
   const std::vector<ShoreArc> shore = shore_arcs(coast);
   base_detail::require(!shore.empty(), "the coast has no shore to be distant from; give rings");
   const auto sides = std::make_shared<const CoastSides>(shore);
-  return Widths(density_detail::rule_of_sides(
-      shores(coast), [sides](const Vec3& place) { return sides->is_land(place); }, both));
+  const bool on_land = side == CoastSide::land;
+  const auto is_behind = [sides, on_land](const Vec3& place) {
+    return sides->is_land(place) != on_land;
+  };
+  return Widths(density_detail::rule_of_sides(shores(coast), is_behind, curve));
 }
 
 } // namespace calotte

@@ -192,8 +192,8 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
   constexpr int rounds = 3;
   Schedule schedule;
   Recipe& recipe = schedule.recipe;
+  schedule.density = density;
   recipe.cells = cells;
-  recipe.density = density;
   recipe.surface = surface;
   recipe.boundary = surface.is_bounded() ? Boundary::generators : Boundary::clip;
   recipe.fixed = points.leftCols(fixed);

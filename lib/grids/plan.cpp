@@ -44,11 +44,6 @@ void require_values(const Recipe& recipe) {
   const bool plane = !recipe.surface.is_sphere();
   if (recipe.cells != 0) // before any work; the least number follows below
     base_detail::require_count(recipe.cells, 1, "the number of cells");
-  require(!recipe.widths || recipe.widths->of_plane == plane,
-          plane ? "widths in km are those of the sphere; give a raster of x and y for a plane"
-                : "the widths are those of a plane; give a raster of longitudes and latitudes");
-  require(!recipe.widths || recipe.density.uniform(),
-          "the recipe has widths and a density; give one of them");
   require(!plane || recipe.surface.is_bounded() || recipe.surface.is_box(),
           "a grid does not fill a plane that has no end; give rings, or two periods");
   const std::optional<int>& bisections = recipe.start.bisections;
@@ -77,38 +72,39 @@ void require_fixed_points(const Recipe& recipe) {
   }
 }
 
-/// Widths give the density; those of one size a uniform one.
-void take_widths(Recipe& recipe) {
-  if (!recipe.widths)
-    return;
-  require_covering(*recipe.widths, recipe.surface);
-  const DoubleMatrix& widths = recipe.widths->values;
-  if (widths.minCoeff() != widths.maxCoeff())
-    recipe.density = density_of(*recipe.widths);
-}
-
+/// The density, and the widths that give it; those of one size give a uniform one.
 /// \throws Error invalid_argument for an ill-formed density, even if the start does not use it.
-void require_density(const Recipe& recipe) {
+void take_resolution(Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
+  if (const auto* const widths = std::get_if<Widths>(&recipe.resolution)) {
+    schedule.widths = sampled(widths->on_sphere(recipe.radius_km), recipe.surface);
+    require_covering(*schedule.widths, recipe.surface);
+    schedule.density = density_of(*schedule.widths);
+  } else {
+    schedule.density = std::get<Density>(recipe.resolution);
+  }
   if (recipe.surface.is_sphere())
-    evaluate(recipe.density, bisected_icosahedron(0));
+    evaluate(schedule.density, bisected_icosahedron(0));
   else
-    site_density(recipe.density, recipe.surface);
+    site_density(schedule.density, recipe.surface);
 }
 
 /// The run of a limited area covers the rings around it, too.
-void take_limited_area(Recipe& recipe) {
+void take_limited_area(Schedule& schedule) {
+  Recipe& recipe = schedule.recipe;
   if (!recipe.limited_area)
     return;
   require(recipe.surface.is_sphere() && recipe.surface.is_bounded(),
           "a limited area is a part of the sphere; give the rings that bound it");
-  require(recipe.widths.has_value(), "a limited area requires cell widths, from which the rings "
-                                     "around the region follow; give them");
-  const Surface meshed = with_rings(recipe.surface, *recipe.widths, recipe.radius_km);
-  require_covering(*recipe.widths, meshed);
+  require(schedule.widths.has_value(), "a limited area requires cell widths, from which the rings "
+                                       "around the region follow; give them");
+  const Surface meshed = with_rings(recipe.surface, *schedule.widths, recipe.radius_km);
+  require_covering(*schedule.widths, meshed);
   recipe.surface = meshed;
 }
 
-void choose_start(Recipe& recipe) {
+/// \param uniform the density.
+void choose_start(Recipe& recipe, bool uniform) {
   Start& start = recipe.start;
   const bool plane = !recipe.surface.is_sphere(),
              follows = recipe.surface.is_sphere() && recipe.surface.is_bounded(),
@@ -117,8 +113,8 @@ void choose_start(Recipe& recipe) {
   if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
     start.kind = Start::Kind::points;
   if (start.kind == Start::Kind::automatic) {
-    if ((plane || follows || beside || ends || !recipe.density.uniform()) &&
-        !recipe.stop.iterations && !start.bisections)
+    if ((plane || follows || beside || ends || !uniform) && !recipe.stop.iterations &&
+        !start.bisections)
       start.kind = Start::Kind::multilevel;
     else
       start.kind = plane || follows || beside ? Start::Kind::density : Start::Kind::continuation;
@@ -164,70 +160,74 @@ double within_range(double implied, double least, const std::string& where = "")
 }
 
 /// The number of cells that a uniform width or bisections can reach, near one that widths imply.
-std::int64_t reachable(const Recipe& recipe, double implied) {
-  if (recipe.density.uniform())
+std::int64_t reachable(const Schedule& schedule, double implied) {
+  if (schedule.density.uniform())
     return geodesic_count(implied);
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
-  while (recipe.start.kind == Start::Kind::continuation &&
+  while (schedule.recipe.start.kind == Start::Kind::continuation &&
          (cells - 2) / (4 * parts) >= fewest_graded - 2)
     parts *= 4;
   return (cells - 2 + parts / 2) / parts * parts + 2;
 }
 
 /// The number of cells with generators on the boundary, if any, which have half a cell each.
-double with_boundary(const Recipe& recipe, double implied) {
+double with_boundary(const Schedule& schedule, double implied) {
+  const Recipe& recipe = schedule.recipe;
   double cells = implied;
   for (int k = 0; k < 3 && recipe.boundary == Boundary::generators; ++k)
     cells = implied +
-            static_cast<double>(
-                generators_detail::all_boundary_points(
-                    recipe.surface, static_cast<std::int64_t>(std::max(cells, 4.0)), recipe.density)
-                    .cols() /
-                2);
+            static_cast<double>(generators_detail::all_boundary_points(
+                                    recipe.surface, static_cast<std::int64_t>(std::max(cells, 4.0)),
+                                    schedule.density)
+                                    .cols() /
+                                2);
   return std::min(cells, double(most_points));
 }
 
 /// The number of cells for the widths in a part of the sphere.
 /// \param implied by the widths, without half a cell of each generator on the boundary.
-double cells_in_part(const Recipe& recipe, const Surface& asked, double implied) {
+double cells_in_part(const Schedule& schedule, const Surface& asked, double implied) {
+  const Recipe& recipe = schedule.recipe;
   constexpr double fewest = 40;
   implied = within_range(implied, fewest, " in the region");
   if (recipe.limited_area) { // whose rings lie around the cells inside
-    const double inside = implied_cells(*recipe.widths, asked, recipe.radius_km);
+    const double inside = implied_cells(*schedule.widths, asked, recipe.radius_km);
     require(inside >= 1, "the region has room for " + base_detail::shortly(inside) +
                              " cells only, without those of the rings; give smaller widths or a "
                              "larger region");
   }
-  return with_boundary(recipe, implied);
+  return with_boundary(schedule, implied);
 }
 
 /// Sets the number of cells where it follows from widths. \returns what they imply.
-double take_cells(Recipe& recipe, const Surface& asked) {
+double take_cells(Schedule& schedule, const Surface& asked) {
+  Recipe& recipe = schedule.recipe;
   const bool counts = recipe.cells == 0 && recipe.start.kind != Start::Kind::points;
-  require(!counts || recipe.widths,
+  require(!counts || schedule.widths,
           "there is no number of cells; give one, or cell widths, or the points of the start");
-  if (!recipe.widths)
+  if (!schedule.widths)
     return 0;
-  const double implied = implied_cells(*recipe.widths, recipe.surface, recipe.radius_km);
+  const double implied = implied_cells(*schedule.widths, recipe.surface, recipe.radius_km);
   if (!counts)
     return implied;
-  if (recipe.widths->of_plane) {
+  if (schedule.widths->of_plane) {
     recipe.cells = static_cast<std::int64_t>(
-        with_boundary(recipe, within_range(implied, double(fewest_generators(recipe.surface)))));
+        with_boundary(schedule, within_range(implied, double(fewest_generators(recipe.surface)))));
     return implied;
   }
   if (!recipe.surface.is_bounded()) {
     recipe.cells =
-        reachable(recipe, within_range(implied, double(fewest_generators(recipe.surface))));
+        reachable(schedule, within_range(implied, double(fewest_generators(recipe.surface))));
     return implied;
   }
-  recipe.cells = static_cast<std::int64_t>(cells_in_part(recipe, asked, implied));
+  recipe.cells = static_cast<std::int64_t>(cells_in_part(schedule, asked, implied));
   return static_cast<double>(recipe.cells);
 }
 
 /// Replaces a box that has walls by a wider one, and the number of its cells.
-void take_walls(Recipe& recipe) {
+void take_walls(Schedule& schedule) {
+  Recipe& recipe = schedule.recipe;
   if (!recipe.walls.x && !recipe.walls.y)
     return;
   require(recipe.surface.is_box(), "walls end a periodic box; give two periods");
@@ -235,9 +235,9 @@ void take_walls(Recipe& recipe) {
           "walls in x and y leave no period; give a rectangle, whose sides clip the cells");
   require(recipe.start.kind != Start::Kind::points,
           "walls need points beyond them, too; give a number of cells instead of points");
-  WallsRun run = run_between_walls(recipe.surface, recipe.walls, recipe.density, recipe.cells);
+  WallsRun run = run_between_walls(recipe.surface, recipe.walls, schedule.density, recipe.cells);
   recipe.surface = std::move(run.box);
-  recipe.density = std::move(run.density);
+  schedule.density = std::move(run.density);
   const int bisections =
       chooses_bisections(recipe.start.kind) ? 0 : recipe.start.bisections.value_or(0);
   const std::int64_t parts = std::int64_t{1} << (2 * bisections); // of a cell of the start
@@ -251,7 +251,8 @@ Points3 joined(const Points3& a, const Points3& b) {
 }
 
 /// Generators on the boundary, for Boundary::generators.
-Points3 on_boundary(const Recipe& recipe) {
+Points3 on_boundary(const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
   if (recipe.boundary != Boundary::generators)
     return Points3(3, 0);
   require(recipe.surface.is_bounded(),
@@ -259,19 +260,19 @@ Points3 on_boundary(const Recipe& recipe) {
   require(recipe.start.kind != Start::Kind::points,
           "a mesh that ends at generators does not take points of the start; give a number of "
           "cells, or fixed points on the boundary");
-  return boundary_points(recipe.surface, recipe.cells, recipe.density);
+  return boundary_points(recipe.surface, recipe.cells, schedule.density);
 }
 
 /// Puts generators on lines and on the boundary after the other fixed ones.
 void take_curves(Schedule& schedule) {
   Recipe& recipe = schedule.recipe;
-  const Points3 boundary = on_boundary(recipe);
+  const Points3 boundary = on_boundary(schedule);
   if (!recipe.lines.empty()) {
     require(recipe.start.kind != Start::Kind::points,
             "generators on lines follow from a number of cells; give one, and no points of the "
             "start");
-    const LinePoints lines = line_points(recipe.lines, recipe.surface, recipe.cells, recipe.density,
-                                         joined(recipe.fixed, boundary));
+    const LinePoints lines = line_points(recipe.lines, recipe.surface, recipe.cells,
+                                         schedule.density, joined(recipe.fixed, boundary));
     recipe.fixed = joined(recipe.fixed, lines.points);
     recipe.lines = {};
     schedule.on_lines = lines.points.cols();
@@ -303,23 +304,25 @@ void choose_stop(Recipe& recipe) {
       stop.tolerance.value_or(*stop.well_centred ? tolerance_well_centred : tolerance_pure);
 }
 
-FirstLevel first_level(const Recipe& recipe) {
+FirstLevel first_level(const Schedule& schedule) {
+  const Recipe& recipe = schedule.recipe;
   const Start& start = recipe.start;
   const std::int64_t fixed = recipe.fixed.cols();
   if (start.kind == Start::Kind::points)
     return {start.kind, fixed + start.points.cols(), start.bisections.value_or(0)};
   if (start.kind == Start::Kind::continuation)
-    return first_of_continuation(recipe.cells, recipe.density.uniform());
+    return first_of_continuation(recipe.cells, schedule.density.uniform());
   if (start.kind == Start::Kind::multilevel)
-    return first_of_multilevel(recipe.cells, recipe.surface, recipe.density, fixed);
+    return first_of_multilevel(recipe.cells, recipe.surface, schedule.density, fixed);
   return first_of_kind(start.kind, recipe.cells, start.bisections.value_or(0), recipe.surface,
                        fixed);
 }
 
-/// \param recipe with all choices made.
-CvtOptions options_of(const Recipe& recipe, int bisections) {
+/// \param schedule with all choices made, but for its levels.
+CvtOptions options_of(const Schedule& schedule, int bisections) {
+  const Recipe& recipe = schedule.recipe;
   CvtOptions options;
-  options.density = recipe.density;
+  options.density = schedule.density;
   options.method = recipe.method;
   options.norm = recipe.stop.iterations ? Norm::none : recipe.stop.norm;
   options.tolerance = *recipe.stop.tolerance;
@@ -342,7 +345,7 @@ CvtOptions options_of(const Recipe& recipe, int bisections) {
 } // namespace
 
 CvtOptions options_of(const Schedule& schedule) {
-  return options_of(schedule.recipe, static_cast<int>(schedule.levels.size()) - 1);
+  return options_of(schedule, static_cast<int>(schedule.levels.size()) - 1);
 }
 
 } // namespace grids_detail
@@ -356,23 +359,21 @@ Schedule plan(Recipe recipe) {
   all = std::move(recipe);
   const Surface asked = all.surface;
   const bool counts = all.cells == 0;
-  take_widths(all);
-  require_density(all);
-  take_limited_area(all);
-  choose_start(all);
-  schedule.implied_cells = take_cells(all, asked);
-  take_walls(all);
+  take_resolution(schedule);
+  take_limited_area(schedule);
+  choose_start(all, schedule.density.uniform());
+  schedule.implied_cells = take_cells(schedule, asked);
+  take_walls(schedule);
   take_curves(schedule);
   if (counts && all.start.kind != Start::Kind::points && all.fixed.cols() > schedule.on_boundary)
-    all.cells = cells_beside(all.fixed, all.cells, all.density, all.surface);
+    all.cells = cells_beside(all.fixed, all.cells, schedule.density, all.surface);
   require_free(all);
   choose_stop(all);
   all.limited_area = false;
   all.walls = {};
-  all.widths = {};
-  const FirstLevel first = first_level(all);
+  const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
-  const CvtOptions options = options_of(all, first.bisections);
+  const CvtOptions options = options_of(schedule, first.bisections);
   schedule.levels = levels_of(all.surface, first.cells, first.bisections, options);
   cvt_detail::require_options(options);
   return schedule;

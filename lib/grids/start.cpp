@@ -180,7 +180,7 @@ Points3 free_generators(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   const Surface& surface = recipe.surface;
   const std::int64_t count = schedule.levels.front().cells - recipe.fixed.cols();
-  const Density sites = site_density(recipe.density, surface);
+  const Density sites = site_density(schedule.density, surface);
   if (recipe.start.kind == Start::Kind::multilevel)
     return free_points(count, schedule.levels.front().cells, recipe.fixed, surface, sites,
                        recipe.seed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grids/walls.h"
 
+#include "density/surface_density.h"
 #include "domain/surface.h"
 
 #include <calotte/generators.h>
@@ -38,11 +39,13 @@ double mean_root(const Density& density, const Surface& box, const Points3& plac
 /// the gap on.
 Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
                   const Eigen::Vector2d& period) {
-  if (density.kind != Density::Kind::callable)
+  const Density::Callable given = density_detail::callable_of(density);
+  if (!given)
     return density;
-  Density out = density;
-  out.callable = [inner = density.callable, extent, period](const Eigen::Ref<const Points3>& x,
-                                                            Eigen::Ref<DoubleVector> rho) {
+  Density out;
+  out.kind = Density::Kind::callable;
+  out.callable = [inner = given, extent, period](const Eigen::Ref<const Points3>& x,
+                                                 Eigen::Ref<DoubleVector> rho) {
     Points3 near = x;
     for (Eigen::Index i = 0; i < near.cols(); ++i)
       for (int k = 0; k < 2; ++k)

@@ -70,17 +70,11 @@ void require_planar_format(const std::string& path, const Surface& plane, Format
 /// other geometries. \throws Error parse, also for lines beside other geometries; file.
 std::vector<Points3> lines_in(const std::string& path, const Surface& surface);
 
-/// What a file of rules for widths says of itself.
-struct RulesOutline {
-  std::vector<std::string> files; ///< that its rules name
-  std::optional<double> gradient; ///< the limit of all of it
-};
-
 /// Whether a file of cell widths holds rules, by its suffix, .toml in any case.
 bool holds_rules(const std::string& path);
 
-/// Reads the TOML file alone. \throws Error parse; file.
-RulesOutline outline_of_rules(const std::string& path);
+/// The files that a file of rules names, read by itself. \throws Error parse; file.
+std::vector<std::string> files_of_rules(const std::string& path);
 
 // ---- Files of JIGSAW (.msh), whose lengths have one unit of any kind
 

@@ -223,11 +223,13 @@ TEST_CASE("boundary: in the plane the mesh fills the domain to its corners [slow
     recipe.boundary = Boundary::generators;
     recipe.cells = 1500;
     if (graded)
-      recipe.density = {Density::Kind::callable,
-                        {},
-                        [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
-                          rho = (1 + x.colwise().squaredNorm().array()).pow(-4).transpose();
-                        }};
+      recipe.resolution =
+          Density{Density::Kind::callable,
+                  {},
+                  {},
+                  [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
+                    rho = (1 + x.colwise().squaredNorm().array()).pow(-4).transpose();
+                  }};
     const Schedule schedule = plan(recipe);
     const Cvt grid = make_grid(schedule);
     const Mesh& mesh = grid.mesh;

@@ -359,14 +359,14 @@ TEST_CASE("a density that jumps makes a grid, in a rectangle and in a box") {
     for (const double low : {0.1, 1e-3}) {
       CAPTURE(low);
       CAPTURE(surface.is_bounded());
-      Recipe recipe{.cells = 800, .surface = surface};
-      recipe.density.kind = Density::Kind::callable;
-      recipe.density.callable = [low](const Eigen::Ref<const Points3>& x,
-                                      Eigen::Ref<Eigen::VectorXd> rho) {
+      Density density;
+      density.kind = Density::Kind::callable;
+      density.callable = [low](const Eigen::Ref<const Points3>& x,
+                               Eigen::Ref<Eigen::VectorXd> rho) {
         for (Eigen::Index i = 0; i < x.cols(); ++i)
           rho[i] = x(0, i) > 1 && x(0, i) < 2 ? 1 : low;
       };
-      const Cvt grid = make_grid(recipe);
+      const Cvt grid = make_grid({.cells = 800, .resolution = density, .surface = surface});
       CHECK(grid.mesh.points.cols() == 800);
       CHECK(grid.report.converged);
       // As many cells lie in the band as the integral of sqrt(rho) has there.

@@ -141,7 +141,7 @@ TEST_CASE("the least width of discs, and what grows from them, is that over all"
     discs.push_back({{centres(0, k), centres(1, k), centres(2, k)},
                      random.real(10, 900) / earth_radius_km,
                      random.real(5, 60)});
-  const Widths rule{std::make_shared<density_detail::RuleOfRadius>(
+  const Widths rule{std::make_shared<density_detail::WidthsOfRadius>(
       std::make_shared<density_detail::DiscRule>(discs))};
   for (const double gradient : {std::numeric_limits<double>::infinity(), 0.2, 0.001}) {
     const DoubleVector got =

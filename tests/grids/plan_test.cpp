@@ -80,7 +80,7 @@ TEST_CASE("plan: the start follows from density, surface and fixed generators") 
   CHECK(kind(recipe) == Start::Kind::density);
   recipe = {};
   recipe.cells = 2562;
-  recipe.density = test::x8();
+  recipe.resolution = test::x8();
   CHECK(kind(recipe) == Start::Kind::multilevel);
   recipe.cells = 0;
   recipe.start.points = random_sphere(100);
@@ -93,7 +93,7 @@ TEST_CASE("plan: a run that follows widths ends well-centred, at a wider toleran
   recipe.cells = 2562;
   CHECK(plan(recipe).recipe.stop.well_centred == false);
   CHECK(plan(recipe).recipe.stop.tolerance == 1e-6);
-  recipe.density = test::x8();
+  recipe.resolution = test::x8();
   CHECK(plan(recipe).recipe.stop.well_centred == true);
   CHECK(plan(recipe).recipe.stop.tolerance == 1e-4);
   recipe.stop.well_centred = false;
@@ -105,7 +105,7 @@ TEST_CASE("plan: a run that follows widths ends well-centred, at a wider toleran
 TEST_CASE("plan: levels lead from a coarse grid to the number of cells") {
   Recipe recipe;
   recipe.cells = 40962;
-  recipe.density = test::x8();
+  recipe.resolution = test::x8();
   const Schedule schedule = plan(recipe);
   REQUIRE(schedule.levels.size() > 2);
   CHECK(schedule.levels.back().cells == 40962);
@@ -126,7 +126,7 @@ TEST_CASE("plan: levels lead from a coarse grid to the number of cells") {
 TEST_CASE("plan: the levels are those of the run") {
   Recipe recipe;
   recipe.cells = 800;
-  recipe.density = test::x8();
+  recipe.resolution = test::x8();
   for (const Surface& surface : {Surface::sphere(), Surface(part())}) {
     recipe.surface = surface;
     const Schedule schedule = plan(recipe);
@@ -144,12 +144,12 @@ TEST_CASE("plan: the levels are those of the run") {
 
 TEST_CASE("plan: widths give the number of cells") {
   Recipe recipe;
-  recipe.widths = widths(800);
+  recipe.resolution = widths(800);
   const Schedule schedule = plan(recipe);
   CHECK(schedule.recipe.cells == std::llround(schedule.implied_cells));
-  CHECK(!schedule.recipe.density.uniform());
-  recipe.widths = widths(400); // of one size
-  CHECK(plan(recipe).recipe.density.uniform());
+  CHECK(!schedule.density.uniform());
+  recipe.resolution = widths(400); // of one size
+  CHECK(plan(recipe).density.uniform());
   CHECK(plan(recipe).recipe.cells == geodesic_count(plan(recipe).implied_cells));
   recipe.surface = part();
   const std::int64_t inside = plan(recipe).recipe.cells;
@@ -212,18 +212,14 @@ TEST_CASE("plan: recipes that do not fit together are refused, with the remedy")
   CHECK(message_of(recipe) == "fixed point 99 leaves no free one of the 100 cells; give more cells "
                               "or fewer fixed points @99");
   recipe = with(Start::Kind::automatic, 0);
-  recipe.widths = widths(800);
-  recipe.density = test::x8();
-  CHECK(has(message_of(recipe), "widths and a density"));
-  recipe.density = {};
-  recipe.widths->values *= 1000;
+  recipe.resolution = widths(8e5);
   CHECK(has(message_of(recipe), "a grid has 12 to 1073741824"));
-  recipe.widths = {};
+  recipe.resolution = {};
   recipe.cells = 100;
   recipe.limited_area = true;
   CHECK(has(message_of(recipe), "give the rings that bound it"));
   recipe = with(Start::Kind::automatic, 100);
-  recipe.density = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
+  recipe.resolution = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
   CHECK(has(message_of(recipe), "alpha"));
 }
 
@@ -245,10 +241,9 @@ TEST_CASE("plan: values out of range are refused before any work") {
           "fixed generator 0 is 0 0 0; give a direction @0");
   refused(
       [](Recipe& r) {
-        r.widths = widths(800);
-        r.widths->x[1] = 10;
+        r.resolution = Widths::around({Points3(Eigen::Vector3d(0, 0, 1))}, 100, 500);
       },
-      "longitude");
+      "no rule gives a width at longitude -180, latitude -90; add one that holds everywhere");
   CHECK_THROWS_AS(make_grid(Schedule{}), Error);
   CHECK_THROWS_AS(random_points(100, Surface::plane()), Error);
   CHECK_THROWS_AS(hexagonal_lattice(100, Surface::sphere()), Error);
@@ -257,7 +252,7 @@ TEST_CASE("plan: values out of range are refused before any work") {
 TEST_CASE("make_grid: a run that is stopped goes on from its state to the same bits") {
   Recipe recipe;
   recipe.cells = 400;
-  recipe.density = test::x8();
+  recipe.resolution = test::x8();
   const Cvt whole = make_grid(recipe);
   RunOptions stopping;
   std::optional<CvtState> state;

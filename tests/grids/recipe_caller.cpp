@@ -53,12 +53,13 @@ std::map<std::string, Recipe> requests() {
   const Surface box = Surface::periodic({2, 1});
   return {
       {"uniform", {.cells = 642}},
-      {"x8", {.cells = 2562, .density = density()}},
+      {"x8", {.cells = 2562, .resolution = density()}},
       {"widths",
-       {.widths = widths<width_columns, width_rows>(width_longitudes, width_latitudes, widths_km)}},
+       {.resolution =
+            widths<width_columns, width_rows>(width_longitudes, width_latitudes, widths_km)}},
       {"region", {.cells = 500, .surface = inside(region_ring)}},
       {"limited-area",
-       {.widths = widths<2, 2>(uniform_longitudes, uniform_latitudes, uniform_km),
+       {.resolution = widths<2, 2>(uniform_longitudes, uniform_latitudes, uniform_km),
         .surface = inside(small_ring),
         .limited_area = true}},
       {"plane", {.cells = 300, .surface = rectangle}},
@@ -68,10 +69,13 @@ std::map<std::string, Recipe> requests() {
        {.cells = 500, .fixed = Eigen::Map<const Points3>(fixed_directions, 3, fixed_count)}},
       {"points", {.start = {.points = start_points()}}},
       {"pure",
-       {.cells = 642, .density = density(), .stop = {.tolerance = 1e-3, .well_centred = false}}},
+       {.cells = 642, .resolution = density(), .stop = {.tolerance = 1e-3, .well_centred = false}}},
       {"well-centred", {.cells = 642, .stop = {.well_centred = true}}},
       {"lloyd",
-       {.cells = 642, .density = density(), .stop = {.iterations = 20}, .method = Method::lloyd}},
+       {.cells = 642,
+        .resolution = density(),
+        .stop = {.iterations = 20},
+        .method = Method::lloyd}},
   };
 }
 

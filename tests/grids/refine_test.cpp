@@ -194,7 +194,7 @@ TEST_CASE("a patch inside another one [slow]") {
 
 TEST_CASE("a part of a graded mesh, where its cells are fine, coarse and between [slow]") {
   const Density density = tanh_bump({1, 0, 0}, 0.5, 0.3, 1.0 / 256); // widths 1 to 4
-  const Mesh base = make_grid({.cells = 6000, .density = density}).mesh;
+  const Mesh base = make_grid({.cells = 6000, .resolution = density}).mesh;
   const Quality whole = quality(base);
   REQUIRE(whole.obtuse == 0);
   for (const Eigen::Vector3d& centre :

@@ -264,8 +264,8 @@ TEST_CASE("MPAS-Atmosphere's deformation of a solid rotation is 0 on a global gr
 TEST_CASE("MPAS-Atmosphere's deformation of a solid rotation is 0 on a limited area") {
   const Scratch scratch;
   const std::string path = scratch / "limited.nc";
-  const Recipe recipe{.widths = Raster{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
-                                       Eigen::MatrixXd::Constant(2, 2, 120)},
+  const Recipe recipe{.resolution = Raster{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
+                                           Eigen::MatrixXd::Constant(2, 2, 120)},
                       .surface = part_of_globe(),
                       .limited_area = true};
   const Schedule schedule = plan(recipe);

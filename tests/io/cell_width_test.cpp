@@ -202,7 +202,7 @@ TEST_CASE("the density is (least width / width)^4, in blocks of any size") {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     CHECK(rho[i] == doctest::Approx(std::pow(least / h[i], 4)).epsilon(1e-14));
     Eigen::VectorXd alone(1);
-    density_of(width).callable(points.col(i), alone);
+    alone = evaluate(density_of(width), Points3(points.col(i)));
     CHECK(alone[0] == rho[i]);
   }
 }

@@ -148,10 +148,10 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         " line 2: blend holds 3 rules; give [A, B]");
   CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==
         " line 3: share is no text; give the name of a file in quotes");
-  CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").step == 0.5);
+  CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").widths.step() == 0.5);
   test::write_text(rules.path(),
                    "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
-  CHECK(outline_of_rules(rules.path()).files ==
+  CHECK(files_of_rules(rules.path()) ==
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
 
@@ -213,9 +213,9 @@ TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the d
                                  "{width = 2, within = \"bay.txt\"}]");
   const WidthRules read = read_width_rules(rules.path(), plane);
   CHECK(read.gradient == 0.2);
-  CHECK(read.step == 5);
-  CHECK(read_cell_width(rules.path(), {}, plane).values ==
-        limit_gradient(sampled(read.widths, plane, 5), 0.2, plane).values);
+  const Raster raster = read_cell_width(rules.path(), {}, plane);
+  CHECK(raster.x[1] - raster.x[0] == 5);
+  CHECK(limit_gradient(raster, 0.2, plane).values == raster.values);
   const DoubleVector widths = evaluate(read.widths, Points2{{100, 140, 25}, {50, 50, 25}});
   CHECK(widths[0] == doctest::Approx(1));
   CHECK(widths[1] == doctest::Approx(5));

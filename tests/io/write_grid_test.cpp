@@ -18,12 +18,13 @@ using test::Scratch;
 namespace {
 
 Recipe graded() {
-  return {.cells = 400, .density = tanh_bump({0, 0, 1}, 0.5, 0.3, 0.1), .stop = {.iterations = 3}};
+  return {
+      .cells = 400, .resolution = tanh_bump({0, 0, 1}, 0.5, 0.3, 0.1), .stop = {.iterations = 3}};
 }
 
 Recipe limited_area() {
-  return {.widths = Raster{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
-                           Eigen::MatrixXd::Constant(2, 2, 500)},
+  return {.resolution = Raster{Eigen::Vector2d(0, 180), Eigen::Vector2d(-90, 90),
+                               Eigen::MatrixXd::Constant(2, 2, 500)},
           .surface = circle({1, 2, 2}, 0.3, 24),
           .limited_area = true,
           .stop = {.iterations = 3}};
@@ -32,11 +33,12 @@ Recipe limited_area() {
 /// Cells are smaller towards y = 0.
 Recipe between_walls() {
   Recipe recipe{.cells = 200, .surface = Surface::periodic({2, 1}), .walls = {.y = true}};
-  recipe.density.kind = Density::Kind::callable;
-  recipe.density.callable = [](const Eigen::Ref<const Points3>& x,
-                               Eigen::Ref<Eigen::VectorXd> rho) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     rho = 1 / (1 + x.row(1).array().abs()).square();
   };
+  recipe.resolution = density;
   return recipe;
 }
 
@@ -55,7 +57,7 @@ TEST_CASE("the mesh of the whole sphere is written with the density of its recip
   const Scratch scratch;
   Made made(graded());
   WriteOptions options;
-  options.density = made.recipe.density;
+  options.density = made.schedule.density;
   write(scratch / "whole.nc", made.mesh, options);
   const std::string expected = calotte::test::read_file(scratch / "whole.nc");
   const GridFile file = write_grid(scratch / "whole.nc", made.mesh, made.recipe, made.schedule);

@@ -26,7 +26,7 @@ inline Recipe recipe_of(Start::Kind kind, std::int64_t cells, const Density& den
                         std::uint64_t seed) {
   Recipe recipe;
   recipe.cells = cells;
-  recipe.density = density;
+  recipe.resolution = density;
   recipe.start.kind = kind;
   recipe.seed = seed;
   return recipe;

@@ -97,23 +97,16 @@ void require_polygons(const WidthWords& words) {
         refuse(name_of(words) + " holds no polygons; leave " + name + " out");
 }
 
-/// The widths without a limit of their gradient.
-ReadWidths read_as_given(const WidthWords& words, const Surface& surface) {
-  if (!words.raster.empty())
-    return {widths_of_density(read_raster(
-                words.raster, {.quantity = RasterQuantity::density, .surface = surface})),
-            {}};
+/// The widths without the command's limit of their gradient.
+WidthRules read_as_given(const WidthWords& words, const Surface& surface) {
   if (!surface.is_sphere())
     require_no_unit(words);
   require_polygons(words);
   if (words.uniform)
-    return {uniform_widths(*words.uniform, surface), {}};
-  if (holds_rules(words.file)) {
-    WidthRules rules = read_width_rules(words.file, surface, words.radius);
-    Raster raster = sampled(rules, surface);
-    return {std::move(raster), std::move(rules)};
-  }
-  return {read_cell_width(words.file, polygons_of(words), surface), {}};
+    return {.widths = *words.uniform};
+  if (holds_rules(words.file))
+    return read_width_rules(words.file, surface, words.radius);
+  return {.widths = read_cell_width(words.file, polygons_of(words), surface)};
 }
 
 /// A gradient above 0, in km per km.
@@ -182,33 +175,18 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density) 
       ->excludes(file);
 }
 
-Raster uniform_widths(double width, const Surface& surface) {
-  constexpr double far = 1e30; // the largest coordinate of a domain
-  const DoubleMatrix values = DoubleMatrix::Constant(2, 2, width);
-  if (surface.is_sphere())
-    return {DoubleVector{{0, 180}}, DoubleVector{{-90, 90}}, values};
-  return {DoubleVector{{-far, far}}, DoubleVector{{-far, far}}, values, true};
-}
-
 std::string name_of(const WidthWords& words) {
   return words.uniform ? shortest(*words.uniform) + (words.plane ? "" : " km") : words.file;
 }
 
-ReadWidths read_widths(const WidthWords& words, const Surface& surface) {
-  ReadWidths widths = read_as_given(words, surface);
-  if (words.gradient && !words.uniform)
-    widths.raster = limit_gradient(widths.raster, *words.gradient, surface, words.radius);
-  if (words.gradient && widths.rules && surface.is_sphere())
-    widths.rules->widths = widths.rules->widths.limit_gradient(*words.gradient);
-  return widths;
-}
-
-Widths read_demand(const WidthWords& words, const Surface& surface) {
-  if (!surface.is_sphere())
-    require_no_unit(words);
-  require_polygons(words);
-  return words.uniform ? Widths(*words.uniform)
-                       : calotte::read_widths(words.file, polygons_of(words), surface);
+WidthRules read_widths(const WidthWords& words, const Surface& surface) {
+  WidthRules read = read_as_given(words, surface);
+  read.widths = read.widths.on_sphere(words.radius);
+  if (words.gradient && !words.uniform) {
+    read.widths = read.widths.limit_gradient(*words.gradient, surface);
+    read.gradient = words.gradient;
+  }
+  return read;
 }
 
 std::string width_configuration(const WidthWords& words) {
@@ -217,7 +195,7 @@ std::string width_configuration(const WidthWords& words) {
   std::string text =
       "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
   if (holds_rules(words.file))
-    for (const std::string& named : outline_of_rules(words.file).files)
+    for (const std::string& named : files_of_rules(words.file))
       text += "rules of " + checksum_of(named) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
@@ -242,12 +220,9 @@ std::string distinct_from(double other, double value) {
   return text;
 }
 
-Gradient steepest_of(const Raster& scaled, const WidthWords& words, double scale) {
+Gradient steepest_of(const Raster& scaled, const WidthWords& words, std::optional<double> limit,
+                     double scale) {
   Gradient steepest = largest_gradient(scaled, words.radius);
-  const std::optional<double> limit = words.gradient ? words.gradient
-                                      : holds_rules(words.file)
-                                          ? outline_of_rules(words.file).gradient
-                                          : std::nullopt;
   if (limit) // between nodes, at the tip of a cone, the raster has more than the nodes
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;
@@ -276,7 +251,7 @@ std::string doubt_of(const Raster& widths, const WidthWords& words) {
 }
 
 std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
-                                  std::optional<std::int64_t> cells) {
+                                  std::optional<double> limit, std::optional<std::int64_t> cells) {
   const double implied = implied_cells(widths, {}, words.radius);
   if (words.uniform)
     return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
@@ -291,13 +266,13 @@ std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
                      formatted("%.3g", scale) + " times as large";
   Raster scaled = widths;
   scaled.values *= scale;
-  const Gradient gradient = steepest_of(scaled, words, scale);
-  const std::string limit = shortest(steepest_width),
+  const Gradient gradient = steepest_of(scaled, words, limit, scale);
+  const std::string usual = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";
   if (is_too_steep(gradient.slope))
     notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
-                    place_of(gradient) + ", above " + limit + ", the limit for most models; " +
+                    place_of(gradient) + ", above " + usual + ", the limit for most models; " +
                     remedy_of(words, std::abs(scale - 1) > 0.01));
   return with_doubt(std::move(notes), widths, words);
 }

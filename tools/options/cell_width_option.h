@@ -45,45 +45,31 @@ void add_cell_width(CLI::App& command, WidthWords& words, CLI::Option* density);
 /// \pre words.in_km().
 std::string name_of(const WidthWords& words);
 
-/// One width at all nodes of the coarsest grid, km, in a plane in its unit.
-Raster uniform_widths(double width, const Surface& surface = {});
-
-/// Widths, and the rules that they are of, if there are any.
-struct ReadWidths {
-  Raster raster;
-  std::optional<WidthRules> rules;
-};
-
-/// Reads widths from either file, or makes uniform ones, and limits their gradient; those of a
-/// density raster have no unit.
-/// \pre words.given().
-/// \param surface the sphere, a part of it that a raster must cover, or a plane.
-/// \throws Error as read_cell_width; invalid_argument for polygons' widths without polygons, and in
-/// a
-///         plane for a width with a unit.
-ReadWidths read_widths(const WidthWords& words, const Surface& surface = {});
-
-/// The widths as an expression; of rules, with no demand where they say nothing.
+/// Reads widths from the file, or makes uniform ones, and limits their gradient.
 /// \pre words.in_km().
-/// \throws Error as read_widths(), and as read_width_rules().
-Widths read_demand(const WidthWords& words, const Surface& surface);
+/// \param surface the sphere or a plane.
+/// \throws Error as read_width_rules() and read_widths(); invalid_argument for polygons' widths
+///         without polygons, and in a plane for a width with a unit.
+WidthRules read_widths(const WidthWords& words, const Surface& surface = {});
 
 /// The input that determines the widths, one line each: the file's contents, and the numbers.
 /// \pre words.given().
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
-/// The largest gradient of widths that are read, and then scaled; at most their limit.
-Gradient steepest_of(const Raster& scaled, const WidthWords& words, double scale);
+/// The largest gradient of scaled widths, at most a limit before they were scaled.
+Gradient steepest_of(const Raster& scaled, const WidthWords& words, std::optional<double> limit,
+                     double scale);
 
 /// "12.5 E 48.2 S".
 std::string place_of(const Gradient& gradient);
 
 /// A summary of widths in km before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
-/// \param cells number of cells of the run, if known: it scales all widths.
+/// \param limit of their gradient. \param cells number of cells of the run, if known: it scales
+///        all widths.
 std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
-                                  std::optional<std::int64_t> cells);
+                                  std::optional<double> limit, std::optional<std::int64_t> cells);
 
 /// The same of widths in the plane.
 /// \param implied number of cells.

@@ -232,22 +232,32 @@ std::shared_ptr<DensityWords> add_density(CLI::App& command) {
 Resolution resolution_of(const DensityWords& words, const Surface& surface) {
   const bool planar = !surface.is_sphere();
   if (!words.widths.given())
-    return {bumps_of(words, planar), {}, {}};
-  if (planar && !words.widths.in_km()) // beyond the raster its nearest value holds
-    return {
-        interpolated_density(read_raster(words.widths.raster, {.quantity = RasterQuantity::density,
-                                                               .surface = Surface::plane()})),
-        {},
-        {}};
-  ReadWidths widths = read_widths(words.widths, surface);
-  Density density = words.widths.uniform ? Density{} : calotte::density_of(widths.raster);
-  if (!words.widths.in_km()) // a density raster's widths have no unit
-    return {std::move(density), {}, {}};
-  return {std::move(density), std::move(widths.raster), std::move(widths.rules)};
+    return bumps_of(words, planar);
+  if (words.widths.in_km())
+    return read_widths(words.widths, surface);
+  const Raster density = read_raster( // beyond one of a plane its nearest value holds
+      words.widths.raster,
+      {.quantity = RasterQuantity::density, .surface = planar ? Surface::plane() : surface});
+  return planar ? interpolated_density(density) : calotte::density_of(widths_of_density(density));
+}
+
+std::variant<Density, Widths> for_recipe(const Resolution& resolution) {
+  if (const auto* const rules = std::get_if<WidthRules>(&resolution))
+    return rules->widths;
+  return std::get<Density>(resolution);
+}
+
+DensityOfWidths sampled(const DensityWords& words, const Surface& surface) {
+  Resolution resolution = resolution_of(words, surface);
+  if (auto* const density = std::get_if<Density>(&resolution))
+    return {std::move(*density), {}};
+  Raster widths = calotte::sampled(std::get<WidthRules>(resolution).widths, surface);
+  Density density = calotte::density_of(widths);
+  return {std::move(density), std::move(widths)};
 }
 
 Density density_of(const DensityWords& words, const Surface& surface) {
-  return resolution_of(words, surface).density;
+  return sampled(words, surface).density;
 }
 
 bool is_uniform(const DensityWords& words) {

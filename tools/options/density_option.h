@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace calotte::tools {
@@ -25,21 +26,29 @@ struct DensityWords {
 /// Adds --density (which may be given several times), --join and what add_cell_width adds.
 std::shared_ptr<DensityWords> add_density(CLI::App& command);
 
-/// The density of the options.
-struct Resolution {
-  Density density;
-  /// Where --cell-width gives them: in km, in a plane in its unit.
-  std::optional<Raster> widths;
-  std::optional<WidthRules> rules; ///< that make the widths, if there are any
-};
+/// What the options say: a density, or widths where --cell-width gives them, in km, in a plane in
+/// its unit.
+using Resolution = std::variant<Density, WidthRules>;
 
 /// Reads the file, if there is one.
 /// \param surface which a raster of the sphere must cover. In a plane a bump's centre and lengths
 ///        are x and y, beta and alpha without a unit; a raster is one of x and y, and a width has
 ///        no unit.
-/// \throws Error invalid_argument naming the word and the remedy; as read_cell_width.
+/// \throws Error invalid_argument naming the word and the remedy; as read_widths().
 Resolution resolution_of(const DensityWords& words, const Surface& surface = {});
-/// The same without the widths.
+
+/// What a recipe takes of it.
+std::variant<Density, Widths> for_recipe(const Resolution& resolution);
+
+/// A density, and the widths that it is of, if there are any.
+struct DensityOfWidths {
+  Density density;
+  std::optional<Raster> widths;
+};
+
+/// The same for commands without a recipe. \throws Error as resolution_of(), and as sampled().
+DensityOfWidths sampled(const DensityWords& words, const Surface& surface = {});
+/// The density alone.
 Density density_of(const DensityWords& words, const Surface& surface = {});
 
 /// Whether the options prescribe cells of one size.

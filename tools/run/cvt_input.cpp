@@ -137,10 +137,10 @@ CvtInput read_input(const CvtRequest& request) {
   Recipe& recipe = input.recipe;
   recipe.cells = request.cells.value_or(0);
   recipe.surface = planar(request) ? *surface_of(*request.domain) : part_of(request);
-  Resolution resolution = resolution_of(*request.density, recipe.surface);
-  recipe.widths = std::move(resolution.widths);
-  if (!recipe.widths)
-    recipe.density = std::move(resolution.density);
+  const Resolution resolution = resolution_of(*request.density, recipe.surface);
+  recipe.resolution = for_recipe(resolution);
+  if (const auto* const rules = std::get_if<WidthRules>(&resolution))
+    input.gradient = rules->gradient;
   recipe.radius_km = request.density->widths.radius;
   recipe.limited_area = request.part.limited_area;
   recipe.walls = walls_of(*request.domain);
@@ -185,15 +185,16 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
-  if (input.recipe.widths && input.recipe.widths->of_plane)
+  const std::optional<Raster>& widths = schedule.widths;
+  if (widths && widths->of_plane)
     notes =
-        notes_in_plane(*input.recipe.widths, words, schedule.implied_cells,
+        notes_in_plane(*widths, words, schedule.implied_cells,
                        input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
-  else if (input.recipe.widths && input.recipe.surface.is_bounded() && follows)
+  else if (widths && input.recipe.surface.is_bounded() && follows)
     notes.push_back(request.part.region + " requires " + std::to_string(cells) + " cells" +
                     (request.part.limited_area ? ", with those of the rings and some beyond" : ""));
-  else if (input.recipe.widths && !input.recipe.surface.is_bounded())
-    notes = notes_on(*input.recipe.widths, words,
+  else if (widths && !input.recipe.surface.is_bounded())
+    notes = notes_on(*widths, words, input.gradient,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
                                                                         : std::nullopt);
   if (schedule.on_lines > 0)

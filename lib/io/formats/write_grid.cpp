@@ -20,7 +20,7 @@ WriteOptions options_for(const Mesh& mesh, const Schedule& schedule, const Write
           "the mesh lies on another surface than that of the recipe's run; give the mesh that "
           "make_grid() makes of this recipe");
   WriteOptions all = options;
-  all.density = schedule.recipe.density;
+  all.density = schedule.density;
   all.site_density = {};
   return all;
 }

@@ -2,6 +2,7 @@
 #include "io/shapes/cell_width_file.h"
 
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/command.h"
 
@@ -16,7 +17,8 @@ namespace calotte {
 Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
                        const Surface& surface) {
   if (holds_rules(path))
-    return sampled(read_width_rules(path, surface, polygons.radius_km), surface);
+    return io_detail::named(path,
+                            [&] { return sampled(read_widths(path, polygons, surface), surface); });
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
     return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});

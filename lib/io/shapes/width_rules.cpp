@@ -158,7 +158,7 @@ public:
       throw Error(ErrorCode::parse,
                   path_ +
                       ": a file of widths has one table, [cell-width]; see calotte help widths");
-    WidthRules rules{.path = path_};
+    WidthRules rules;
     rules.widths = rule_of(*table, &rules);
     rules.names = names_of(*table);
     return rules;
@@ -202,10 +202,12 @@ private:
   /// \param all takes the keys of the whole; null for a rule in it.
   Widths rule_of(const toml::table& given, WidthRules* all = nullptr) {
     RuleTable table(path_, given);
+    std::optional<double> step;
     if (all != nullptr && table.take("step") != nullptr)
-      all->step = table.number("step");
-    if (all != nullptr && !surface_.is_sphere() && table.take("gradient") != nullptr)
+      step = table.number("step");
+    if (all != nullptr && given.contains("gradient"))
       all->gradient = table.number("gradient");
+    const bool in_domain = all != nullptr && !surface_.is_sphere() && all->gradient;
     const auto& [key, source, in_plane, names_file] = source_of(given);
     if (!in_plane && !surface_.is_sphere())
       table.refuse(key, "applies to the sphere only; in a plane give distance-to, lines, raster or "
@@ -218,9 +220,14 @@ private:
           made.rule(); // what it refuses is said of its table
           return made;
         })};
-    table.made([&] { change(table, rules); });
+    table.made([&] { change(table, rules, in_domain); });
     table.require_all_taken();
-    return Widths::minimum(rules);
+    Widths widths = Widths::minimum(rules);
+    if (step)
+      widths = widths.with_step(*step);
+    return in_domain ? io_detail::named(
+                           path_, [&] { return widths.limit_gradient(*all->gradient, surface_); })
+                     : widths;
   }
 
   const Key& source_of(const toml::table& rule) const {
@@ -249,7 +256,8 @@ private:
   }
 
   /// What any rule may have: a part of the sphere, a factor, limits.
-  void change(RuleTable& table, std::vector<Widths>& rules) {
+  /// \param in_domain whether the gradient is limited for all together, in their domain.
+  void change(RuleTable& table, std::vector<Widths>& rules, bool in_domain) {
     const auto each = [&](const auto& changed) {
       std::transform(rules.begin(), rules.end(), rules.begin(), changed);
     };
@@ -270,7 +278,7 @@ private:
       each([share = share_in(file(table, "within"))](const Widths& rule) {
         return Widths::where(share, rule, Widths::no_demand);
       });
-    if (table.takes("gradient"))
+    if (!in_domain && table.take("gradient") != nullptr)
       each([gradient = table.number("gradient")](const Widths& rule) {
         return rule.limit_gradient(gradient);
       });
@@ -436,12 +444,6 @@ private:
   double radius_km_;
 };
 
-/// With the file's limit of the gradient also in a plane.
-Raster limited_raster(const WidthRules& rules, const Surface& surface) {
-  const Raster raster = density_detail::sample(rules.widths, surface, rules.step);
-  return rules.gradient ? limit_gradient(raster, *rules.gradient, surface) : raster;
-}
-
 } // namespace
 
 bool holds_rules(const std::string& path) { return io_detail::suffix_of(path) == ".toml"; }
@@ -450,24 +452,15 @@ WidthRules read_width_rules(const std::string& path, const Surface& surface, dou
   return RuleReader(path, surface, radius_km).rules();
 }
 
-Raster sampled(const WidthRules& rules, const Surface& surface) {
-  return io_detail::named(rules.path, [&] {
-    Raster raster = limited_raster(rules, surface);
-    density_detail::fill_outside(raster, surface);
-    return raster;
-  });
-}
-
 Widths read_widths(const std::string& path, const PolygonWidths& polygons, const Surface& surface) {
   if (!holds_rules(path))
     return read_cell_width(path, polygons, surface);
-  const WidthRules rules = read_width_rules(path, surface, polygons.radius_km);
-  return rules.gradient ? Widths(limited_raster(rules, surface)) : rules.widths;
+  return read_width_rules(path, surface, polygons.radius_km).widths;
 }
 
-RulesOutline outline_of_rules(const std::string& path) {
+std::vector<std::string> files_of_rules(const std::string& path) {
   const toml::table root = read_toml(path);
-  RulesOutline outline{{}, root["cell-width"]["gradient"].value<double>()};
+  std::vector<std::string> files;
   const auto add = [&](const auto& self, const toml::node& node) -> void {
     if (const toml::array* const list = node.as_array())
       for (const toml::node& item : *list)
@@ -475,12 +468,12 @@ RulesOutline outline_of_rules(const std::string& path) {
     if (const toml::table* const table = node.as_table())
       for (const auto& [key, value] : *table) {
         if (const auto* const text = value.as_string(); text && RuleReader::names_file(key.str()))
-          outline.files.push_back(beside(path, text->get()));
+          files.push_back(beside(path, text->get()));
         self(self, value);
       }
   };
   add(add, root);
-  return outline;
+  return files;
 }
 
 } // namespace calotte

@@ -190,7 +190,7 @@ std::string message_of(const DensityWords& words) {
 TEST_CASE("cell widths replace a density, and their contents belong to the configuration") {
   const TextFile file(".msh", jigsaw_grid("200"));
   const DensityWords words = parsed({"--cell-width", file.path()});
-  const Resolution resolution = resolution_of(words);
+  const DensityOfWidths resolution = sampled(words);
   REQUIRE(resolution.widths);
   CHECK(resolution.widths->values(0, 1) == 200);
   CHECK(evaluate(resolution.density, Eigen::Vector3d(-1, 0, 0))[0] == 1);
@@ -215,24 +215,24 @@ TEST_CASE("cell widths replace a density, and their contents belong to the confi
 TEST_CASE("the widths' notes tell their range, number and gradient, and warn of a steep one") {
   const TextFile file(".msh", jigsaw_grid("100"));
   DensityWords words = parsed({"--cell-width", file.path()});
-  Raster widths = *resolution_of(words).widths;
+  Raster widths = *sampled(words).widths;
   const double implied = implied_cells(widths);
   const std::string cells = std::to_string(std::llround(implied));
-  std::vector<std::string> notes = notes_on(widths, words.widths, {});
+  std::vector<std::string> notes = notes_on(widths, words.widths, words.widths.gradient, {});
   REQUIRE(notes.size() == 1);
   CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, on 4 x 3 nodes, require " + cells +
                         " cells; largest gradient 0 km per km");
-  notes = notes_on(widths, words.widths, std::llround(implied / 4));
+  notes = notes_on(widths, words.widths, {}, std::llround(implied / 4));
   CHECK(test::has(notes[0], "; with " + std::to_string(std::llround(implied / 4)) +
                                 " cells, widths are 2 times as large;"));
   // 500 km over 10 007 km either way; half a cell from the tip 1 - 300/10 007 of that.
   widths.values(1, 1) = 600;
-  notes = notes_on(widths, words.widths, {});
+  notes = notes_on(widths, words.widths, words.widths.gradient, {});
   REQUIRE(notes.size() == 2);
   CHECK(notes[1] == "warning: the cell width changes by 0.069 km per km at 90.0 E 0.0 N, above "
                     "0.03, the limit for most models; give --gradient 0.03");
   words = parsed({"--cell-width", file.path(), "--gradient", "0.05"});
-  notes = notes_on(widths, words.widths, {});
+  notes = notes_on(widths, words.widths, words.widths.gradient, {});
   REQUIRE(notes.size() == 2);
   CHECK(test::has(notes[1], "changes by 0.05 km per km"));
   CHECK(notes[1].ends_with("; give a smaller --gradient"));
@@ -241,8 +241,8 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
 TEST_CASE("a limit of the gradient lowers the widths around the narrow ones") {
   const TextFile file(".msh", jigsaw_grid("400"));
   const std::vector<std::string> arguments{"--cell-width", file.path(), "--gradient", "0.01"};
-  const Raster given = *resolution_of(parsed({"--cell-width", file.path()})).widths,
-               limited = *resolution_of(parsed(arguments)).widths;
+  const Raster given = *sampled(parsed({"--cell-width", file.path()})).widths,
+               limited = *sampled(parsed(arguments)).widths;
   CHECK(limited.values == limit_gradient(given, 0.01).values);
   CHECK(limited.values != given.values);
   CHECK(density_configuration(parsed(arguments)) !=

@@ -93,7 +93,7 @@ def angle(size, what, earth_radius=EARTH_RADIUS_KM):
 
 # ---- Widths and densities
 
-def _raster(values, longitudes, latitudes):
+def raster(values, longitudes, latitudes):
     array = numbers(values, "cell widths")
     lon, lat = numbers(longitudes, "longitudes"), numbers(latitudes, "latitudes")
     if array.shape != (lat.size, lon.size):
@@ -117,70 +117,43 @@ def _sampled(function, step=0.25):
     if values.shape != (lat.size, lon.size):
         raise Error("the width function must return one number for each of its points; it returned "
                     f"the shape {values.shape} for {(lat.size, lon.size)}")
-    return _raster(values, lon, lat)
-
-
-def cell_width(widths, earth_radius=EARTH_RADIUS_KM, surface=None):
-    """Widths in km of a number, a raster, a file or a function, as CellWidth.
-
-    surface: which a raster must cover; None for any raster.
-    """
-    made = _widths(widths, earth_radius, _calotte.Surface() if surface is None else surface)
-    if surface is not None:
-        _calotte.require_covering(made, surface)
-    return made
-
-
-def widths(given, plane, earth_radius=EARTH_RADIUS_KM, surface=None):
-    """Widths of the sphere in km, or those of a plane in its unit."""
-    return planar_cell_width(given, surface) if plane else cell_width(given, earth_radius, surface)
+    return raster(values, lon, lat)
 
 
 def rule(widths, surface=None, earth_radius=EARTH_RADIUS_KM):
-    """A rule of widths as it is; or one of a number, a raster, a file or a function.
+    """Widths of a number, text with a unit, a raster, a file or a function, as a rule; a rule as it is.
 
-    surface: a plane, where a function or a file of rules is sampled; None for the sphere.
+    surface: that the widths are for, where a function of x and y is sampled. Default: the sphere.
     """
+    surface = _calotte.Surface() if surface is None else surface
+    plane = not surface.is_sphere
     if isinstance(widths, _calotte.Widths):
         return widths
     if isinstance(widths, _calotte.CellWidth):
         return _calotte.Widths(widths)
-    if (isinstance(widths, str) and not measure(widths)) or hasattr(widths, "__fspath__"):
-        return _calotte.read_widths(str(widths), _calotte.Surface() if surface is None else surface,
-                                    earth_radius)
-    value = np.asarray(widths) if not callable(widths) and not isinstance(widths, (str, tuple)) else None
-    if value is not None and value.ndim == 0 and value.dtype.kind in "fiu":
-        return _calotte.Widths(float(value))
-    return _calotte.Widths(cell_width(widths, earth_radius) if surface is None else
-                           planar_cell_width(widths, surface))
-
-
-def planar_cell_width(widths, surface=None):
-    """Widths of a number, a raster, a file or a rule in the unit of the plane, as CellWidth."""
-    if isinstance(widths, _calotte.CellWidth):
-        return widths
-    if isinstance(widths, _calotte.Widths):
-        return widths.sampled(surface=surface)
-    if callable(widths):
-        return _sampled_in(widths, surface)
     if isinstance(widths, str) and (parts := measure(widths)):
-        if parts[1]:
+        if plane and parts[1]:
             raise Error(f"the cell width is {widths!r}; the plane has the unit of its coordinates, "
                         "so give a number in that unit")
-        return planar_cell_width(parts[0])
+        return _calotte.Widths(parts[0] if plane else kilometres(*parts, "the cell width"))
     if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_cell_width(str(widths), 0, 0, 0, EARTH_RADIUS_KM,
-                                        _calotte.plane() if surface is None else surface)
+        return _calotte.read_widths(str(widths), surface, earth_radius)
+    if callable(widths):
+        return _calotte.Widths(_sampled_in(widths, surface) if plane else _sampled(widths))
+    if not plane and hasattr(widths, "dims") and hasattr(widths, "coords"):
+        return _calotte.Widths(_labelled(widths))
     if isinstance(widths, tuple):
         if len(widths) != 3:
-            raise Error("give cell widths of a plane as (values, x, y)")
-        return _planar_raster(*widths)
+            raise Error("give cell widths of a plane as (values, x, y)" if plane else
+                        "give cell widths as (values, longitudes, latitudes)")
+        return _calotte.Widths((planar_raster if plane else raster)(*widths))
     value = np.asarray(widths)
     if value.ndim != 0 or value.dtype.kind not in "fiu":
         raise Error("give cell widths of a plane as a number in its unit, (values, x, y), a file, a "
-                    "rule or a function of x and y")
-    far = np.array([-1e30, 1e30])  # the largest coordinates of a plane
-    return _calotte.CellWidth(np.full((2, 2), float(value)), far, far, True)
+                    "rule or a function of x and y" if plane else
+                    "give cell widths as a number of km, (values, longitudes, latitudes), a "
+                    "DataArray of lat and lon, a file or a function of longitude and latitude")
+    return _calotte.Widths(float(value))
 
 
 def _sampled_in(function, plane):
@@ -191,39 +164,15 @@ def _sampled_in(function, plane):
     if values.shape != (grid.y.size, grid.x.size):
         raise Error("the width function must return one number for each of its points; it returned "
                     f"the shape {values.shape} for {(grid.y.size, grid.x.size)}")
-    return _planar_raster(values, grid.x, grid.y)
+    return planar_raster(values, grid.x, grid.y)
 
 
-def _planar_raster(values, x, y):
+def planar_raster(values, x, y):
     array = numbers(values, "cell widths")
     x, y = numbers(x, "x"), numbers(y, "y")
     if array.shape != (y.size, x.size):
         raise Error(f"cell widths have the shape {array.shape}; give y x x, here {y.size} x {x.size}")
     return _calotte.CellWidth(array, x, y, True)
-
-
-def _widths(widths, earth_radius, surface):
-    if isinstance(widths, _calotte.CellWidth):
-        return widths
-    if isinstance(widths, _calotte.Widths):
-        return widths.on_sphere(earth_radius).sampled(surface=surface)
-    if isinstance(widths, str) and (parts := measure(widths)):
-        return _widths(kilometres(*parts, "the cell width"), earth_radius, surface)
-    if isinstance(widths, str) or hasattr(widths, "__fspath__"):
-        return _calotte.read_cell_width(str(widths), 0, 0, 0, earth_radius, surface)
-    if callable(widths):
-        return _sampled(widths)
-    if hasattr(widths, "dims") and hasattr(widths, "coords"):
-        return _labelled(widths)
-    if isinstance(widths, tuple):
-        if len(widths) != 3:
-            raise Error("give cell widths as (values, longitudes, latitudes)")
-        return _raster(*widths)
-    value = np.asarray(widths)
-    if value.ndim != 0 or value.dtype.kind not in "fiu":
-        raise Error("give cell widths as a number of km, (values, longitudes, latitudes), a "
-                    "DataArray of lat and lon, a file or a function of longitude and latitude")
-    return _raster(np.full((3, 4), float(value)), [-180, -90, 0, 90], [-90, 0, 90])
 
 
 def _labelled(array):
@@ -239,7 +188,7 @@ def _labelled(array):
     ordered = array.transpose(lat, lon)
     unit = str(array.attrs.get("units", ""))
     values = numbers(ordered.values, "cell widths") * _calotte.kilometres_in(unit)
-    return _raster(values, array.coords[lon].values, array.coords[lat].values)
+    return raster(values, array.coords[lon].values, array.coords[lat].values)
 
 
 _USUAL = {"lon": "270", "lat": "30", "beta": "30deg", "alpha": "0.2", "gamma": "x8"}
@@ -342,8 +291,6 @@ def density(value, widths=None, plane=False):
     """A density of a name or several, of widths or of a function."""
     require_one(value, widths)
     if widths is not None:
-        if np.ptp(widths.widths) == 0:
-            return _calotte.Density()
         return _calotte.density_of_widths(widths)
     if value is None or (isinstance(value, str) and value == "uniform"):
         return _calotte.Density()

@@ -139,7 +139,8 @@ def _require_mesh(grid):
 def _density_for(grid, density, cell_width):
     """The density of a name or of widths, of the space that the grid is in."""
     plane = not grid.surface.is_sphere
-    widths = None if cell_width is None else _arguments.widths(cell_width, plane)
+    widths = (None if cell_width is None else
+              _arguments.rule(cell_width, grid.surface).sampled(surface=grid.surface))
     return _arguments.density(density, widths, plane)
 
 
@@ -535,10 +536,11 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
     >>> [level.cells for level in plan(start=2562, density="x8").levels]
     [642, 2562]
     """
-    recipe, widths = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
+    recipe = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
                              **options)
-    made = _calotte.plan(recipe)
-    made["levels"] = _levels(made["levels"])
+    schedule = _calotte.plan(recipe)
+    made = {"cells": schedule.cells, "kind": schedule.kind, "levels": _levels(schedule.levels)}
+    widths = schedule.widths
     if widths is None:
         return Plan(**made)
     made["widths"] = float(widths.widths.min()), float(widths.widths.max())
@@ -577,25 +579,24 @@ def _take_lines(recipe, lines):
 
 def _recipe(start=None, density=None, cell_width=None, surface=None, fixed=None, lines=None,
             earth_radius=EARTH_RADIUS_KM, **fields):
-    """The recipe of the arguments of cvt(), and the widths, or None."""
+    """The recipe of the arguments of cvt()."""
     recipe = _calotte.Recipe()
     for name, value in fields.items():
         if not hasattr(type(recipe), name):
             raise TypeError(f"unexpected keyword argument {name!r}")
         setattr(recipe, name, value)
     surface = _arguments.surface(surface, earth_radius=earth_radius)
-    plane = not surface.is_sphere
     recipe.surface, recipe.radius_km = surface, earth_radius
-    widths = (None if cell_width is None else
-              _arguments.widths(cell_width, plane, earth_radius, surface))
-    _arguments.require_one(density, widths)
-    recipe.density = _arguments.density(density, plane=plane)
-    recipe.widths = widths
+    _arguments.require_one(density, cell_width)
+    if cell_width is None:
+        recipe.take_density(_arguments.density(density, plane=not surface.is_sphere))
+    else:
+        recipe.take_widths(_arguments.rule(cell_width, surface, earth_radius))
     if fixed is not None:
         recipe.fixed = _arguments.points_of(surface, fixed, "fixed points")
     _take_lines(recipe, lines)
     _take_start(recipe, start)
-    return recipe, widths
+    return recipe
 
 
 def _reporting(progress):
@@ -684,15 +685,16 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     >>> 190 < len(channel.cells) < 210
     True
     """
-    recipe, widths = _recipe(
+    recipe = _recipe(
         start, density, cell_width, surface, fixed, lines, earth_radius, seed=seed, method=method,
         norm=norm, tolerance=tolerance, max_iterations=max_iterations, well_centred=well_centred,
         least_spacing=least_spacing, insertion_rounds=insertion_rounds, kind=kind,
         bisections=bisections, iterations=iterations, boundary=boundary, walls=walls,
         limited_area=limited_area, duplicates=duplicates, merge_within=merge_within)
-    if widths is not None and not widths.of_plane:
-        _warn_of_steep(widths, recipe)
-    mesh, report, between = _calotte.make_grid(recipe, regions, _reporting(progress))
+    schedule = _calotte.plan(recipe)
+    if schedule.widths is not None and not schedule.widths.of_plane:
+        _warn_of_steep(schedule, recipe)
+    mesh, report, between = _calotte.make_grid(recipe, schedule, regions, _reporting(progress))
     report["levels"] = _levels(report["levels"])
     if between is not None:
         cells, cells._content = between
@@ -702,10 +704,9 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     return grid
 
 
-def _warn_of_steep(widths, recipe):
-    scale = 1 if recipe.cells == 0 else math.sqrt(
-        _calotte.implied_cells(widths, recipe.surface, recipe.radius_km) / recipe.cells)
-    slope, longitude, latitude = _calotte.largest_gradient(widths, recipe.radius_km)
+def _warn_of_steep(schedule, recipe):
+    scale = 1 if recipe.cells == 0 else math.sqrt(schedule.implied_cells / recipe.cells)
+    slope, longitude, latitude = _calotte.largest_gradient(schedule.widths, recipe.radius_km)
     limit = _calotte.steepest_width
     if _calotte.is_too_steep(scale * slope):
         warnings.warn(f"the cell width changes by {scale * slope:.2g} km per km at longitude {longitude:.1f}, "
@@ -1243,7 +1244,7 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
     surface = _arguments.surface(surface, plane=False, earth_radius=earth_radius)
-    widths = _arguments.cell_width(cell_width, earth_radius, surface)
+    widths = _arguments.rule(cell_width, surface, earth_radius).on_sphere(earth_radius).sampled(surface=surface)
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
     output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),

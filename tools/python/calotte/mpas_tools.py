@@ -17,7 +17,7 @@ def build_spherical_mesh(cellWidth, lon, lat, earth_radius, out_filename="base_m
     is installed. dir: no effect, as there are no temporary files of a mesh generator.
     Returns the number of cells.
     """
-    widths = _arguments.cell_width((cellWidth, lon, lat))
+    widths = _arguments.raster(cellWidth, lon, lat)
     if plot_cellWidth:
         _draw_widths(np.asarray(cellWidth), lon, lat)
     grid = _functions.cvt(cell_width=widths, earth_radius=earth_radius / 1000)
@@ -35,7 +35,7 @@ def build_planar_mesh(cellWidth, x, y, geom_points, geom_edges, out_filename="ba
     as records of jigsawpy, [((x, y), tag), ...], or k x 2. geom_edges: pairs of their ids, in any
     order and direction. Returns the number of cells.
     """
-    widths = _arguments.planar_cell_width((1000 * _arguments.numbers(cellWidth, "cell widths"), x, y))
+    widths = _arguments.planar_raster(1000 * _arguments.numbers(cellWidth, "cell widths"), x, y)
     surface = _calotte.planar_polygon(_rings(geom_points, geom_edges))
     rho = _calotte.density_of_widths(widths)
     cells = _functions.plan(widths, surface=surface).cells

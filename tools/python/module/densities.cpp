@@ -51,13 +51,6 @@ Raster cell_width(const Doubles& values, const Doubles& x, const Doubles& y, boo
           Eigen::Map<const Eigen::VectorXd>(y.data(), y.size()), columns(values), of_plane};
 }
 
-Raster read_widths(const std::string& path, double inside, double outside, double transition,
-                   double radius_km, const Surface& surface) {
-  return call([&] {
-    return read_cell_width(path, {inside, outside, transition, radius_km}, surface);
-  });
-}
-
 void add_cell_width(py::module_& module) {
   py::class_<Raster> widths(module, "CellWidth", "Cell widths at the nodes of a raster.");
   widths.def(py::init(&cell_width), py::arg("widths"), py::arg("x"), py::arg("y"),
@@ -78,14 +71,7 @@ void add_cell_width(py::module_& module) {
         return handed_over(call([&] { return evaluate(widths, sites); }));
       },
       "(n,) the widths at n x 3 directions, of a plane at n x 2 places.");
-  module.def("read_cell_width", &read_widths);
-  module.def("require_covering", [](const Raster& widths, const Surface& region) {
-    call([&] { require_covering(widths, region); });
-  });
   module.def("kilometres_in", &kilometres_in);
-  module.def("implied_cells", [](const Raster& widths, const Surface& surface, double radius_km) {
-    return call([&] { return implied_cells(widths, surface, radius_km); });
-  });
   module.attr("steepest_width") = steepest_width;
   module.def("is_too_steep", &is_too_steep);
   module.def("largest_gradient", [](const Raster& widths, double radius_km) {

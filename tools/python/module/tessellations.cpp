@@ -99,8 +99,9 @@ void add_recipe(py::module_& module) {
           "walls", [](const Recipe& recipe) { return word_of(recipe.walls); },
           [](Recipe& recipe, const std::string& word) { recipe.walls = walls_named(word); })
       .def_readwrite("cells", &Recipe::cells)
-      .def_readwrite("density", &Recipe::density)
-      .def_readwrite("widths", &Recipe::widths)
+      .def("take_density",
+           [](Recipe& recipe, const Density& density) { recipe.resolution = density; })
+      .def("take_widths", [](Recipe& recipe, const Widths& widths) { recipe.resolution = widths; })
       .def_readwrite("radius_km", &Recipe::radius_km)
       .def_readwrite("limited_area", &Recipe::limited_area)
       .def_readwrite("seed", &Recipe::seed)
@@ -154,14 +155,20 @@ py::list levels_of(const std::vector<CvtLevel>& levels) {
   return values;
 }
 
-/// The choices of a recipe, by name.
-py::dict plan_of(const Recipe& recipe) {
-  const Schedule schedule = call([&] { return plan(recipe); });
-  py::dict values;
-  values["cells"] = schedule.recipe.cells;
-  values["kind"] = word_in(start_words(), schedule.recipe.start.kind);
-  values["levels"] = levels_of(schedule.levels);
-  return values;
+/// The choices of a recipe.
+void add_schedule(py::module_& module) {
+  py::class_<Schedule> type(module, "Schedule");
+  type.def_property_readonly("cells",
+                             [](const Schedule& schedule) { return schedule.recipe.cells; })
+      .def_property_readonly("kind",
+                             [](const Schedule& schedule) {
+                               return word_in(start_words(), schedule.recipe.start.kind);
+                             })
+      .def_property_readonly("levels",
+                             [](const Schedule& schedule) { return levels_of(schedule.levels); })
+      .def_readonly("implied_cells", &Schedule::implied_cells)
+      .def_readonly("widths", &Schedule::widths);
+  module.def("plan", [](const Recipe& recipe) { return call([&] { return plan(recipe); }); });
 }
 
 // ---- The run
@@ -203,22 +210,23 @@ py::dict report_of(const CvtReport& report) {
 }
 
 /// The cells between walls, with their density.
-MeshFile between_walls(const Recipe& asked, const Recipe& made, const Mesh& box) {
+MeshFile between_walls(const Recipe& asked, const Density& density, const Mesh& box) {
   MeshFile file = walled(box, asked.surface.period(), asked.walls);
-  if (!made.density.uniform())
-    file.density = evaluate(made.density, file.polygons->centres, box.surface);
+  if (!density.uniform())
+    file.density = evaluate(density, file.polygons->centres, box.surface);
   return file;
 }
 
 /// The mesh, the report, and the polygons between walls with their content, or None.
-py::tuple run(const Recipe& recipe, std::optional<int> regions, py::object function) {
+/// \param schedule of the recipe.
+py::tuple run(const Recipe& recipe, const Schedule& schedule, std::optional<int> regions,
+              py::object function) {
   const ProgressCallback callback = callback_of(std::move(function), Next::stop);
   auto cells = std::make_shared<MeshFile>();
   Cvt grid = call([&] {
-    const Schedule schedule = plan(recipe);
     Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .progress = callback});
     if (recipe.walls.x || recipe.walls.y)
-      *cells = between_walls(recipe, schedule.recipe, made.mesh);
+      *cells = between_walls(recipe, schedule.density, made.mesh);
     return made;
   });
   py::object polygons = py::none();
@@ -241,7 +249,7 @@ ProgressCallback callback_of(py::object function, Next end) {
 
 void add_tessellations(py::module_& module) {
   add_recipe(module);
-  module.def("plan", &plan_of);
+  add_schedule(module);
   module.def("make_grid", &run);
 }
 

@@ -101,11 +101,15 @@ void add_widths(py::module_& module) {
                              "True for rules of a plane, in its unit.")
       .def(
           "limit_gradient",
-          [](const Widths& widths, double gradient) {
-            return call([&] { return widths.limit_gradient(gradient); });
+          [](const Widths& widths, double gradient, const std::optional<Surface>& surface) {
+            return call([&] {
+              return surface ? widths.limit_gradient(gradient, *surface)
+                             : widths.limit_gradient(gradient);
+            });
           },
-          py::arg("gradient"),
-          "The largest widths below these that change by at most so many km per km.")
+          py::arg("gradient"), py::arg("surface") = py::none(),
+          "The largest widths below these that change by at most so many km per km. surface: a "
+          "plane, for rules whose limit depends on the domain; they become a raster.")
       .def(
           "at",
           [](const Widths& widths, const Doubles& points) {
