@@ -67,9 +67,11 @@ class CMakeBuild(build_ext):
 
     def build_extension(self, extension):
         module = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
-        build = pathlib.Path(self.build_temp).resolve()
-        settings = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}",
-                    f"-DCALOTTE_LIBRARY={LIBRARY}", f"-DCALOTTE_MODULE_DIR={module.parent}"]
+        kept = os.environ.get("CALOTTE_BUILD")
+        build = pathlib.Path(kept or self.build_temp).resolve()
+        settings = ["-DCMAKE_BUILD_TYPE=Release", "-DCALOTTE_BATCHES=ON",
+                    f"-DPython_EXECUTABLE={sys.executable}", f"-DCALOTTE_LIBRARY={LIBRARY}",
+                    f"-DCALOTTE_MODULE_DIR={module.parent}"]
         prefix = os.environ.get("CALOTTE_PREFIX") or built_library(build.parent / "library")
         if prefix:
             settings.append(f"-DCALOTTE_PREFIX={pathlib.Path(prefix).resolve()}")
@@ -80,7 +82,8 @@ class CMakeBuild(build_ext):
             pass
         if shutil.which("ninja"):
             settings.append("-GNinja")
-        subprocess.run(["cmake", "--fresh", "-S", HERE, "-B", build, *settings], check=True)
+        fresh = [] if kept else ["--fresh"]
+        subprocess.run(["cmake", *fresh, "-S", HERE, "-B", build, *settings], check=True)
         jobs = self.parallel or os.cpu_count() or 1
         subprocess.run(["cmake", "--build", build, "--parallel", str(jobs)], check=True)
 

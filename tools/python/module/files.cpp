@@ -80,7 +80,7 @@ NotVoronoi answer_of(const py::tuple& state) {
           .detail = state[5].cast<std::string>()};
 }
 
-py::tuple state_of(const MeshFile& content) {
+py::tuple state_of_content(const MeshFile& content) {
   py::list fields;
   for (const MeshField& field : content.fields) {
     py::list dimensions;
@@ -112,7 +112,7 @@ MeshField field_of(const py::tuple& state) {
   return field;
 }
 
-Content of_state(const py::tuple& state) {
+Content content_of_state(const py::tuple& state) {
   auto content = std::make_shared<MeshFile>();
   content->format = state[0].cast<std::string>();
   if (!state[1].is_none())
@@ -218,7 +218,7 @@ void add_content(py::module_& module) {
       .def_property_readonly(
           "density",
           [](py::object self) { return view(self.cast<const MeshFile&>().density, self); })
-      .def(py::pickle(&state_of, &of_state));
+      .def(py::pickle(&state_of_content, &content_of_state));
 }
 
 struct Output {

@@ -21,13 +21,13 @@ namespace calotte::python {
 namespace {
 
 /// The mesh, with the dictionary of its instance, for what a file holds besides it.
-py::tuple state_of(const py::object& self) {
+py::tuple state_of_mesh(const py::object& self) {
   const auto& mesh = self.cast<const Mesh&>();
   return py::make_tuple(mesh.points, mesh.triangles, mesh.neighbours, mesh.site_of_input,
                         mesh.surface, self.attr("__dict__"));
 }
 
-std::pair<std::shared_ptr<Mesh>, py::dict> of_state(const py::tuple& state) {
+std::pair<std::shared_ptr<Mesh>, py::dict> mesh_of_state(const py::tuple& state) {
   Mesh mesh{state[0].cast<Points3>(), state[1].cast<Triangles>(), state[2].cast<Triangles>(),
             state[3].cast<std::vector<std::int32_t>>(), state[4].cast<Surface>()};
   return {std::make_shared<Mesh>(std::move(mesh)), state[5].cast<py::dict>()};
@@ -117,7 +117,7 @@ void add_meshes(py::module_& module) {
             return handed_over_on(mesh.surface, call([&] { return bisect(mesh); }));
           },
           "The points and the midpoints of the edges, those inside of the surface.")
-      .def(py::pickle(&state_of, &of_state));
+      .def(py::pickle(&state_of_mesh, &mesh_of_state));
   module.def("delaunay", &delaunay);
   module.def("within", &within);
   py::class_<Check> check(module, "Check", "What check() found; true if all laws hold.");

@@ -51,7 +51,7 @@ constexpr std::array values_of{
     &OperatorErrorsByCell::laplacian,  &OperatorErrorsByCell::curl,
     &OperatorErrorsByCell::tangential, &OperatorErrorsByCell::kinetic_energy};
 
-py::tuple state_of(const OperatorErrors& errors) {
+py::tuple state_of_errors(const OperatorErrors& errors) {
   py::list norms, values;
   for (const auto pointer : norms_of)
     norms.append(errors.*pointer);
@@ -60,7 +60,7 @@ py::tuple state_of(const OperatorErrors& errors) {
   return py::make_tuple(norms, values, errors.primal_eigenvalue, errors.dual_eigenvalue);
 }
 
-std::shared_ptr<OperatorErrors> of_state(const py::tuple& state) {
+std::shared_ptr<OperatorErrors> errors_of_state(const py::tuple& state) {
   auto errors = std::make_shared<OperatorErrors>();
   const py::list norms = state[0], values = state[1];
   for (std::size_t k = 0; k < norms_of.size(); ++k)
@@ -100,7 +100,7 @@ void add_operators(py::module_& module) {
                     "Largest eigenvalue of the negative Laplacian at cells; 1 over the square of "
                     "radians, in the plane of the points' unit.")
       .def_readonly("dual_eigenvalue", &OperatorErrors::dual_eigenvalue, "The same at vertices.")
-      .def(py::pickle(&state_of, &of_state));
+      .def(py::pickle(&state_of_errors, &errors_of_state));
   module.def("operator_errors", &errors_of);
 }
 

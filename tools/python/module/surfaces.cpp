@@ -63,11 +63,11 @@ py::array_t<bool> contains(const Surface& surface, const Doubles& points) {
   return inside;
 }
 
-py::tuple state_of(const Surface& surface) {
+py::tuple state_of_surface(const Surface& surface) {
   return py::make_tuple(surface.is_sphere(), surface.period(), surface.rings());
 }
 
-Surface of_state(const py::tuple& state) {
+Surface surface_of_state(const py::tuple& state) {
   const auto period = state[1].cast<Eigen::Vector2d>();
   auto rings = state[2].cast<Surface::Rings>();
   const Surface whole = state[0].cast<bool>() ? Surface::sphere()
@@ -100,7 +100,7 @@ void add_surfaces(py::module_& module) {
       .def("widened", &widened,
            "A region of the sphere and what is within a distance of it, radians.")
       .def(py::self == py::self)
-      .def(py::pickle(&state_of, &of_state));
+      .def(py::pickle(&state_of_surface, &surface_of_state));
   module.def("contains", &contains);
   module.def("plane", &Surface::plane);
   module.def("periodic_box", &Surface::periodic);
