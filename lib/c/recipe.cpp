@@ -89,7 +89,7 @@ void take_resolution(const calotte_recipe& given, Recipe& recipe) {
   const bool raster = given.widths != nullptr || given.widths_nx != 0 || given.widths_ny != 0,
              file = given.widths_file != nullptr;
   require((given.density != nullptr) + raster + file <= 1,
-          "the recipe has more than one of a density, widths and a file of widths; give one of "
+          "the recipe has several of a density, widths and a file of widths; give one of "
           "them");
   if (file)
     recipe.resolution =

@@ -444,12 +444,31 @@ static void plans(void) {
   refuses(calotte_plan(&recipe, &schedule, &error), "radius");
   recipe.earth_radius_km = 0;
   recipe.density = density;
-  refuses(calotte_plan(&recipe, &schedule, &error), "widths and a density");
+  refuses(calotte_plan(&recipe, &schedule, &error), "several of a density, widths");
   recipe.density = NULL;
   schedule.level_capacity = -1;
   refuses(calotte_plan(&recipe, &schedule, &error), "level_capacity");
   schedule.size = 0;
   refuses(calotte_plan(&recipe, &schedule, &error), "sizeof(calotte_schedule)");
+}
+
+static void put(const char* path, const char* text) {
+  FILE* file = fopen(path, "w");
+  expect(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0, "a file of text");
+}
+
+/* A file of rules says the same as in the command. */
+static void rules(void) {
+  calotte_recipe recipe = {.size = sizeof recipe, .widths_file = "c_example.toml"};
+  calotte_schedule schedule = {.size = sizeof schedule};
+  put("c_example.toml", "[cell-width]\nlatitude = [[-90, 600], [0, 300], [90, 600]]\n");
+  succeeds(calotte_plan(&recipe, &schedule, &error), "rules");
+  expect(schedule.cells > 2000 && schedule.cells < 6545, "cells of 300 to 600 km");
+  put("c_example_part.txt", "0 0\n60 0\n0 60\n");
+  put("c_example.toml", "[cell-width]\nwidth = 300\nwithin = \"c_example_part.txt\"\n");
+  refuses(calotte_plan(&recipe, &schedule, &error), "no rule gives a width at longitude");
+  recipe.widths_file = "absent.toml";
+  refuses(calotte_plan(&recipe, &schedule, &error), "absent.toml");
 }
 
 /* ---- Files */
@@ -515,7 +534,8 @@ static void errors(void) {
   refuses(calotte_delaunay(NULL, 3, NULL, &mesh, &error), "the points are a null pointer");
   refuses(calotte_delaunay(xyz, -1, NULL, &mesh, &error), "-1");
   refuses(calotte_delaunay(xyz, 3, NULL, NULL, &error), "receives the mesh");
-  expect(calotte_delaunay(xyz, -1, NULL, &mesh, NULL) == CALOTTE_INVALID_ARGUMENT, "without an error");
+  expect(calotte_delaunay(xyz, -1, NULL, &mesh, NULL) == CALOTTE_INVALID_ARGUMENT,
+         "without an error");
   expect(calotte_read("no such file.nc", &mesh, &error) == CALOTTE_FILE, "no file");
   expect(strstr(error.message, "no such file.nc") != NULL, "a message with its name");
   refuses(calotte_voronoi(mesh, &cells, &error), "null pointer");
@@ -538,6 +558,7 @@ int main(int argc, char** argv) {
   runs();
   recipes();
   plans();
+  rules();
   files(argv[1]);
   errors();
   return failures != 0;

@@ -42,6 +42,7 @@ module calotte
     integer(c_int64_t) :: limited_area = 0, walls_x = 0, walls_y = 0
     integer(c_int64_t) :: boundary_generators = 0, refuse_duplicates = 0
     real(c_double) :: merge_within = 0
+    type(c_ptr) :: widths_file = c_null_ptr
   end type
 
   type, bind(c) :: calotte_report

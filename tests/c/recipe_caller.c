@@ -46,6 +46,7 @@ static int recipe_named(const char* name, calotte_recipe* out) {
         .widths_y = width_latitudes,
         .widths_nx = width_columns,
         .widths_ny = width_rows}},
+      {"rules", {.widths_file = "rules.toml"}},
       {"region", {.cells = 500, .surface = &region}},
       {"limited-area",
        {.surface = &small_region,

@@ -5,6 +5,7 @@
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
+#include <calotte/lonlat.h>
 
 #include <exception>
 #include <fstream>
@@ -57,6 +58,12 @@ std::map<std::string, Recipe> requests() {
       {"widths",
        {.resolution =
             widths<width_columns, width_rows>(width_longitudes, width_latitudes, widths_km)}},
+      {"rules",
+       {.resolution =
+            Widths::minimum({Widths::by_latitude({{{-90, 900}, {0, 700}, {90, 900}}}),
+                             Widths::by_distance({from_lonlat(DoubleMatrix{{10, 40}, {-20, 30}})},
+                                                 {{{0, 300}, {4000, 900}}})})
+                .limit_gradient(0.1)}},
       {"region", {.cells = 500, .surface = inside(region_ring)}},
       {"limited-area",
        {.resolution = widths<2, 2>(uniform_longitudes, uniform_latitudes, uniform_km),

@@ -17,6 +17,7 @@ REQUESTS = {
     "uniform": "642 cells",
     "x8": "2562 cells, a density by a callback",
     "widths": "widths in km at 4 x 3 nodes, from which the number of cells follows",
+    "rules": "rules for widths: by latitude and by distance, with a limited gradient",
     "region": "500 cells in a polygon on the sphere",
     "limited-area": "cells 200 km wide in a smaller polygon, with rings",
     "plane": "300 cells in the rectangle 0,0,2,1",
@@ -34,6 +35,7 @@ REQUESTS = {
 WORDS = {
     "uniform": ("--cells 642", ".off"),
     "widths": ("--cell-width widths.nc", ".off"),
+    "rules": ("--cell-width rules.toml", ".off"),
     "region": ("--cells 500 --region region.geojson", ".off"),
     "limited-area": ("--cell-width 200km --region small.geojson --limited-area", ".nc"),
     "plane": ("--cells 300 --rectangle 0,0,2,1", ".off"),
@@ -55,15 +57,23 @@ def program(path):
 
     def call(request, scratch):
         output = scratch / f"{request}.{Path(path).name}"
-        subprocess.run([*start, request, output], check=True)
+        subprocess.run([*start, request, output], check=True, cwd=scratch)
         return np.fromfile(output).reshape(-1, 3)
 
     return call
 
 
 def write_inputs(scratch):
-    """The files that the command takes."""
+    """The files that the command takes, and rules.toml, which C takes, too."""
     import netCDF4
+
+    (scratch / "line.geojson").write_text(
+        '{"type": "LineString", "coordinates": [[10, -20], [40, 30]]}')
+    (scratch / "rules.toml").write_text("""[cell-width]
+gradient = 0.1
+min = [{latitude = [[-90, 900], [0, 700], [90, 900]]},
+       {distance-to = "line.geojson", near = 300, far = 900, over = 4000}]
+""")
 
     for name, ring in (("region", REGION), ("small", SMALL)):
         (scratch / f"{name}.geojson").write_text(

@@ -11,6 +11,7 @@ import sys
 import numpy as np
 
 import calotte
+from calotte import widths
 
 
 def density(points):
@@ -38,6 +39,9 @@ REQUESTS = {
     "uniform": {"start": 642},
     "x8": {"start": 2562, "density": density},
     "widths": {"cell_width": WIDTHS},
+    "rules": {"cell_width": widths.minimum(
+        widths.by_latitude([(-90, 900), (0, 700), (90, 900)]),
+        widths.distance_to([(10, -20), (40, 30)], near=300, far=900, over=4000)).limit_gradient(0.1)},
     "region": {"start": 500, "surface": calotte.polygon(REGION)},
     "limited-area": {"cell_width": 200, "surface": calotte.polygon(SMALL), "limited_area": True},
     "plane": {"start": 300, "surface": calotte.rectangle((0, 0), (2, 1))},

@@ -80,6 +80,15 @@ def test_rules_by_a_coast(tmp_path):
     assert band(0, 1) == 5 and np.isnan(band(0, 2))
 
 
+def test_a_place_without_a_width_is_refused():
+    alone = widths.around([(-10, 0), (10, 0)], 50, 500)
+    for refused in (lambda: calotte.cvt(cell_width=alone), lambda: calotte.plan(alone), alone.sampled,
+                    lambda: calotte.cvt(cell_width=alone, surface="circle=0,0,20deg")):
+        with pytest.raises(calotte.Error, match="no rule gives a width at longitude .* latitude"):
+            refused()
+    assert calotte.plan(alone, surface="circle=0,0,2deg").widths == (50, 50)
+
+
 def test_two_rules_blend():
     lon, lat = ROUND
     region = "circle=0,90,60deg"
@@ -100,7 +109,7 @@ def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
     rule = runpy.run_path("ocean.py")["rule"]
     subprocess.run([COMMAND, "plan", "--cell-width", "ocean.toml", "--raster", "w.nc", "--report", "plan.json"],
                    check=True, capture_output=True)
-    raster = calotte._arguments.cell_width("w.nc")
+    raster = widths.rule("w.nc").sampled()
     same = rule.sampled(0.25)
     assert np.array(raster.widths) == pytest.approx(np.array(same.widths), rel=1e-12)
     rules = json.loads((tmp_path / "plan.json").read_text())["rules"]
@@ -115,7 +124,7 @@ def test_files_of_rules_are_rules(tmp_path):
     made = widths.minimum(900, widths.distance_to([(0, 0), (10, 0)], 300, 800, 2000)).limit_gradient(0.2)
     lon, lat = np.meshgrid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
     assert (widths.rule(path)(lon, lat) == made(lon, lat)).all()
-    assert (np.array(calotte._arguments.cell_width(path).widths) == np.array(made.sampled(1).widths)).all()
+    assert (np.array(widths.rule(path).sampled().widths) == np.array(made.sampled(1).widths)).all()
     # The command's grid, on another planet.
     for radius in (6371.0, 3389.5):
         subprocess.run([COMMAND, "plan", "--cell-width", path, "--earth-radius", str(radius), "--report",
@@ -131,7 +140,7 @@ def test_files_of_rules_are_rules(tmp_path):
                    '{distance-to = "l.geojson", near = 1, far = 3, over = 5}]')
     assert calotte.plan(path, surface=plane).widths == pytest.approx((1, 3))
     with pytest.raises(calotte.Error, match="plane|domain"):
-        calotte._arguments.planar_cell_width(path)
+        widths.rule(path).sampled(surface=plane)
 
 
 @pytest.mark.parametrize("make, words", [
@@ -144,7 +153,7 @@ def test_files_of_rules_are_rules(tmp_path):
     (lambda: widths.distance_to([(0, 0)], 1, 2, 3, side="sea"), "lines have no side"),
     (lambda: widths.distance_to("a.nc", 1, 2, 3, side="left"), "neither sea nor land"),
     (lambda: widths.share("circle=0,90,60deg", 5, profile=[(0, 1)]), "not both"),
-    (lambda: widths.share("circle=0,90,60deg", profile=[(0, 2)]), "share 2; give 0 to 1"),
+    (lambda: widths.share("circle=0,90,60deg", profile=[(0, 2)]), "share 2, which is not a fraction from 0 to 1"),
     (lambda: widths.rule(5).limit_gradient(0), "gradient"),
 ])
 def test_what_is_no_rule(make, words):

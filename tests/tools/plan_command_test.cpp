@@ -169,6 +169,8 @@ TEST_CASE("the widths are drawn on a map") {
 TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
   bench.file("metres.msh", raster([](double) { return 30000; }));
+  bench.file("place.geojson", R"({"type": "LineString", "coordinates": [[10, 20], [11, 20]]})");
+  bench.file("alone.toml", "[cell-width]\nlines = \"place.geojson\"\nwidth = 60\nover = 500\n");
   check_refusals(bench, "plan", R"(
 -o widths.png --density uniform | 2 | a density has no unit, and implies no number of cells; give --cells N, or widths in km
 -o widths.png --cells auto | 2 | a density has no unit, and implies no number of cells
@@ -179,5 +181,7 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 --cells 100 -o widths.gif | 2 | widths.gif
 --cells 100 -o same.png --report same.png | 2 | same.png is both picture and report; give the report another name
 -o widths.png --cell-width metres.msh | 2 | the widths require 0.654413 cells, but a grid has 12 to 1073741824
+-o widths.png --cell-width alone.toml | 2 | no rule gives a width at longitude -180, latitude -90; add one that holds everywhere
+--o widths.png --cell-width alone.toml | 2 | no rule gives a width at longitude -180, latitude -90; add one that holds everywhere
 )");
 }
