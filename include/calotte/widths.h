@@ -203,8 +203,9 @@ public:
   /// \throws Error invalid_argument for a gradient out of range, and as sampled().
   Widths limit_gradient(double gradient, const Surface& surface) const;
 
-  /// The same with a step of the rasters that sampled() makes of them; what is made of them has
-  /// none. \throws Error invalid_argument unless it is > 0 and finite.
+  /// The same with a step of the rasters that sampled() makes of them. Their limit_gradient() keeps
+  /// it, and what they are combined to has none. \throws Error invalid_argument unless it is > 0
+  /// and finite.
   Widths with_step(double step) const;
   double step() const { return step_; } ///< 0: by their least width
 

@@ -463,7 +463,8 @@ Widths Widths::limit_gradient(double gradient) const {
   const auto make = [rule = rule_of_radius_, gradient](double radius_km) {
     return limited((*rule)(radius_km), gradient, radius_km);
   };
-  const Widths limits(std::make_shared<WidthsOfRadius>(rule_of_radius_->space(), make), radius_km_);
+  Widths limits = *this;
+  limits.rule_of_radius_ = std::make_shared<WidthsOfRadius>(rule_of_radius_->space(), make);
   if (is_of_plane())
     limits.rule(); // which not every rule has
   return limits;
@@ -523,6 +524,8 @@ Widths Widths::minimum(const std::vector<Widths>& of) {
 Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
 Widths Widths::sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
 Widths Widths::product(const Widths& widths, double factor) {
+  require(factor > 0 && std::isfinite(factor),
+          "the factor " + shortly(factor) + " of widths is not a positive number; give one");
   return combined({widths, factor}, product_of);
 }
 Widths Widths::clamp(const Widths& widths, double least, double most) {
