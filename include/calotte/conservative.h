@@ -6,6 +6,7 @@
 #include <calotte/interpolate.h>
 #include <calotte/mesh_field.h>
 #include <calotte/polygons.h>
+#include <calotte/raster.h>
 #include <calotte/types.h>
 
 #include <cstdint>
@@ -40,6 +41,10 @@ LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows);
 /// \throws Error invalid_argument, naming the first value that is out of order or out of range; for
 ///         a step of 180 degrees or more.
 LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& latitudes);
+
+/// Those of a raster of the sphere, all of which they cover: half way between nodes, round the
+/// sphere and up to the poles. \throws Error as above.
+LonLatBoxes lon_lat_boxes(const Raster& raster);
 
 /// Throws unless the boxes satisfy the conditions above, each narrower than 180 degrees.
 /// \throws Error invalid_argument, naming the value.

@@ -46,18 +46,14 @@ Surface land_around(const Coast& coast, const Eigen::Vector3d& point);
 ///         that of the rings, and for points covered twice.
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast);
 
-/// The fraction of each cell that is land, by sampling a raster of the
-/// sphere, whose values are fractions of land. A value holds in the rectangle between the middles
-/// to its neighbours; those of the first and the last latitude reach to the poles. Each rectangle
-/// is cut into k x k parts of equal steps of longitude and latitude. k is the least number, up to
-/// 256, that makes their sides shorter than a quarter of the square root of the area of the cell at
-/// the rectangle's middle. A cell's fraction is the mean of the values of the parts whose middles
-/// it contains, weighted by their areas; in a cell without such a part, the value at its generator.
-/// The result has the same bits for any number of threads.
-/// \param cells as above.
+/// The fraction of each cell that is land, by a raster of the sphere, whose values are fractions of
+/// land: the mean of the values in the boxes of lon_lat_boxes(), weighted by the exact areas that
+/// they share with the cell. A cell of no area has the value at its generator. The result has the
+/// same bits for any number of threads.
+/// \param cells of the sphere; only their cells, vertices and lists of vertices are read.
 /// \returns n fractions from 0 to 1.
-/// \throws Error invalid_argument, for cells that do not cover the sphere, and for shapes,
-///         coordinates or values that violate the conditions of Raster, or no fractions.
+/// \throws Error invalid_argument, for shapes, coordinates or values that violate the conditions of
+///         Raster or of boxes, or are no fractions.
 DoubleVector land_fractions(const Voronoi& cells, const Raster& land);
 
 /// The cells that lines cross, in increasing order. Successive cells of a line share an edge.

@@ -308,28 +308,35 @@ double BoxOverlaps::set_areas(WeightRow& out) {
   areas_.assign(static_cast<std::size_t>(columns * rows), 0);
   turns_.assign(static_cast<std::size_t>(columns * rows), 0);
   for (const Piece& piece : pieces_) {
-    const auto k = static_cast<std::size_t>((piece.column - first) % all * rows + piece.row - base);
+    std::int64_t i = piece.column - first;
+    while (i >= all)
+      i -= all;
+    const auto k = static_cast<std::size_t>(i * rows + piece.row - base);
     areas_[k] -= piece.area;
     turns_[k] += piece.turn;
   }
+  rises_.clear();
+  for (std::int64_t j = base; j < base + rows; ++j)
+    rises_.push_back(rise(tiling_.height(j), tiling_.height(j + 1)));
   double whole = 0;
+  columns_.clear();
   for (std::int64_t i = 0; i < columns; ++i) {
     double turn = 0; // of what is above
-    for (std::int64_t j = rows - 1; j >= 0; --j) {
-      const auto k = static_cast<std::size_t>(i * rows + j);
-      areas_[k] -= turn * rise(tiling_.height(base + j), tiling_.height(base + j + 1));
+    for (auto j = rises_.size(); j-- > 0;) {
+      const std::size_t k = static_cast<std::size_t>(i) * rises_.size() + j;
+      areas_[k] -= turn * rises_[j];
       turn += turns_[k];
       whole += areas_[k];
     }
+    columns_.push_back(
+        {tiling_.wrapped(first + i),
+         (tiling_.west_of(first + i + 1) - tiling_.west_of(first + i)) / degrees_per_radian});
   }
-  for (std::int64_t i = 0; i < columns; ++i) {
-    const double wide =
-        (tiling_.west_of(first + i + 1) - tiling_.west_of(first + i)) / degrees_per_radian;
-    for (std::int64_t j = 0; j < rows; ++j)
-      put(areas_[static_cast<std::size_t>(i * rows + j)], whole,
-          tiling_.box(tiling_.wrapped(first + i), base + j),
-          wide * rise(tiling_.height(base + j), tiling_.height(base + j + 1)), out);
-  }
+  for (std::size_t j = 0; j < rises_.size(); ++j)
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      put(areas_[i * rises_.size() + j], whole,
+          tiling_.box(columns_[i].wrapped, base + static_cast<std::int64_t>(j)),
+          columns_[i].wide * rises_[j], out);
   sort_by_column(out);
   return whole;
 }

@@ -38,6 +38,11 @@ private:
     double turn; ///< radians eastwards
     double area; ///< above the parallel below; of the sign of the turn
   };
+  /// Of a window.
+  struct Column {
+    std::int64_t wrapped;
+    double wide; ///< radians
+  };
 
   void set_path(std::span<const Vec3> corners);
   void add_pole(const MapPoint& pole, const MapPoint& before, const MapPoint& after);
@@ -55,6 +60,8 @@ private:
   std::vector<PathPoint> path_;
   std::vector<Piece> pieces_;
   std::vector<double> areas_, turns_; ///< by box of a window
+  std::vector<double> rises_;         ///< heights of its rows
+  std::vector<Column> columns_;
   std::int64_t column_ = 0, row_ = 0; ///< of the last point
   bool holds_south_pole_ = false;
 };

@@ -162,6 +162,10 @@ std::int64_t BoxTiling::column_at(double longitude) const {
   return after - meridians_.begin() - 1 + static_cast<std::int64_t>(turns) * columns();
 }
 
+std::int32_t BoxTiling::box_at(const Vec3& unit) const {
+  return box(wrapped(column_at(lonlat_of(unit).longitude)), row_at(map_point_of(unit).height));
+}
+
 std::int64_t BoxTiling::row_at(const Height& height) const {
   const auto after =
       std::upper_bound(heights_.begin() + 1, heights_.end() - 1, height,
@@ -199,6 +203,17 @@ LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& la
   require_latitudes(latitudes, "latitude");
   LonLatBoxes boxes{longitudes, latitudes, meridians_around(longitudes),
                     parallels_around(latitudes)};
+  require_boxes(boxes);
+  return boxes;
+}
+
+LonLatBoxes lon_lat_boxes(const Raster& raster) {
+  LonLatBoxes boxes = lon_lat_boxes(raster.x, raster.y);
+  const Eigen::Index columns = raster.x.size(), rows = raster.y.size();
+  boxes.meridians[columns] = 0.5 * (raster.x[columns - 1] + raster.x[0] + 360);
+  boxes.meridians[0] = boxes.meridians[columns] - 360;
+  boxes.parallels[0] = -90;
+  boxes.parallels[rows] = 90;
   require_boxes(boxes);
   return boxes;
 }

@@ -57,14 +57,16 @@ public:
   // ---- Columns from west to east; those beyond the last are the first ones again
 
   std::int64_t wrapped(std::int64_t column) const {
+    if (column >= 0 && column < columns())
+      return column;
     const std::int64_t rest = column % columns();
     return rest < 0 ? rest + columns() : rest;
   }
   /// The western meridian in degrees, ascending with the column without end.
   double west_of(std::int64_t column) const {
-    const std::int64_t around =
-        column < 0 ? (column - columns() + 1) / columns() : column / columns();
-    return meridians_[static_cast<std::size_t>(column - around * columns())] + 360.0 * around;
+    const std::int64_t first = wrapped(column);
+    const double west = meridians_[static_cast<std::size_t>(first)];
+    return column == first ? west : west + 360.0 * ((column - first) / columns());
   }
   /// The same as a unit vector of x and y.
   const Vec3& direction_of(std::int64_t column) const {
@@ -85,6 +87,7 @@ public:
                        j = row_of_[static_cast<std::size_t>(row)];
     return i < 0 || j < 0 ? -1 : j * width_ + i;
   }
+  std::int32_t box_at(const Vec3& unit) const; ///< that of a unit vector
 
 private:
   std::int32_t width_;                  ///< of the raster

@@ -225,13 +225,13 @@ public:
         closed_(boxes.meridians[columns_] - boxes.meridians[0] > 360 - 1e-9) {}
 
   void set_nearest(const Vec3& unit, WeightRow& row) const {
-    const std::int32_t box = box_of(unit);
+    const std::int32_t box = tiling_.box_at(unit);
     if (box >= 0)
       row.push_back({box, 1});
   }
 
   void set_linear(const Vec3& unit, WeightRow& row) const {
-    if (box_of(unit) < 0)
+    if (tiling_.box_at(unit) < 0)
       return;
     const base_detail::LonLat place = base_detail::lonlat_of(unit);
     const Bracket along = along_longitude(place.longitude);
@@ -255,12 +255,6 @@ public:
 private:
   Eigen::Index node(Eigen::Index from_south) const {
     return descends_ ? rows_ - 1 - from_south : from_south;
-  }
-
-  std::int32_t box_of(const Vec3& unit) const {
-    const MapPoint point = map_point_of(unit);
-    const std::int64_t column = tiling_.column_at(base_detail::lonlat_of(unit).longitude);
-    return tiling_.box(tiling_.wrapped(column), tiling_.row_at(point.height));
   }
 
   Bracket along_longitude(double longitude) const {

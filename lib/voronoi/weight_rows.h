@@ -26,8 +26,9 @@ struct Weight {
 using WeightRow = std::vector<Weight>;
 
 inline void sort_by_column(WeightRow& row) {
-  std::sort(row.begin(), row.end(),
-            [](const Weight& a, const Weight& b) { return a.column < b.column; });
+  const auto before = [](const Weight& a, const Weight& b) { return a.column < b.column; };
+  if (!std::is_sorted(row.begin(), row.end(), before))
+    std::sort(row.begin(), row.end(), before);
 }
 
 /// Adds weights of the same column. \pre sorted.
