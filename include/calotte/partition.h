@@ -47,10 +47,10 @@ struct CellParts {
 /// hold cells of several components; within each of these its cells are connected through the cells
 /// of the part, or through such an edge.
 ///
-/// METIS has one state of random numbers and handlers of signals for a process. It therefore runs
-/// in a child process (fork) for each number of parts, which uses no other thread and no file of
-/// this process. The result has the same bits for any number of threads. The function runs in the
-/// caller's task arena.
+/// METIS uses rand() and handlers of SIGABRT and SIGTERM, of which a process has one each. It
+/// therefore runs in one thread at a time, and leaves both as they were. While it runs no other
+/// thread may call rand() or random(), and either signal ends METIS or the process. The result has
+/// the same bits for any number of threads. The function runs in the caller's task arena.
 /// \param neighbours n lists: of each cell those that share an edge with it, in any order; ids of
 ///        -1, the cell itself and repetitions have no effect. See neighbours(), cell_neighbours()
 ///        and Voronoi::cells_on_cell.
@@ -58,12 +58,12 @@ struct CellParts {
 /// \throws Error invalid_argument: no cells; parts out of range; ids out of range, and neighbours
 ///         that are not mutual, with the index of the cell; weights of another number, with the
 ///         index one that is negative or not finite, or all 0; cells and edges beyond the 32-bit
-///         integers of METIS. Error file, if the system starts no process; internal, if METIS
-///         fails; cancelled. std::bad_alloc, also where METIS finds no memory.
+///         integers of METIS. Error internal, if METIS fails; cancelled. std::bad_alloc, also
+///         where METIS finds no memory.
 CellParts partition(const IdLists& neighbours, std::int64_t parts,
                     const PartitionOptions& options = {});
 
-/// The same for several numbers of parts, in parallel.
+/// The same for several numbers of parts, in parallel but for METIS.
 /// \param visit called for each number in `counts` once, from several threads at once, in any
 ///        order. An exception that it throws ends the call.
 void partition(const IdLists& neighbours, std::span<const std::int64_t> counts,

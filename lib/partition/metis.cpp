@@ -2,7 +2,6 @@
 #include "partition/metis.h"
 
 #include "base/require.h"
-#include "partition/child_process.h"
 
 #include <calotte/error.h>
 
@@ -11,9 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <limits>
+#include <mutex>
 #include <new>
-#include <optional>
 #include <string>
 
 namespace calotte::partition_detail {
@@ -43,6 +44,32 @@ idx_t imbalance_for(idx_t parts, idx_t cells) {
   const double usual = 30, cell = 1000 * static_cast<double>(parts) / static_cast<double>(cells);
   return static_cast<idx_t>(std::min(usual + cell, std::max(usual, 1.5 * cell)));
 }
+
+/// What METIS changes in the process, by one thread at a time: the numbers of rand(), which glibc
+/// takes from the state of random(), and the handlers of its signals for errors, which METIS puts
+/// back without their flags and masks.
+class ProcessState {
+public:
+  ProcessState() : lock_(one_at_a_time) {
+    ::sigaction(SIGABRT, nullptr, &on_abort_);
+    ::sigaction(SIGTERM, nullptr, &on_term_);
+    before_ = ::initstate(1, numbers_.data(), numbers_.size());
+  }
+  ProcessState(const ProcessState&) = delete;
+  ProcessState& operator=(const ProcessState&) = delete;
+  ~ProcessState() {
+    ::setstate(before_);
+    ::sigaction(SIGABRT, &on_abort_, nullptr);
+    ::sigaction(SIGTERM, &on_term_, nullptr);
+  }
+
+private:
+  inline static std::mutex one_at_a_time;
+  const std::scoped_lock<std::mutex> lock_;
+  struct sigaction on_abort_ = {}, on_term_ = {};
+  alignas(long) std::array<char, 128> numbers_{}; ///< of the size that a process has by default
+  char* before_;
+};
 
 } // namespace
 
@@ -79,21 +106,18 @@ Metis::~Metis() = default;
 
 std::vector<std::int32_t> Metis::partition(std::int64_t parts, int attempt) const {
   const std::size_t cells = arrays_->begin.size() - 1;
-  const SharedIds shared(cells);
-  // Its rand() would meet other threads' here, and its handlers of SIGABRT and SIGTERM would stay.
-  const std::optional<int> code = result_of_child([&] {
-    std::vector<idx_t> part(cells);
-    const int result = arrays_->partition(static_cast<idx_t>(parts), attempt, part.data());
-    std::copy(part.begin(), part.end(), shared.ids().begin());
-    return result;
-  });
+  std::vector<idx_t> part(cells);
+  const int code = [&] {
+    const ProcessState state;
+    return arrays_->partition(static_cast<idx_t>(parts), attempt, part.data());
+  }();
   if (code == METIS_ERROR_MEMORY)
     throw std::bad_alloc();
   if (code != METIS_OK)
-    throw Error(ErrorCode::internal, "METIS made no " + std::to_string(parts) + " parts: " +
-                                         (code ? "its code is " + std::to_string(*code)
-                                               : "its process was killed, perhaps for memory"));
-  return {shared.ids().begin(), shared.ids().end()};
+    throw Error(ErrorCode::internal, "METIS made no " + std::to_string(parts) +
+                                         " parts: its code is " + std::to_string(code) +
+                                         "; give another number of parts");
+  return {part.begin(), part.end()};
 }
 
 } // namespace calotte::partition_detail

@@ -24,10 +24,10 @@ public:
   ~Metis();
 
   /// The part of each cell, 0 to parts - 1. Some may have several components, or no cells, above
-  /// all very small ones. Any thread may call it.
+  /// all very small ones. Any thread may call it; METIS runs in one at a time.
   /// \param attempt 0 at first; each other number up to 3 gives other parts.
   /// \pre parts from 2 to the number of cells.
-  /// \throws Error file, internal; std::bad_alloc.
+  /// \throws Error internal; std::bad_alloc.
   std::vector<std::int32_t> partition(std::int64_t parts, int attempt) const;
 
 private:

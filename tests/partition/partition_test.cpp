@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lists.h"
-#include "partition/child_process.h"
 #include "partition/connected_parts.h"
 #include "partition/graph.h"
 #include "support/errors.h"
@@ -13,7 +12,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <mutex>
@@ -274,30 +272,17 @@ TEST_CASE("METIS leaves the random numbers and the handlers of the process alone
   std::srand(5);
   const int expected = std::rand();
   std::srand(5);
-  const auto handler = [](int) {};
-  const auto before = std::signal(SIGTERM, handler);
+  struct sigaction own = {}, before = {}, after = {};
+  own.sa_sigaction = [](int, siginfo_t*, void*) {};
+  own.sa_flags = SA_SIGINFO | SA_RESTART;
+  ::sigaddset(&own.sa_mask, SIGUSR1);
+  ::sigaction(SIGTERM, &own, &before);
   partition(graph, 8);
+  ::sigaction(SIGTERM, &before, &after);
   CHECK(std::rand() == expected);
-  CHECK((std::signal(SIGTERM, before) == static_cast<void (*)(int)>(handler)));
-  std::signal(SIGCHLD, SIG_IGN); // then there is no exit code
-  CHECK(partition(graph, 8).balanced);
-  std::signal(SIGCHLD, SIG_DFL);
-}
-
-TEST_CASE("a child process gives its result, and none if it ends otherwise") {
-  using partition_detail::result_of_child;
-  const partition_detail::SharedIds shared(3);
-  CHECK(result_of_child([&] {
-          shared.ids()[2] = 7;
-          std::puts("the child is silent");
-          std::fflush(stdout);
-          return 5;
-        }) == 5);
-  CHECK(shared.ids()[0] == 0);
-  CHECK(shared.ids()[2] == 7);
-  CHECK(!result_of_child([]() -> int { std::exit(0); }));
-  CHECK(!result_of_child([] { return std::raise(SIGKILL); }));
-  CHECK(!result_of_child([] { return std::raise(SIGABRT); }));
+  CHECK((after.sa_sigaction == own.sa_sigaction));
+  CHECK((after.sa_flags & (SA_SIGINFO | SA_RESTART)) == own.sa_flags);
+  CHECK(::sigismember(&after.sa_mask, SIGUSR1) == 1);
 }
 
 TEST_CASE("fragments go to a neighbouring part, and empty parts get cells") {
