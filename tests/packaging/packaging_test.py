@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks what packages and workflows say about the project: packaging_test.py PROJECT.
 
-All name one version. Recipes and workflows parse. Options of CMake, presets, steps of tools/test and scripts that they
-name exist. Links between Markdown files lead to files."""
+All name one version. Workflows parse. Presets, steps of tools/test and scripts that they name exist, and so do the
+options of CMake that presets name. Links between Markdown files lead to files."""
 
 import json
 import re
@@ -29,30 +29,19 @@ def check_versions(project):
             "CMakeLists.txt": f"project(calotte VERSION {version} ",
             "CITATION.cff": f"\nversion: {version}\n",
             ".github/CHANGELOG.md": f"\n## {version} (",
-            "tools/manual/index.md": f"\ncalotte {version}\n",
-            "tools/packaging/conda/meta.yaml": f'{{% set version = "{version}" %}}',
-            "tools/packaging/vcpkg/calotte/vcpkg.json": f'"version": "{version}"'}.items():
+            "tools/manual/index.md": f"\ncalotte {version}\n"}.items():
         require(text in (project / file).read_text(), f"{file} does not name version {version}")
 
 
-def check_recipes(project):
-    packaging = project / "tools/packaging"
-    port = json.loads((packaging / "vcpkg/calotte/vcpkg.json").read_text())
-    names = [entry if isinstance(entry, str) else entry["name"] for entry in port["dependencies"]]
-    require(names == sorted(names), "vcpkg.json: dependencies are not sorted")
-    text = (packaging / "conda/meta.yaml").read_text()
-    recipe = yaml.safe_load(re.sub(r"\{\{.*?\}\}", "x", re.sub(r"\{%.*?%\}", "", text)))
-    require(recipe["package"]["name"] == "calotte", "meta.yaml: its package is not calotte")
+def check_presets(project):
     options = set(re.findall(r"CALOTTE_\w+", "".join(
         (project / file).read_text() for file in
         ["CMakeLists.txt", "cmake/packaging.cmake", "cmake/debian.cmake", "tools/CMakeLists.txt"])))
     presets = json.loads((project / "CMakePresets.json").read_text())
-    named = [(file, name) for file in ["conda/build.sh", "vcpkg/calotte/portfile.cmake"]
-             for name in re.findall(r"-D(CALOTTE_\w+)", (packaging / file).read_text())]
-    named += [(f"preset {preset['name']}", name) for preset in presets["configurePresets"]
-              for name in preset.get("cacheVariables", {}) if name.startswith("CALOTTE_")]
-    for file, name in named:
-        require(name in options, f"{file}: CMake has no option {name}")
+    for preset in presets["configurePresets"]:
+        for name in preset.get("cacheVariables", {}):
+            require(not name.startswith("CALOTTE_") or name in options,
+                    f"preset {preset['name']}: CMake has no option {name}")
 
 
 def check_workflows(project):
@@ -85,8 +74,8 @@ def check_links(project):
 
 
 project = Path(sys.argv[1]).resolve()
-for check in (check_versions, check_recipes, check_workflows, check_links):
+for check in (check_versions, check_presets, check_workflows, check_links):
     check(project)
 if faults:
     sys.exit("\n".join(faults))
-print("versions, recipes, workflows and links agree")
+print("versions, presets, workflows and links agree")
