@@ -2,7 +2,7 @@
 # Debian packages of a shared build, made by cpack: the preset package, or tools/package.
 #   libcalotteX.Y    the library
 #   libcalotte-dev   its headers, and what find_package(calotte) and pkg-config read
-#   calotte          the command, its manual pages and completions
+#   calotte          the command
 #   python3-calotte  the Python package
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME calotte)

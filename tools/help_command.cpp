@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
-#include "help/completion.h"
 #include "help/help.h"
-#include "help/man_page.h"
 #include "help/nearest_name.h"
 #include "help/topics.h"
 #include "help/unknown_word.h"
@@ -42,44 +40,16 @@ std::string help_on(const CLI::App& app, const std::string& name) {
   refuse_topic(app, name);
 }
 
-/// \param name of a command; "" for the main command.
-std::string man_page_of(const CLI::App& app, const std::string& name) {
-  if (name.empty())
-    return man_page(app);
-  for (const CLI::App* command : app.get_subcommands({}))
-    if (command->get_name() == name)
-      return man_page(app, *command);
-  refuse("no manual page of \"" + name + "\"; " +
-         remedy_for(name, command_names(app), "", "calotte --help"));
-}
-
-struct HelpRequest {
-  std::string name, shell;
-  bool man = false;
-};
-
-std::string text_of(const CLI::App& app, const HelpRequest& request) {
-  if (!request.shell.empty())
-    return request.shell == "bash" ? bash_completion(app) : zsh_completion(app);
-  return request.man ? man_page_of(app, request.name) : help_on(app, request.name);
-}
-
 } // namespace
 
 void add_help(CLI::App& app) {
   CLI::App* command = app.add_subcommand("help", "Shows the help of a command or on a topic.");
-  auto request = std::make_shared<HelpRequest>();
-  CLI::Option* name = command->add_option(
-      "NAME", request->name,
+  auto name = std::make_shared<std::string>();
+  command->add_option(
+      "NAME", *name,
       "A command, formats, density, region, measures or exit-codes; default: all commands");
-  CLI::Option* man = command->add_flag(
-      "--man", request->man, "Write the manual page of the command in the format of man(1)");
-  command->add_option("--completion", request->shell, "Write the completion of a shell")
-      ->check(CLI::IsMember({"bash", "zsh"}))
-      ->excludes(name)
-      ->excludes(man);
   set_help(*command, {{}, {"calotte help cvt", "calotte help density"}});
-  command->callback([&app, request] { std::cout << text_of(app, *request); });
+  command->callback([&app, name] { std::cout << help_on(app, *name); });
 }
 
 } // namespace calotte::tools

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 #include <string>
@@ -151,59 +150,5 @@ cvt --cells 12 -o mesh.vtp --tolerence=1e-5 | 2 | unknown option --tolerence; di
 cvt --cells 12 --tolerence 1e-5 | 2 | unknown option --tolerence; did you mean --tolerance?
 cvt --cells 12 --max_iteration 3 -o mesh.vtp | 2 | unknown option --max_iteration; did you mean --max-iterations?
 cvt --cells 12 -o mesh.vtp --frobnicate | 2 | unknown option --frobnicate; see calotte cvt --help
-)");
-}
-
-TEST_CASE("a manual page has every option, and completions have its names") {
-  const Bench bench;
-  const std::string bash = help_text(bench, "help --completion bash");
-  const std::string zsh = help_text(bench, "help --completion zsh");
-  for (const std::string& command : commands) {
-    std::string page = help_text(bench, "help " + command + " --man");
-    CHECK(has(page, "\n.SH NAME\ncalotte\\-" + command + " \\- "));
-    page.erase(std::remove(page.begin(), page.end(), '\\'), page.end());
-    std::istringstream words(help_text(bench, command + " --help-all"));
-    for (std::string word; words >> word;) {
-      std::istringstream names(word);
-      for (std::string name; std::getline(names, name, ',');)
-        if (name.starts_with("--") && name.find_first_of(";:.)=") == std::string::npos) {
-          CAPTURE(name);
-          CHECK(has(page, name));
-          CHECK(has(bash, name));
-          CHECK(has(zsh, name));
-        }
-    }
-  }
-  const std::string main = help_text(bench, "help --man");
-  for (const char* part : {".SH DENSITY\n", ".SH REGION\n", ".SH MEASURES\n",
-                           ".SH \"EXIT STATUS\"\n", "calotte\\-cvt"})
-    CHECK(has(main, part));
-}
-
-TEST_CASE("bash completes commands, options, their words and files") {
-  const Bench bench;
-  bench.file("calotte.bash", help_text(bench, "help --completion bash"));
-  bench.file("grid one.nc", "");
-  bench.file("complete",
-             "source ./calotte.bash; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _calotte; "
-             "printf '%s\\n' \"${COMPREPLY[@]}\"");
-  const auto completed = [&](const std::string& words) {
-    return bench.run("", "bash ./complete calotte " + words + "; exit;").out;
-  };
-  CHECK(completed("cv") == "cvt\n");
-  CHECK(completed("cvt --me") == "--method\n--merge-within\n");
-  CHECK(completed("cvt --method lbfgs") == "lbfgs\nlbfgs-laplacian\n");
-  CHECK(completed("cvt --method = lb") == "lbfgs\nlbfgs-laplacian\n");
-  CHECK(completed("cvt --threads 1") == "\n");
-  CHECK(completed("info gr") == "grid one.nc\n");
-  CHECK(completed("help exit") == "exit-codes\n");
-}
-
-TEST_CASE("what has no manual page is refused") {
-  const Bench bench;
-  check_refusals(bench, "help", R"(
-density --man | 2 | no manual page of "density"; see calotte --help
---completion fish | 2 | --completion: fish not in {bash,zsh}
-cvt --completion zsh | 2 | NAME excludes --completion
 )");
 }

@@ -79,8 +79,6 @@ public:
            options(*app, all) + examples() + (all ? "\n" + exit_codes() : further(*app));
   }
 
-  const Help& help() const { return help_; }
-
 private:
   bool shown(const CLI::Option& option, bool all) const {
     return all || help_.common.empty() ||
@@ -152,11 +150,6 @@ private:
 
 void set_help(CLI::App& command, Help help) {
   command.formatter(std::make_shared<HelpFormatter>(std::move(help)));
-}
-
-std::vector<std::string> examples_of(const CLI::App& command) {
-  const auto* formatter = dynamic_cast<const HelpFormatter*>(command.get_formatter().get());
-  return formatter == nullptr ? std::vector<std::string>{} : formatter->help().examples;
 }
 
 void set_main_help(CLI::App& app) {

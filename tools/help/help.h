@@ -21,9 +21,6 @@ struct Help {
 /// --help-all shows all options with their whole texts in their groups, and the exit codes.
 void set_help(CLI::App& command, Help help);
 
-/// The command lines that its help shows as examples; {} without set_help().
-std::vector<std::string> examples_of(const CLI::App& command);
-
 /// Sets the layout of the help of the main command: it lists the commands, the topics and the exit
 /// codes.
 void set_main_help(CLI::App& app);

@@ -28,6 +28,19 @@ std::string default_of(const CLI::Option& option) {
   return value.empty() ? "" : "; default: " + value;
 }
 
+/// The words among which its value is; {} if these are not listed.
+std::vector<std::string> choices_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const std::size_t begin = type.find(":{"), end = type.find('}');
+  std::vector<std::string> words;
+  if (begin == std::string::npos || end == std::string::npos)
+    return words;
+  std::istringstream list(type.substr(begin + 2, end - begin - 2));
+  for (std::string word; std::getline(list, word, ',');)
+    words.push_back(word);
+  return words;
+}
+
 } // namespace
 
 std::string first_sentence(const std::string& text) {
@@ -56,18 +69,6 @@ std::string values_of(const CLI::Option& option) {
   const bool plain = check.find_first_of("{ ") == std::string::npos;
   const std::string kind = type.substr(0, colon);
   return plain && !check.empty() ? check : kind == "TEXT" ? "WORD" : kind;
-}
-
-std::vector<std::string> choices_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t begin = type.find(":{"), end = type.find('}');
-  std::vector<std::string> words;
-  if (begin == std::string::npos || end == std::string::npos)
-    return words;
-  std::istringstream list(type.substr(begin + 2, end - begin - 2));
-  for (std::string word; std::getline(list, word, ',');)
-    words.push_back(word);
-  return words;
 }
 
 std::string brief_text(const CLI::Option& option) {

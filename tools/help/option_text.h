@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-/// What help, manual pages and completions say about an option.
+/// What help says about an option.
 namespace calotte::tools {
 
 /// The first sentence of a text, without its full stop.
@@ -18,9 +18,6 @@ std::vector<std::string> names_of(const CLI::Option& option);
 
 /// The placeholder of its values, without words for their validation: FILE, N, KM; "" for a flag.
 std::string values_of(const CLI::Option& option);
-
-/// The words among which its value is; {} if these are not listed.
-std::vector<std::string> choices_of(const CLI::Option& option);
 
 /// The first sentence of its text, with its default.
 std::string brief_text(const CLI::Option& option);
