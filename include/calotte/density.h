@@ -53,10 +53,10 @@ struct Density {
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
   Kind kind = Kind::uniform; ///< what determines the density
-  std::vector<Bump> bumps;   ///< combined by Kind::maximum or Kind::sum; not empty for these kinds
+  std::vector<Bump> bumps = {}; ///< combined by maximum or sum, of which there is one at least
   /// Of Kind::widths, as density_of() makes them; no effect for other kinds.
-  std::shared_ptr<const density_detail::WidthDensity> widths;
-  Callable callable; ///< not empty for Kind::callable; no effect for other kinds
+  std::shared_ptr<const density_detail::WidthDensity> widths = {};
+  Callable callable = {}; ///< not empty for Kind::callable; no effect for other kinds
 
   /// True if the density is 1 everywhere.
   bool uniform() const { return kind == Kind::uniform; }

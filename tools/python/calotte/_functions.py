@@ -1205,7 +1205,7 @@ def partition(mesh: Grid, parts: int, *, weights: ArrayLike | None = None) -> ND
     parts: from 1 to the number of cells.
     weights: n numbers >= 0, the work of each cell. Default: all are equal.
     Returns n integers; np.savetxt("graph.info.part.16", part, "%d") writes them as MPAS reads them.
-    METIS runs in a child process. Raises Error, with the index of the cell.
+    Raises Error, with the index of the cell.
 
     >>> mesh = delaunay(fibonacci_sphere(1000))
     >>> part = partition(mesh, 16)
