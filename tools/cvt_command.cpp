@@ -139,7 +139,8 @@ Run prepare(const CvtRequest& request, Progress& progress) {
     require_planar_format(request.mesh, surface, format);
   run.schedule = plan_of(run.input);
   require_used(request, run.schedule);
-  run.input.recipe.start.points.resize(3, 0); // the schedule has them
+  run.input.recipe.start.points.resize(3, 0); // the schedule has them, and the density
+  run.input.recipe.resolution = {};
   const Recipe& recipe = run.schedule.recipe;
   require_space(request.mesh, file_bytes(format, recipe.cells, run.schedule.density.uniform()));
   run.configuration = configuration_of(request, run.input, run.schedule);

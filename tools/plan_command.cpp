@@ -60,7 +60,7 @@ struct Plan {
   std::vector<CvtLevel> levels; ///< of the run
   SpacingSurvey spacing;
   std::optional<double> radius_km; ///< of the sphere, if known
-  double width_seconds = 0;        ///< that widths in km took
+  double width_seconds = 0;        ///< that reading widths in km and planning with them took
   std::vector<RuleShare> rules;    ///< of the widths, if there are any
   int threads = 1;
   CvtCosts costs;

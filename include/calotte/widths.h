@@ -102,7 +102,7 @@ public:
   /// \throws Error invalid_argument unless it is > 0.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
   /// Those of a raster. \throws Error invalid_argument as density_of().
-  Widths(const Raster& raster); // NOLINT(google-explicit-constructor)
+  Widths(Raster raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>> rule,
                   double radius_km = earth_radius_km);

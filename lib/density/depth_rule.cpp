@@ -85,7 +85,7 @@ Raster widths_of(const Raster& raster, const DepthRule& rule, double radius) {
       else if (depth > 0 && rule.kind == Kind::rossby)
         length = rossby_radius(depth, raster.y[j], radius);
       else if (depth > 0)
-        length = 2 * std::numbers::pi * depth / std::max(slope(i, j), 1e-12);
+        length = 2 * std::numbers::pi * depth / slope(i, j); // no demand where the floor is flat
       widths.values(i, j) = depth > 0 || near_sea(raster, i, j)
                                 ? std::max(length / 1000 / rule.cells, rule.least)
                                 : Widths::no_demand;

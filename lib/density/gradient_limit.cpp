@@ -318,6 +318,10 @@ void density_detail::require_gradient(double gradient) {
 
 namespace {
 
+bool has_demand(const std::vector<double>& widths) {
+  return std::ranges::any_of(widths, [](double width) { return Widths::is_demand(width); });
+}
+
 Raster limited_in_plane(const Raster& widths, double gradient, const Surface& surface) {
   PlaneNodes nodes(widths, surface);
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -330,14 +334,16 @@ Raster limited_in_plane(const Raster& widths, double gradient, const Surface& su
       if (!nodes.inside(a))
         values[static_cast<std::size_t>(a)] = none;
     values.resize(static_cast<std::size_t>(nodes.size()), none);
-    values = GradientLimit<PlaneNodes>(nodes, std::move(values), gradient).result();
+    if (has_demand(values))
+      values = GradientLimit<PlaneNodes>(nodes, std::move(values), gradient).result();
     nodes.turn_outside();
     values.resize(static_cast<std::size_t>(nodes.size()));
     for (std::int32_t a = 0; a < nodes.size(); ++a)
       if (!nodes.inside(a))
         values[static_cast<std::size_t>(a)] = given[a];
   }
-  values = GradientLimit<PlaneNodes>(nodes, std::move(values), gradient).result();
+  if (has_demand(values))
+    values = GradientLimit<PlaneNodes>(nodes, std::move(values), gradient).result();
   Raster result = widths;
   result.values =
       Eigen::Map<const DoubleMatrix>(values.data(), widths.values.rows(), widths.values.cols());
@@ -357,8 +363,7 @@ Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km
   for (std::int64_t j = 0; j < rows; ++j)
     for (std::int64_t i = 0; i < columns; ++i)
       values[static_cast<std::size_t>(1 + j * columns + i)] = field.value(i, j + 1);
-  if (std::find_if(values.begin(), values.end(),
-                   [](double value) { return std::isfinite(value); }) == values.end())
+  if (!has_demand(values))
     return widths;
   const std::vector<double> limited =
       GradientLimit<SphereNodes>(nodes, std::move(values), gradient).result();
@@ -382,6 +387,10 @@ Raster limit_gradient(const Raster& widths, double gradient, const Surface& surf
   require_kind(widths, surface);
   require_radius(radius_km);
   require_values(widths, "cell width", positive);
+  double most = 0;
+  for (const double width : widths.values.reshaped())
+    most = Widths::is_demand(width) ? std::max(most, width) : most;
+  require_ratio(most, widths.values.minCoeff());
   return widths.of_plane ? limited_in_plane(widths, gradient, surface)
                          : limited_on_sphere(widths, gradient, radius_km);
 }

@@ -119,7 +119,11 @@ void require_values(const Raster& raster, const std::string& name, const ValueLa
 
 void require_widths(const Raster& widths) {
   require_values(widths, "cell width", positive_and_finite);
-  if (widths.values.maxCoeff() > 1e30 * widths.values.minCoeff())
+  require_ratio(widths.values.maxCoeff(), widths.values.minCoeff());
+}
+
+void require_ratio(double most, double least) {
+  if (most > 1e30 * least)
     refuse_raster("cell width", "the widths differ by more than 1e30; give them in one unit");
 }
 

@@ -66,6 +66,8 @@ void require_raster(const Raster& raster, const std::string& name);
 void require_values(const Raster& raster, const std::string& name, const ValueLaw& law);
 /// The same of cell widths: > 0 and finite, max / min at most 1e30.
 void require_widths(const Raster& widths);
+/// \throws Error invalid_argument for widths whose ratio exceeds 1e30.
+void require_ratio(double most, double least);
 
 /// A raster prepared for repeated evaluation. On the sphere the first column is repeated at the
 /// end, and the rows at the poles have one value each.

@@ -119,6 +119,31 @@ Raster sample(const Widths& widths, const Surface& surface, double step) {
 
 namespace {
 
+[[noreturn]] void refuse_place(double x, double y, bool of_plane) {
+  base_detail::refuse("no rule gives a width at " +
+                      (of_plane ? "x " + shortly(x) + ", y " + shortly(y)
+                                : "longitude " + shortly(x) + ", latitude " + shortly(y)) +
+                      "; add one that holds everywhere, such as a number");
+}
+
+/// No node may lie in a surface that is smaller than a step; its corners do.
+/// \throws Error invalid_argument for one without a demand.
+void require_corners(const Widths& widths, const Surface& surface) {
+  if (widths.rule()->raster() != nullptr) // has widths everywhere
+    return;
+  for (const DoubleMatrix& ring : surface.rings()) {
+    const DoubleVector there = evaluate(widths, ring);
+    for (Eigen::Index i = 0; i < ring.cols(); ++i)
+      if (!Widths::is_demand(there[i])) {
+        if (!surface.is_sphere())
+          refuse_place(ring(0, i), ring(1, i), true);
+        const auto [longitude, latitude] =
+            base_detail::lonlat_of({ring(0, i), ring(1, i), ring(2, i)});
+        refuse_place(longitude, latitude, false);
+      }
+  }
+}
+
 /// Gives nodes outside a surface without a demand the largest width of the others.
 /// \throws Error invalid_argument for one inside.
 void fill_outside(Raster& raster, const Surface& surface) {
@@ -135,12 +160,10 @@ void fill_outside(Raster& raster, const Surface& surface) {
       if (Widths::is_demand(width))
         widest = std::max(widest, width);
       else if (is_inside(x, y))
-        base_detail::refuse("no rule gives a width at " +
-                            (raster.of_plane
-                                 ? "x " + shortly(x) + ", y " + shortly(y)
-                                 : "longitude " + shortly(x) + ", latitude " + shortly(y)) +
-                            "; add one that holds everywhere, such as a number");
+        refuse_place(x, y, raster.of_plane);
     }
+  if (widest == 0) // of a surface between the nodes
+    refuse_place(raster.x[0], raster.y[0], raster.of_plane);
   raster.values = raster.values.unaryExpr(
       [&](double width) { return Widths::is_demand(width) ? width : widest; });
 }
@@ -150,6 +173,7 @@ void fill_outside(Raster& raster, const Surface& surface) {
 
 Raster sampled(const Widths& widths, const Surface& surface, double step) {
   Raster raster = density_detail::sample(widths, surface, step);
+  density_detail::require_corners(widths, surface);
   density_detail::fill_outside(raster, surface);
   return raster;
 }

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace calotte::density_detail {

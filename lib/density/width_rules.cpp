@@ -292,7 +292,7 @@ public:
         widths[k] = Widths::is_demand(std::max(widths[k], others[k]))
                         ? widths[k] + t * (others[k] - widths[k])
                         : Widths::no_demand;
-      else if (t == 1)
+      else if (t >= 1)
         widths[k] = others[k];
     }
   }
@@ -433,9 +433,8 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
     return rule;
   if (Rule exact = rule->limited(gradient, radius_km))
     return exact;
-  require(
-      rule->space() != RuleSpace::plane,
-      "the gradient of such widths of a plane depends on the domain; limit that of their raster");
+  require(rule->space() != RuleSpace::plane, "the gradient of such widths of a plane depends on "
+                                             "the domain; limit that of all widths in it");
   const Raster nodes =
       with_cones(*rule, sample(*rule, step_for(*rule, radius_km)), gradient * radius_km);
   if (!Widths::is_demand(nodes.values.minCoeff()))
@@ -449,8 +448,8 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
 using namespace density_detail;
 
 Widths::Widths(double width) : Widths(for_any_radius(std::make_shared<ConstantRule>(width))) {}
-Widths::Widths(const Raster& raster)
-    : Widths(for_any_radius(std::make_shared<RasterRule>(raster))) {}
+Widths::Widths(Raster raster)
+    : Widths(for_any_radius(std::make_shared<RasterRule>(std::move(raster)))) {}
 Widths::Widths(std::shared_ptr<const WidthsOfRadius> rule, double radius_km)
     : rule_of_radius_(std::move(rule)), radius_km_(radius_km) {}
 

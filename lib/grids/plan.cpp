@@ -371,6 +371,7 @@ Schedule plan(Recipe recipe) {
   choose_stop(all);
   all.limited_area = false;
   all.walls = {};
+  all.resolution = schedule.density;
   const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
   const CvtOptions options = options_of(schedule, first.bisections);

@@ -12,7 +12,6 @@
 #include <calotte/write.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -132,6 +132,18 @@ TEST_CASE("widths of a plane: the raster covers the domain and has the rule's va
   CHECK(sampled(rule, lake, 2.5).x.size() == 9);
 }
 
+TEST_CASE("widths of a plane: a limit in a domain without a demand is refused, not an accident") {
+  const Widths outside = Widths::around({line_of({{100, 100}})}, 0.5, 2, lake);
+  for (const Surface& plane : {lake, Surface::periodic({20, 10})})
+    CHECK(message_of([&] {
+            outside.limit_gradient(0.1, plane);
+          }).find("no rule gives a width at x ") == 0);
+  const Widths rock = Widths::around({line_of({{10, 5}})}, 0.5, 2, lake);
+  const Widths limited = rock.limit_gradient(0.1, lake);
+  CHECK(evaluate(limited, Points2{{10}, {5}})[0] == doctest::Approx(0.5));
+  CHECK(evaluate(limited, Points2{{17}, {5}})[0] == doctest::Approx(1).epsilon(0.02));
+}
+
 TEST_CASE("widths of a plane: what does not fit is refused in one line") {
   const Widths plane = Widths::by_distance({line_of({{1, 1}})}, {{{0, 1}, {5, 2}}}, lake),
                sphere = Widths::by_latitude({{{-90, 1}, {90, 2}}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/clouds.h"
 #include "support/directions.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/random.h"
 
@@ -238,6 +239,26 @@ TEST_CASE("a raster of widths has the same bits for any number of threads") {
   CHECK(sampled(widths).x.size() == 402); // 100 km are 0.899 degrees
 }
 
+TEST_CASE("the slope of a flat sea floor demands nothing") {
+  Raster flat{DoubleVector::LinSpaced(8, -180, 135), DoubleVector::LinSpaced(5, -90, 90),
+              DoubleMatrix::Constant(8, 5, -4000)};
+  const Widths rule =
+      Widths::by_depth(flat, {.kind = DepthRule::Kind::slope, .cells = 4, .least = 3});
+  CHECK(evaluate(rule, directions({{10, 20}}))[0] == Widths::no_demand);
+  CHECK(evaluate(Widths::minimum({rule, 60}), directions({{10, 20}}))[0] == 60);
+}
+
+TEST_CASE("a place without a width is refused, also where no node lies in the surface") {
+  const Widths far = Widths::around({directions({{100, 50}})}, 20, 300);
+  const Surface small = circle({1, 0.003, 0.003}, 1e-4, 8);
+  for (const Widths& silent : {Widths(Widths::no_demand), far})
+    for (const Surface& surface : {small, Surface::sphere()})
+      CHECK(test::message_of([&] {
+              sampled(silent, surface);
+            }).find("no rule gives a width at longitude ") == 0);
+  CHECK(sampled(far.limit_gradient(0.03), small).values.minCoeff() > 19);
+}
+
 TEST_CASE("widths that are none are refused by name") {
   const auto message = [](const auto& make) { return std::string(error_of(make).what()); };
   CHECK(message([] { Widths(-1.0); }) == "the cell width -1 is not a positive number; give one");
@@ -251,7 +272,8 @@ TEST_CASE("widths that are none are refused by name") {
         }) == "node 1 of a profile of the latitude is not above the one before; sort them");
   CHECK(message([] {
           Widths::by_distance({directions({{0, 0}})}, {{{0, 0}}});
-        }) == "node 0 of a profile of a distance has the width 0, which is not positive and finite; correct it");
+        }) == "node 0 of a profile of a distance has the width 0, which is not positive and "
+              "finite; correct it");
   CHECK(message([] {
           Widths::by_distance({}, {{{0, 1}}});
         }) == "there is no line to be distant from; give one or more points");
@@ -262,7 +284,8 @@ TEST_CASE("widths that are none are refused by name") {
   const Surface region = circle({1, 0, 0}, 0.5);
   CHECK(message([&] {
           Share(region, {{{0, 1}, {9, -1}}});
-        }) == "node 1 of a profile of a distance has the share -1, which is not a fraction from 0 to 1; correct it");
+        }) == "node 1 of a profile of a distance has the share -1, which is not a fraction from 0 "
+              "to 1; correct it");
   CHECK(message([] {
           Share(Surface::sphere(), {{{0, 1}, {9, 0}}});
         }) == "a surface without a boundary has none to be distant from; give a region");

@@ -182,6 +182,5 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
 --cells 100 -o same.png --report same.png | 2 | same.png is both picture and report; give the report another name
 -o widths.png --cell-width metres.msh | 2 | the widths require 0.654413 cells, but a grid has 12 to 1073741824
 -o widths.png --cell-width alone.toml | 2 | no rule gives a width at longitude -180, latitude -90; add one that holds everywhere
---o widths.png --cell-width alone.toml | 2 | no rule gives a width at longitude -180, latitude -90; add one that holds everywhere
 )");
 }

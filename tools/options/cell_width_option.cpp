@@ -184,7 +184,7 @@ WidthRules read_widths(const WidthWords& words, const Surface& surface) {
   read.widths = read.widths.on_sphere(words.radius);
   if (words.gradient && !words.uniform) {
     read.widths = read.widths.limit_gradient(*words.gradient, surface);
-    read.gradient = words.gradient;
+    read.gradient = std::min(*words.gradient, read.gradient.value_or(*words.gradient));
   }
   return read;
 }

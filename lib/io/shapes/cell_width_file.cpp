@@ -17,8 +17,9 @@ namespace calotte {
 Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
                        const Surface& surface) {
   if (holds_rules(path))
-    return io_detail::named(path,
-                            [&] { return sampled(read_widths(path, polygons, surface), surface); });
+    return io_detail::named(path, [&, widths = read_widths(path, polygons, surface)] {
+      return sampled(widths, surface);
+    });
   const std::string suffix = io_detail::suffix_of(path);
   if (suffix == ".nc")
     return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});

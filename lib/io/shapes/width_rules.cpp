@@ -296,7 +296,8 @@ private:
       for (const toml::node& item : *list) {
         if (const toml::table* const inner = item.as_table())
           parts.push_back(rule_of(*inner));
-        else if (const std::optional<double> width = item.value<double>())
+        else if (const std::optional<double> width = item.value<double>();
+                 width && std::isfinite(*width))
           parts.push_back(table.made([&] { return Widths(*width); }));
         else
           table.refuse(key, "holds something else than rules; give [{...}, {...}]");
