@@ -52,7 +52,7 @@ struct Density {
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
-  Kind kind = Kind::uniform; ///< what determines the density
+  Kind kind = Kind::uniform;    ///< what determines the density
   std::vector<Bump> bumps = {}; ///< combined by maximum or sum, of which there is one at least
   /// Of Kind::widths, as density_of() makes them; no effect for other kinds.
   std::shared_ptr<const density_detail::WidthDensity> widths = {};

@@ -130,8 +130,8 @@ struct Recipe {
 /// What follows from a recipe before any generator moves.
 struct Schedule {
   /// The recipe with its choices made: the number of cells, the surface that the run covers, the
-  /// fixed generators with those on lines and on the boundary, the kind of start, its rounds, the end,
-  /// and as the resolution the density.
+  /// fixed generators with those on lines and on the boundary, the kind of start, its rounds, the
+  /// end, and as the resolution the density.
   Recipe recipe;
   Density density;                          ///< that the run follows, on its surface
   std::optional<Raster> widths;             ///< that give it, as sampled() makes them; none without

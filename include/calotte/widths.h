@@ -248,7 +248,7 @@ Ids active_rules(const Widths& minimum, const PointsRef& places);
 /// The widths at the nodes of a regular raster: of the sphere, with nodes at the poles; of a plane,
 /// over the box around its boundary or over its periods. Nodes outside a bounded surface without a
 /// demand have the largest width of the others. Widths that are a raster have its nodes, without a
-/// step.
+/// step, and a number two nodes in each direction that cover any surface.
 /// \param surface the sphere, a part of it, or a plane of finite area.
 /// \param step largest distance of rows and of columns: 0.01 to 10 degrees; in a plane > 0, for at
 ///        most 20 million nodes. Default 0: their own, see Widths::with_step(), or that of the
