@@ -126,11 +126,8 @@ namespace {
                       "; add one that holds everywhere, such as a number");
 }
 
-/// No node may lie in a surface that is smaller than a step; its corners do.
-/// \throws Error invalid_argument for one without a demand.
+/// \throws Error invalid_argument for a corner of the surface without a demand.
 void require_corners(const Widths& widths, const Surface& surface) {
-  if (widths.rule()->raster() != nullptr) // has widths everywhere
-    return;
   for (const DoubleMatrix& ring : surface.rings()) {
     const DoubleVector there = evaluate(widths, ring);
     for (Eigen::Index i = 0; i < ring.cols(); ++i)
@@ -145,8 +142,10 @@ void require_corners(const Widths& widths, const Surface& surface) {
 }
 
 /// Gives nodes outside a surface without a demand the largest width of the others.
-/// \throws Error invalid_argument for one inside.
-void fill_outside(Raster& raster, const Surface& surface) {
+/// \throws Error invalid_argument for one inside; where none is inside, for a corner.
+void fill_outside(const Widths& widths, const Surface& surface, Raster& raster) {
+  if (raster.values.allFinite())
+    return;
   const auto is_inside = [&](double x, double y) {
     if (!surface.is_bounded())
       return true;
@@ -154,15 +153,22 @@ void fill_outside(Raster& raster, const Surface& surface) {
     return surface.contains({at.x, at.y, at.z});
   };
   double widest = 0;
+  bool has_node = false; // inside
   for (Eigen::Index j = 0; j < raster.y.size(); ++j)
     for (Eigen::Index i = 0; i < raster.x.size(); ++i) {
       const double width = raster.values(i, j), x = raster.x[i], y = raster.y[j];
-      if (Widths::is_demand(width))
+      const bool asks = Widths::is_demand(width);
+      if (asks)
         widest = std::max(widest, width);
-      else if (is_inside(x, y))
+      if ((asks && has_node) || !is_inside(x, y))
+        continue;
+      if (!asks)
         refuse_place(x, y, raster.of_plane);
+      has_node = true;
     }
-  if (widest == 0) // of a surface between the nodes
+  if (!has_node)
+    require_corners(widths, surface);
+  if (widest == 0) // all of the surface lies between nodes
     refuse_place(raster.x[0], raster.y[0], raster.of_plane);
   raster.values = raster.values.unaryExpr(
       [&](double width) { return Widths::is_demand(width) ? width : widest; });
@@ -173,8 +179,7 @@ void fill_outside(Raster& raster, const Surface& surface) {
 
 Raster sampled(const Widths& widths, const Surface& surface, double step) {
   Raster raster = density_detail::sample(widths, surface, step);
-  density_detail::require_corners(widths, surface);
-  density_detail::fill_outside(raster, surface);
+  density_detail::fill_outside(widths, surface, raster);
   return raster;
 }
 
@@ -188,11 +193,11 @@ Widths Widths::with_step(double step) const {
 }
 
 Widths Widths::limit_gradient(double gradient, const Surface& surface) const {
-  if (surface.is_sphere())
+  if (surface.is_sphere() || rule_of_radius_->space() == density_detail::RuleSpace::any)
     return limit_gradient(gradient);
   Raster raster =
       calotte::limit_gradient(density_detail::sample(*this, surface, 0), gradient, surface);
-  density_detail::fill_outside(raster, surface);
+  density_detail::fill_outside(*this, surface, raster);
   return raster;
 }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -21,18 +22,24 @@ using base_detail::Vec3;
 
 /// Rows of places from pole to pole, each at the same longitudes.
 struct PlaceRows {
+  PlaceRows(std::vector<double> of_columns, std::vector<double> of_rows)
+      : longitudes(std::move(of_columns)), latitudes(std::move(of_rows)) {
+    for (const double longitude : longitudes)
+      round.push_back(base_detail::from_lonlat(longitude, 0));
+  }
   std::vector<double> longitudes, latitudes; ///< degrees, latitudes ascending
+  std::vector<Vec3> round;                   ///< the longitudes on the equator
 };
 
 PlaceRows rows_of(const RasterField& field) {
   constexpr double degrees = 180 / std::numbers::pi;
-  PlaceRows rows;
+  std::vector<double> longitudes, latitudes;
   const Axis &x = field.x(), &y = field.y();
   for (std::int64_t i = 0; i < x.intervals(); ++i) // the last node repeats the first
-    rows.longitudes.push_back(x[i] * degrees);
+    longitudes.push_back(x[i] * degrees);
   for (std::int64_t j = 0; j <= y.intervals(); ++j)
-    rows.latitudes.push_back(y[j] * degrees);
-  return rows;
+    latitudes.push_back(y[j] * degrees);
+  return {std::move(longitudes), std::move(latitudes)};
 }
 
 /// A raster `parts` times as fine.
@@ -56,8 +63,9 @@ void lower_row(const WidthRule& rule, const PlaceRows& places, double gradient, 
   std::vector<double> widths(places.longitudes.size());
   std::vector<Vec3> row(widths.size());
   for (auto at = first; at != last; ++at) {
+    const Vec3 meridian = base_detail::from_lonlat(0, *at);
     for (std::size_t k = 0; k < row.size(); ++k)
-      row[k] = base_detail::from_lonlat(places.longitudes[k], *at);
+      row[k] = {meridian.x * places.round[k].x, meridian.x * places.round[k].y, meridian.z};
     rule.evaluate(row, widths);
     for (std::size_t k = 0; k < widths.size(); ++k) {
       const double longitude = places.longitudes[k];

@@ -23,19 +23,34 @@ namespace calotte::density_detail {
 /// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
 
-/// A width for every place, or Widths::no_demand. Immutable.
-class WidthRule {
+/// A value for every place. Immutable.
+class PlaceRule {
 public:
-  explicit WidthRule(RuleSpace space = RuleSpace::sphere) : space_(space) {}
-  WidthRule(const WidthRule&) = delete;
-  WidthRule& operator=(const WidthRule&) = delete;
-  virtual ~WidthRule() = default;
+  explicit PlaceRule(RuleSpace space) : space_(space) {}
+  PlaceRule(const PlaceRule&) = delete;
+  PlaceRule& operator=(const PlaceRule&) = delete;
+  virtual ~PlaceRule() = default;
 
   RuleSpace space() const { return space_; }
 
   /// \param places unit vectors, in a plane x y 0. Where each lies next to the one before, it takes
   /// less time.
-  virtual void evaluate(std::span<const Vec3> places, std::span<double> widths) const = 0;
+  virtual void evaluate(std::span<const Vec3> places, std::span<double> values) const = 0;
+
+private:
+  RuleSpace space_;
+};
+
+/// A share from 0 to 1.
+class ShareRule : public PlaceRule {
+public:
+  using PlaceRule::PlaceRule;
+};
+
+/// A width, or Widths::no_demand.
+class WidthRule : public PlaceRule {
+public:
+  explicit WidthRule(RuleSpace space = RuleSpace::sphere) : PlaceRule(space) {}
 
   /// By place the part of a minimum that is the least, by index; 0 of other rules.
   virtual void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const;
@@ -51,24 +66,6 @@ public:
 
   /// The rule with a limited gradient if no other raster is needed for that; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const;
-
-private:
-  RuleSpace space_;
-};
-
-/// A share from 0 to 1 for every place. Immutable.
-class ShareRule {
-public:
-  explicit ShareRule(RuleSpace space) : space_(space) {}
-  ShareRule(const ShareRule&) = delete;
-  ShareRule& operator=(const ShareRule&) = delete;
-  virtual ~ShareRule() = default;
-
-  RuleSpace space() const { return space_; }
-  virtual void evaluate(std::span<const Vec3> places, std::span<double> shares) const = 0;
-
-private:
-  RuleSpace space_;
 };
 
 /// A rule of widths or of shares as a function of the radius of its sphere. What it makes for a

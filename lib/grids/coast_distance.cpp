@@ -18,7 +18,8 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
   constexpr double farthest = density_detail::farthest_on_sphere;
   const bool both = side == CoastSide::both;
   const density_detail::ProfileCurve curve(profile, "a distance", both ? -farthest : 0, farthest);
-  return both ? curve : curve.within(0, std::numeric_limits<double>::infinity());
+  constexpr double rounding = 1e-6; // km: the shore itself is of both sides
+  return both ? curve : curve.within(-rounding, std::numeric_limits<double>::infinity());
 }
 
 } // namespace

@@ -138,6 +138,7 @@ TEST_CASE("widths of a plane: a limit in a domain without a demand is refused, n
     CHECK(message_of([&] {
             outside.limit_gradient(0.1, plane);
           }).find("no rule gives a width at x ") == 0);
+  CHECK(evaluate(Widths(3.0).limit_gradient(0.1, lake), Points2{{1}, {2}})[0] == 3);
   const Widths rock = Widths::around({line_of({{10, 5}})}, 0.5, 2, lake);
   const Widths limited = rock.limit_gradient(0.1, lake);
   CHECK(evaluate(limited, Points2{{10}, {5}})[0] == doctest::Approx(0.5));

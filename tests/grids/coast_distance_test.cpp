@@ -67,6 +67,9 @@ TEST_CASE("one side of a coast says nothing of the other") {
   CHECK((sea.cwiseMin(land) - either).cwiseAbs().maxCoeff() < 1e-12);
   CHECK(((sea.array() < Widths::no_demand) == (away.array() >= 0)).all());
   CHECK(((land.array() < Widths::no_demand) == (away.array() < 0)).all());
+  const std::vector<Points3> rings = shores(coast); // the shore is of both
+  for (const CoastSide side : {CoastSide::sea, CoastSide::land})
+    CHECK(evaluate(Widths::by_coast(coast, grows, side), rings.front()).allFinite());
   const double part = (away.array() < 0).cast<double>().mean();
   CHECK(part == doctest::Approx(coast.area / (4 * std::numbers::pi)).epsilon(0.03));
   // Limited, the width grows inland from that of the shore.

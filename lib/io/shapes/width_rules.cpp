@@ -160,7 +160,8 @@ public:
                       ": a file of widths has one table, [cell-width]; see calotte help widths");
     WidthRules rules;
     rules.widths = rule_of(*table, &rules);
-    rules.names = names_of(*table);
+    if (surface_.is_sphere() || !rules.gradient) // else they are one raster
+      rules.names = names_of(*table);
     return rules;
   }
 
