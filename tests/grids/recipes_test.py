@@ -64,9 +64,7 @@ def program(path):
 
 
 def write_inputs(scratch):
-    """The files that the command takes, and rules.toml, which C takes, too."""
-    import netCDF4
-
+    """The texts that callers take: C reads rules.toml, the command all of them."""
     (scratch / "line.geojson").write_text(
         '{"type": "LineString", "coordinates": [[10, -20], [40, 30]]}')
     (scratch / "rules.toml").write_text("""[cell-width]
@@ -74,10 +72,20 @@ gradient = 0.1
 min = [{latitude = [[-90, 900], [0, 700], [90, 900]]},
        {distance-to = "line.geojson", near = 300, far = 900, over = 4000}]
 """)
-
     for name, ring in (("region", REGION), ("small", SMALL)):
         (scratch / f"{name}.geojson").write_text(
             json.dumps({"type": "Polygon", "coordinates": [[*ring, ring[0]]]}))
+    (scratch / "fixed.txt").write_text("1 0 0\n0 1 0\n0 0.6 0.8\n")
+    i = np.arange(100)[:, np.newaxis]
+    modulus = np.array([101, 103, 107])
+    start = ((i * [37, 59, 71] + [11, 5, 17]) % modulus - modulus // 2) / 8
+    (scratch / "start.txt").write_text("".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in start.tolist()))
+
+
+def write_raster(scratch):
+    """The raster of widths, which the command alone takes as a file."""
+    import netCDF4
+
     with netCDF4.Dataset(scratch / "widths.nc", "w") as file:
         for name, values in (("lat", [-60, 0, 60]), ("lon", [0, 90, 180, 270])):
             file.createDimension(name, len(values))
@@ -85,11 +93,6 @@ min = [{latitude = [[-90, 900], [0, 700], [90, 900]]},
         width = file.createVariable("cellWidth", "f8", ("lat", "lon"))
         width.units = "km"
         width[:] = [[1200, 1000, 1100, 1300], [900, 800, 1000, 1200], [1100, 900, 1000, 1400]]
-    (scratch / "fixed.txt").write_text("1 0 0\n0 1 0\n0 0.6 0.8\n")
-    i = np.arange(100)[:, np.newaxis]
-    modulus = np.array([101, 103, 107])
-    start = ((i * [37, 59, 71] + [11, 5, 17]) % modulus - modulus // 2) / 8
-    (scratch / "start.txt").write_text("".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in start.tolist()))
 
 
 def points_of(path):
@@ -151,8 +154,9 @@ def main(scratch, *words):
     for word in words:
         name, path = word.split("=", 1)
         callers[name] = command(path) if name == "command" else program(path)
+    write_inputs(scratch)
     if "command" in callers:
-        write_inputs(scratch)
+        write_raster(scratch)
     differences = sum(differs(request, scratch, callers) for request in REQUESTS)
     print(f"{len(REQUESTS)} requests, {len(callers)} callers, {differences} differences")
     return differences > 0
