@@ -223,11 +223,10 @@ SphereField field_of(const DrawArguments& arguments) {
   const std::string title = title_of(*arguments.density);
   const bool asked = arguments.colour->count() > 0;
   const bool density_asked = asked && arguments.options.colouring == Colouring::density;
-  if (resolution.widths && !resolution.widths->of_plane && !density_asked) {
-    const DoubleMatrix& widths = resolution.widths->values;
-    return {spacings_by(density, widths.minCoeff()),
-            title + ", " + range_text(widths.minCoeff(), widths.maxCoeff(), "km"),
-            "cell width, km"};
+  if (resolution.widths && !resolution.widths->of_plane() && !density_asked) {
+    const WidthField& widths = *resolution.widths;
+    return {spacings_by(density, widths.least()),
+            title + ", " + range_text(widths.least(), widths.greatest(), "km"), "cell width, km"};
   }
   if (asked && !density_asked) {
     return {spacings_by(density, 1), title, "spacing by the density, over that where it is 1"};

@@ -89,19 +89,17 @@ PlanInput input_of(const PlanRequest& request) {
   return input;
 }
 
-/// Widths in km: on the whole sphere all quantities follow from the file's nodes.
+/// Widths in km: on the whole sphere all quantities follow from their nodes.
 SpacingSurvey survey(const Schedule& schedule, double factor, const WidthWords& words,
                      std::optional<double> limit) {
   const Recipe& made = schedule.recipe;
   if (!schedule.widths)
     return survey_spacing(schedule.density, made.cells, made.surface);
-  Raster scaled = *schedule.widths;
-  scaled.values *= factor;
-  const double least = scaled.values.minCoeff() / made.radius_km;
+  const WidthField& widths = *schedule.widths;
+  const double scale = factor / made.radius_km, least = widths.least() * scale;
   if (made.surface.is_bounded())
     return survey_spacing(schedule.density, made.cells, made.surface, least);
-  return {least, least, scaled.values.maxCoeff() / made.radius_km,
-          steepest_of(scaled, words, limit, factor)};
+  return {least, least, widths.greatest() * scale, steepest_of(widths, words, limit, factor)};
 }
 
 Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule& schedule) {
@@ -279,6 +277,11 @@ void require_request(const PlanRequest& request) {
       {widths.file, widths.raster, shape ? "" : request.part.region});
 }
 
+/// The raster of a recipe's widths.
+Raster sampled_widths(const Recipe& recipe) {
+  return sampled(std::get<Widths>(recipe.resolution).on_sphere(recipe.radius_km), recipe.surface);
+}
+
 /// Writes the picture and the report, too.
 Plan make_plan(const PlanRequest& request) {
   Progress progress;
@@ -295,7 +298,7 @@ Plan make_plan(const PlanRequest& request) {
     if (!request.picture.empty())
       draw_widths(request, schedule.density, plan);
     if (!request.raster.empty())
-      calotte::write(request.raster, *schedule.widths);
+      calotte::write(request.raster, sampled_widths(input.recipe));
   });
   if (!request.report.empty())
     write_file(request.report, to_json(plan));

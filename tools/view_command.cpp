@@ -157,7 +157,7 @@ ViewPage view_of_plan(const ViewRequest& request) {
   if (widths.in_km())
     radius = widths.radius;
   const double unit = resolution.widths && !request.cells
-                          ? resolution.widths->values.minCoeff() / widths.radius
+                          ? resolution.widths->least() / widths.radius
                           : survey_spacing(resolution.density, *request.cells).unit;
   view.meshes.push_back(view_plan(view.title, resolution.density, unit, radius));
   view.coastlines = shows_coastlines(request.coastlines, radius);

@@ -8,6 +8,7 @@
 #include <calotte/types.h>
 
 #include <cstdint>
+#include <memory>
 
 CALOTTE_API_BEGIN
 namespace calotte {
@@ -15,27 +16,51 @@ namespace calotte {
 /// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
+/// Cell widths h at nodes that are prepared to be asked for at any place: those of a raster, or of
+/// rules, see width_field(). They are distances between the centres of neighbouring cells, here and
+/// below in km, in a plane in its unit. A value that is cheap to copy.
+class WidthField {
+public:
+  /// \param widths > 0 and finite, max / min at most 1e30.
+  /// \throws Error invalid_argument if they violate these conditions or those of Raster.
+  WidthField(const Raster& widths); // NOLINT(google-explicit-constructor): a raster is a field
+  /// Of a field of the library itself.
+  explicit WidthField(std::shared_ptr<const density_detail::SampledWidths> widths);
+
+  double least() const;       ///< of the nodes
+  double greatest() const;    ///< of the nodes
+  std::int64_t nodes() const; ///< their number
+  bool of_plane() const;
+
+  /// What copies share.
+  const std::shared_ptr<const density_detail::SampledWidths>& sampled() const { return sampled_; }
+
+private:
+  std::shared_ptr<const density_detail::SampledWidths> sampled_;
+};
+
+/// The widths at n places.
+/// \param places 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
+/// \throws Error invalid_argument for another number of rows, and for a direction that is none.
+DoubleVector evaluate(const WidthField& widths, const PointsRef& places);
+
 /// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
 /// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
 /// It returns the same bits for any number of threads and on every x86-64 machine. Widths of one
 /// size give a uniform density.
-/// \param widths distances between the centres of neighbouring cells, here and below in km, in a
-///        plane in its unit: > 0 and finite, max / min at most 1e30.
-/// \throws Error invalid_argument if the widths violate these conditions or those of Raster.
-Density density_of(const Raster& widths);
+Density density_of(const WidthField& widths);
 
 /// Relative widths rho^(-1/4), of which the least is 1, of a density at nodes.
-/// \throws Error invalid_argument as density_of().
+/// \throws Error invalid_argument as WidthField.
 Raster widths_of_density(const Raster& density);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the surface. A
 /// regular hexagon of width h has the area sqrt(3)/2 h^2. Over a part of the sphere or the plane
 /// within about 0.2%, as a mean over 2^18 random points.
-/// \param surface of the kind of the raster; a plane with rings or two periods.
+/// \param surface of the kind of the widths; a plane with rings or two periods.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
-/// \throws Error as density_of; invalid_argument for a radius out of range, and for another
-/// surface.
-double implied_cells(const Raster& widths, const Surface& surface = {},
+/// \throws Error invalid_argument for a radius out of range, and for another surface.
+double implied_cells(const WidthField& widths, const Surface& surface = {},
                      double radius_km = earth_radius_km);
 
 /// Throws unless the nodes cover the sphere, or a part of it or of the plane. At the boundary of a
@@ -62,9 +87,8 @@ inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; 
 /// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
 /// sampled.) Most models need a value below steepest_width.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
-/// \throws Error as density_of; invalid_argument for a radius out of range, and a raster of a
-/// plane.
-Gradient largest_gradient(const Raster& widths, double radius_km = earth_radius_km);
+/// \throws Error invalid_argument for a radius out of range, and for widths of a plane.
+Gradient largest_gradient(const WidthField& widths, double radius_km = earth_radius_km);
 
 /// The largest widths that are nowhere above the given ones, and change by at most g km per km, in
 /// a plane by g per unit of length, between any two nodes: the least of h(y) + g d(x, y) over all
@@ -77,8 +101,8 @@ Gradient largest_gradient(const Raster& widths, double radius_km = earth_radius_
 /// \param gradient g, > 0 and finite.
 /// \param surface the sphere, whose boundary has no effect, or a plane.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
-/// \param widths as for density_of(), or infinite where there is no demand.
-/// \throws Error as density_of; invalid_argument for a gradient or a radius out of range, and for a
+/// \param widths as for WidthField, or infinite where there is no demand.
+/// \throws Error as WidthField; invalid_argument for a gradient or a radius out of range, and for a
 ///         surface of another kind than the raster.
 Raster limit_gradient(const Raster& widths, double gradient, const Surface& surface = {},
                       double radius_km = earth_radius_km);

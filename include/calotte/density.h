@@ -36,7 +36,7 @@ struct Bump {
 };
 
 namespace density_detail {
-class WidthDensity;
+class SampledWidths;
 }
 
 /// A density rho >= 0 on the unit sphere or in the plane: uniform, one or more bumps, that of cell
@@ -55,7 +55,7 @@ struct Density {
   Kind kind = Kind::uniform;    ///< what determines the density
   std::vector<Bump> bumps = {}; ///< combined by maximum or sum, of which there is one at least
   /// Of Kind::widths, as density_of() makes them; no effect for other kinds.
-  std::shared_ptr<const density_detail::WidthDensity> widths = {};
+  std::shared_ptr<const density_detail::SampledWidths> widths = {};
   Callable callable = {}; ///< not empty for Kind::callable; no effect for other kinds
 
   /// True if the density is 1 everywhere.

@@ -134,7 +134,7 @@ struct Schedule {
   /// end, and as the resolution the density.
   Recipe recipe;
   Density density;                          ///< that the run follows, on its surface
-  std::optional<Raster> widths;             ///< that give it, as sampled() makes them; none without
+  std::optional<WidthField> widths;         ///< that give it, see width_field(); none without
   Start::Kind first = Start::Kind::density; ///< how the points of the first level are made
   std::vector<CvtLevel> levels;             ///< from the coarsest to that of the result
   double implied_cells = 0;                 ///< by the widths; 0 without
@@ -146,8 +146,8 @@ struct Schedule {
 /// Makes all choices of a recipe.
 /// \throws Error invalid_argument, with what is out of range or does not fit together, and the
 ///         remedy; with the index of a fixed generator that leaves no free one; naming a place
-///         without a width. As sampled(), implied_cells(), require_covering(), with_rings(),
-///         boundary_points(), line_points() and evaluate().
+///         without a width. As width_field(), implied_cells(), with_rings(), boundary_points(),
+///         line_points() and evaluate().
 Schedule plan(Recipe recipe);
 
 /// What affects a run's course, but not its result, and where it goes on.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/cell_width.h>
 #include <calotte/export.h>
 #include <calotte/surface.h>
 #include <calotte/voronoi.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 #include <vector>
@@ -44,11 +44,10 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 /// cells more, so that the outermost ring has whole cells. The whole sphere where that is larger
 /// than widened() allows.
 /// \param surface a region of the sphere.
-/// \param widths of the sphere, km, see density_of(const Raster&).
-/// \param radius_km radius of the sphere of the widths.
-/// \throws Error as widened() and density_of(); invalid_argument for a plane.
-Surface with_rings(const Surface& surface, const Raster& widths,
-                   double radius_km = earth_radius_km);
+/// \param widths of the sphere.
+/// \throws Error as widened() and evaluate(); invalid_argument for a plane, and naming a place on
+///         the boundary, or within reach of the rings, where no rule gives a width.
+Surface with_rings(const Surface& surface, const Widths& widths);
 
 } // namespace calotte
 CALOTTE_API_END

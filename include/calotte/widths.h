@@ -101,7 +101,7 @@ public:
   /// One width everywhere, or no_demand.
   /// \throws Error invalid_argument unless it is > 0.
   Widths(double width); // NOLINT(google-explicit-constructor): a number is a rule
-  /// Those of a raster. \throws Error invalid_argument as density_of().
+  /// Those of a raster. \throws Error invalid_argument as WidthField.
   Widths(Raster raster); // NOLINT(google-explicit-constructor)
   /// Of a rule of the library itself.
   explicit Widths(std::shared_ptr<const density_detail::OfRadius<density_detail::WidthRule>> rule,
@@ -244,6 +244,18 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 /// \param places as for evaluate().
 /// \throws Error as there.
 Ids active_rules(const Widths& minimum, const PointsRef& places);
+
+/// The widths as a run takes them: of rules at nodes that are at most the least width around them
+/// apart. They lie on tiles of one degree, in a plane of a 64th of its box. Each tile is divided by
+/// powers of two, up to 1024, and not at all where its widths differ by less than 1/1000. Between
+/// nodes widths are bilinear, and they are continuous from tile to tile. Where widths change by at
+/// most g km per km, they err by at most 1.3 g times the width. Of more than forty million nodes
+/// the densest are thinned. Outside a bounded surface nodes lie at corners of tiles only; without a
+/// demand they have the largest width of the others. Widths that are a raster keep its nodes.
+///
+/// \param surface the sphere, a part of it, or a plane of finite area.
+/// \throws Error as sampled() and require_covering().
+WidthField width_field(const Widths& widths, const Surface& surface = {});
 
 /// The widths at the nodes of a regular raster: of the sphere, with nodes at the poles; of a plane,
 /// over the box around its boundary or over its periods. Nodes outside a bounded surface without a

@@ -38,7 +38,7 @@ void write_parts(const std::string& path, const Ids& part);
 /// Writes cell widths as read_cell_width() reads them, to the bit: NetCDF (.nc), or JIGSAW's
 /// ELLIPSOID-GRID (.msh), whose angles in radians round.
 /// \param widths of the sphere, km.
-/// \throws Error invalid_argument as density_of(), for a raster of a plane or another suffix; file.
+/// \throws Error invalid_argument as WidthField, for a raster of a plane or another suffix; file.
 void write(const std::string& path, const Raster& widths);
 
 /// The format of a mesh file. "Cells" are Voronoi cells, "triangles" Delaunay triangles.

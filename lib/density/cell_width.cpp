@@ -9,6 +9,7 @@
 #include "base/require.h"
 #include "density/raster_field.h"
 #include "density/sampling.h"
+#include "density/width_samples.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 
@@ -17,8 +18,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,11 +33,14 @@ using base_detail::shortly;
 using density_detail::RasterField;
 using density_detail::require_kind;
 using density_detail::require_radius;
+using density_detail::SampledWidths;
+using density_detail::WidthTiles;
 
 /// The integral of 1/h^2 over the boxes between rows j and j + 1 of the unit sphere. Along a
 /// parallel h is linear in a box, so that the integral is the box's length over the product of the
 /// ends; across, Gauss' rule in the sine of the latitude, in which areas are uniform.
-double integral_of_row(const RasterField& field, std::int64_t j) {
+/// \tparam Field a RasterField, or a tile.
+template <class Field> double integral_of_row(const Field& field, std::int64_t j) {
   constexpr std::array nodes{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                              0.8611363115940526};
   constexpr std::array weights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
@@ -56,8 +62,8 @@ double integral_of_row(const RasterField& field, std::int64_t j) {
 }
 
 struct Corner {
-  double square = -1; ///< of the slope, per radian
-  std::int64_t i = 0, j = 0;
+  double square = -1;  ///< of the slope, per radian
+  double x = 0, y = 0; ///< radians
 };
 
 /// How far from the end of an interval the middle of a cell is: half of its width, as a part of the
@@ -69,7 +75,7 @@ double middle_of_cell(double width, double interval) {
 /// The steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
 /// longitude and dh/dlon linear in latitude, so that the mean over the cell in a corner is the
 /// value at its middle. \param radians of a width of 1.
-Corner steepest_of_row(const RasterField& field, std::int64_t j, double radians) {
+template <class Field> Corner steepest_of_row(const Field& field, std::int64_t j, double radians) {
   const double height = field.y()[j + 1] - field.y()[j];
   Corner steepest;
   for (std::int64_t i = 0; i < field.x().intervals(); ++i) {
@@ -88,27 +94,43 @@ Corner steepest_of_row(const RasterField& field, std::int64_t j, double radians)
         const double dx = (south + v * (north - south)) / (length * cosine),
                      dy = (west + u * (east - west)) / height;
         if (const double square = dx * dx + dy * dy; square > steepest.square)
-          steepest = {square, column, row};
+          steepest = {square, field.x()[column], field.y()[row]};
       }
   }
   return steepest;
 }
 
-CALOTTE_VECTOR_WIDTHS
-void densities_of_widths(double least, std::size_t count, double* values) {
-  CALOTTE_VECTOR_LOOP
-  for (std::size_t k = 0; k < count; ++k) {
-    const double ratio = least / values[k], square = ratio * ratio;
-    values[k] = square * square;
-  }
+/// of_row(field, j) of the rows of boxes of a field, joined in their order: of a raster's rows one
+/// by one, of tiles each tile's first.
+template <class Value, class OfRow, class Join>
+Value joined_rows(const RasterField& field, const Value& none, const OfRow& of_row,
+                  const Join& join) {
+  std::vector<Value> rows(static_cast<std::size_t>(field.y().intervals()));
+  base_detail::for_each_task(std::ssize(rows), [&](std::int64_t j) {
+    rows[static_cast<std::size_t>(j)] = of_row(field, j);
+  });
+  return std::accumulate(rows.begin(), rows.end(), none, join);
+}
+
+template <class Value, class OfRow, class Join>
+Value joined_rows(const WidthTiles& tiles, const Value& none, const OfRow& of_row,
+                  const Join& join) {
+  std::vector<Value> all(static_cast<std::size_t>(tiles.size()), none);
+  base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
+    const WidthTiles::Tile tile = tiles[k];
+    Value& value = all[static_cast<std::size_t>(k)];
+    for (std::int64_t j = 0; j < tile.y().intervals(); ++j)
+      value = join(value, of_row(tile, j));
+  });
+  return std::accumulate(all.begin(), all.end(), none, join);
 }
 
 } // namespace
 
 namespace density_detail {
 
-void require_kind(const Raster& widths, const Surface& surface) {
-  if (widths.of_plane)
+void require_kind(bool of_plane, const Surface& surface) {
+  if (of_plane)
     domain_detail::require_plane(surface, "cell widths by x and y are");
   else
     domain_detail::require_sphere(surface, "cell widths by longitude and latitude are");
@@ -119,27 +141,27 @@ void require_radius(double radius_km) {
     throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
 }
 
-void WidthDensity::operator()(const Eigen::Ref<const Points3>& points,
-                              Eigen::Ref<Eigen::VectorXd> rho) const {
-  density_detail::evaluate_block(field_, points, rho);
-  densities_of_widths(field_.least(), static_cast<std::size_t>(rho.size()), rho.data());
-}
-
-void WidthDensity::operator()(const double* x, const double* y, const double* z, std::size_t count,
-                              double* rho) const {
-  field_(x, y, z, count, rho);
-  densities_of_widths(field_.least(), count, rho);
-}
-
 } // namespace density_detail
 
-Density density_of(const Raster& widths) {
-  density_detail::require_widths(widths);
+WidthField::WidthField(const Raster& widths)
+    : WidthField(std::make_shared<const SampledWidths>(widths)) {}
+WidthField::WidthField(std::shared_ptr<const SampledWidths> widths) : sampled_(std::move(widths)) {}
+
+double WidthField::least() const { return sampled_->least(); }
+double WidthField::greatest() const { return sampled_->greatest(); }
+std::int64_t WidthField::nodes() const { return sampled_->nodes(); }
+bool WidthField::of_plane() const { return sampled_->of_plane(); }
+
+DoubleVector evaluate(const WidthField& widths, const PointsRef& places) {
+  return density_detail::evaluate_field(*widths.sampled(), places);
+}
+
+Density density_of(const WidthField& widths) {
   Density density;
-  if (widths.values.minCoeff() == widths.values.maxCoeff())
+  if (widths.least() == widths.greatest())
     return density;
   density.kind = Density::Kind::widths;
-  density.widths = std::make_shared<const density_detail::WidthDensity>(widths);
+  density.widths = widths.sampled();
   return density;
 }
 
@@ -162,29 +184,21 @@ Raster widths_of_density(const Raster& density) {
   return widths;
 }
 
-double implied_cells(const Raster& widths, const Surface& surface, double radius_km) {
-  require_kind(widths, surface);
+double implied_cells(const WidthField& widths, const Surface& surface, double radius_km) {
+  require_kind(widths.of_plane(), surface);
   require_radius(radius_km);
-  const double unit = widths.of_plane ? 1 : radius_km;
-  const RasterField field = density_detail::width_field(widths);
-  if (!widths.of_plane && !surface.is_bounded()) {
-    std::vector<double> rows(static_cast<std::size_t>(field.y().intervals()));
-    base_detail::for_each_task(field.y().intervals(), [&](std::int64_t j) {
-      rows[static_cast<std::size_t>(j)] = integral_of_row(field, j);
-    });
-    double sum = 0;
-    for (const double row : rows)
-      sum += row;
+  const double unit = widths.of_plane() ? 1 : radius_km;
+  const SampledWidths& field = *widths.sampled();
+  if (!widths.of_plane() && !surface.is_bounded()) {
+    const auto of_row = [](const auto& part, std::int64_t j) { return integral_of_row(part, j); };
+    const double sum = std::visit(
+        [&](const auto& nodes) { return joined_rows(nodes, 0.0, of_row, std::plus<>()); },
+        field.field());
     return 2 / std::numbers::sqrt3 * unit * unit * sum;
   }
   constexpr std::int64_t samples = 1 << 18;
   const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
-  DoubleVector at(samples);
-  base_detail::for_each_block(samples, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    density_detail::evaluate_block(field, places.middleCols(begin, end - begin),
-                                   at.segment(begin, end - begin));
-  });
-  const double mean = at.array().square().inverse().mean();
+  const double mean = evaluate(widths, places).array().square().inverse().mean();
   return 2 / std::numbers::sqrt3 * unit * unit * surface.area() * mean;
 }
 
@@ -312,7 +326,7 @@ std::string uncovered(const Raster& raster, const Surface& surface, const std::s
 } // namespace density_detail
 
 void require_covering(const Raster& widths, const Surface& surface) {
-  require_kind(widths, surface);
+  require_kind(widths.of_plane, surface);
   density_detail::require_widths(widths);
   const std::string problem =
       widths.of_plane ? density_detail::uncovered(widths, surface, "x", "y")
@@ -320,22 +334,20 @@ void require_covering(const Raster& widths, const Surface& surface) {
   base_detail::require(problem.empty(), "cell width: " + problem);
 }
 
-Gradient largest_gradient(const Raster& widths, double radius_km) {
-  require_kind(widths, {});
+Gradient largest_gradient(const WidthField& widths, double radius_km) {
+  require_kind(widths.of_plane(), {});
   require_radius(radius_km);
-  const RasterField field = density_detail::width_field(widths);
-  std::vector<Corner> rows(static_cast<std::size_t>(field.y().intervals()));
-  base_detail::for_each_task(field.y().intervals(), [&](std::int64_t j) {
-    rows[static_cast<std::size_t>(j)] = steepest_of_row(field, j, 1 / radius_km);
-  });
-  Corner steepest;
-  for (const Corner& corner : rows)
-    if (corner.square > steepest.square)
-      steepest = corner;
+  const auto of_row = [&](const auto& part, std::int64_t j) {
+    return steepest_of_row(part, j, 1 / radius_km);
+  };
+  const auto steeper = [](const Corner& a, const Corner& b) { return b.square > a.square ? b : a; };
+  const Corner steepest =
+      std::visit([&](const auto& nodes) { return joined_rows(nodes, Corner(), of_row, steeper); },
+                 widths.sampled()->field());
   constexpr double degrees = 180 / std::numbers::pi;
-  const double longitude = field.x()[steepest.i] * degrees;
+  const double longitude = steepest.x * degrees;
   return {std::sqrt(std::max(0.0, steepest.square)) / radius_km,
-          longitude < 180 ? longitude : longitude - 360, field.y()[steepest.j] * degrees};
+          longitude < 180 ? longitude : longitude - 360, steepest.y * degrees};
 }
 
 } // namespace calotte

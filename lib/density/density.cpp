@@ -138,7 +138,7 @@ DensityEvaluator::DensityEvaluator(const Density& density)
 void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
                                   std::span<const double> z, std::span<double> rho) const {
   if (density_.kind == Density::Kind::widths) {
-    (*density_.widths)(x.data(), y.data(), z.data(), rho.size(), rho.data());
+    density_.widths->densities(x.data(), y.data(), z.data(), rho.size(), rho.data());
     return;
   }
   if (density_.kind == Density::Kind::callable) {
@@ -177,9 +177,9 @@ void DensityEvaluator::operator()(const Vec3* columns, std::int64_t count, doubl
   }
 }
 
-DensityEvaluator::Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
+Bounds DensityEvaluator::bounds(const Vec3& middle, double reach) const {
   constexpr double slack = 1e-14; // for an angle and for a value: more than the rounding error
-  Bounds bounds;
+  Bounds bounds{0, 0};
   for (const Profile& profile : profiles_) {
     const double change = reach * (profile.shrink > 0 ? std::numbers::sqrt2 : 1) + slack;
     const Chord chord = chord_from(profile, middle);

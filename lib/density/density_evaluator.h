@@ -3,8 +3,9 @@
 
 #include "base/elementary.h"
 #include "base/vec3.h"
-#include "density/raster_field.h"
+#include "density/bounds.h"
 #include "density/room.h"
+#include "density/width_samples.h"
 
 #include <calotte/density.h>
 
@@ -50,9 +51,6 @@ public:
   /// The same at `count` columns.
   void operator()(const Vec3* columns, std::int64_t count, double* rho) const;
 
-  struct Bounds {
-    double least = 0, greatest = 0;
-  };
   /// Bounds of bumps over the unit vectors within an angle `reach` of one. The distance of a bump
   /// changes by at most 1 per radian, that of a stretched bump by at most sqrt(2), and so does the
   /// argument of its tanh: with p, w the components of x along the centre and the long axis and k =

@@ -31,45 +31,51 @@ double DiscRule::grown(double width, double beyond) const {
   return beyond > 0 ? width + gradient_ * beyond : width;
 }
 
-double DiscRule::width_at(const Vec3& place, const Disc& disc) const {
+/// \param reach by which a place may be nearer.
+double DiscRule::width_at(const Vec3& place, const Disc& disc, double reach) const {
   const double chord = norm(place - disc.centre),
                angle = 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord));
-  return grown(disc.width, angle - disc.radius);
+  return grown(disc.width, angle - disc.radius - reach);
+}
+
+/// The least width within a distance of a place.
+/// \param last the disc that decided before, or -1; becomes the one that decides here.
+double DiscRule::least_within(const Vec3& place, double reach, std::int32_t& last) const {
+  double least = Widths::no_demand;
+  const auto take = [&](std::int32_t item) {
+    const Disc& disc = discs_->all[static_cast<std::size_t>(item)];
+    if (const double width = width_at(place, disc, reach); width < least) {
+      least = width;
+      last = item;
+    }
+  };
+  if (last >= 0)
+    take(last);
+  // Rounding of a bound must not leave out a disc: else the last bit depends on where one begins.
+  constexpr double rounding = 1e-12;
+  const auto may_demand_less = [&](const DiscBounds& bounds) {
+    if (!(bounds.width < least))
+      return false;
+    const double square = square_from(bounds.centres, place), // the arc of its root c is longer
+        away = std::sqrt(square) * (1 + square / 24);         // than c + c^3 / 24
+    return grown(bounds.width, away - bounds.radius - reach) * (1 - rounding) < least;
+  };
+  discs_->tree.visit(may_demand_less, take);
+  return least;
 }
 
 void DiscRule::evaluate(std::span<const Vec3> places, std::span<double> widths) const {
-  const std::vector<Disc>& discs = discs_->all;
-  std::int32_t last = -1; // decided the place before
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Vec3& p = places[k];
-    double least = Widths::no_demand;
-    const auto take = [&](std::int32_t item) {
-      if (const double width = width_at(p, discs[static_cast<std::size_t>(item)]); width < least) {
-        least = width;
-        last = item;
-      }
-    };
-    if (last >= 0)
-      take(last);
-    // Rounding of a bound must not leave out a disc: else the last bit depends on where one begins.
-    constexpr double rounding = 1e-12;
-    const auto may_demand_less = [&](const DiscBounds& bounds) {
-      if (!(bounds.width < least))
-        return false;
-      const double square = square_from(bounds.centres, p), // the arc of its root c is longer than
-          away = std::sqrt(square) * (1 + square / 24);     // c + c^3 / 24
-      return grown(bounds.width, away - bounds.radius) * (1 - rounding) < least;
-    };
-    discs_->tree.visit(may_demand_less, take);
-    widths[k] = least;
-  }
+  std::int32_t last = -1;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    widths[k] = least_within(places[k], 0, last);
 }
 
-double DiscRule::least() const {
-  double least = Widths::no_demand;
-  for (const Disc& disc : discs_->all)
-    least = std::min(least, disc.width);
-  return least;
+Bounds DiscRule::bounds(const Vec3& place, double reach) const {
+  std::int32_t last = -1;
+  const double here = least_within(place, 0, last);
+  return {least_within(place, reach, last), std::isfinite(gradient_) && std::isfinite(reach)
+                                                ? here + gradient_ * reach
+                                                : Widths::no_demand};
 }
 
 std::shared_ptr<const WidthRule> DiscRule::limited(double gradient, double radius_km) const {

@@ -32,7 +32,7 @@ class DiscRule : public WidthRule {
 public:
   explicit DiscRule(std::vector<Disc> discs);
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override;
-  double least() const override;
+  Bounds bounds(const Vec3& place, double reach) const override;
   /// The way from a disc is straight.
   std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
 
@@ -46,7 +46,8 @@ private:
   DiscRule(std::shared_ptr<const Discs> discs, double gradient)
       : discs_(std::move(discs)), gradient_(gradient) {}
   double grown(double width, double beyond) const;
-  double width_at(const Vec3& place, const Disc& disc) const;
+  double width_at(const Vec3& place, const Disc& disc, double reach = 0) const;
+  double least_within(const Vec3& place, double reach, std::int32_t& last) const;
 
   std::shared_ptr<const Discs> discs_;
   double gradient_; ///< km per radian; infinite without a limit

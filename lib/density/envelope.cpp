@@ -16,8 +16,6 @@
 namespace calotte::density_detail {
 namespace {
 
-using Bounds = DensityEvaluator::Bounds;
-
 constexpr double smallest_side = 0x1p-40; // far above sizes whose halves round
 constexpr std::size_t lattice = 8;        ///< points along a box
 constexpr int first_depth = 6, last_depth = 9;

@@ -25,7 +25,7 @@ Vec3 on_sphere(double x, double y, bool south);
 struct Box {
   double x = -1, y = -1, side = 2;
   bool south = false; ///< which hemisphere; false in a plane
-  DensityEvaluator::Bounds bounds;
+  Bounds bounds;
 
   double area() const { return side * side; } ///< proportional to the area mapped
 };
@@ -47,7 +47,7 @@ struct Hemispheres {
   static std::array<double, 2> nearest(double x, double y);
   /// True if bounds() is certain for a density that is uniform or made of bumps.
   static bool is_certain(const Density&) { return true; }
-  static DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box);
+  static Bounds bounds(const DensityEvaluator& density, const Box& box);
 };
 
 /// The part of these maps that shows a region.
@@ -67,8 +67,8 @@ public:
   }
   static std::array<double, 2> nearest(double x, double y) { return Hemispheres::nearest(x, y); }
   static bool is_certain(const Density&) { return true; }
-  DensityEvaluator::Bounds bounds(const DensityEvaluator& density, const Box& box) const {
-    return uniform_ ? DensityEvaluator::Bounds{1, 1} : Hemispheres::bounds(density, box);
+  Bounds bounds(const DensityEvaluator& density, const Box& box) const {
+    return uniform_ ? Bounds{1, 1} : Hemispheres::bounds(density, box);
   }
 
 private:
@@ -93,7 +93,7 @@ public:
   bool holds(double x, double y, const Vec3& place) const;
   std::array<double, 2> nearest(double x, double y) const;
   static bool is_certain(const Density& density) { return density.uniform(); }
-  static DensityEvaluator::Bounds bounds(const DensityEvaluator&, const Box&) { return {1, 1}; }
+  static Bounds bounds(const DensityEvaluator&, const Box&) { return {1, 1}; }
 
 private:
   Surface bounded_; ///< the surface, or the rectangle of a periodic box
@@ -143,7 +143,7 @@ private:
   void refine();
   void finish();
   void bound(std::vector<Box>& boxes) const;
-  DensityEvaluator::Bounds sampled_bounds(const Box& box) const;
+  Bounds sampled_bounds(const Box& box) const;
   void add_quarters(const Box& box, std::vector<Box>& out) const;
 
   Map map_;

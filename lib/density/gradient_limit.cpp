@@ -384,7 +384,7 @@ Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km
 Raster limit_gradient(const Raster& widths, double gradient, const Surface& surface,
                       double radius_km) {
   require_gradient(gradient);
-  require_kind(widths, surface);
+  require_kind(widths.of_plane, surface);
   require_radius(radius_km);
   require_values(widths, "cell width", positive);
   double most = 0;

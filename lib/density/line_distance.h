@@ -14,6 +14,9 @@
 
 namespace calotte::density_detail {
 
+/// The rings of a surface as closed lines.
+std::vector<Points3> boundary_of(const Surface& surface);
+
 /// Distances from the nearest of many segments and points: arcs of the unit sphere, or straight
 /// lines of a plane.
 class LineDistance {
@@ -26,6 +29,12 @@ public:
   /// Radians at unit vectors, in a plane its unit at x y 0. Where each place lies next to the one
   /// before, it takes less time.
   void operator()(std::span<const Vec3> places, std::span<double> distances) const;
+
+  double operator()(const Vec3& place) const {
+    double distance = 0;
+    (*this)({&place, 1}, {&distance, 1});
+    return distance;
+  }
 
 private:
   double square_from(std::int32_t item, const Vec3& p) const;

@@ -131,7 +131,6 @@ void require_ratio(double most, double least) {
 
 RasterField::RasterField(const Raster& raster) : of_plane_(raster.of_plane) {
   require_raster(raster, "raster");
-  least_ = raster.values.minCoeff();
   const Eigen::Index last = raster.y.size() - 1;
   if (of_plane_) {
     x_ = Axis({raster.x.begin(), raster.x.end()});
@@ -207,32 +206,6 @@ void RasterField::operator()(const double* x, const double* y, const double* z, 
   }
 }
 
-RasterField width_field(const Raster& widths) {
-  require_widths(widths);
-  return RasterField(widths);
-}
-
-void evaluate_block(const RasterField& field, const Eigen::Ref<const Points3>& points,
-                    Eigen::Ref<Eigen::VectorXd> values) {
-  constexpr Eigen::Index most = 128;
-  std::array<std::array<double, most>, 3> rows;
-  for (Eigen::Index begin = 0; begin < points.cols(); begin += most) {
-    const Eigen::Index count = std::min(most, points.cols() - begin);
-    for (Eigen::Index j = 0; j < count; ++j)
-      for (Eigen::Index i = 0; i < 3; ++i)
-        rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = points(i, begin + j);
-    field(rows[0].data(), rows[1].data(), rows[2].data(), static_cast<std::size_t>(count),
-          values.data() + begin);
-  }
-}
-
-void evaluate_block(const RasterField& field, std::span<const Vec3> places,
-                    std::span<double> values) {
-  if (!places.empty())
-    evaluate_block(field, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
-                   Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values)));
-}
-
 // ---- Grids
 
 Raster regular_grid(double step) {
@@ -267,15 +240,7 @@ Raster grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size, double
 namespace calotte {
 
 DoubleVector evaluate(const Raster& raster, const PointsRef& places) {
-  const density_detail::RasterField field(raster);
-  const Points3 x = raster.of_plane ? base_detail::with_z(base_detail::plane_points_of(places))
-                                    : Points3(base_detail::directions_of(places));
-  DoubleVector values(x.cols());
-  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    density_detail::evaluate_block(field, x.middleCols(begin, end - begin),
-                                   values.segment(begin, end - begin));
-  });
-  return values;
+  return density_detail::evaluate_field(density_detail::RasterField(raster), places);
 }
 
 } // namespace calotte

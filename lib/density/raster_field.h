@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/parallel.h"
+#include "base/points.h"
 #include "base/vec3.h"
 #include "density/room.h"
 #include "density/width_table.h"
@@ -9,7 +11,10 @@
 #include <calotte/raster.h>
 #include <calotte/surface.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -81,12 +86,12 @@ public:
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* values) const;
 
+  bool of_plane() const { return of_plane_; }
   const Axis& x() const { return x_; } ///< radians, the first from -pi to pi; or x of the plane
   const Axis& y() const { return y_; } ///< radians, from pole to pole; or y of the plane
   double value(std::int64_t i, std::int64_t j) const {
     return values_[static_cast<std::size_t>(j * (x_.intervals() + 1) + i)];
   }
-  double least() const { return least_; }
 
   /// Cosine of the latitude of a row, as from_lonlat() computes it: the same bits on every machine.
   double cosine(std::int64_t j) const { return cosines_[static_cast<std::size_t>(j)]; }
@@ -101,21 +106,46 @@ private:
   std::optional<WidthTable> table_; ///< of a regular grid of the sphere
   std::vector<double> values_;      ///< row by row
   std::vector<double> cosines_, sines_;
-  double least_; ///< of the nodes given
 };
 
-/// The field of cell widths. \throws Error invalid_argument as require_widths().
-RasterField width_field(const Raster& widths);
-
 /// The values of a field at the columns of a block.
-void evaluate_block(const RasterField& field, const Eigen::Ref<const Points3>& points,
-                    Eigen::Ref<Eigen::VectorXd> values);
+/// \tparam Field takes x, y, z, their number and values, as RasterField.
+template <class Field>
+void evaluate_block(const Field& field, const Eigen::Ref<const Points3>& points,
+                    Eigen::Ref<Eigen::VectorXd> values) {
+  constexpr Eigen::Index most = 128;
+  std::array<std::array<double, most>, 3> rows;
+  for (Eigen::Index begin = 0; begin < points.cols(); begin += most) {
+    const Eigen::Index count = std::min(most, points.cols() - begin);
+    for (Eigen::Index j = 0; j < count; ++j)
+      for (Eigen::Index i = 0; i < 3; ++i)
+        rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = points(i, begin + j);
+    field(rows[0].data(), rows[1].data(), rows[2].data(), static_cast<std::size_t>(count),
+          values.data() + begin);
+  }
+}
 /// The same at a list of places.
-void evaluate_block(const RasterField& field, std::span<const Vec3> places,
-                    std::span<double> values);
+template <class Field>
+void evaluate_block(const Field& field, std::span<const Vec3> places, std::span<double> values) {
+  if (!places.empty())
+    evaluate_block(field, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
+                   Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values)));
+}
+
+/// The same at any number of places, by all threads.
+/// \throws Error as evaluate(const Raster&, const PointsRef&).
+template <class Field> DoubleVector evaluate_field(const Field& field, const PointsRef& places) {
+  const Points3 x = field.of_plane() ? base_detail::with_z(base_detail::plane_points_of(places))
+                                     : Points3(base_detail::directions_of(places));
+  DoubleVector values(x.cols());
+  base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    evaluate_block(field, x.middleCols(begin, end - begin), values.segment(begin, end - begin));
+  });
+  return values;
+}
 
 /// \throws Error invalid_argument unless widths are those of a surface of this kind.
-void require_kind(const Raster& widths, const Surface& surface);
+void require_kind(bool of_plane, const Surface& surface);
 
 /// \throws Error invalid_argument unless a radius is > 0 and finite.
 void require_radius(double radius_km);
@@ -124,19 +154,6 @@ void require_radius(double radius_km);
 /// \param x, y names of the axes in the message.
 std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
                       const std::string& y);
-
-/// A density (h_min/h)^4.
-class WidthDensity {
-public:
-  explicit WidthDensity(const Raster& widths) : field_(width_field(widths)) {}
-
-  void operator()(const Eigen::Ref<const Points3>& points, Eigen::Ref<Eigen::VectorXd> rho) const;
-  void operator()(const double* x, const double* y, const double* z, std::size_t count,
-                  double* rho) const;
-
-private:
-  RasterField field_;
-};
 
 /// The regular grid of the sphere, poles included, with the largest step of at most `step` degrees
 /// that divides 180. The values are not set.

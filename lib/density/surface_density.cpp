@@ -89,7 +89,7 @@ Density::Callable callable_of(const Density& density) {
   if (density.kind != Density::Kind::widths || density.widths == nullptr)
     return {};
   return [widths = density.widths](const Eigen::Ref<const Points3>& x,
-                                   Eigen::Ref<Eigen::VectorXd> rho) { (*widths)(x, rho); };
+                                   Eigen::Ref<Eigen::VectorXd> rho) { widths->densities(x, rho); };
 }
 
 Density checked_surface_density(const Density& density, const Surface& surface) {

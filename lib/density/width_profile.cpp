@@ -91,11 +91,29 @@ std::vector<ProfileCurve::Node> ProfileCurve::demanded() const {
   return nodes;
 }
 
-double ProfileCurve::least() const {
-  double least = Widths::no_demand;
-  for (const Node& node : demanded())
-    least = std::min(least, node.width);
-  return least;
+Bounds ProfileCurve::bounds(double low, double high) const {
+  Bounds bounds;
+  if (low < low_ || high > high_)
+    bounds.add(Widths::no_demand);
+  const double first = std::max(low, low_), last = std::min(high, high_);
+  if (!(first <= last))
+    return bounds;
+  // Beyond the nodes, at infinity, a slope of 0 leaves the width as it is.
+  const auto width_at = [&](double x) {
+    if (std::isfinite(x))
+      return (*this)(x);
+    const bool before = x < 0;
+    if ((before ? low_slope_ : high_slope_) > 0)
+      return Widths::no_demand;
+    return before ? nodes_.front().width : nodes_.back().width;
+  };
+  bounds.add(width_at(first));
+  bounds.add(width_at(last));
+  auto node = std::lower_bound(nodes_.begin(), nodes_.end(), first,
+                               [](const Node& one, double x) { return one.x < x; });
+  for (; node != nodes_.end() && node->x <= last; ++node)
+    bounds.add(node->width);
+  return bounds;
 }
 
 bool ProfileCurve::grows_from_zero() const {
@@ -108,10 +126,12 @@ bool ProfileCurve::grows_from_zero() const {
 ProfileCurve ProfileCurve::limited(double slope) const {
   // The constant ends take part: from them the width may grow beyond the last node.
   std::vector<Node> nodes = demanded();
-  double most = 0;
-  for (const Node& node : nodes)
+  double most = 0, least = Widths::no_demand;
+  for (const Node& node : nodes) {
     most = std::max(most, node.width);
-  const double reach = (most - least()) / slope;
+    least = std::min(least, node.width);
+  }
+  const double reach = (most - least) / slope;
   const bool begins = std::isfinite(low_) || low_slope_ > 0,
              ends = std::isfinite(high_) || high_slope_ > 0; // without a constant
   if (reach > 0 && !begins)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "density/bounds.h"
 #include "density/raster_field.h"
 #include "density/room.h"
 
@@ -41,7 +42,8 @@ public:
     return before.width + (after->width - before.width) * ((x - before.x) / (after->x - before.x));
   }
 
-  double least() const;
+  /// Of its values between two numbers, which may be infinite.
+  Bounds bounds(double low, double high) const;
   /// Whether it nowhere falls away from 0, in either direction.
   bool grows_from_zero() const;
 

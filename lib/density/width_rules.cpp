@@ -9,6 +9,7 @@
 #include "base/require.h"
 #include "density/gradient_limit.h"
 #include "density/line_distance.h"
+#include "density/raster_bounds.h"
 #include "density/raster_field.h"
 #include "density/width_cones.h"
 #include "density/width_profile.h"
@@ -42,7 +43,7 @@ public:
   void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
     std::fill(widths.begin(), widths.end(), width_);
   }
-  double least() const override { return width_; }
+  Bounds bounds(const Vec3&, double) const override { return {width_, width_}; }
 
 private:
   double width_;
@@ -61,7 +62,12 @@ public:
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     evaluate_block(*field(), places, widths);
   }
-  double least() const override { return raster_.values.minCoeff(); }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    if (!std::isfinite(reach))
+      return {raster_.values.minCoeff(), raster_.values.maxCoeff()};
+    std::call_once(bounded_, [&] { bounds_.emplace(*field()); });
+    return bounds_->within(*field(), place, reach);
+  }
   const Raster* raster() const override { return &raster_; }
   const RasterField* field() const override {
     std::call_once(once_, [&] { tbb::this_task_arena::isolate([&] { field_.emplace(raster_); }); });
@@ -76,8 +82,9 @@ public:
 
 private:
   Raster raster_;
-  mutable std::once_flag once_;
+  mutable std::once_flag once_, bounded_;
   mutable std::optional<RasterField> field_;
+  mutable std::optional<RasterBounds> bounds_;
 };
 
 /// The nodes of a raster, by a function of their values.
@@ -90,10 +97,12 @@ template <class Of> Raster mapped(Raster raster, const Of& of) {
 class FieldRule : public WidthRule {
 public:
   explicit FieldRule(const Raster& raster)
-      : WidthRule(space_of(raster)), least_(raster.values.minCoeff()),
+      : WidthRule(space_of(raster)),
         field_(mapped(raster, [](double width) { return Widths::is_demand(width) ? width : 1; })),
-        silent_(mapped(raster, [](double width) { return Widths::is_demand(width) ? 0.0 : 1.0; })) {
-  }
+        silent_(mapped(raster, [](double width) { return Widths::is_demand(width) ? 0.0 : 1.0; })),
+        bounds_(field_, [&](std::int64_t i, std::int64_t j) {
+          return silent_.value(i, j) > 0 ? Widths::no_demand : field_.value(i, j);
+        }) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
     constexpr double rounding = 1e-9; // at a node the weights of the others may differ from 0
     std::vector<double> silent(widths.size());
@@ -102,36 +111,42 @@ public:
     for (std::size_t k = 0; k < widths.size(); ++k)
       widths[k] = silent[k] > rounding ? Widths::no_demand : widths[k];
   }
-  double least() const override { return least_; }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    return bounds_.within(field_, place, reach);
+  }
   const RasterField* field() const override { return &field_; }
 
 private:
-  double least_;
   RasterField field_, silent_; ///< the widths, and 1 at nodes without one
+  RasterBounds bounds_;        ///< infinite at nodes without one
 };
 
 class LatitudeRule : public WidthRule {
 public:
   explicit LatitudeRule(ProfileCurve curve) : curve_(std::move(curve)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const Vec3& p = places[k];
-      // Of the two forms the one that keeps its digits.
-      const double ring = std::sqrt(p.x * p.x + p.y * p.y);
-      const double latitude =
-          ring > std::abs(p.z)
-              ? base_detail::arc_sine(p.z)
-              : std::copysign(std::numbers::pi / 2 - base_detail::arc_sine(ring), p.z);
-      widths[k] = curve_(latitude * degrees);
-    }
+    for (std::size_t k = 0; k < places.size(); ++k)
+      widths[k] = curve_(latitude_of(places[k]));
   }
-  double least() const override { return curve_.least(); }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    const double latitude = latitude_of(place);
+    return curve_.bounds(latitude - reach * degrees, latitude + reach * degrees);
+  }
   /// Along a meridian the way to another latitude is shortest.
   Rule limited(double gradient, double radius_km) const override {
     return std::make_shared<LatitudeRule>(curve_.limited(gradient * radius_km / degrees));
   }
 
 private:
+  /// Degrees.
+  static double latitude_of(const Vec3& p) {
+    // Of the two forms the one that keeps its digits.
+    const double ring = std::sqrt(p.x * p.x + p.y * p.y);
+    return degrees * (ring > std::abs(p.z)
+                          ? base_detail::arc_sine(p.z)
+                          : std::copysign(std::numbers::pi / 2 - base_detail::arc_sine(ring), p.z));
+  }
+
   ProfileCurve curve_;
 };
 
@@ -149,10 +164,13 @@ public:
         unit_(distance_->on_sphere() ? radius_km : 1) {}
   void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
     (*distance_)(places, values);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const double distance = values[k] * unit_;
-      values[k] = curve_(is_behind_ && is_behind_(places[k]) ? -distance : distance);
-    }
+    for (std::size_t k = 0; k < places.size(); ++k)
+      values[k] = curve_(number_of(places[k], values[k]));
+  }
+  /// The distance changes by no more than the way.
+  Bounds bounds(const Vec3& place, double reach) const override {
+    const double number = number_of(place, (*distance_)(place));
+    return curve_.bounds(number - reach * unit_, number + reach * unit_);
   }
 
 protected:
@@ -161,6 +179,10 @@ protected:
   IsBehind is_behind_;
 
 private:
+  double number_of(const Vec3& place, double distance) const {
+    return is_behind_ && is_behind_(place) ? -distance * unit_ : distance * unit_;
+  }
+
   ProfileCurve curve_;
   double unit_; ///< of the curve's distances
 };
@@ -168,8 +190,7 @@ private:
 class WidthByDistance : public DistanceRule<WidthRule> {
 public:
   using DistanceRule::DistanceRule;
-  double least() const override { return curve().least(); }
-  /// The distance changes by no more than the way; towards the line by as much.
+  /// Towards the line the distance changes by as much as the way.
   Rule limited(double gradient, double radius_km) const override {
     return curve().grows_from_zero()
                ? std::make_shared<WidthByDistance>(distance_, is_behind_, curve().limited(gradient),
@@ -206,11 +227,13 @@ public:
       std::transform(widths.begin(), widths.end(), others.begin(), widths.begin(), combine_);
     }
   }
-  double least() const override {
-    double least = parts_.front()->least();
-    for (std::size_t k = 1; k < parts_.size(); ++k)
-      least = combine_(least, parts_[k]->least());
-    return least;
+  Bounds bounds(const Vec3& place, double reach) const override {
+    Bounds bounds = parts_.front()->bounds(place, reach);
+    for (std::size_t k = 1; k < parts_.size(); ++k) {
+      const Bounds other = parts_[k]->bounds(place, reach);
+      bounds = {combine_(bounds.least, other.least), combine_(bounds.greatest, other.greatest)};
+    }
+    return bounds;
   }
 
 protected:
@@ -255,25 +278,41 @@ class ShareOfRegion : public ShareRule {
 public:
   explicit ShareOfRegion(Surface region)
       : ShareRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
-        region_(std::move(region)) {}
+        region_(std::move(region)) {
+    if (region_.is_bounded())
+      boundary_.emplace(boundary_of(region_), region_);
+  }
   void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
-      shares[k] = region_.contains({places[k].x, places[k].y, places[k].z}) ? 1 : 0;
+      shares[k] = share_at(places[k]);
+  }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    if (boundary_ && (*boundary_)(place) <= reach)
+      return {0, 1};
+    return {share_at(place), share_at(place)};
   }
 
 private:
+  double share_at(const Vec3& p) const { return region_.contains({p.x, p.y, p.z}) ? 1 : 0; }
+
   Surface region_;
+  std::optional<LineDistance> boundary_;
 };
 
 class ShareOfRaster : public ShareRule {
 public:
-  explicit ShareOfRaster(const Raster& raster) : ShareRule(space_of(raster)), field_(raster) {}
+  explicit ShareOfRaster(const Raster& raster)
+      : ShareRule(space_of(raster)), field_(raster), bounds_(field_) {}
   void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
     evaluate_block(field_, places, shares);
+  }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    return bounds_.within(field_, place, reach);
   }
 
 private:
   RasterField field_;
+  RasterBounds bounds_;
 };
 
 /// (1 - t) a + t b. \tparam Weight t of a share.
@@ -296,7 +335,15 @@ public:
         widths[k] = others[k];
     }
   }
-  double least() const override { return std::min(a_->least(), b_->least()); }
+  Bounds bounds(const Vec3& place, double reach) const override {
+    const Bounds shares = share_->bounds(place, reach);
+    if (!(Weight(shares.greatest) > 0))
+      return a_->bounds(place, reach);
+    Bounds bounds = b_->bounds(place, reach);
+    if (Weight(shares.least) < 1)
+      bounds.add(a_->bounds(place, reach));
+    return bounds;
+  }
 
 private:
   Rule a_, b_;
@@ -305,17 +352,6 @@ private:
 
 double all_of(double share) { return share; }
 double rounded(double share) { return share >= 0.5 ? 1 : 0; }
-
-/// The rings of a region as closed lines.
-std::vector<Points3> boundary_of(const Surface& region) {
-  std::vector<Points3> lines;
-  for (const DoubleMatrix& ring : region.rings()) {
-    Points3 line = Points3::Zero(3, ring.cols() + 1); // z of a plane
-    line.topRows(ring.rows()) << ring, ring.col(0);
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
 
 std::shared_ptr<const WidthsOfRadius> for_any_radius(Rule rule) {
   return std::make_shared<WidthsOfRadius>(std::move(rule));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
+#include "density/bounds.h"
 #include "density/raster_field.h"
 #include "density/room.h"
 #include "density/width_profile.h"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -37,6 +39,10 @@ public:
   /// less time.
   virtual void evaluate(std::span<const Vec3> places, std::span<double> values) const = 0;
 
+  /// Of the values within a distance of a place, not always the narrowest.
+  /// \param reach radians, in a plane its unit; infinite for all places.
+  virtual Bounds bounds(const Vec3& place, double reach) const = 0;
+
 private:
   RuleSpace space_;
 };
@@ -56,7 +62,7 @@ public:
   virtual void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const;
 
   /// A bound from below of all widths, km, > 0.
-  virtual double least() const = 0;
+  double least() const { return bounds({0, 0, 1}, std::numeric_limits<double>::infinity()).least; }
 
   /// The raster that was given as the rule; null for other rules.
   virtual const Raster* raster() const { return nullptr; }
@@ -127,6 +133,10 @@ std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>&
 double step_for(const WidthRule& rule, double radius_km);
 /// The widths of a rule at the nodes of a raster of the sphere.
 Raster sample(const WidthRule& rule, double step);
+/// The largest width at the corners of a surface.
+/// \throws Error invalid_argument for a corner without a demand.
+double widest_at_corners(const Widths& widths, const Surface& surface);
+
 /// The raster of sampled(), with Widths::no_demand where there is none. \throws Error as there.
 Raster sample(const Widths& widths, const Surface& surface, double step);
 

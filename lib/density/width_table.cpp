@@ -4,17 +4,12 @@
 #include "base/vector_loops.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 namespace calotte::density_detail {
 namespace {
-
-constexpr std::size_t batch_size = 128;
-using BatchRow = std::array<double, batch_size>;
-using Places = std::array<std::int32_t, batch_size>;
 
 /// atan(t) for 0 <= t <= 1 by interpolation of atan(t)/t in t^2 at Chebyshev's points, to 3e-14;
 /// summed in pairs, whose chains of operations overlap.
@@ -39,24 +34,11 @@ CALOTTE_INLINE double angle_of_legs(double opposite, double adjacent) {
   return steep ? std::numbers::pi / 2 - angle : angle;
 }
 
-/// The interval of a position on an axis in steps, and the position within it.
-CALOTTE_INLINE void split(double position, std::int32_t intervals, std::int32_t& interval,
-                          double& fraction) {
-  const double low = position > 0 ? position : 0;
-  const double inside = low < intervals ? low : intervals;
-  const auto floor = static_cast<std::int32_t>(inside);
-  interval = floor < intervals ? floor : intervals - 1;
-  fraction = inside - interval;
-}
-
-struct Cells {
-  Places place; ///< of the south-west corner
-  BatchRow u, v;
-};
+} // namespace
 
 CALOTTE_VECTOR_WIDTHS
 void find_cells(const WidthTable::Grid& grid, const double* x, const double* y, const double* z,
-                std::size_t count, Cells& out) {
+                std::size_t count, GridCells& out) {
   constexpr double pi = std::numbers::pi;
   const WidthTable::Grid g = grid; // writing cannot change it
   CALOTTE_VECTOR_LOOP
@@ -69,16 +51,18 @@ void find_cells(const WidthTable::Grid& grid, const double* x, const double* y, 
     const double latitude = z[k] < 0 ? -north : north;
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;
-    split((turned - g.west) * g.inverse_dx, g.columns, i, u);
-    split((latitude - g.south) * g.inverse_dy, g.rows, j, v);
+    split_position((turned - g.west) * g.inverse_dx, g.columns, i, u);
+    split_position((latitude - g.south) * g.inverse_dy, g.rows, j, v);
     out.place[k] = j * (g.columns + 1) + i;
     out.u[k] = u;
     out.v[k] = v;
   }
 }
 
+namespace {
+
 CALOTTE_VECTOR_WIDTHS
-void interpolate(const Cells& cells, const double* low, const double* high, std::size_t count,
+void interpolate(const GridCells& cells, const double* low, const double* high, std::size_t count,
                  double* widths) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
@@ -156,9 +140,9 @@ std::optional<WidthTable> WidthTable::make(const std::vector<double>& longitudes
 
 void WidthTable::operator()(const double* x, const double* y, const double* z, std::size_t count,
                             double* widths) const {
-  Cells cells;
-  for (std::size_t begin = 0; begin < count; begin += batch_size) {
-    const std::size_t size = std::min(batch_size, count - begin);
+  GridCells cells;
+  for (std::size_t begin = 0; begin < count; begin += GridCells::size) {
+    const std::size_t size = std::min(GridCells::size, count - begin);
     find_cells(grid_, x + begin, y + begin, z + begin, size, cells);
     interpolate(cells, widths_.data(), widths_.data() + grid_.columns + 1, size, widths + begin);
   }

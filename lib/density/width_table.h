@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/vector_loops.h"
 #include "density/room.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,5 +42,26 @@ private:
   /// By row, the rows beyond the poles included.
   std::vector<double> widths_;
 };
+
+/// Where some places lie on a grid.
+struct GridCells {
+  static constexpr std::size_t size = 128;
+  std::array<std::int32_t, size> place; ///< of the south-west corner: row * (columns + 1) + column
+  std::array<double, size> u, v;        ///< within the cell, 0 to 1
+};
+
+/// The interval of a position on an axis in steps, and the position within it.
+CALOTTE_INLINE void split_position(double position, std::int32_t intervals, std::int32_t& interval,
+                                   double& fraction) {
+  const double low = position > 0 ? position : 0;
+  const double inside = low < intervals ? low : intervals;
+  const auto floor = static_cast<std::int32_t>(inside);
+  interval = floor < intervals ? floor : intervals - 1;
+  fraction = inside - interval;
+}
+
+/// The cells of at most GridCells::size unit vectors.
+void find_cells(const WidthTable::Grid& grid, const double* x, const double* y, const double* z,
+                std::size_t count, GridCells& out);
 
 } // namespace calotte::density_detail

@@ -3,7 +3,7 @@
 
 #include "base/lists.h"
 #include "base/require.h"
-#include "density/raster_field.h"
+#include "density/width_rules.h"
 #include "domain/surface.h"
 #include "grids/room.h"
 #include "mesh/rows.h"
@@ -90,21 +90,16 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count) {
   return least;
 }
 
-Surface with_rings(const Surface& surface, const Raster& widths, double radius_km) {
+Surface with_rings(const Surface& surface, const Widths& widths) {
   constexpr int beyond = 4; // cells
   domain_detail::require_sphere(surface, "a limited area is");
-  density_detail::require_kind(widths, surface);
-  density_detail::require_widths(widths);
+  density_detail::require_kind(widths.is_of_plane(), surface);
   Surface meshed = surface;
   for (int k = 0; k < 3; ++k) { // the widths may grow outwards
     double widest = 0;
     for (const Surface* part : std::initializer_list<const Surface*>{&surface, &meshed})
-      for (Points3 ring : part->rings()) {
-        for (auto corner : ring.colwise())
-          corner /= corner.norm();
-        widest = std::max(widest, evaluate(widths, ring).maxCoeff());
-      }
-    meshed = widened(surface, (limited_area_rings + beyond) * widest / radius_km);
+      widest = std::max(widest, density_detail::widest_at_corners(widths, *part));
+    meshed = widened(surface, (limited_area_rings + beyond) * widest / widths.radius_km());
   }
   return meshed;
 }

@@ -77,8 +77,7 @@ void require_fixed_points(const Recipe& recipe) {
 void take_resolution(Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   if (const auto* const widths = std::get_if<Widths>(&recipe.resolution)) {
-    schedule.widths = sampled(widths->on_sphere(recipe.radius_km), recipe.surface);
-    require_covering(*schedule.widths, recipe.surface);
+    schedule.widths = width_field(widths->on_sphere(recipe.radius_km), recipe.surface);
     schedule.density = density_of(*schedule.widths);
   } else {
     schedule.density = std::get<Density>(recipe.resolution);
@@ -90,17 +89,15 @@ void take_resolution(Schedule& schedule) {
 }
 
 /// The run of a limited area covers the rings around it, too.
-void take_limited_area(Schedule& schedule) {
-  Recipe& recipe = schedule.recipe;
+void take_limited_area(Recipe& recipe) {
   if (!recipe.limited_area)
     return;
   require(recipe.surface.is_sphere() && recipe.surface.is_bounded(),
           "a limited area is a part of the sphere; give the rings that bound it");
-  require(schedule.widths.has_value(), "a limited area requires cell widths, from which the rings "
-                                       "around the region follow; give them");
-  const Surface meshed = with_rings(recipe.surface, *schedule.widths, recipe.radius_km);
-  require_covering(*schedule.widths, meshed);
-  recipe.surface = meshed;
+  const auto* const widths = std::get_if<Widths>(&recipe.resolution);
+  require(widths != nullptr, "a limited area requires cell widths, from which the rings around the "
+                             "region follow; give them");
+  recipe.surface = with_rings(recipe.surface, widths->on_sphere(recipe.radius_km));
 }
 
 /// \param uniform the density.
@@ -211,7 +208,7 @@ double take_cells(Schedule& schedule, const Surface& asked) {
   const double implied = implied_cells(*schedule.widths, recipe.surface, recipe.radius_km);
   if (!counts)
     return implied;
-  if (schedule.widths->of_plane) {
+  if (schedule.widths->of_plane()) {
     recipe.cells = static_cast<std::int64_t>(
         with_boundary(schedule, within_range(implied, double(fewest_generators(recipe.surface)))));
     return implied;
@@ -359,8 +356,8 @@ Schedule plan(Recipe recipe) {
   all = std::move(recipe);
   const Surface asked = all.surface;
   const bool counts = all.cells == 0;
+  take_limited_area(all);
   take_resolution(schedule);
-  take_limited_area(schedule);
   choose_start(all, schedule.density.uniform());
   schedule.implied_cells = take_cells(schedule, asked);
   take_walls(schedule);

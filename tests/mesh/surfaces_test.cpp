@@ -182,7 +182,7 @@ TEST_CASE("points and densities are those of the surface") {
     CHECK_THROWS_WITH_AS(with_rings(cap(), spoilt),
                          "cell width: value (1, 0) is not positive and finite; correct it", Error);
   }
-  CHECK_THROWS_AS(with_rings(cap(), {widths.x, widths.y, widths.values, true}), Error);
+  CHECK_THROWS_AS(with_rings(cap(), Raster{widths.x, widths.y, widths.values, true}), Error);
 }
 
 TEST_CASE("midpoints stay on the surface") {

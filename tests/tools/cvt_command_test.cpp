@@ -395,7 +395,7 @@ TEST_CASE("cell widths determine the number of cells, give warnings, and belong 
   CHECK(outcome.code == 0);
   CHECK(outcome.out.starts_with("mesh.vtp: 262 cells, ")); // 4 pi R^2 / (sqrt(3)/2 h^2) = 261.8
   CHECK(outcome.err.starts_with(
-      "calotte: widths.msh: cells 1500 to 1500 km wide, on 2 x 3 nodes, require 262 cells; "));
+      "calotte: widths.msh: cells 1500 to 1500 km wide, at 6 nodes, require 262 cells; "));
   CHECK(!has(outcome.err, "warning"));
   CHECK(bench.run(run + "--resume run.checkpoint").code == 0);
   widths("1500.5");

@@ -66,7 +66,7 @@ std::string note_on_uniform(double implied, const WidthWords& words,
   return note + "; the " + std::to_string(*cells) + " cells of the grid are " + width;
 }
 
-std::vector<std::string> with_doubt(std::vector<std::string> notes, const Raster& widths,
+std::vector<std::string> with_doubt(std::vector<std::string> notes, const WidthField& widths,
                                     const WidthWords& words) {
   if (const std::string doubt = doubt_of(widths, words); !doubt.empty())
     notes.push_back("warning: " + doubt);
@@ -220,10 +220,11 @@ std::string distinct_from(double other, double value) {
   return text;
 }
 
-Gradient steepest_of(const Raster& scaled, const WidthWords& words, std::optional<double> limit,
+Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::optional<double> limit,
                      double scale) {
-  Gradient steepest = largest_gradient(scaled, words.radius);
-  if (limit) // between nodes, at the tip of a cone, the raster has more than the nodes
+  // Widths that are larger on a sphere have the gradient of the same on a smaller one.
+  Gradient steepest = largest_gradient(widths, words.radius / scale);
+  if (limit) // between nodes, at the tip of a cone, the field has more than the nodes
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;
 }
@@ -241,32 +242,35 @@ std::string place_of(const Gradient& gradient) {
   return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
-std::string doubt_of(const Raster& widths, const WidthWords& words) {
+std::string doubt_of(const WidthField& widths, const WidthWords& words) {
   constexpr double widest = 2000; // km; a coarser grid of the Earth has fewer than 150 cells
-  const double most = widths.values.maxCoeff();
+  const double most = widths.greatest();
   if (most <= widest)
     return "";
   return (words.uniform ? "" : words.file + ": ") + "cells " + formatted("%.6g", most) +
          " km wide are large; if these are metres, give km";
 }
 
-std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
+/// "cells 100 to 200", the unit, and the nodes.
+std::string range_words(const WidthField& widths, const WidthWords& words,
+                        const std::string& unit) {
+  return words.file + ": cells " + formatted("%.4g", widths.least()) + " to " +
+         formatted("%.4g", widths.greatest()) + unit + " wide, at " +
+         std::to_string(widths.nodes()) + " nodes, require ";
+}
+
+std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,
                                   std::optional<double> limit, std::optional<std::int64_t> cells) {
   const double implied = implied_cells(widths, {}, words.radius);
   if (words.uniform)
     return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
-  std::vector<std::string> notes{
-      words.file + ": cells " + formatted("%.4g", widths.values.minCoeff()) + " to " +
-      formatted("%.4g", widths.values.maxCoeff()) + " km wide, on " +
-      std::to_string(widths.x.size()) + " x " + std::to_string(widths.y.size()) +
-      " nodes, require " + formatted("%.0f", implied) + " cells"};
+  std::vector<std::string> notes{range_words(widths, words, " km") + formatted("%.0f", implied) +
+                                 " cells"};
   const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
   if (std::abs(scale - 1) > 0.01)
     notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
                      formatted("%.3g", scale) + " times as large";
-  Raster scaled = widths;
-  scaled.values *= scale;
-  const Gradient gradient = steepest_of(scaled, words, limit, scale);
+  const Gradient gradient = steepest_of(widths, words, limit, scale);
   const std::string usual = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";
@@ -277,14 +281,10 @@ std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
   return with_doubt(std::move(notes), widths, words);
 }
 
-std::vector<std::string> notes_in_plane(const Raster& widths, const WidthWords& words,
+std::vector<std::string> notes_in_plane(const WidthField& widths, const WidthWords& words,
                                         double implied, std::optional<std::int64_t> cells) {
-  const std::string range =
-      words.uniform ? "cells " + shortest(*words.uniform) + " wide require "
-                    : words.file + ": cells " + formatted("%.4g", widths.values.minCoeff()) +
-                          " to " + formatted("%.4g", widths.values.maxCoeff()) + " wide, on " +
-                          std::to_string(widths.x.size()) + " x " +
-                          std::to_string(widths.y.size()) + " nodes, require ";
+  const std::string range = words.uniform ? "cells " + shortest(*words.uniform) + " wide require "
+                                          : range_words(widths, words, "");
   const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
   return {range + formatted("%.0f", implied) + " cells" +
           (std::abs(scale - 1) > 0.01 ? "; with " + std::to_string(*cells) + " cells, widths are " +

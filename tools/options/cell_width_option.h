@@ -57,8 +57,8 @@ WidthRules read_widths(const WidthWords& words, const Surface& surface = {});
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
-/// The largest gradient of scaled widths, at most a limit before they were scaled.
-Gradient steepest_of(const Raster& scaled, const WidthWords& words, std::optional<double> limit,
+/// The largest gradient of widths times a scale, of which a limit of the widths is one of theirs.
+Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::optional<double> limit,
                      double scale);
 
 /// "12.5 E 48.2 S".
@@ -68,15 +68,15 @@ std::string place_of(const Gradient& gradient);
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.
 /// \param limit of their gradient. \param cells number of cells of the run, if known: it scales
 ///        all widths.
-std::vector<std::string> notes_on(const Raster& widths, const WidthWords& words,
+std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,
                                   std::optional<double> limit, std::optional<std::int64_t> cells);
 
 /// The same of widths in the plane.
 /// \param implied number of cells.
-std::vector<std::string> notes_in_plane(const Raster& widths, const WidthWords& words,
+std::vector<std::string> notes_in_plane(const WidthField& widths, const WidthWords& words,
                                         double implied, std::optional<std::int64_t> cells);
 
 /// A remark on widths that may be in metres, above 2000 km; "" for others.
-std::string doubt_of(const Raster& widths, const WidthWords& words);
+std::string doubt_of(const WidthField& widths, const WidthWords& words);
 
 } // namespace calotte::tools

@@ -251,7 +251,7 @@ DensityOfWidths sampled(const DensityWords& words, const Surface& surface) {
   Resolution resolution = resolution_of(words, surface);
   if (auto* const density = std::get_if<Density>(&resolution))
     return {std::move(*density), {}};
-  Raster widths = calotte::sampled(std::get<WidthRules>(resolution).widths, surface);
+  WidthField widths = width_field(std::get<WidthRules>(resolution).widths, surface);
   Density density = calotte::density_of(widths);
   return {std::move(density), std::move(widths)};
 }

@@ -43,10 +43,10 @@ std::variant<Density, Widths> for_recipe(const Resolution& resolution);
 /// A density, and the widths that it is of, if there are any.
 struct DensityOfWidths {
   Density density;
-  std::optional<Raster> widths;
+  std::optional<WidthField> widths;
 };
 
-/// The same for commands without a recipe. \throws Error as resolution_of(), and as sampled().
+/// The same for commands without a recipe. \throws Error as resolution_of(), and as width_field().
 DensityOfWidths sampled(const DensityWords& words, const Surface& surface = {});
 /// The density alone.
 Density density_of(const DensityWords& words, const Surface& surface = {});

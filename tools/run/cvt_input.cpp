@@ -185,8 +185,8 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                      fixed = input.recipe.fixed.cols() + schedule.on_lines;
   const bool follows = input.recipe.cells == 0 && input.file.name.empty();
   std::vector<std::string> notes;
-  const std::optional<Raster>& widths = schedule.widths;
-  if (widths && widths->of_plane)
+  const std::optional<WidthField>& widths = schedule.widths;
+  if (widths && widths->of_plane())
     notes =
         notes_in_plane(*widths, words, schedule.implied_cells,
                        input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));

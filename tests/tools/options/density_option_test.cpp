@@ -185,6 +185,10 @@ std::string message_of(const DensityWords& words) {
   return test::message_of([&] { resolution_of(words); });
 }
 
+Raster raster_of(const DensityWords& words) {
+  return calotte::sampled(std::get<WidthRules>(resolution_of(words)).widths);
+}
+
 } // namespace
 
 TEST_CASE("cell widths replace a density, and their contents belong to the configuration") {
@@ -192,7 +196,7 @@ TEST_CASE("cell widths replace a density, and their contents belong to the confi
   const DensityWords words = parsed({"--cell-width", file.path()});
   const DensityOfWidths resolution = sampled(words);
   REQUIRE(resolution.widths);
-  CHECK(resolution.widths->values(0, 1) == 200);
+  CHECK(raster_of(words).values(0, 1) == 200);
   CHECK(evaluate(resolution.density, Eigen::Vector3d(-1, 0, 0))[0] == 1);
   CHECK(evaluate(resolution.density, Eigen::Vector3d(1, 0, 0))[0] == doctest::Approx(1.0 / 16));
   CHECK(density_names(words) == std::vector<std::string>{"cell widths of " + file.path()});
@@ -215,12 +219,12 @@ TEST_CASE("cell widths replace a density, and their contents belong to the confi
 TEST_CASE("the widths' notes tell their range, number and gradient, and warn of a steep one") {
   const TextFile file(".msh", jigsaw_grid("100"));
   DensityWords words = parsed({"--cell-width", file.path()});
-  Raster widths = *sampled(words).widths;
+  Raster widths = raster_of(words);
   const double implied = implied_cells(widths);
   const std::string cells = std::to_string(std::llround(implied));
   std::vector<std::string> notes = notes_on(widths, words.widths, words.widths.gradient, {});
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, on 4 x 3 nodes, require " + cells +
+  CHECK(notes[0] == file.path() + ": cells 100 to 100 km wide, at 12 nodes, require " + cells +
                         " cells; largest gradient 0 km per km");
   notes = notes_on(widths, words.widths, {}, std::llround(implied / 4));
   CHECK(test::has(notes[0], "; with " + std::to_string(std::llround(implied / 4)) +
@@ -241,8 +245,8 @@ TEST_CASE("the widths' notes tell their range, number and gradient, and warn of 
 TEST_CASE("a limit of the gradient lowers the widths around the narrow ones") {
   const TextFile file(".msh", jigsaw_grid("400"));
   const std::vector<std::string> arguments{"--cell-width", file.path(), "--gradient", "0.01"};
-  const Raster given = *sampled(parsed({"--cell-width", file.path()})).widths,
-               limited = *sampled(parsed(arguments)).widths;
+  const Raster given = raster_of(parsed({"--cell-width", file.path()})),
+               limited = raster_of(parsed(arguments));
   CHECK(limited.values == limit_gradient(given, 0.01).values);
   CHECK(limited.values != given.values);
   CHECK(density_configuration(parsed(arguments)) !=

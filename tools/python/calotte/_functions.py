@@ -140,7 +140,7 @@ def _density_for(grid, density, cell_width):
     """The density of a name or of widths, of the space that the grid is in."""
     plane = not grid.surface.is_sphere
     widths = (None if cell_width is None else
-              _arguments.rule(cell_width, grid.surface).sampled(surface=grid.surface))
+              _arguments.rule(cell_width, grid.surface).field(grid.surface))
     return _arguments.density(density, widths, plane)
 
 
@@ -543,7 +543,7 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
     widths = schedule.widths
     if widths is None:
         return Plan(**made)
-    made["widths"] = float(widths.widths.min()), float(widths.widths.max())
+    made["widths"] = widths.least, widths.greatest
     if widths.of_plane:
         return Plan(**made)
     slope, longitude, latitude = _calotte.largest_gradient(widths, earth_radius)
@@ -1244,10 +1244,10 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     Returns a dict of counts: cells, and cells_by_mask (inside, then by ring).
     """
     surface = _arguments.surface(surface, plane=False, earth_radius=earth_radius)
-    widths = _arguments.rule(cell_width, surface, earth_radius).on_sphere(earth_radius).sampled(surface=surface)
+    widths = _arguments.rule(cell_width, surface, earth_radius).on_sphere(earth_radius)
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
-    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths),
+    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths.field(grid.surface)),
                              True, {}, "", None, None)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 

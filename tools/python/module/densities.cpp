@@ -74,7 +74,13 @@ void add_cell_width(py::module_& module) {
   module.def("kilometres_in", &kilometres_in);
   module.attr("steepest_width") = steepest_width;
   module.def("is_too_steep", &is_too_steep);
-  module.def("largest_gradient", [](const Raster& widths, double radius_km) {
+  py::class_<WidthField>(module, "WidthField", "Cell widths that a run follows.")
+      .def(py::init<const Raster&>())
+      .def_property_readonly("least", &WidthField::least, "The least width of the nodes.")
+      .def_property_readonly("greatest", &WidthField::greatest, "The largest.")
+      .def_property_readonly("of_plane", &WidthField::of_plane, "True for those of a plane.");
+  py::implicitly_convertible<Raster, WidthField>();
+  module.def("largest_gradient", [](const WidthField& widths, double radius_km) {
     const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
   });
@@ -98,7 +104,7 @@ void add_densities(py::module_& module) {
   module.def("density_of_bumps", &bumps);
   add_cell_width(module);
   module.def("density_of_widths",
-             [](const Raster& widths) { return call([&] { return density_of(widths); }); });
+             [](const WidthField& widths) { return call([&] { return density_of(widths); }); });
 }
 
 } // namespace calotte::python

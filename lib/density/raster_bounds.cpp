@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/raster_bounds.h"
+
+#include "base/lonlat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace calotte::density_detail {
+namespace {
+
+constexpr int finest_shift = 2, shift_of_level = 1;
+
+struct Window {
+  double west, east, south, north;
+};
+
+/// That of longitudes and latitudes about a place of the sphere. \param reach below a half circle.
+Window window_about(const Vec3& centre, double reach) {
+  constexpr double half_circle = std::numbers::pi;
+  const auto [longitude, latitude] = base_detail::lonlat_of(centre);
+  const double x = longitude * half_circle / 180, y = latitude * half_circle / 180;
+  const double along = std::sin(reach) / std::cos(y);
+  const bool has_pole = std::abs(y) + reach >= half_circle / 2;
+  const double across = has_pole || along >= 1 ? half_circle : std::asin(along);
+  return {x - across, x + across, y - reach, y + reach};
+}
+
+} // namespace
+
+RasterBounds::RasterBounds(const RasterField& field)
+    : RasterBounds(field, [&](std::int64_t i, std::int64_t j) { return field.value(i, j); }) {}
+
+RasterBounds::RasterBounds(const RasterField& field,
+                           const std::function<double(std::int64_t, std::int64_t)>& value) {
+  const std::int64_t columns = field.x().intervals() + 1, rows = field.y().intervals() + 1;
+  Level finest{finest_shift, ((columns - 1) >> finest_shift) + 1, {}};
+  finest.squares.resize(
+      static_cast<std::size_t>(finest.columns * (((rows - 1) >> finest_shift) + 1)));
+  for (std::int64_t j = 0; j < rows; ++j)
+    for (std::int64_t i = 0; i < columns; ++i)
+      finest
+          .squares[static_cast<std::size_t>((j >> finest_shift) * finest.columns +
+                                            (i >> finest_shift))]
+          .add(value(i, j));
+  levels_.push_back(std::move(finest));
+  while (levels_.back().squares.size() > 1) {
+    const Level& fine = levels_.back();
+    const std::int64_t fine_rows = std::ssize(fine.squares) / fine.columns;
+    Level coarse{fine.shift + shift_of_level, (fine.columns + 1) / 2, {}};
+    coarse.squares.resize(static_cast<std::size_t>(coarse.columns * ((fine_rows + 1) / 2)));
+    for (std::int64_t j = 0; j < fine_rows; ++j)
+      for (std::int64_t i = 0; i < fine.columns; ++i)
+        coarse.squares[static_cast<std::size_t>(j / 2 * coarse.columns + i / 2)].add(
+            fine.squares[static_cast<std::size_t>(j * fine.columns + i)]);
+    levels_.push_back(std::move(coarse));
+  }
+}
+
+/// Of all nodes in some columns and rows, both ends included.
+Bounds RasterBounds::of_nodes(std::int64_t west, std::int64_t east, std::int64_t south,
+                              std::int64_t north) const {
+  constexpr std::int64_t most = 3; // squares in a row
+  std::size_t k = 0;
+  while (k + 1 < levels_.size() && std::max(east - west, north - south) >> levels_[k].shift >= most)
+    ++k;
+  const Level& level = levels_[k];
+  Bounds bounds;
+  for (std::int64_t j = south >> level.shift; j <= north >> level.shift; ++j)
+    for (std::int64_t i = west >> level.shift; i <= east >> level.shift; ++i)
+      bounds.add(level.squares[static_cast<std::size_t>(j * level.columns + i)]);
+  return bounds;
+}
+
+Bounds RasterBounds::within(const RasterField& field, const Vec3& centre, double reach) const {
+  const Axis &x = field.x(), &y = field.y();
+  const auto bounds = [&](double west, double east, double south, double north) {
+    return of_nodes(x.interval(west), x.interval(east) + 1, y.interval(south),
+                    y.interval(north) + 1);
+  };
+  if (field.of_plane())
+    return bounds(centre.x - reach, centre.x + reach, centre.y - reach, centre.y + reach);
+  if (!(reach < std::numbers::pi / 2))
+    return levels_.back().squares.front();
+  constexpr double slack = 1e-9, turn = 2 * std::numbers::pi;
+  const Window window = window_about(centre, reach + slack);
+  Bounds all;
+  for (const double shift : {-turn, 0.0, turn}) // the first longitude is from -pi to pi
+    if (window.west + shift <= x[x.intervals()] && window.east + shift >= x[0])
+      all.add(bounds(window.west + shift, window.east + shift, window.south, window.north));
+  return all;
+}
+
+} // namespace calotte::density_detail

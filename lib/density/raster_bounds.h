@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "density/bounds.h"
+#include "density/raster_field.h"
+#include "density/room.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace calotte::density_detail {
+
+/// Bounds of the values of a raster about places, from those of squares of nodes, which double in
+/// size from level to level.
+class RasterBounds {
+public:
+  explicit RasterBounds(const RasterField& field);
+  /// \param value of a node, in place of the field's.
+  RasterBounds(const RasterField& field,
+               const std::function<double(std::int64_t i, std::int64_t j)>& value);
+
+  /// Bounds of what is interpolated within a distance of a place.
+  /// \param field that it was made for. \param centre unit vector, of a plane x y 0.
+  /// \param reach radians, of a plane its unit.
+  Bounds within(const RasterField& field, const Vec3& centre, double reach) const;
+
+private:
+  struct Level {
+    int shift; ///< squares of 2^shift nodes
+    std::int64_t columns;
+    std::vector<Bounds> squares; ///< row by row
+  };
+  Bounds of_nodes(std::int64_t west, std::int64_t east, std::int64_t south,
+                  std::int64_t north) const;
+
+  std::vector<Level> levels_; ///< the finest first
+};
+
+} // namespace calotte::density_detail

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "density/width_tiles.h"
+
+#include "base/lonlat.h"
+#include "base/vector_loops.h"
+#include "density/width_table.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace calotte::density_detail {
+namespace {
+
+/// The nodes of an edge of a tile.
+struct Edge {
+  double* values;
+  std::int64_t stride;
+  std::int32_t intervals;
+
+  double& operator[](std::int64_t k) const { return values[k * stride]; }
+};
+
+/// Puts the nodes of an edge between those of another one, which has as many or fewer, on lines.
+void follow(const Edge& other, const Edge& edge) {
+  const std::int32_t parts = edge.intervals / other.intervals;
+  for (std::int32_t k = 0; k < other.intervals; ++k)
+    for (std::int32_t part = 1; part < parts; ++part)
+      edge[std::int64_t{k} * parts + part] =
+          other[k] + (other[k + 1] - other[k]) * (static_cast<double>(part) / parts);
+}
+
+void join(const Edge& a, const Edge& b) {
+  if (a.intervals < b.intervals)
+    follow(a, b);
+  else
+    follow(b, a);
+}
+
+} // namespace
+
+TileBox tiles_of_sphere() { return {-180, 1, -90, 1, 360, 180, false}; }
+
+WidthTiles::WidthTiles(const TileBox& box, const std::vector<Shape>& shapes) : box_(box) {
+  std::int32_t begin = 0;
+  auto shape = shapes.begin();
+  for (std::int32_t row = 0; row < box.rows; ++row) {
+    for (std::int32_t column = 0; column < box.columns; ++column, ++shape) {
+      places_.push_back({begin, shape->columns, shape->rows});
+      begin += (shape->columns + 1) * (shape->rows + 1);
+    }
+    places_.push_back(places_.back());
+  }
+  values_.resize(static_cast<std::size_t>(begin));
+}
+
+double WidthTiles::Tile::sine(std::int64_t j) const {
+  return base_detail::from_lonlat(0, y_[j] * (180 / std::numbers::pi)).z;
+}
+
+WidthTiles::Tile WidthTiles::operator[](std::int64_t tile) const {
+  const Place& place = at(tile);
+  const double unit = box_.unit();
+  Tile result;
+  result.x_ = {x_of(tile, 0) * unit, box_.dx * unit / place.columns, place.columns};
+  result.y_ = {y_of(tile, 0) * unit, box_.dy * unit / place.rows, place.rows};
+  result.values_ = &values_[static_cast<std::size_t>(place.begin)];
+  return result;
+}
+
+std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
+  const Place& place = at(tile);
+  std::vector<Vec3> round, places;
+  for (std::int32_t i = 0; i <= place.columns; ++i)
+    round.push_back(box_.of_plane ? Vec3{x_of(tile, i), 0, 0}
+                                  : base_detail::from_lonlat(x_of(tile, i), 0));
+  for (std::int32_t j = 0; j <= place.rows; ++j) {
+    const double y = y_of(tile, j);
+    const Vec3 meridian = box_.of_plane ? Vec3() : base_detail::from_lonlat(0, y);
+    for (const Vec3& at : round)
+      places.push_back(box_.of_plane ? Vec3{at.x, y, 0}
+                                     : Vec3{meridian.x * at.x, meridian.x * at.y, meridian.z});
+  }
+  return places;
+}
+
+/// \param across whether b lies east of a, and not north.
+void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
+  const Place &of_a = at(a), &of_b = at(b);
+  double *const values_a = values(a), *const values_b = values(b);
+  if (across)
+    density_detail::join({values_a + of_a.columns, of_a.columns + 1, of_a.rows},
+                         {values_b, of_b.columns + 1, of_b.rows});
+  else
+    density_detail::join({values_a + std::int64_t{of_a.rows} * (of_a.columns + 1), 1, of_a.columns},
+                         {values_b, 1, of_b.columns});
+}
+
+void WidthTiles::join_edges() {
+  for (std::int64_t tile = 0; tile < size(); ++tile) {
+    const bool is_last = tile % box_.columns == box_.columns - 1;
+    if (!is_last || !box_.of_plane)
+      join(tile, is_last ? tile + 1 - box_.columns : tile + 1, true);
+    if (tile + box_.columns < size())
+      join(tile, tile + box_.columns, false);
+  }
+}
+
+namespace {
+
+/// Cells of a plane; see find_cells().
+void find_cells_of_plane(const WidthTable::Grid& grid, const double* x, const double* y,
+                         std::size_t count, GridCells& out) {
+  for (std::size_t k = 0; k < count; ++k) {
+    std::int32_t i = 0, j = 0;
+    split_position((x[k] - grid.west) * grid.inverse_dx, grid.columns, i, out.u[k]);
+    split_position((y[k] - grid.south) * grid.inverse_dy, grid.rows, j, out.v[k]);
+    out.place[k] = j * (grid.columns + 1) + i;
+  }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void interpolate_in_tiles(const WidthTiles::Place* places, const double* values,
+                          const GridCells& cells, std::size_t count, double* widths) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < count; ++k) {
+    const WidthTiles::Place tile = places[cells.place[k]];
+    std::int32_t i = 0, j = 0;
+    double u = 0, v = 0;
+    split_position(cells.u[k] * tile.columns, tile.columns, i, u);
+    split_position(cells.v[k] * tile.rows, tile.rows, j, v);
+    const std::int32_t low = tile.begin + j * (tile.columns + 1) + i, high = low + tile.columns + 1;
+    const double south = values[low] + u * (values[low + 1] - values[low]),
+                 north = values[high] + u * (values[high + 1] - values[high]);
+    widths[k] = south + v * (north - south);
+  }
+}
+
+} // namespace
+
+void WidthTiles::operator()(const double* x, const double* y, const double* z, std::size_t count,
+                            double* widths) const {
+  const double unit = box_.unit();
+  const WidthTable::Grid grid{box_.west * unit,     1 / (box_.dx * unit), box_.south * unit,
+                              1 / (box_.dy * unit), box_.columns,         box_.rows};
+  GridCells cells;
+  for (std::size_t begin = 0; begin < count; begin += GridCells::size) {
+    const std::size_t size = std::min(GridCells::size, count - begin);
+    if (box_.of_plane)
+      find_cells_of_plane(grid, x + begin, y + begin, size, cells);
+    else
+      find_cells(grid, x + begin, y + begin, z + begin, size, cells);
+    interpolate_in_tiles(places_.data(), values_.data(), cells, size, widths + begin);
+  }
+}
+
+} // namespace calotte::density_detail

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/vec3.h"
+#include "density/room.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace calotte::density_detail {
+
+/// Ascending values at equal steps. The interface of Axis.
+struct EvenAxis {
+  double start = 0, step = 1;
+  std::int64_t count = 1; ///< of intervals
+
+  double operator[](std::int64_t i) const { return start + static_cast<double>(i) * step; }
+  std::int64_t intervals() const { return count; }
+  double fraction(std::int64_t i, double x) const {
+    return std::clamp((x - (*this)[i]) / step, 0.0, 1.0);
+  }
+};
+
+/// What tiles cover.
+struct TileBox {
+  double west, dx, south, dy; ///< degrees, or of a plane: the first tile's corner, and its size
+  std::int32_t columns, rows;
+  bool of_plane;
+
+  /// Of a degree, or of x and y.
+  double unit() const { return of_plane ? 1 : std::numbers::pi / 180; }
+};
+
+/// The whole sphere in tiles of one degree.
+TileBox tiles_of_sphere();
+
+/// Values at nodes that are dense where they need to be: tiles of longitude and latitude or of x
+/// and y, each with its own number of nodes, and bilinear between four of them.
+class WidthTiles {
+public:
+  /// Intervals of a tile in both directions: powers of two.
+  struct Shape {
+    std::int32_t columns, rows;
+  };
+
+  /// Nodes without values.
+  /// \param shapes of the tiles, row by row.
+  WidthTiles(const TileBox& box, const std::vector<Shape>& shapes);
+
+  /// A tile, as RasterField has a raster.
+  class Tile {
+  public:
+    const EvenAxis& x() const { return x_; } ///< radians, or x of the plane
+    const EvenAxis& y() const { return y_; }
+    double value(std::int64_t i, std::int64_t j) const { return values_[j * (x_.count + 1) + i]; }
+    double sine(std::int64_t j) const; ///< of the latitude of a row
+
+  private:
+    friend WidthTiles;
+    EvenAxis x_, y_;
+    const double* values_ = nullptr;
+  };
+  std::int64_t size() const { return static_cast<std::int64_t>(box_.columns) * box_.rows; }
+  Tile operator[](std::int64_t tile) const;
+
+  /// The values of a tile, row by row from its south-west corner.
+  double* values(std::int64_t tile) { return &values_[static_cast<std::size_t>(at(tile).begin)]; }
+  /// All values, and the places of nodes as unit vectors or x y 0.
+  std::vector<double>& values() { return values_; }
+  const std::vector<double>& values() const { return values_; }
+  std::vector<Vec3> places(std::int64_t tile) const;
+  /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
+  template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
+    const Place& place = at(tile);
+    double* value = values(tile);
+    for (std::int32_t j = 0; j <= place.rows; ++j)
+      for (std::int32_t i = 0; i <= place.columns; ++i)
+        body(x_of(tile, i), y_of(tile, j), *value++);
+  }
+
+  /// Puts nodes on the edge of a tile with fewer nodes there on the line between its own: then what
+  /// is between nodes is continuous.
+  void join_edges();
+
+  /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
+  /// depend on its place alone.
+  void operator()(const double* x, const double* y, const double* z, std::size_t count,
+                  double* values) const;
+
+  bool of_plane() const { return box_.of_plane; }
+
+  /// Where a tile's values are.
+  struct Place {
+    std::int32_t begin, columns, rows;
+  };
+
+private:
+  /// By column and row of the box. One is spare at the end of each row, as in WidthTable.
+  const Place& at(std::int64_t tile) const {
+    return places_[static_cast<std::size_t>(tile + tile / box_.columns)];
+  }
+  /// Of a column and a row of a tile: degrees, or of the plane.
+  double x_of(std::int64_t tile, std::int32_t i) const {
+    return box_.west +
+           (static_cast<double>(tile % box_.columns) + static_cast<double>(i) / at(tile).columns) *
+               box_.dx;
+  }
+  double y_of(std::int64_t tile, std::int32_t j) const {
+    return box_.south +
+           (static_cast<double>(tile / box_.columns) + static_cast<double>(j) / at(tile).rows) *
+               box_.dy;
+  }
+  void join(std::int64_t a, std::int64_t b, bool across);
+
+  TileBox box_;
+  std::vector<Place> places_;
+  std::vector<double> values_;
+};
+
+} // namespace calotte::density_detail
