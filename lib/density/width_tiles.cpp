@@ -43,13 +43,18 @@ TileBox tiles_of_sphere() { return {-180, 1, -90, 1, 360, 180, false}; }
 
 WidthTiles::WidthTiles(const TileBox& box, const std::vector<Shape>& shapes) : box_(box) {
   std::int32_t begin = 0;
+  const auto add = [&](const Shape& shape) {
+    places_.begin.push_back(begin);
+    places_.columns.push_back(shape.columns);
+    places_.rows.push_back(shape.rows);
+  };
   auto shape = shapes.begin();
   for (std::int32_t row = 0; row < box.rows; ++row) {
     for (std::int32_t column = 0; column < box.columns; ++column, ++shape) {
-      places_.push_back({begin, shape->columns, shape->rows});
+      add(*shape);
       begin += (shape->columns + 1) * (shape->rows + 1);
     }
-    places_.push_back(places_.back());
+    add({1, 1});
   }
   values_.resize(static_cast<std::size_t>(begin));
 }
@@ -59,7 +64,7 @@ double WidthTiles::Tile::sine(std::int64_t j) const {
 }
 
 WidthTiles::Tile WidthTiles::operator[](std::int64_t tile) const {
-  const Place& place = at(tile);
+  const Place place = at(tile);
   const double unit = box_.unit();
   Tile result;
   result.x_ = {x_of(tile, 0) * unit, box_.dx * unit / place.columns, place.columns};
@@ -69,7 +74,7 @@ WidthTiles::Tile WidthTiles::operator[](std::int64_t tile) const {
 }
 
 std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
-  const Place& place = at(tile);
+  const Place place = at(tile);
   std::vector<Vec3> round, places;
   for (std::int32_t i = 0; i <= place.columns; ++i)
     round.push_back(box_.of_plane ? Vec3{x_of(tile, i), 0, 0}
@@ -86,7 +91,7 @@ std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
 
 /// \param across whether b lies east of a, and not north.
 void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
-  const Place &of_a = at(a), &of_b = at(b);
+  const Place of_a = at(a), of_b = at(b);
   double *const values_a = values(a), *const values_b = values(b);
   if (across)
     density_detail::join({values_a + of_a.columns, of_a.columns + 1, of_a.rows},
@@ -119,20 +124,37 @@ void find_cells_of_plane(const WidthTable::Grid& grid, const double* x, const do
   }
 }
 
+/// From the cells of a box, which are tiles, to those of the tiles.
+/// \param stride from a node to that north of it.
 CALOTTE_VECTOR_WIDTHS
-void interpolate_in_tiles(const WidthTiles::Place* places, const double* values,
-                          const GridCells& cells, std::size_t count, double* widths) {
+void find_nodes(const WidthTiles::Places& places, std::size_t count, GridCells& cells,
+                std::int32_t* stride) {
+  const std::int32_t *const begin = places.begin.data(), *const columns = places.columns.data(),
+                            *const rows = places.rows.data();
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
-    const WidthTiles::Place tile = places[cells.place[k]];
+    const std::int32_t tile = cells.place[k], across = columns[tile], up = rows[tile];
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;
-    split_position(cells.u[k] * tile.columns, tile.columns, i, u);
-    split_position(cells.v[k] * tile.rows, tile.rows, j, v);
-    const std::int32_t low = tile.begin + j * (tile.columns + 1) + i, high = low + tile.columns + 1;
-    const double south = values[low] + u * (values[low + 1] - values[low]),
-                 north = values[high] + u * (values[high + 1] - values[high]);
-    widths[k] = south + v * (north - south);
+    split_position(cells.u[k] * across, across, i, u);
+    split_position(cells.v[k] * up, up, j, v);
+    cells.place[k] = begin[tile] + j * (across + 1) + i;
+    stride[k] = across + 1;
+    cells.u[k] = u;
+    cells.v[k] = v;
+  }
+}
+
+CALOTTE_VECTOR_WIDTHS
+void interpolate_in_tiles(const GridCells& cells, const std::int32_t* stride, const double* values,
+                          std::size_t count, double* widths) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* const low = values + cells.place[k];
+    const double* const high = low + stride[k];
+    const double u = cells.u[k], south = low[0] + u * (low[1] - low[0]),
+                 north = high[0] + u * (high[1] - high[0]);
+    widths[k] = south + cells.v[k] * (north - south);
   }
 }
 
@@ -144,13 +166,15 @@ void WidthTiles::operator()(const double* x, const double* y, const double* z, s
   const WidthTable::Grid grid{box_.west * unit,     1 / (box_.dx * unit), box_.south * unit,
                               1 / (box_.dy * unit), box_.columns,         box_.rows};
   GridCells cells;
+  std::array<std::int32_t, GridCells::size> stride;
   for (std::size_t begin = 0; begin < count; begin += GridCells::size) {
     const std::size_t size = std::min(GridCells::size, count - begin);
     if (box_.of_plane)
       find_cells_of_plane(grid, x + begin, y + begin, size, cells);
     else
       find_cells(grid, x + begin, y + begin, z + begin, size, cells);
-    interpolate_in_tiles(places_.data(), values_.data(), cells, size, widths + begin);
+    find_nodes(places_, size, cells, stride.data());
+    interpolate_in_tiles(cells, stride.data(), values_.data(), size, widths + begin);
   }
 }
 

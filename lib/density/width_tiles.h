@@ -74,7 +74,7 @@ public:
   std::vector<Vec3> places(std::int64_t tile) const;
   /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
-    const Place& place = at(tile);
+    const Place place = at(tile);
     double* value = values(tile);
     for (std::int32_t j = 0; j <= place.rows; ++j)
       for (std::int32_t i = 0; i <= place.columns; ++i)
@@ -92,15 +92,20 @@ public:
 
   bool of_plane() const { return box_.of_plane; }
 
-  /// Where a tile's values are.
+  /// Where tiles' values begin, and their shapes. By column and row of the box; one is spare at the
+  /// end of each row, as in WidthTable.
+  struct Places {
+    std::vector<std::int32_t> begin, columns, rows;
+  };
+
+private:
   struct Place {
     std::int32_t begin, columns, rows;
   };
 
-private:
-  /// By column and row of the box. One is spare at the end of each row, as in WidthTable.
-  const Place& at(std::int64_t tile) const {
-    return places_[static_cast<std::size_t>(tile + tile / box_.columns)];
+  Place at(std::int64_t tile) const {
+    const auto k = static_cast<std::size_t>(tile + tile / box_.columns);
+    return {places_.begin[k], places_.columns[k], places_.rows[k]};
   }
   /// Of a column and a row of a tile: degrees, or of the plane.
   double x_of(std::int64_t tile, std::int32_t i) const {
@@ -116,7 +121,7 @@ private:
   void join(std::int64_t a, std::int64_t b, bool across);
 
   TileBox box_;
-  std::vector<Place> places_;
+  Places places_;
   std::vector<double> values_;
 };
 
