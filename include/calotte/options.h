@@ -38,9 +38,9 @@ struct Partition {
   /// sites, otherwise one per 16384 sites, but at least 12.
   std::optional<int> regions = {};
   Centres centres = Centres::sample; ///< no effect if given_centres is set
-  /// The centres of the regions (MPI-SCVT's RegionList), at least one column; overrides the two
-  /// options above. On the sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k
-  /// finite points in the unit of the points, or 3 x k, whose third row is ignored. Default: none.
+  /// The centres of the regions, at least one column; overrides the two options above. On the
+  /// sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k finite points in the
+  /// unit of the points, or 3 x k, whose third row is ignored. Default: none.
   std::optional<DoubleMatrix> given_centres = {};
   Overlap overlap = Overlap::halo; ///< no effect if there is one region
 };

@@ -91,18 +91,12 @@ Surface read_domain(const std::string& path);
 /// Circles, ellipses and channels have 360 corners; metres are those of a sphere of radius 6371229
 /// m. A custom polygon may run either way: its inside is the side of the line Point. The case of
 /// keywords does not matter.
-///
-/// SaveBoundaries..., of MPI-SCVT: on each line a corner, longitude and latitude in degrees or x y
-/// z. The file SaveLoopCounts... beside it has on each line the first and the last corner of a
-/// loop, counted from 1, or the number of its corners; without it there is one loop. The region is
-/// what all loops enclose together.
 /// \throws Error parse, naming the line, or the feature and its ring; as Surface::within(), with
 ///         the file's name; invalid_argument for an unknown suffix; file.
 Surface read_region(const std::string& path);
 
 /// The same from a stream.
-/// \param name the name of the stream in messages, which selects the format; of SaveBoundaries a
-///        stream has one loop.
+/// \param name the name of the stream in messages, which selects the format.
 Surface read_region(std::istream& in, const std::string& name);
 
 /// Reads a mesh in any format that `write` supports, also from other programs. The surface is the
@@ -136,9 +130,7 @@ Surface read_region(std::istream& in, const std::string& name);
 Mesh read_mesh(const std::string& path, const Points3* points = nullptr);
 
 /// Reads the points of such a file, 3 x n, and ignores its triangles. In a UGRID file without sites
-/// the points are the nodes. The function also reads the region centres of MPI-SCVT: from
-/// RegionList, or for a name that starts with RegionTriangulation from the RegionList beside it.
-/// (read_mesh triangulates these.)
+/// the points are the nodes.
 /// \throws Error as read_mesh.
 Points3 read_sites(const std::string& path);
 

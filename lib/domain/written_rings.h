@@ -18,7 +18,7 @@ namespace calotte::domain_detail {
 /// A ring and its origin, for messages.
 struct WrittenRing {
   std::vector<Vec3> corners; ///< unit vectors; the last leads back to the first
-  std::string origin;        ///< a noun: "ring 2", "the loop that begins in line 7"
+  std::string origin;        ///< a noun: "ring 2", "feature 1: ring 0"
   bool reversed = false;     ///< the corners stand in the reverse order of those written
 };
 

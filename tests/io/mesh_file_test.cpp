@@ -233,25 +233,6 @@ TEST_CASE("points without triangles are triangulated, and equal directions merge
   CHECK(std::string(tilted.what()).starts_with(scratch / "mesh.off: "));
 }
 
-TEST_CASE("region centres: RegionList, and RegionTriangulation by the list beside it") {
-  const Scratch scratch;
-  const Points3 centres = calotte::fibonacci_sphere(12);
-  for (const std::string rest : {"", ".12", ".txt"}) {
-    calotte::write_points(scratch / ("RegionList" + rest), centres);
-    CHECK(equal_bits(calotte::read_sites(scratch / ("RegionList" + rest)), centres));
-    CHECK(equal_bits(calotte::read_sites(scratch / ("RegionTriangulation" + rest)), centres));
-    check_equal(calotte::read_mesh(scratch / ("RegionTriangulation" + rest)),
-                calotte::delaunay(centres));
-  }
-  write_text(scratch / "RegionTriangulation.4", "0 1 2\n0 2 3\n");
-  const calotte::Error alone =
-      error_of([&] { calotte::read_sites(scratch / "RegionTriangulation.4"); });
-  CHECK(alone.code() == ErrorCode::file);
-  CHECK(std::string(alone.what()) ==
-        (scratch / "RegionTriangulation.4") + ": it holds the centres' triangles only, and " +
-            (scratch / "RegionList.4") + ", which holds the centres, cannot be read; put it there");
-}
-
 TEST_CASE("triangles alone are no sites") {
   const Scratch scratch;
   const Mesh mesh = calotte::delaunay(octahedron());

@@ -13,7 +13,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -283,70 +282,6 @@ TEST_CASE(".pts: lines that are none") {
             "a.pts: the channel's latitudes are"));
 }
 
-// ---- MPI-SCVT
-
-TEST_CASE("SaveBoundaries: loops of either winding are the smaller part of the sphere") {
-  const Scratch folder;
-  const std::string loops = "0 0\n20 0\n20 20\n0 20\n  5.0  5.0 \n 10 5\n10 10\n5 10\n5 5\n";
-  write_text(folder / "SaveBoundaries.two", loops);
-  for (const std::string& counts : {std::string("  1  4\n 5 9\n"), std::string("4\n5\n")}) {
-    write_text(folder / "SaveLoopCounts.two", counts);
-    const Surface region = read_region(folder / "SaveBoundaries.two");
-    CHECK(region.rings().size() == 2);
-    CHECK(region.rings()[1].cols() == 4);
-    CHECK(region.contains(lonlat(2, 2)));
-    CHECK_FALSE(region.contains(lonlat(7, 7)));
-    CHECK(region.area() ==
-          doctest::Approx(geojson(polygon_of({square, inner})).area()).epsilon(1e-14));
-  }
-  write_text(folder / "SaveBoundaries", "1 0 0\n0 0 1\n0 1 0\n"); // clockwise, no counts
-  CHECK(read_region(folder / "SaveBoundaries").area() == doctest::Approx(pi / 2).epsilon(1e-15));
-
-  const auto refused = [&](const std::string& counts) {
-    write_text(folder / "SaveLoopCounts.two", counts);
-    const Error error = error_of([&] { read_region(folder / "SaveBoundaries.two"); });
-    CHECK(error.code() == ErrorCode::parse);
-    return std::string(error.what());
-  };
-  CHECK(has(refused("1 4\n5 10\n"),
-            "SaveLoopCounts.two line 2: \"5 10\" is no loop of three or more of the 9 points"));
-  CHECK(has(refused("0 4\n"), "is no loop of three or more"));
-  CHECK(has(refused("1 2\n"), "is no loop of three or more"));
-  CHECK(has(refused("1 4.5\n"),
-            "is no loop; write the numbers of its first and last point, counted from 1"));
-  CHECK(has(refused("# none\n"), "no loops"));
-  write_text(folder / "SaveLoopCounts.two", "1 4\n5 7\n8 9\n");
-  CHECK_THROWS_AS(read_region(folder / "SaveBoundaries.two"), Error);
-}
-
-TEST_CASE("SaveBoundaries: MPI-SCVT's circle, points of a cap around a place on the equator") {
-  std::string text;
-  const Surface exact = circle(lonlat(180, 0), 15 * degree, 1999);
-  for (const Eigen::Vector3d p : exact.rings()[0].colwise()) {
-    char line[80];
-    std::snprintf(line, sizeof line, "%10.5f%10.5f\n", std::atan2(-p.y(), -p.x()) / degree + 180,
-                  std::asin(p.z()) / degree);
-    text += line;
-  }
-  const Surface region = region_from("SaveBoundaries.circle", text);
-  CHECK(region.rings()[0].cols() == 1999);
-  CHECK(region.area() == doctest::Approx(2 * pi * (1 - std::cos(15 * degree))).epsilon(1e-5));
-  CHECK(region.contains(lonlat(180, 0)));
-}
-
-TEST_CASE("SaveBoundaries: lines that are no points") {
-  for (const auto& [text, words] : std::vector<std::array<std::string, 2>>{
-           {"1 2\n3\n", "SaveBoundaries line 2: \"3\" is no point; write longitude and latitude"},
-           {"1 2\n3 100\n", "line 2: \"3 100\" is no longitude and latitude"},
-           {"0 0 0\n", "the zero vector has no direction"},
-           {"1 2\n3 10\n", "SaveBoundaries: 2 points enclose nothing"}})
-    CHECK(has(refusal_of_region("SaveBoundaries", text), words));
-  CHECK(has(
-      refusal_of_region("SaveBoundaries", "0 0\n10 10\n10 0\n0 10\n", ErrorCode::invalid_argument),
-      "the loop that begins in line 1, corner 0 and from the loop that begins in line 1, corner 2 "
-      "meet"));
-}
-
 TEST_CASE("a file cut short is read or refused, with one line") {
   const Scratch folder;
   const auto cut = [&](const std::string& name, const std::string& text) {
@@ -355,7 +290,6 @@ TEST_CASE("a file cut short is read or refused, with one line") {
   };
   CHECK(cut("R.geojson", collection({feature(polygon_of({square, inner}))})) == 0);
   CHECK(cut("R.pts", "Type: custom\nPoint: 1, 1\n0, 0\n0, 20\n20, 20.000000000000\n") > 0);
-  CHECK(cut("SaveBoundaries", "0 0\n20 0\n20 20\n0 20.000000000000\n") > 0);
 }
 
 TEST_CASE("names and files") {

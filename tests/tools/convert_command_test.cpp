@@ -178,14 +178,10 @@ TEST_CASE("MPI-SCVT's files are a mesh, a start and points") {
   std::string vertices = bench.file("points.txt");
   vertices.pop_back(); // its final newline
   bench.file("SaveVertices", vertices);
-  REQUIRE(bench.run("points fibonacci 7 -o RegionList").code == 0);
-  REQUIRE(bench.run("delaunay RegionList -o RegionTriangulation.tri").code == 0);
-  fs::rename(bench.folder() / "RegionTriangulation.tri", bench.folder() / "RegionTriangulation");
   CHECK(bench.run("delaunay SaveVertices -o mesh.vtp").code == 0);
   CHECK((calotte::read_mesh(bench.path("mesh.vtp")).triangles == start.triangles));
   CHECK(bench.run("cvt SaveVertices --iterations 1 -o mesh.vtp").code == 0);
   CHECK(calotte::read_mesh(bench.path("mesh.vtp")).points.cols() == 60);
-  convert(bench, "RegionTriangulation", {"regions.vtp", ""}, 7);
 }
 
 TEST_CASE("every format's points can be triangulated and iterated from again") {

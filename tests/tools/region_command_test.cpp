@@ -153,26 +153,6 @@ TEST_CASE("generators on the boundary: the mesh ends at them") {
 )");
 }
 
-TEST_CASE("MPI-SCVT's circle is a region") {
-  const Bench bench;
-  fs::copy_file(fs::path(CALOTTE_FIXTURES) / "SaveBoundaries.circle",
-                bench.folder() / "SaveBoundaries.circle");
-  for (const std::string boundary : {"clip", "generators"}) {
-    const Outcome outcome = bench.run("cvt --region SaveBoundaries.circle --cells 400 -o a.vtp "
-                                      "--boundary " +
-                                      boundary);
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    CHECK(bench.run("check a.vtp").code == 0);
-    const Points3 made = points_of(bench, "a.vtp");
-    CHECK(made.cols() == 400);
-    CHECK(made.row(2).minCoeff() >= std::sin(60 * degree) - 1e-15);
-  }
-  CHECK(bench.run("cvt --region SaveBoundaries.circle --cell-width 300km --limited-area -o a.nc")
-            .code == 0);
-  CHECK(bench.run("check a.nc").code == 0);
-}
-
 TEST_CASE("plan: the grid of a region") {
   const Bench bench;
   const auto plan = [&](const std::string& arguments) {

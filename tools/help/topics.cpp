@@ -122,7 +122,6 @@ Files:
 
   .geojson, .json   Polygon and MultiPolygon geometries in longitude and latitude
   .pts              point files of MPAS-Limited-Area: custom, circle, ellipse and channel
-  SaveBoundaries    loops of MPI-SCVT, with SaveLoopCounts beside it
 
 An edge of a polygon is the shorter arc of a great circle between two corners. Give corners along a
 parallel: the arc from 130 W to 65 W at 50 N passes 4.7 degrees north of the parallel. Polygons may

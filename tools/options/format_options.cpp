@@ -9,7 +9,6 @@
 #include <CLI/App.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,10 +42,6 @@ std::optional<Format> format_of_name(const std::string& path) {
   } catch (const Error&) {
     return std::nullopt;
   }
-}
-
-bool starts_as(const std::string& path, const std::string& start) {
-  return std::filesystem::path(path).filename().string().starts_with(start);
 }
 
 /// The names of files of some formats, each once.
@@ -96,16 +91,12 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
 bool is_mpas(Format format) { return format == Format::mpas || format == Format::mpas_minimal; }
 
 bool holds_points(const std::string& path) {
-  if (starts_as(path, "RegionTriangulation"))
-    return true; // RegionList beside it does
   const std::optional<Format> format = format_of_name(path);
   return format ? *format != Format::triangles && *format != Format::mpi_scvt
                 : is_netcdf_file(path);
 }
 
-bool holds_triangles(const std::string& path) {
-  return format_of_name(path) == Format::triangles && !starts_as(path, "Region");
-}
+bool holds_triangles(const std::string& path) { return format_of_name(path) == Format::triangles; }
 
 std::string names_of_read_meshes() {
   return names([](const FormatInfo& info) { return info.read && info.points; });

@@ -29,7 +29,7 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
 std::string names_of_read_meshes();
 
 /// True if read_sites() reads a file of this name: a mesh that holds its points, except text such
-/// as MPI-SCVT's SaveVertices and RegionList.
+/// as MPI-SCVT's SaveVertices.
 bool holds_points(const std::string& path);
 
 /// True if a file of this name holds triangles alone, as far as the name determines it.

@@ -17,7 +17,7 @@ struct PointFile {
   std::vector<std::int64_t> lines;
 };
 
-/// Text (MPI-SCVT's SaveVertices and RegionList are such), or the points of a mesh, see
+/// Text (MPI-SCVT's SaveVertices is such), or the points of a mesh, see
 /// names_of_read_meshes(), which have no lines.
 /// \throws Error as read_points() and read_sites(); invalid_argument for a mesh in longitude and
 /// latitude.

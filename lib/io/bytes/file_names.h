@@ -10,15 +10,11 @@
 /// The information in the names of files.
 namespace calotte::io_detail {
 
-// MPI-SCVT's names; the rest of a name, as in RegionList.12, is common to files that belong
+// MPI-SCVT's names; the rest of a name, as in SaveVertices.12, is common to files that belong
 // together.
 inline constexpr std::string_view vertices_name = "SaveVertices";
 inline constexpr std::string_view triangles_name = "SaveTriangles";
 inline constexpr std::string_view density_name = "SaveDensity";
-inline constexpr std::string_view centres_name = "RegionList";
-inline constexpr std::string_view centre_triangles_name = "RegionTriangulation";
-inline constexpr std::string_view boundaries_name = "SaveBoundaries";
-inline constexpr std::string_view loop_counts_name = "SaveLoopCounts";
 
 // FESOM's names.
 inline constexpr std::string_view fesom_nodes_name = "nod2d.out";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
-#include "io/bytes/file_names.h"
 #include "io/cells/cell_rows.h"
 #include "io/cells/mesh_intake.h"
 #include "io/command.h"
@@ -40,22 +39,6 @@ bool holds_netcdf(const std::string& path) {
 
 // ---- Files of each kind
 
-/// MPI-SCVT's centres of regions. Its triangles of these say nothing that the centres do not, so
-/// that either file stands for both. Nothing where the name is none of the two.
-std::optional<RawMesh> read_centres(const std::string& path) {
-  if (format_of_name(path).value_or(Format::triangles) != Format::triangles)
-    return std::nullopt;
-  if (sibling(path, centres_name, centres_name))
-    return RawMesh{read_points(path)};
-  const std::optional<std::string> centres = sibling(path, centre_triangles_name, centres_name);
-  if (!centres)
-    return std::nullopt;
-  if (!std::ifstream(*centres))
-    throw Error(ErrorCode::file, path + ": it holds the centres' triangles only, and " + *centres +
-                                     ", which holds the centres, cannot be read; put it there");
-  return RawMesh{read_points(*centres)};
-}
-
 /// The row that reads a file, and the file, open if it is NetCDF.
 struct OpenFile {
   explicit OpenFile(const std::string& path) {
@@ -78,8 +61,6 @@ struct OpenFile {
 };
 
 MeshFile read_any(const std::string& path, FieldChoice choice) {
-  if (std::optional<RawMesh> centres = read_centres(path))
-    return mesh_file_of(path, row_of(Format::mpi_scvt).label, *std::move(centres));
   const OpenFile file(path);
   if (file.row->read == nullptr)
     refuse_triangles_alone(path);
@@ -94,8 +75,6 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
 /// Without what goes with them where that costs a look or may fail.
 /// \throws Error invalid_argument, for cells without centres.
 Points3 sites_of(const std::string& path) {
-  if (std::optional<RawMesh> centres = read_centres(path))
-    return std::move(centres->points);
   const OpenFile file(path);
   const InputFile input = file.input(path, FieldChoice::none);
   if (file.row->read_sites != nullptr)

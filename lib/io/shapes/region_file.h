@@ -18,9 +18,4 @@ Surface read_region_geojson(std::istream& in, const std::string& name);
 /// Point files of MPAS-Limited-Area.
 Surface read_region_pts(std::istream& in, const std::string& name);
 
-/// Loops of MPI-SCVT.
-/// \param counts of SaveLoopCounts, or null: all points are one loop.
-Surface read_region_loops(std::istream& in, const std::string& name, std::istream* counts,
-                          const std::string& counts_name);
-
 } // namespace calotte::io_detail
