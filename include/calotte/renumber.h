@@ -11,7 +11,6 @@ namespace calotte {
 enum class Numbering {
   by_format, ///< curve in NetCDF files, input in all others
   curve,     ///< along a space-filling curve
-  rcm,       ///< reverse Cuthill-McKee: small differences between neighbours
   input,     ///< the order of the sites in the mesh
 };
 

@@ -149,7 +149,7 @@ struct WriteOptions {
 ///        triangles counter-clockwise seen from outside.
 /// \throws Error invalid_argument for an unknown suffix, a format that does not support the mesh, a
 ///         radius out of range, an ill-formed density, or ids out of range; in the plane for
-///         Numbering::curve and Numbering::rcm, and as voronoi(); all before any file is written;
+///         Numbering::curve, and as voronoi(); all before any file is written;
 ///         not_finite or zero_vector as renumbered(); cancelled; file.
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options = {});
 

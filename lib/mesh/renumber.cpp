@@ -14,10 +14,6 @@
 #include <calotte/error.h>
 #include <calotte/renumber.h>
 
-#include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <boost/graph/cuthill_mckee_ordering.hpp>
-#include <boost/property_map/function_property_map.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -84,21 +80,6 @@ Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
   return place;
 }
 
-/// Both half-edges of each edge.
-std::vector<std::pair<std::int32_t, std::int32_t>> half_edges(const Mesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  edges.reserve(static_cast<std::size_t>(mesh.triangles.size()));
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t from = mesh.triangles(next_vertex(i), t),
-                         to = mesh.triangles(previous_vertex(i), t);
-      edges.emplace_back(from, to);
-      if (mesh.neighbours(i, t) < 0)
-        edges.emplace_back(to, from);
-    }
-  return edges;
-}
-
 void require_ids(const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols(), triangles = mesh.triangles.cols();
   if (!are_ids(mesh.triangles, sites) || mesh.neighbours.cols() != triangles ||
@@ -149,27 +130,6 @@ bool is_in_curve_order(const Mesh& mesh) {
          is_canonical(mesh.triangles);
 }
 
-Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh) {
-  using Graph =
-      boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
-                                         boost::no_property, std::int32_t, std::int64_t>;
-  const std::int64_t sites = mesh.points.cols();
-  const auto edges = half_edges(mesh);
-  const Graph graph(boost::edges_are_unsorted_multi_pass, edges.begin(), edges.end(),
-                    static_cast<std::int32_t>(sites));
-  std::vector<boost::default_color_type> colours(static_cast<std::size_t>(sites));
-  // Ids break ties between sites of equal degree, because sorts differ between libraries.
-  const auto rank = [&](std::int32_t site) {
-    return static_cast<std::int64_t>(out_degree(site, graph)) * sites + site;
-  };
-  Array<std::int32_t> order(sites);
-  boost::cuthill_mckee_ordering(
-      graph, std::make_reverse_iterator(order.end()),
-      boost::make_iterator_property_map(colours.begin(), get(boost::vertex_index, graph)),
-      boost::make_function_property_map<std::int32_t, std::int64_t>(rank));
-  return order;
-}
-
 Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
   const Array<std::int32_t> place = inverse(order);
   Mesh out;
@@ -193,14 +153,8 @@ Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
 Mesh renumbered(const Mesh& mesh, Numbering numbering) {
   using namespace mesh_detail;
   require_ids(mesh);
-  switch (numbering) {
-  case Numbering::curve:
-    return in_order(mesh, curve_order(mesh.points, mesh.surface));
-  case Numbering::rcm:
-    return in_order(mesh, reverse_cuthill_mckee_order(mesh));
-  default:
-    return mesh;
-  }
+  return numbering == Numbering::curve ? in_order(mesh, curve_order(mesh.points, mesh.surface))
+                                       : mesh;
 }
 
 } // namespace calotte

@@ -22,11 +22,6 @@ Array<std::int32_t> curve_order(const Points3& points, const Surface& surface = 
 /// \pre the ids of the mesh are in range.
 bool is_in_curve_order(const Mesh& mesh);
 
-/// Reverse Cuthill-McKee (Cuthill and McKee, Proc. 24th ACM Conference, 1969): breadth first from
-/// the far end of the mesh, sites of few neighbours first, then reversed.
-/// \pre the ids of the mesh are in range.
-Array<std::int32_t> reverse_cuthill_mckee_order(const Mesh& mesh);
-
 /// The same mesh with its sites in that order and its triangles in canonical order: each from its
 /// lowest vertex on, sorted by their vertices; triangles of equal vertices keep their order. Linear
 /// time.

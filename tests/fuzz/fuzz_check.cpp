@@ -45,6 +45,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   attempt([&] { cell_measures(mesh); });
   attempt([&] { voronoi(mesh); });
   attempt([&] { operator_errors(mesh); });
-  attempt([&] { renumbered(mesh, Numbering::rcm); });
+  attempt([&] { renumbered(mesh, Numbering::curve); });
   return 0;
 }

@@ -115,7 +115,7 @@ TEST_CASE("every format's file is read as the mesh that was written") {
 TEST_CASE("numbering: along the curve for NetCDF by default, as selected in every format") {
   const Scratch scratch;
   const Mesh mesh = calotte::delaunay(calotte::random_sphere(120, 2));
-  for (const Numbering numbering : {Numbering::curve, Numbering::rcm, Numbering::input})
+  for (const Numbering numbering : {Numbering::curve, Numbering::input})
     for (const ExpectedFormat& kind : expected_formats) {
       CAPTURE(int(kind.format));
       CAPTURE(int(numbering));
@@ -260,7 +260,6 @@ TEST_CASE("a periodic plane is MPAS's or triangles alone, and keeps its numbers"
       continue;
     }
     CHECK(code_of([&] { write(Numbering::curve); }) == ErrorCode::invalid_argument);
-    CHECK(code_of([&] { write(Numbering::rcm); }) == ErrorCode::invalid_argument);
     write(Numbering::by_format);
     const calotte::Mesh read = calotte::read_mesh(path);
     CHECK(equal_bits(read.points, plane.points));

@@ -44,48 +44,22 @@ std::vector<std::int32_t> where(const Mesh& mesh, const Mesh& moved) {
   return to;
 }
 
-std::int32_t bandwidth(const Mesh& mesh) {
-  std::int32_t widest = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    widest = std::max(widest, mesh.triangles.col(t).maxCoeff() - mesh.triangles(0, t));
-  return widest;
-}
-
-/// The sizes of the sets at 0, 1, 2, ... edges from a site.
-std::vector<std::int32_t> level_sizes(const Mesh& mesh, std::int32_t from) {
-  std::vector<std::int32_t> level(std::size_t(mesh.points.cols()), -1), sizes;
-  level[std::size_t(from)] = 0;
-  for (std::int32_t l = 0;; ++l) {
-    sizes.push_back(std::int32_t(std::count(level.begin(), level.end(), l)));
-    if (sizes.back() == 0)
-      return sizes;
-    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-      for (int i = 0; i < 3; ++i)
-        if (level[std::size_t(mesh.triangles(i, t))] == l)
-          for (const std::int32_t v : mesh.triangles.col(t))
-            if (level[std::size_t(v)] < 0)
-              level[std::size_t(v)] = l + 1;
-  }
-}
-
 } // namespace
 
 TEST_CASE("a renumbered mesh is that of the points in their new order") {
-  for (const auto& [name, points, closed, ties, sites] : clouds())
-    for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
-      CAPTURE(name);
-      CAPTURE(int(numbering));
-      const Mesh mesh = calotte::delaunay(points);
-      const Mesh moved = calotte::renumbered(mesh, numbering);
-      const std::vector<std::int32_t> to = where(mesh, moved);
-      CHECK(std::is_permutation(to.begin(), to.end(), where(mesh, mesh).begin()));
-      Mesh expected = renumbered(mesh, to);
-      expected.site_of_input = moved.site_of_input;
-      CHECK(identical(moved, expected));
-      CHECK(same_bits(moved.triangles, calotte::delaunay(moved.points).triangles));
-      for (std::size_t i = 0; i < to.size(); ++i)
-        REQUIRE(same_bits(moved.points.col(to[i]).eval(), mesh.points.col(Eigen::Index(i)).eval()));
-    }
+  for (const auto& [name, points, closed, ties, sites] : clouds()) {
+    CAPTURE(name);
+    const Mesh mesh = calotte::delaunay(points);
+    const Mesh moved = calotte::renumbered(mesh, Numbering::curve);
+    const std::vector<std::int32_t> to = where(mesh, moved);
+    CHECK(std::is_permutation(to.begin(), to.end(), where(mesh, mesh).begin()));
+    Mesh expected = renumbered(mesh, to);
+    expected.site_of_input = moved.site_of_input;
+    CHECK(identical(moved, expected));
+    CHECK(same_bits(moved.triangles, calotte::delaunay(moved.points).triangles));
+    for (std::size_t i = 0; i < to.size(); ++i)
+      REQUIRE(same_bits(moved.points.col(to[i]).eval(), mesh.points.col(Eigen::Index(i)).eval()));
+  }
 }
 
 TEST_CASE("input keeps a mesh, and one along the curve stays as it is") {
@@ -130,18 +104,16 @@ TEST_CASE("is_in_curve_order() is true exactly if renumbering would not change t
 
 TEST_CASE("the result does not depend on the order of the triangles") {
   Random random(5);
-  for (const auto& [name, points, closed, ties, sites] : clouds())
-    for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
-      CAPTURE(name);
-      const Mesh mesh = calotte::delaunay(points);
-      Mesh shuffled = mesh;
-      shuffle_triangles(shuffled.triangles, shuffled.neighbours, random);
-      const Mesh moved = calotte::renumbered(shuffled, numbering);
-      require_canonical(moved);
-      require_whole(moved, mesh.closed());
-      if (numbering == Numbering::curve)
-        CHECK(identical(moved, calotte::renumbered(mesh, numbering)));
-    }
+  for (const auto& [name, points, closed, ties, sites] : clouds()) {
+    CAPTURE(name);
+    const Mesh mesh = calotte::delaunay(points);
+    Mesh shuffled = mesh;
+    shuffle_triangles(shuffled.triangles, shuffled.neighbours, random);
+    const Mesh moved = calotte::renumbered(shuffled, Numbering::curve);
+    require_canonical(moved);
+    require_whole(moved, mesh.closed());
+    CHECK(identical(moved, calotte::renumbered(mesh, Numbering::curve)));
+  }
 }
 
 TEST_CASE("along the curve neighbours in memory are neighbours in space") {
@@ -152,18 +124,6 @@ TEST_CASE("along the curve neighbours in memory are neighbours in space") {
   for (int i = 1; i < 5000; ++i)
     sum += (mesh.points.col(i) - mesh.points.col(i - 1)).norm();
   CHECK(sum / 5000 < 2 * spacing); // at random it is 4/3, some 27 spacings
-}
-
-TEST_CASE("reverse Cuthill-McKee keeps edges within two levels of a breadth-first search") {
-  for (const auto& [name, points, closed, ties, sites] : clouds()) {
-    CAPTURE(name);
-    const Mesh mesh = calotte::renumbered(calotte::delaunay(points), Numbering::rcm);
-    const std::vector<std::int32_t> sizes = level_sizes(mesh, std::int32_t(mesh.points.cols()) - 1);
-    std::int32_t widest = 0;
-    for (std::size_t l = 1; l < sizes.size(); ++l)
-      widest = std::max(widest, sizes[l - 1] + sizes[l] - 1);
-    CHECK(bandwidth(mesh) <= widest);
-  }
 }
 
 TEST_CASE("soups: sites without triangles, repeated vertices, and edges of three triangles") {
@@ -178,33 +138,30 @@ TEST_CASE("soups: sites without triangles, repeated vertices, and edges of three
   raw.neighbours(2, 2) = 1;
   for (int i = 0; i < 9; ++i)
     raw.site_of_input.push_back(i);
-  for (const Numbering numbering : {Numbering::curve, Numbering::rcm}) {
-    const Mesh moved = calotte::renumbered(raw, numbering);
-    const std::vector<std::int32_t> to = where(raw, moved);
-    std::vector<Triple> expected, found;
-    for (Eigen::Index t = 0; t < 7; ++t) {
-      Triple ids{};
-      for (int i = 0; i < 3; ++i)
-        ids[std::size_t(i)] = to[std::size_t(raw.triangles(i, t))];
-      Triple lowest = ids;
-      for (int i = 0; i < 3; ++i) {
-        std::rotate(ids.begin(), ids.begin() + 1, ids.end());
-        lowest = std::min(lowest, ids);
-      }
-      expected.push_back(lowest);
-      found.push_back(triple(moved, t));
+  const Mesh moved = calotte::renumbered(raw, Numbering::curve);
+  const std::vector<std::int32_t> to = where(raw, moved);
+  std::vector<Triple> expected, found;
+  for (Eigen::Index t = 0; t < 7; ++t) {
+    Triple ids{};
+    for (int i = 0; i < 3; ++i)
+      ids[std::size_t(i)] = to[std::size_t(raw.triangles(i, t))];
+    Triple lowest = ids;
+    for (int i = 0; i < 3; ++i) {
+      std::rotate(ids.begin(), ids.begin() + 1, ids.end());
+      lowest = std::min(lowest, ids);
     }
-    CHECK(std::is_sorted(found.begin(), found.end()));
-    std::sort(expected.begin(), expected.end());
-    CHECK(found == expected);
-    for (Eigen::Index t = 0; t < 7; ++t)
-      for (int i = 0; i < 3; ++i)
-        if (const std::int32_t u = moved.neighbours(i, t); u >= 0)
-          CHECK((moved.neighbours.col(u).array() == t).any());
-    CHECK((moved.neighbours.array() >= 0).count() == 2);
-    if (numbering == Numbering::curve)
-      CHECK(identical(calotte::renumbered(moved, numbering), moved));
+    expected.push_back(lowest);
+    found.push_back(triple(moved, t));
   }
+  CHECK(std::is_sorted(found.begin(), found.end()));
+  std::sort(expected.begin(), expected.end());
+  CHECK(found == expected);
+  for (Eigen::Index t = 0; t < 7; ++t)
+    for (int i = 0; i < 3; ++i)
+      if (const std::int32_t u = moved.neighbours(i, t); u >= 0)
+        CHECK((moved.neighbours.col(u).array() == t).any());
+  CHECK((moved.neighbours.array() >= 0).count() == 2);
+  CHECK(identical(calotte::renumbered(moved, Numbering::curve), moved));
 }
 
 TEST_CASE("the order does not depend on the number of threads") {
@@ -241,5 +198,5 @@ TEST_CASE("ids out of range and points without a direction are refused") {
   bad.points(1, 2) = std::nan("");
   CHECK(!calotte::mesh_detail::is_in_curve_order(bad));
   CHECK(code(bad) == calotte::ErrorCode::not_finite);
-  CHECK(calotte::renumbered({}, Numbering::rcm).points.cols() == 0);
+  CHECK(calotte::renumbered({}, Numbering::curve).points.cols() == 0);
 }

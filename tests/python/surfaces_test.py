@@ -80,7 +80,7 @@ def test_the_mesh_of_a_run_has_its_surface(tmp_path, surface, line):
     rows = mesh.bisected_points()
     assert rows.shape[1] == mesh.points.shape[1] and (rows[:200] == mesh.points).all()
     assert surface.contains(rows).all()
-    turned = mesh.renumbered("rcm")
+    turned = mesh.renumbered("curve")
     assert turned.surface == surface and len(turned.triangles) == len(mesh.triangles)
     if not surface.is_sphere:
         assert calotte.voronoi(mesh).cell_area.sum() == pytest.approx(surface.area)

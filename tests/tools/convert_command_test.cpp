@@ -112,7 +112,6 @@ TEST_CASE("the selected order of the cells") {
   check_order("mesh.vtp", "", calotte::Numbering::input);
   for (const std::string out : {"mesh.nc", "mesh.off"}) {
     check_order(out, " --order curve", calotte::Numbering::curve);
-    check_order(out, " --order rcm", calotte::Numbering::rcm);
     check_order(out, " --order input", calotte::Numbering::input);
   }
 }
@@ -168,7 +167,7 @@ TEST_CASE("triangles alone go with their points") {
   check_refusals(bench, "convert", R"(
 points.txt mesh.nc | 2 | points.txt holds triangles without points; give the points with --points FILE
 mesh.tri mesh.nc | 2 | mesh.tri holds triangles without points; give the points with --points FILE
-start.vtp mesh.tri --order rcm | 2 | refer to the input points; leave --order out
+start.vtp mesh.tri --order curve | 2 | refer to the input points; leave --order out
 )");
 }
 
@@ -231,7 +230,7 @@ mesh.nc --format netcdf | 2 | --format: netcdf not in {mpas,
 mesh.nc --sphere-radius=0 | 2 | --sphere-radius 0 is not a positive number; give one such as 6371229, in metres
 mesh.nc --sphere-radius=nan | 2 | --sphere-radius nan is not a positive number
 other.off --sphere-radius 6371229 | 2 | applies to NetCDF files only, not to other.off
-mesh.nc --order random | 2 | --order: random not in {curve,rcm,input}
+mesh.nc --order random | 2 | --order: random not in {curve,input}
 widths.geojson --cell-width widths.geojson | 2 | widths.geojson is both input and output
 absent/mesh.nc | 3 | cannot write absent/mesh.nc: the folder absent does not exist
 | 2 | --output is required; see calotte convert --help

@@ -17,8 +17,8 @@
 namespace calotte::tools {
 namespace {
 
-const std::map<std::string, Numbering> numberings{
-    {"curve", Numbering::curve}, {"rcm", Numbering::rcm}, {"input", Numbering::input}};
+const std::map<std::string, Numbering> numberings{{"curve", Numbering::curve},
+                                                  {"input", Numbering::input}};
 
 Format chosen_format(const FormatWords& words, const std::string& path) {
   Format given = Format::by_name;
@@ -83,8 +83,8 @@ std::shared_ptr<FormatWords> add_format(CLI::App& command, const std::string& de
   command
       .add_option("--order", words->order,
                   "Numbering of the cells: curve (along a space-filling curve; default of NetCDF "
-                  "files), rcm (reverse Cuthill-McKee) or input (default of other files)")
-      ->check(CLI::IsMember({"curve", "rcm", "input"}));
+                  "files) or input (default of other files)")
+      ->check(CLI::IsMember({"curve", "input"}));
   return words;
 }
 

@@ -92,7 +92,7 @@ Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions&
 }
 
 void require_input_numbering(const std::string& path, Numbering numbering) {
-  if (numbering == Numbering::curve || numbering == Numbering::rcm)
+  if (numbering == Numbering::curve)
     refuse_to_write(path, "the cells of a planar mesh keep their numbers; leave the order out");
 }
 

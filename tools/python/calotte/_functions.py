@@ -1174,9 +1174,8 @@ def write(path: Path, mesh: Grid, *, format: str = "by-name", model: str | None 
     of an MPAS file on the sphere follows from the smoothed spacing of the cells, if this varies.
     surface: as for voronoi().
     fields: a dict of n numbers at the cells, beside those that were read.
-    order: of the cells: "curve", along a space-filling curve; "rcm", reverse Cuthill-McKee; or
-        "input", that of the mesh. Default: curve in NetCDF files, input in others and for meshes of
-        refine() and coarsen().
+    order: of the cells: "curve", along a space-filling curve; or "input", that of the mesh.
+        Default: curve in NetCDF files, input in others and for meshes of refine() and coarsen().
     """
     values = {name: _arguments.numbers(value, name) for name, value in (fields or {}).items()}
     output = _calotte.Output(str(path), format, sphere_radius,

@@ -20,7 +20,7 @@ pybind11::tuple parts_of(MeshFile file);
 /// A content with the mesh that it came with.
 MeshFile whole(const MeshFile& content, const pybind11::object& grid);
 
-/// \param word curve, rcm or input. \throws Error invalid_argument for another.
+/// \param word curve or input. \throws Error invalid_argument for another.
 Numbering numbering_named(const std::string& word);
 
 } // namespace calotte::python

@@ -67,9 +67,9 @@ std::shared_ptr<Mesh> within(const Mesh& mesh, const Surface& surface) {
 } // namespace
 
 Numbering numbering_named(const std::string& word) {
-  if (word != "curve" && word != "rcm" && word != "input")
-    throw Error(ErrorCode::invalid_argument, "no order " + word + "; give curve, rcm or input");
-  return word == "curve" ? Numbering::curve : word == "rcm" ? Numbering::rcm : Numbering::input;
+  if (word != "curve" && word != "input")
+    throw Error(ErrorCode::invalid_argument, "no order " + word + "; give curve or input");
+  return word == "curve" ? Numbering::curve : Numbering::input;
 }
 
 void add_meshes(py::module_& module) {
@@ -108,9 +108,7 @@ void add_meshes(py::module_& module) {
               return std::make_shared<Mesh>(renumbered(mesh, numbering_named(numbering)));
             });
           },
-          "The same mesh with its sites along a curve (\"curve\"), or so that neighbours have "
-          "near\n"
-          "numbers (\"rcm\": reverse Cuthill-McKee).")
+          "The same mesh with its sites along a curve (\"curve\").")
       .def(
           "bisected_points",
           [](const Mesh& mesh) {
