@@ -17,6 +17,11 @@ std::string suffix_of(const std::string& path) {
   return suffix;
 }
 
+bool is_geojson(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".geojson" || suffix == ".json";
+}
+
 void refuse_foreign(const std::string& path) {
   struct Kind {
     std::string_view suffix, name;

@@ -24,6 +24,9 @@ inline constexpr std::string_view fesom_depths_name = "aux3d.out";
 /// The suffix of a name in lower case, such as ".nc" for NAME.NC; empty if there is none.
 std::string suffix_of(const std::string& path);
 
+/// Whether a name ends in .geojson or .json.
+bool is_geojson(const std::string& path);
+
 /// Refuses a file of a kind that this library does not read, but other programs convert: shapes,
 /// images and GRIB, by the suffix. \throws Error parse, with the command that converts it.
 void refuse_foreign(const std::string& path);

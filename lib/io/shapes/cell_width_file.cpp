@@ -24,7 +24,7 @@ Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
   if (suffix == ".nc")
     return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});
   io_detail::refuse_foreign(path);
-  const bool polygonal = suffix == ".geojson" || suffix == ".json";
+  const bool polygonal = io_detail::is_geojson(path);
   if (suffix != ".msh" && !polygonal)
     throw Error(ErrorCode::invalid_argument,
                 path + ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson or "

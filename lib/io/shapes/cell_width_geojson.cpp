@@ -22,7 +22,7 @@ public:
       : name_(std::move(name)), widths_(widths) {}
 
   Raster read(std::istream& in) {
-    const GeoPolygons polygons = read_polygons(in, name_, lonlat_pair());
+    const GeoPolygons polygons = read_polygons(in, name_, lonlat_pair);
     outer_width(polygons.members, "insideWidth", widths_.inside, false);
     outer_width(polygons.members, "outsideWidth", widths_.outside, true);
     outer_width(polygons.members, "transition", widths_.transition, true);

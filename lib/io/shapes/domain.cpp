@@ -82,7 +82,7 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
 
 FileRings rings_of_geojson(std::istream& in, const std::string& name) {
   FileRings rings;
-  const GeoPolygons polygons = read_polygons(in, name, {"[x, y]", "give two numbers"});
+  const GeoPolygons polygons = read_polygons(in, name, xy_pair);
   for (const GeoGeometry& geometry : polygons.geometries) {
     std::int64_t number = 0;
     for (const GeoPolygon& polygon : geometry.polygons)
@@ -117,12 +117,10 @@ Surface domain_of_jigsaw(const std::string& path) {
 } // namespace
 
 Surface read_domain(const std::string& path) {
-  const std::string suffix = suffix_of(path);
-  if (suffix == ".msh")
+  if (suffix_of(path) == ".msh")
     return domain_of_jigsaw(path);
   std::ifstream in = open_input(path);
-  const bool json = suffix == ".geojson" || suffix == ".json";
-  const FileRings rings = json ? rings_of_geojson(in, path) : rings_of_text(in, path);
+  const FileRings rings = is_geojson(path) ? rings_of_geojson(in, path) : rings_of_text(in, path);
   try {
     return domain_of(rings);
   } catch (const Error& error) {

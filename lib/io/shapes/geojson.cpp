@@ -57,16 +57,17 @@ void take_feature(const Json& object, std::int64_t number, const std::string& na
   take({number, where, object.value("properties", Json()), object.value("geometry", Json())});
 }
 
-void visit_geometry(
-    const Json& object, int depth, const std::string& where,
-    const std::function<void(const std::string& type, const Json& coordinates)>& visit) {
+void visit_geometry(const Json& object, int depth, const GeoFeature& feature,
+                    const std::string& name, const GeometryVisit& visit) {
+  const std::string where = name + ": " + feature.where;
   const std::string type = object.is_object() ? text_in(object, "type") : "";
   const bool is_collection = type == "GeometryCollection";
   if (is_collection && depth < deepest)
     for (const Json& part : array(object, "geometries", where))
-      visit_geometry(part, depth + 1, where, visit);
+      visit_geometry(part, depth + 1, feature, name, visit);
   else
-    visit(type, type.empty() || is_collection ? Json() : array(object, "coordinates", where));
+    visit(feature, type,
+          type.empty() || is_collection ? Json() : array(object, "coordinates", where));
 }
 
 } // namespace
@@ -91,11 +92,11 @@ Json read_features(std::istream& in, const std::string& name,
   return rest;
 }
 
-void for_each_geometry(
-    const GeoFeature& feature, const std::string& name,
-    const std::function<void(const std::string& type, const Json& coordinates)>& visit) {
-  if (!feature.geometry.is_null())
-    visit_geometry(feature.geometry, 0, name + ": " + feature.where, visit);
+Json read_geometries(std::istream& in, const std::string& name, const GeometryVisit& visit) {
+  return read_features(in, name, [&](const GeoFeature& feature) {
+    if (!feature.geometry.is_null())
+      visit_geometry(feature.geometry, 0, feature, name, visit);
+  });
 }
 
 std::string text_in(const Json& object, const char* key) {

@@ -32,12 +32,24 @@ struct GeoFeature {
 nlohmann::json read_features(std::istream& in, const std::string& name,
                              const std::function<void(const GeoFeature&)>& take);
 
-/// Calls visit(type, coordinates) for the feature's geometry, or for each of a collection. The
-/// coordinates are an array, unless the type is "" or, nested too deep, a collection.
-/// \throws Error parse for a geometry without coordinates.
-void for_each_geometry(
-    const GeoFeature& feature, const std::string& name,
-    const std::function<void(const std::string& type, const nlohmann::json& coordinates)>& visit);
+/// Takes a geometry of a feature. The coordinates are an array, unless the type is "" or, nested
+/// too deep, a collection.
+using GeometryVisit = std::function<void(const GeoFeature& feature, const std::string& type,
+                                         const nlohmann::json& coordinates)>;
+
+/// The same for the geometry of each feature, or each of its collection.
+/// \throws Error as read_features(); parse for a geometry without coordinates.
+nlohmann::json read_geometries(std::istream& in, const std::string& name,
+                               const GeometryVisit& visit);
+
+/// The meaning of a pair of coordinates, for messages.
+struct GeoPair {
+  const char* form;
+  const char* remedy;
+};
+
+inline constexpr GeoPair lonlat_pair{"[longitude, latitude]", "give degrees"},
+    xy_pair{"[x, y]", "give two numbers"};
 
 /// The text of a member; "" where there is none.
 std::string text_in(const nlohmann::json& object, const char* key);

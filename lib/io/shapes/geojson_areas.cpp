@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson_areas.h"
-#include "io/bytes/file_error.h"
 
 #include "base/lonlat.h"
-#include "io/shapes/region_file.h"
+#include "io/bytes/file_error.h"
 
 #include <nlohmann/json.hpp>
 
@@ -66,7 +65,7 @@ std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::str
 
 std::vector<GeoArea> read_areas(std::istream& in, const std::string& name) {
   std::vector<GeoArea> areas;
-  const GeoPolygons polygons = read_polygons(in, name, lonlat_pair());
+  const GeoPolygons polygons = read_polygons(in, name, lonlat_pair);
   for (const GeoGeometry& geometry : polygons.geometries)
     areas.push_back(area_of(geometry, name));
   return areas;

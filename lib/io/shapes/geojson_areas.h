@@ -27,8 +27,6 @@ struct GeoArea {
   std::vector<WrittenRing> rings;
 };
 
-inline GeoPair lonlat_pair() { return {"[longitude, latitude]", "give degrees"}; }
-
 /// An outer ring encloses its polygon, and a hole what is left out of it (see enclose_left()),
 /// unless the feature names a place inside: then its rings, joined, are those around this place.
 /// \throws Error parse, naming the feature and its ring; of a place inside, as region_around().

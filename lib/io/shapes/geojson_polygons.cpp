@@ -82,11 +82,10 @@ GeoGeometry polygons_of(const GeoFeature& feature, const std::string& type, cons
 
 GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPair& pair) {
   GeoPolygons all;
-  all.members = read_features(in, name, [&](const GeoFeature& feature) {
-    for_each_geometry(feature, name, [&](const std::string& type, const Json& coordinates) {
-      all.geometries.push_back(polygons_of(feature, type, coordinates, name, pair));
-    });
-  });
+  all.members = read_geometries(
+      in, name, [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+        all.geometries.push_back(polygons_of(feature, type, coordinates, name, pair));
+      });
   if (all.geometries.empty())
     throw Error(ErrorCode::parse, name + ": no polygons; give Polygon or MultiPolygon geometries");
   return all;

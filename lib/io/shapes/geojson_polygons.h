@@ -21,12 +21,6 @@ struct GeoGeometry {
   std::vector<GeoPolygon> polygons;
 };
 
-/// The meaning of a pair of coordinates, for messages.
-struct GeoPair {
-  std::string form;   ///< "[longitude, latitude]"
-  std::string remedy; ///< "give degrees"
-};
-
 /// What a file of polygons holds.
 struct GeoPolygons {
   std::vector<GeoGeometry> geometries;

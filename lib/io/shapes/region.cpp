@@ -1,19 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
+#include "io/shapes/geojson_areas.h"
 #include "io/shapes/region_file.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace calotte {
 namespace {
 
 using namespace io_detail;
 
-bool is_geojson(const std::string& name) {
-  const std::string suffix = suffix_of(name);
-  return suffix == ".geojson" || suffix == ".json";
+/// The rings of all areas. \throws Error parse for a ring without area.
+std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string& name) {
+  std::vector<WrittenRing> rings;
+  for (GeoArea& area : areas)
+    for (WrittenRing& ring : area.rings) {
+      if (ring.corners.size() < 3)
+        fail_file(name, ring.origin +
+                            " has fewer than 3 distinct places; an edge is the shorter arc of a "
+                            "great circle, so give more places along a parallel");
+      rings.push_back(std::move(ring));
+    }
+  return rings;
+}
+
+Surface read_geojson(std::istream& in, const std::string& name) {
+  std::vector<WrittenRing> rings = rings_of(read_areas(in, name), name);
+  return named(name, [&] {
+    rings = joined(std::move(rings));
+    if (rings.empty())
+      throw Error(ErrorCode::parse, "its polygons cover the sphere; give no region for that");
+    Surface region;
+    with_origins(rings, [&] { region = Surface::sphere().within(corners_of(rings)); });
+    return region;
+  });
 }
 
 void require_format(const std::string& name) {
@@ -28,7 +54,7 @@ void require_format(const std::string& name) {
 
 Surface read_region(std::istream& in, const std::string& name) {
   require_format(name);
-  return is_geojson(name) ? read_region_geojson(in, name) : read_region_pts(in, name);
+  return is_geojson(name) ? read_geojson(in, name) : read_region_pts(in, name);
 }
 
 Surface read_region(const std::string& path) {

@@ -10,12 +10,9 @@
 #include <iosfwd>
 #include <string>
 
-/// Readers of regions of the sphere, one a format; see read_region().
 namespace calotte::io_detail {
 
-Surface read_region_geojson(std::istream& in, const std::string& name);
-
-/// Point files of MPAS-Limited-Area.
+/// Reads a region of the sphere from a point file of MPAS-Limited-Area; see read_region().
 Surface read_region_pts(std::istream& in, const std::string& name);
 
 } // namespace calotte::io_detail

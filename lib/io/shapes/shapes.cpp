@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/lonlat.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/command.h"
 #include "io/shapes/coast_file.h"
 #include "io/shapes/geojson_areas.h"
-#include "io/shapes/geojson_lines.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
@@ -19,6 +20,48 @@ namespace {
 
 using namespace io_detail;
 
+/// \param where names the feature.
+Points3 line_of(const Json& positions, const std::string& name, const std::string& where,
+                bool plane) {
+  if (!positions.is_array() || positions.empty())
+    fail_file(name, where + "a line without places; leave it out");
+  const GeoPair& pair = plane ? xy_pair : lonlat_pair;
+  Points3 places(3, std::ssize(positions));
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    if (!is_position(positions[k]) || !(plane || are_degrees(position_of(positions[k]))))
+      fail_file(name,
+                where + positions[k].dump() + " is no position " + pair.form + "; " + pair.remedy);
+    const auto [x, y] = position_of(positions[k]);
+    const Vec3 place = plane ? Vec3{x, y, 0} : from_lonlat(x, y);
+    places.col(static_cast<Eigen::Index>(k)) << place.x, place.y, place.z;
+  }
+  return places;
+}
+
+/// The lines of a GeoJSON file, unit columns; in a plane x y 0. Calls `other` for each geometry
+/// that is none.
+std::vector<Points3> lines_of(const std::string& path, bool plane, const GeometryVisit& other) {
+  std::ifstream in = open_input(path);
+  std::vector<Points3> lines;
+  read_geometries(in, path,
+                  [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+                    if (type == "LineString")
+                      lines.push_back(line_of(coordinates, path, feature.where, plane));
+                    else if (type == "MultiLineString")
+                      for (const Json& part : coordinates)
+                        lines.push_back(line_of(part, path, feature.where, plane));
+                    else
+                      other(feature, type, coordinates);
+                  });
+  return lines;
+}
+
+[[noreturn]] void refuse_type(const std::string& path, const GeoFeature& feature,
+                              const std::string& type) {
+  fail_file(path, feature.where + "an object of the type \"" + type +
+                      "\" is no line; give LineString or MultiLineString");
+}
+
 std::vector<Points3> points_of(const std::string& path, bool plane) {
   const Points3 points = read_points(path, plane ? Columns::xy : Columns::lonlat);
   std::vector<Points3> shapes;
@@ -27,68 +70,72 @@ std::vector<Points3> points_of(const std::string& path, bool plane) {
   return shapes;
 }
 
-/// Lines, and the shores of polygons.
-std::vector<Points3> read_geojson(const std::string& path) {
-  std::ifstream in = open_input(path);
-  std::vector<Points3> shapes;
-  Coast coast;
-  read_features(in, path, [&](const GeoFeature& feature) {
-    for_each_geometry(
-        feature, path, [&](const std::string& type, const nlohmann::json& coordinates) {
-          if (is_polygon(type))
-            add_land(
-                area_of(polygons_of(feature, type, coordinates, path, lonlat_pair()), path).rings,
-                coast);
-          else
-            add_lines(feature, type, coordinates, path, shapes);
-        });
-  });
-  for (Points3& shore : shores(coast))
-    shapes.push_back(std::move(shore));
-  if (shapes.empty())
-    throw Error(ErrorCode::parse, path + ": no lines or polygons; give geometries of these");
-  return shapes;
+/// Adds the rings of a plane's polygons, closed.
+void add_rings(const GeoGeometry& geometry, std::vector<Points3>& rings) {
+  for (const GeoPolygon& polygon : geometry.polygons)
+    for (const GeoRing& ring : polygon) {
+      Points3& line = rings.emplace_back(Points3::Zero(3, std::ssize(ring) + 1));
+      for (std::size_t k = 0; k <= ring.size(); ++k) {
+        const auto [x, y] = ring[k % ring.size()];
+        line.col(static_cast<Eigen::Index>(k)) << x, y, 0;
+      }
+    }
 }
 
-/// Of a plane: lines, and the rings of polygons, closed.
-std::vector<Points3> read_planar_geojson(const std::string& path) {
-  const GeoPair pair{"[x, y]", "give two numbers"};
-  std::ifstream in = open_input(path);
-  std::vector<Points3> shapes;
-  const auto add_ring = [&](const GeoRing& ring) {
-    Points3& line = shapes.emplace_back(Points3::Zero(3, std::ssize(ring) + 1));
-    for (std::size_t k = 0; k <= ring.size(); ++k) {
-      const auto [x, y] = ring[k % ring.size()];
-      line.col(static_cast<Eigen::Index>(k)) << x, y, 0;
-    }
-  };
-  read_features(in, path, [&](const GeoFeature& feature) {
-    for_each_geometry(feature, path,
-                      [&](const std::string& type, const nlohmann::json& coordinates) {
-                        if (!is_polygon(type))
-                          add_lines(feature, type, coordinates, path, shapes, true);
-                        else
-                          for (const GeoPolygon& polygon :
-                               polygons_of(feature, type, coordinates, path, pair).polygons)
-                            for (const GeoRing& ring : polygon)
-                              add_ring(ring);
-                      });
-  });
+/// Lines, and of polygons the shores; in a plane their rings.
+std::vector<Points3> lines_and_shores(const std::string& path, bool plane) {
+  std::vector<Points3> rings;
+  Coast coast;
+  std::vector<Points3> shapes =
+      lines_of(path, plane,
+               [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+                 if (!is_polygon(type))
+                   refuse_type(path, feature, type);
+                 const GeoGeometry geometry =
+                     polygons_of(feature, type, coordinates, path, plane ? xy_pair : lonlat_pair);
+                 if (plane)
+                   add_rings(geometry, rings);
+                 else
+                   add_land(area_of(geometry, path).rings, coast);
+               });
+  if (!plane)
+    rings = shores(coast);
+  shapes.insert(shapes.end(), rings.begin(), rings.end());
   if (shapes.empty())
-    throw Error(ErrorCode::parse, path + ": no lines or polygons; give geometries of these");
+    fail_file(path, "no lines or polygons; give geometries of these");
   return shapes;
 }
 
 } // namespace
+
+std::vector<Points3> read_lines(const std::string& path, const Surface& surface) {
+  std::vector<Points3> lines =
+      lines_of(path, !surface.is_sphere(),
+               [&](const GeoFeature& feature, const std::string& type,
+                   const Json& /*coordinates*/) { refuse_type(path, feature, type); });
+  if (lines.empty())
+    fail_file(path, "no lines; give LineString or MultiLineString geometries");
+  return lines;
+}
+
+std::vector<Points3> lines_in(const std::string& path, const Surface& surface) {
+  if (!is_geojson(path))
+    return {};
+  bool others = false;
+  std::vector<Points3> lines =
+      lines_of(path, !surface.is_sphere(), [&](const auto&...) { others = true; });
+  if (others && !lines.empty())
+    fail_file(path, "lines beside other geometries; give each in a file of its own");
+  return lines;
+}
 
 std::vector<Points3> read_shapes(const std::string& path, const Surface& surface) {
   const std::string suffix = suffix_of(path);
   const bool plane = !surface.is_sphere();
   if (suffix == ".txt")
     return points_of(path, plane);
-  if (plane)
-    return read_planar_geojson(path);
-  return suffix == ".nc" || is_netcdf_file(path) ? shores(read_coast(path)) : read_geojson(path);
+  return !plane && (suffix == ".nc" || is_netcdf_file(path)) ? shores(read_coast(path))
+                                                             : lines_and_shores(path, plane);
 }
 
 } // namespace calotte
