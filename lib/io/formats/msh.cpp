@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/points.h"
 #include "io/formats/formats.h"
 #include "io/formats/gmsh.h"
 #include "io/shapes/jigsaw.h"
@@ -53,11 +52,8 @@ RawMesh get_msh(std::istream& in, const std::string& name) {
   if (file.points.cols() == 0)
     throw Error(ErrorCode::parse,
                 name + ": no POINT section; give a mesh of the sphere, with points");
-  if (file.dimensions == 2 && file.kind == "euclidean-mesh") // of the plane
-    return {with_z(file.points), file.triangles};
-  if (file.dimensions == 3)
-    return {file.points, file.triangles};
-  return {radius_of(file, name) * directions_of(file, name), file.triangles};
+  const double radius = file.dimensions == 2 && !is_planar_mesh(file) ? radius_of(file, name) : 1;
+  return {radius * columns_of(file, name), file.triangles};
 }
 
 } // namespace calotte::io_detail

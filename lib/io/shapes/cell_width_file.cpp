@@ -5,6 +5,7 @@
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/command.h"
+#include "io/shapes/jigsaw.h"
 
 #include <calotte/error.h>
 #include <calotte/read.h>
@@ -33,9 +34,10 @@ Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
     throw Error(ErrorCode::invalid_argument,
                 path + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
                        "JIGSAW's spacings (.msh), or rules (.toml)");
+  if (!polygonal)
+    return io_detail::widths_of(io_detail::read_jigsaw(path), path, surface);
   std::ifstream in = io_detail::open_input(path);
-  return polygonal ? io_detail::read_cell_width_geojson(in, path, polygons)
-                   : io_detail::read_cell_width_msh(in, path, surface);
+  return io_detail::read_cell_width_geojson(in, path, polygons);
 }
 
 } // namespace calotte

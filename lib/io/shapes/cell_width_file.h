@@ -9,10 +9,9 @@
 #include <iosfwd>
 #include <string>
 
-/// Readers of cell widths, one function per format; see read_cell_width().
 namespace calotte::io_detail {
 
-Raster read_cell_width_msh(std::istream& in, const std::string& name, const Surface& surface);
+/// Reads cell widths from polygons in GeoJSON; see read_cell_width().
 Raster read_cell_width_geojson(std::istream& in, const std::string& name,
                                const PolygonWidths& widths);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_error.h"
 #include "io/command.h"
-#include "io/shapes/cell_width_file.h"
 #include "io/shapes/cell_width_mesh.h"
 #include "io/shapes/jigsaw.h"
 #include "io/shapes/raster_file.h"
@@ -57,7 +56,7 @@ Raster of_mesh(const JigsawFile& file, const std::string& name) {
 }
 
 Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Surface& plane) {
-  if (file.kind == "euclidean-mesh" && file.dimensions == 2)
+  if (is_planar_mesh(file))
     return resampled_in_plane(Points2(file.points), widths_of_points(file, name));
   if (file.kind == "euclidean-grid")
     return of_grid(file, name, plane);
@@ -66,10 +65,6 @@ Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Su
 }
 
 } // namespace
-
-Raster read_cell_width_msh(std::istream& in, const std::string& name, const Surface& surface) {
-  return widths_of(read_jigsaw(in, name), name, surface);
-}
 
 Raster widths_of(const JigsawFile& file, const std::string& name, const Surface& surface) {
   if (!surface.is_sphere())
@@ -85,20 +80,13 @@ Raster widths_of(const JigsawFile& file, const std::string& name, const Surface&
 } // namespace calotte::io_detail
 
 namespace calotte {
-namespace {
-
-io_detail::JigsawFile read_sized(const std::string& path, const JigsawSizes& sizes) {
-  io_detail::JigsawFile file = io_detail::read_jigsaw(path);
-  for (double& value : file.values)
-    value = std::max(std::min(sizes.scale * value, sizes.most), sizes.least);
-  return file;
-}
-
-} // namespace
 
 Raster read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes,
                           const Surface& surface) {
-  return io_detail::widths_of(read_sized(path, sizes), path, surface);
+  io_detail::JigsawFile file = io_detail::read_jigsaw(path);
+  for (double& value : file.values)
+    value = std::max(std::min(sizes.scale * value, sizes.most), sizes.least);
+  return io_detail::widths_of(file, path, surface);
 }
 
 } // namespace calotte

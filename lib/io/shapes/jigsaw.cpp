@@ -2,6 +2,7 @@
 #include "io/shapes/jigsaw.h"
 
 #include "base/lonlat.h"
+#include "base/points.h"
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
 
@@ -251,6 +252,10 @@ void require_values(const JigsawFile& file, std::size_t nodes, const std::string
                                       " nodes; give one for each");
 }
 
+bool is_planar_mesh(const JigsawFile& file) {
+  return file.kind == "euclidean-mesh" && file.dimensions == 2;
+}
+
 Points3 directions_of(const JigsawFile& file, const std::string& name) {
   if (file.dimensions == 3)
     return file.points;
@@ -270,6 +275,10 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
     points.col(i) << p.x, p.y, p.z;
   }
   return points;
+}
+
+Points3 columns_of(const JigsawFile& file, const std::string& name) {
+  return is_planar_mesh(file) ? with_z(Points2(file.points)) : directions_of(file, name);
 }
 
 } // namespace calotte::io_detail

@@ -61,8 +61,14 @@ Raster widths_of(const JigsawFile& file, const std::string& name, const Surface&
 /// Throws unless there is a value for each of so many nodes. \throws Error parse.
 void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name);
 
+/// Whether the points are x and y of a plane.
+bool is_planar_mesh(const JigsawFile& file);
+
 /// The directions of a mesh's points; longitudes and latitudes as of a sphere. \throws Error parse,
 /// for a mesh of the plane, and for a latitude beyond a pole.
 Points3 directions_of(const JigsawFile& file, const std::string& name);
+
+/// These, or of a planar mesh x y 0. \throws Error as directions_of().
+Points3 columns_of(const JigsawFile& file, const std::string& name);
 
 } // namespace calotte::io_detail

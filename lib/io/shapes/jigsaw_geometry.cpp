@@ -115,8 +115,8 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
     fail_file(path, "a geometry of " + std::to_string(file.parts) +
                         " parts (BOUND); give each part a file of its own");
   JigsawGeometry out;
-  const LineNetwork all = generators_detail::network_of(
-      lines_of(file, base_detail::with_z(Points2(file.points))), false);
+  const LineNetwork all =
+      generators_detail::network_of(lines_of(file, columns_of(file, path)), false);
   const ClosedWays closed(all);
   std::vector<Points3> sides;
   for (std::size_t c = 0; c < all.chains.size(); ++c)
@@ -147,7 +147,7 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
 
 JigsawGeometry read_jigsaw_geometry(const std::string& path) {
   const JigsawFile file = read_jigsaw(path);
-  if (file.kind == "euclidean-mesh" && file.dimensions == 2)
+  if (is_planar_mesh(file))
     return in_plane(file, path);
   if (file.kind != "ellipsoid-mesh")
     fail_file(path, "a geometry of the kind \"" + file.kind + "\" and " +
@@ -166,11 +166,10 @@ JigsawPoints read_jigsaw_points(const std::string& path, bool plane) {
   const JigsawFile file = read_jigsaw(path);
   if (file.points.cols() == 0)
     fail_file(path, "no POINT section; give points");
-  const bool flat = file.kind == "euclidean-mesh" && file.dimensions == 2;
-  if (flat != plane)
+  if (is_planar_mesh(file) != plane)
     fail_file(path, plane ? "points of the sphere; give those of a plane (NDIMS=2)"
                           : "points of a plane; give those of the sphere");
-  return {flat ? base_detail::with_z(Points2(file.points)) : directions_of(file, path), file.fixed};
+  return {columns_of(file, path), file.fixed};
 }
 
 } // namespace calotte
