@@ -9,7 +9,6 @@
 #include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 #include <calotte/quality.h>
 #include <calotte/voronoi.h>
 
@@ -165,9 +164,7 @@ CellMeasures cell_measures(const Mesh& mesh, const Density& density) {
   const Density on_surface = checked_surface_density(density, mesh.surface);
   if (!mesh.surface.is_sphere())
     return measure_in_plane(mesh, on_surface);
-  if (const Check found = check_surface(mesh); !found.passed())
-    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
-                                                 found.failure + "; triangulate the points anew");
+  require_surface(mesh);
   const WithoutFlatHull part = without_flat_hull(with_unit_columns(mesh));
   CellMeasures measures = measure_on_sphere(part.mesh, on_surface);
   if (part.mesh.triangles.cols() < mesh.triangles.cols())

@@ -9,6 +9,7 @@
 #include "quality/flat_hull.h"
 #include "quality/sides.h"
 #include "quality/truncation.h"
+#include "quality/voronoi_mesh.h"
 #include "quality/whole_cells.h"
 #include "voronoi/cell_fields.h"
 
@@ -54,10 +55,7 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
 
 /// \returns whether the mesh covers the sphere.
 bool require_delaunay(const Mesh& mesh) {
-  const Check found = check_surface(mesh);
-  if (!found.passed())
-    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
-                                                 found.failure + "; triangulate the points anew");
+  const Check found = require_surface(mesh);
   if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
     throw Error(ErrorCode::invalid_argument,
                 std::to_string(edges) + " edges are not Delaunay, so that the mesh has no Voronoi "

@@ -89,10 +89,7 @@ Quality measure(const ClosedMesh& closed, const Density& density) {
 
 /// \param cells whether the Voronoi cells are measured, too.
 Quality quality_of_open(const Mesh& mesh, bool cells) {
-  const Check found = check_surface(mesh);
-  if (!found.passed())
-    throw Error(ErrorCode::invalid_argument, "the triangles do not form a surface: " +
-                                                 found.failure + "; triangulate the points anew");
+  const Check found = require_surface(mesh);
   const bool on_sphere = mesh.surface.is_sphere();
   std::optional<Mesh> unit;
   if (on_sphere)

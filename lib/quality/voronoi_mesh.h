@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/require.h"
 #include "quality/room.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
 
 namespace calotte::quality_detail {
+
+/// \returns what check_surface() finds, which passed.
+/// \throws Error invalid_argument.
+inline Check require_surface(const Mesh& mesh) {
+  Check found = check_surface(mesh);
+  base_detail::require(found.passed(), "the triangles do not form a surface: " + found.failure +
+                                           "; triangulate the points anew");
+  return found;
+}
 
 /// Throws unless the mesh is the Delaunay triangulation of its points, but for the other diagonals
 /// of cocircular sites, which make the same cells.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/binary.h"
 
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 namespace calotte::io_detail {
 
@@ -24,8 +24,6 @@ void Bytes::finish() const {
     fail(std::to_string(rest_.size()) + " bytes too many; it is damaged, make it again");
 }
 
-void Bytes::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, name_ + ": " + problem);
-}
+void Bytes::fail(const std::string& problem) const { fail_file(name_, problem); }
 
 } // namespace calotte::io_detail

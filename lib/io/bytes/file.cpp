@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/output_queue.h"
 #include "io/bytes/temporary_file.h"
@@ -231,14 +232,11 @@ void require_regular_output(const std::string& path) {
 
 void require_no_folder(const std::string& path) {
   if (std::error_code error; fs::is_directory(path, error))
-    throw Error(ErrorCode::file,
-                "cannot read " + path + ": it is a folder; give the name of a file");
+    fail_read(path, "it is a folder; give the name of a file");
 }
 
 void refuse_input(const std::string& path, int error) {
-  throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                   std::generic_category().message(error) +
-                                   "; check its name and its permissions");
+  fail_read(path, std::generic_category().message(error) + "; check its name and its permissions");
 }
 
 std::ifstream open_input(const std::string& path) {
@@ -264,14 +262,13 @@ std::size_t bytes_left(std::istream& in) {
 
 void require_whole(std::size_t read, std::size_t at_first, const std::string& name) {
   if (read < at_first)
-    throw Error(ErrorCode::file,
-                "cannot read " + name + ": it became shorter; check which program writes it");
+    fail_read(name, "it became shorter; check which program writes it");
 }
 
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name) {
   in.read(bytes, size);
   if (in.bad())
-    throw Error(ErrorCode::file, "cannot read " + name + ": the disk or the network failed");
+    fail_read(name, "the disk or the network failed");
 }
 
 std::string read_all(std::istream& in, const std::string& name, StartCheck check_start) {

@@ -20,6 +20,11 @@ inline const std::string damaged = "; the file is damaged or incomplete, make it
   throw Error(ErrorCode::parse, name + ": " + problem, index);
 }
 
+/// \throws Error file: why a file cannot be read.
+[[noreturn]] inline void fail_read(const std::string& path, const std::string& why) {
+  throw Error(ErrorCode::file, "cannot read " + path + ": " + why);
+}
+
 /// \throws Error invalid_argument: what a file of that path cannot hold.
 [[noreturn]] inline void refuse_path(const std::string& path, const std::string& problem) {
   throw Error(ErrorCode::invalid_argument, path + ": " + problem);

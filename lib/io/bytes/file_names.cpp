@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_names.h"
 
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 #include <algorithm>
 #include <array>
@@ -50,12 +50,11 @@ void refuse_foreign(const std::string& path) {
     return name.find(' ') == std::string::npos ? name : "'" + name + "'";
   };
   const std::string stem = std::filesystem::path(path).replace_extension(), given = quoted(path);
-  throw Error(ErrorCode::parse,
-              path + ": this is " + std::string(kind->name) +
-                  ", which Calotte does not read; convert it with GDAL: " +
-                  (kind->shapes
-                       ? "ogr2ogr " + quoted(stem + ".geojson") + " " + given
-                       : "gdal_translate -of netCDF " + given + " " + quoted(stem + ".nc")));
+  fail_file(path,
+            "this is " + std::string(kind->name) +
+                ", which Calotte does not read; convert it with GDAL: " +
+                (kind->shapes ? "ogr2ogr " + quoted(stem + ".geojson") + " " + given
+                              : "gdal_translate -of netCDF " + given + " " + quoted(stem + ".nc")));
 }
 
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

@@ -2,9 +2,8 @@
 #include "io/bytes/file_reader.h"
 
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
-
-#include <calotte/error.h>
 
 #include <cerrno>
 #include <system_error>
@@ -20,16 +19,14 @@ FileReader::FileReader(const std::string& path) : path_(path) {
   size_ = file_.size();
   if (size_ >= 0)
     return;
-  throw Error(ErrorCode::file, "cannot read " + path +
-                                   ": it is a pipe, and the format is not read from front to "
-                                   "back; give the name of a file");
+  fail_read(path, "it is a pipe, and the format is not read from front to back; give the name of "
+                  "a file");
 }
 
 void FileReader::read(std::int64_t offset, std::int64_t bytes, char* out) const {
   std::int64_t count = 0;
   if (const int error = file_.read(offset, bytes, out, count); error != 0)
-    throw Error(ErrorCode::file, "cannot read " + path_ + ": " +
-                                     std::generic_category().message(error) + "; check the disk");
+    fail_read(path_, std::generic_category().message(error) + "; check the disk");
   io_detail::require_whole(static_cast<std::size_t>(count), static_cast<std::size_t>(bytes), path_);
 }
 

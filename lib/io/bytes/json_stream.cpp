@@ -2,8 +2,7 @@
 #include "io/bytes/json_stream.h"
 
 #include "io/bytes/file.h"
-
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 namespace calotte::io_detail {
 
@@ -56,8 +55,7 @@ void JsonBuffer::check(char c) {
 }
 
 void JsonBuffer::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, name_ + ": " + problem + " at byte " +
-                                    std::to_string(position_ + 1) + "; give plain GeoJSON");
+  fail_file(name_, problem + " at byte " + std::to_string(position_ + 1) + "; give plain GeoJSON");
 }
 
 } // namespace calotte::io_detail

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 #include "io/command.h"
 #include "io/toml.h"
@@ -73,13 +74,13 @@ std::string read_text(const std::string& path) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 20;
   std::error_code error;
   if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > most)
-    throw Error(ErrorCode::parse, path + ": " + std::to_string(size) +
-                                      " bytes are too many for a file of options; give a TOML file "
-                                      "of at most 1 MiB");
+    io_detail::fail_file(path, std::to_string(size) +
+                                   " bytes are too many for a file of options; give a TOML file "
+                                   "of at most 1 MiB");
   std::string text = read_file(path);
   if (KeyParts::exceeded(text))
-    throw Error(ErrorCode::parse, path + ": a key of more than " + std::to_string(KeyParts::most) +
-                                      " parts; write key = value");
+    io_detail::fail_file(path, "a key of more than " + std::to_string(KeyParts::most) +
+                                   " parts; write key = value");
   return text;
 }
 

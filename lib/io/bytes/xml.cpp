@@ -3,8 +3,6 @@
 
 #include "io/bytes/file_error.h"
 
-#include <calotte/error.h>
-
 #include <expat.h>
 
 #include <algorithm>
@@ -85,9 +83,9 @@ void set_callbacks(Collector& collector) {
   const std::string problem = collector.refused != nullptr
                                   ? std::string(collector.refused)
                                   : XML_ErrorString(XML_GetErrorCode(collector.parser));
-  throw Error(ErrorCode::parse, name + ": the XML is not well-formed at line " +
-                                    std::to_string(XML_GetCurrentLineNumber(collector.parser)) +
-                                    " (" + problem + ")" + damaged);
+  fail_file(name, "the XML is not well-formed at line " +
+                      std::to_string(XML_GetCurrentLineNumber(collector.parser)) + " (" + problem +
+                      ")" + damaged);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/netcdf/cf_values.h"
 
-#include <calotte/error.h>
 #include <calotte/io.h>
 
 #include <algorithm>
@@ -29,9 +29,9 @@ std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64
 [[noreturn]] void refuse_field(const io_detail::NetcdfReader& file, const std::string& problem,
                                std::int64_t cells) {
   const std::string names = names_of_cell_fields(file, cells);
-  throw Error(ErrorCode::invalid_argument,
-              file.path() + ": " + problem + "; " +
-                  (names.empty() ? "the file has none: give another" : "there are " + names));
+  io_detail::refuse_path(
+      file.path(),
+      problem + "; " + (names.empty() ? "the file has none: give another" : "there are " + names));
 }
 
 } // namespace

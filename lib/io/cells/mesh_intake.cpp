@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/mesh_intake.h"
-#include "io/bytes/file_error.h"
 
 #include "base/points.h"
 #include "delaunay/delaunay.h"
+#include "io/bytes/file_error.h"
 #include "io/cells/field_order.h"
 #include "io/cells/polygons.h"
 #include "io/cells/voronoi_cells.h"
@@ -240,8 +240,7 @@ void require_points(const std::string& name, RawMesh& raw) {
     require_places(name, raw.points);
     raw.points.row(2).setZero(); // not -0
     if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
-      throw Error(ErrorCode::invalid_argument,
-                  name + ": it holds cells of the sphere; of a plane only triangles are read");
+      refuse_path(name, "it holds cells of the sphere; of a plane only triangles are read");
   }
 }
 
@@ -274,10 +273,8 @@ bool lies_in_plane(const Points3& points) {
 
 void require_sphere(const std::string& name, const Points3& points) {
   if (lies_in_plane(points))
-    throw Error(
-        ErrorCode::invalid_argument,
-        name +
-            ": z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
+    refuse_path(
+        name, "z is 0 at all points, which makes a mesh of the plane; read it as one of the plane");
 }
 
 void require_directions(const std::string& name, const Points3& points) {

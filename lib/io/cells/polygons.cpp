@@ -5,8 +5,7 @@
 #include "base/points.h"
 #include "base/spherical_triangle.h"
 #include "exact/space.h"
-
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -173,13 +172,12 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
     const bool rarer_is_clockwise = clockwise <= counter_clockwise;
     const std::int64_t cell =
         std::find(turns.begin(), turns.end(), rarer_is_clockwise ? -1 : 1) - turns.begin();
-    throw Error(ErrorCode::parse,
-                name + ": " + name_of(cell) + " runs " +
-                    (rarer_is_clockwise ? "clockwise" : "counter-clockwise") +
-                    " seen from outside, but " +
-                    std::to_string(std::max(clockwise, counter_clockwise)) +
-                    " cells run the other way; the file contradicts itself, make it again",
-                cell);
+    fail_file(name,
+              name_of(cell) + " runs " + (rarer_is_clockwise ? "clockwise" : "counter-clockwise") +
+                  " seen from outside, but " +
+                  std::to_string(std::max(clockwise, counter_clockwise)) +
+                  " cells run the other way; the file contradicts itself, make it again",
+              cell);
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
     if (turns[i] < 0 || counter_clockwise == 0)
@@ -296,8 +294,7 @@ PolygonFault overlap_in(const Polygons& polygons) {
 
 void require_no_overlap(const Polygons& polygons, const std::string& name) {
   if (const PolygonFault fault = overlap_in(polygons); !fault.text.empty())
-    throw Error(ErrorCode::parse, name + ": " + fault.text + "; make the file again",
-                fault.polygon);
+    fail_file(name, fault.text + "; make the file again", fault.polygon);
 }
 
 double mean_width(std::int64_t cells) {

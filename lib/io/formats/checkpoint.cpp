@@ -2,6 +2,7 @@
 #include "cvt/state.h"
 #include "io/bytes/binary.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 
 #include <calotte/error.h>
@@ -219,9 +220,9 @@ void require_same(const std::string& path, std::string_view theirs, std::string_
     their_line = take_line(theirs);
     our_line = take_line(ours);
   } while (their_line == our_line && !(theirs.empty() && ours.empty()));
-  throw Error(ErrorCode::invalid_argument,
-              path + ": a checkpoint of another configuration: it has " + their_line +
-                  " where this run has " + our_line + "; give the same options or start anew");
+  refuse_path(path, "a checkpoint of another configuration: it has " + their_line +
+                        " where this run has " + our_line +
+                        "; give the same options or start anew");
 }
 
 } // namespace

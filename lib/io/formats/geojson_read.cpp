@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
 #include "base/points.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
@@ -104,8 +105,7 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, name_ + ": feature " + std::to_string(count_) + " " + problem,
-                count_);
+    fail_file(name_, "feature " + std::to_string(count_) + " " + problem, count_);
   }
 
   void take_properties(const json& properties) {
@@ -284,7 +284,7 @@ RawMesh get_geojson(std::istream& in, const std::string& name) {
   Features features(name);
   read_features(in, name, [&](const GeoFeature& feature) { features.take(feature); });
   if (features.count() == 0)
-    throw Error(ErrorCode::parse, name + ": \"features\" is empty; give one feature for each cell");
+    fail_file(name, "\"features\" is empty; give one feature for each cell");
   return features.raw();
 }
 

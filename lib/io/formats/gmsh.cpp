@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/gmsh.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -39,9 +38,8 @@ public:
     for (std::string_view line; reader_.next_content(line);)
       section(trimmed(line));
     if (corners_.empty())
-      throw Error(ErrorCode::parse,
-                  reader_.name() + ": a file of Gmsh without triangles; mesh its surfaces (gmsh "
-                                   "-2), and save all elements (Mesh.SaveAll=1)");
+      fail_file(reader_.name(), "a file of Gmsh without triangles; mesh its surfaces (gmsh "
+                                "-2), and save all elements (Mesh.SaveAll=1)");
     return raw();
   }
 
@@ -193,9 +191,8 @@ private:
     const auto place_of = [&](std::int64_t node) {
       const auto found = place_of_.find(node);
       if (found == place_of_.end() || found->second >= site.size())
-        throw Error(ErrorCode::parse, reader_.name() + ": a triangle has the node " +
-                                          std::to_string(node) +
-                                          ", which $Nodes does not have; make the file again");
+        fail_file(reader_.name(), "a triangle has the node " + std::to_string(node) +
+                                      ", which $Nodes does not have; make the file again");
       return found->second;
     };
     for (const std::int64_t node : corners_)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 #include "io/formats/gmsh.h"
 #include "io/shapes/jigsaw.h"
-
-#include <calotte/error.h>
 
 namespace calotte::io_detail {
 
@@ -50,8 +49,7 @@ RawMesh get_msh(std::istream& in, const std::string& name) {
     return get_gmsh(in, name);
   const JigsawFile file = read_jigsaw(in, name);
   if (file.points.cols() == 0)
-    throw Error(ErrorCode::parse,
-                name + ": no POINT section; give a mesh of the sphere, with points");
+    fail_file(name, "no POINT section; give a mesh of the sphere, with points");
   const double radius = file.dimensions == 2 && !is_planar_mesh(file) ? radius_of(file, name) : 1;
   return {radius * columns_of(file, name), file.triangles};
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/poly_data.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/scalars.h"
 #include "io/bytes/text.h"
 #include "io/cells/mesh_intake.h"
 #include "io/cells/model_grid.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -120,10 +119,8 @@ RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* 
   RawMesh raw;
   if (lies_in_plane(poly_data.points)) {
     if (centres == nullptr)
-      throw Error(ErrorCode::invalid_argument,
-                  name +
-                      ": z is 0 at all points; of a plane only triangles, and cells with an array "
-                      "site, are read");
+      refuse_path(name, "z is 0 at all points; of a plane only triangles, and cells with an array "
+                        "site, are read");
     raw.points = points_of(*centres);
     raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points,
                     Surface::plane()};
@@ -142,7 +139,7 @@ RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* 
 
 void fail_array(const std::string& name, const std::string& array, const std::string& problem,
                 std::int64_t index) {
-  throw Error(ErrorCode::parse, name + ": array " + in_quotes(array) + ": " + problem, index);
+  fail_file(name, "array " + in_quotes(array) + ": " + problem, index);
 }
 
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/cells/cell_rows.h"
 #include "io/cells/mesh_intake.h"
 #include "io/command.h"
@@ -83,9 +84,8 @@ Points3 sites_of(const std::string& path) {
     refuse_triangles_alone(path);
   RawMesh raw = file.row->read(input);
   if (raw.points.cols() == 0 && raw.polygons.size() > 0)
-    throw Error(ErrorCode::invalid_argument, path +
-                                                 ": its cells have no centres, so it has no sites; "
-                                                 "read them with read_mesh_file()");
+    refuse_path(path, "its cells have no centres, so it has no sites; "
+                      "read them with read_mesh_file()");
   return std::move(raw.points);
 }
 
@@ -118,13 +118,11 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
 Mesh read_mesh(const std::string& path, const Points3* points) {
   MeshFile file = read_mesh_file(path, points, FieldChoice::none);
   if (file.other_cells() && !file.plane())
-    throw Error(ErrorCode::invalid_argument,
-                path +
-                    ": the cells are not the Voronoi cells of their "
-                    "centres (" +
-                    file.not_voronoi.text() +
-                    "); read them with read_mesh_file(), or read their "
-                    "centres with read_sites() and triangulate these");
+    refuse_path(path, "the cells are not the Voronoi cells of their "
+                      "centres (" +
+                          file.not_voronoi.text() +
+                          "); read them with read_mesh_file(), or read their "
+                          "centres with read_sites() and triangulate these");
   return std::move(*file.mesh);
 }
 

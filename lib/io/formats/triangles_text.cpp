@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
-
-#include <calotte/error.h>
 
 #include <numeric>
 
@@ -55,7 +54,7 @@ Triangles get_triangles_text(std::istream& in, const std::string& name, std::int
     parse_ids(reader, ids, points, triangles);
   }
   if (triangles.empty())
-    throw Error(ErrorCode::parse, name + ": no triangles; write three ids i j k on each line");
+    fail_file(name, "no triangles; write three ids i j k on each line");
   return Eigen::Map<const Triangles>(triangles.data(), 3,
                                      static_cast<Eigen::Index>(triangles.size() / 3));
 }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/vtk_legacy.h"
+
 #include "io/bytes/file_error.h"
-
 #include "io/bytes/text.h"
-
-#include <calotte/error.h>
 
 #include <array>
 #include <bit>
@@ -53,9 +51,8 @@ std::optional<char> hex_value(std::string_view digits) {
 
 void require_legacy_vtk(std::string_view start, const std::string& name) {
   if (!start.starts_with("# vtk DataFile Version "))
-    throw Error(ErrorCode::parse, name +
-                                      ": it does not start with \"# vtk DataFile Version\", so it "
-                                      "is no legacy VTK file");
+    fail_file(name, "it does not start with \"# vtk DataFile Version\", so it "
+                    "is no legacy VTK file");
 }
 
 LegacyText::LegacyText(std::string_view content, std::string name)
@@ -205,8 +202,6 @@ void LegacyText::skip_metadata() {
   }
 }
 
-void LegacyText::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, name_ + ": " + problem);
-}
+void LegacyText::fail(const std::string& problem) const { fail_file(name_, problem); }
 
 } // namespace calotte::io_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/write_mesh.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
@@ -15,7 +16,6 @@
 #include "mesh/renumber.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
@@ -27,14 +27,10 @@
 namespace calotte {
 namespace io_detail {
 
-void refuse_to_write(const std::string& path, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, path + ": " + problem);
-}
-
 void require_options(const std::string& path, const WriteOptions& options) {
   if (!(options.sphere_radius > 0 && std::isfinite(options.sphere_radius)))
-    refuse_to_write(path, "the sphere's radius is " + std::to_string(options.sphere_radius) +
-                              "; give a positive number");
+    refuse_path(path, "the sphere's radius is " + std::to_string(options.sphere_radius) +
+                          "; give a positive number");
   evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
 }
 
@@ -56,8 +52,8 @@ using namespace io_detail;
 void require_ids(const std::string& path, const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols();
   if (!are_ids(mesh.triangles, sites) || !are_ids(mesh.site_of_input, sites))
-    refuse_to_write(path, "the mesh has an id that is not one of its " + std::to_string(sites) +
-                              " points");
+    refuse_path(path,
+                "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
 }
 
 MeshSizes sizes_of(const Mesh& mesh) {
@@ -67,7 +63,7 @@ MeshSizes sizes_of(const Mesh& mesh) {
 void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   require_ids(path, mesh);
   if (info_of(format).cells && !mesh.closed())
-    refuse_to_write(
+    refuse_path(
         path, "the mesh is open, and its outer cells would reach round the far side of the "
               "sphere; write its triangles (" +
                   triangle_formats(", ") +
@@ -93,7 +89,7 @@ Mesh renumbered_with_values(const Mesh& mesh, Numbering numbering, WriteOptions&
 
 void require_input_numbering(const std::string& path, Numbering numbering) {
   if (numbering == Numbering::curve)
-    refuse_to_write(path, "the cells of a planar mesh keep their numbers; leave the order out");
+    refuse_path(path, "the cells of a planar mesh keep their numbers; leave the order out");
 }
 
 /// \param mesh its own is freed as early as the format allows.
@@ -177,14 +173,14 @@ void require_planar_format(const std::string& path, const Surface& plane, Format
     return;
   const std::string triangles = triangle_formats();
   if (bounded)
-    refuse_to_write(path, "the cells of a bounded plane are written as " + clipped_formats() +
-                              ", its triangles as " + triangles + "; give one of these formats");
-  refuse_to_write(
-      path, periodic ? "a periodic plane is written as MPAS or as triangles alone; give a name "
-                       "that ends in .nc, .txt or .tri"
-                     : "a plane is written as triangles, " + triangles +
-                           ", and as cells only within a domain, which clips them; give a name "
-                           "that ends so, or convert that file with its domain");
+    refuse_path(path, "the cells of a bounded plane are written as " + clipped_formats() +
+                          ", its triangles as " + triangles + "; give one of these formats");
+  refuse_path(path, periodic
+                        ? "a periodic plane is written as MPAS or as triangles alone; give a name "
+                          "that ends in .nc, .txt or .tri"
+                        : "a plane is written as triangles, " + triangles +
+                              ", and as cells only within a domain, which clips them; give a name "
+                              "that ends so, or convert that file with its domain");
 }
 
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {

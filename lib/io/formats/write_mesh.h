@@ -12,9 +12,6 @@
 /// What the writers of a mesh and of the contents of a file have in common.
 namespace calotte::io_detail {
 
-/// \throws Error invalid_argument, that names the file.
-[[noreturn]] void refuse_to_write(const std::string& path, const std::string& problem);
-
 /// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 

@@ -2,10 +2,9 @@
 #include "io/netcdf/netcdf_header.h"
 
 #include "io/bytes/big_endian.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_reader.h"
 #include "io/bytes/utf8.h"
-
-#include <calotte/error.h>
 
 #include <netcdf.h>
 
@@ -66,7 +65,7 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, file_.path() + ": " + problem + "; make it again");
+    fail_file(file_.path(), problem + "; make it again");
   }
   [[noreturn]] void damaged(const std::string& what) const {
     fail("its header is damaged: byte " + std::to_string(position_) + " " + what);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_library.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_reader.h"
 
 #include <calotte/error.h>
@@ -21,8 +22,7 @@ void require_system(const std::string& path, int code) {
   if (code == NC_ENOMEM || code == ENOMEM)
     throw std::bad_alloc();
   if (code > 0)
-    throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                     std::generic_category().message(code) + "; check the disk");
+    fail_read(path, std::generic_category().message(code) + "; check the disk");
 }
 
 } // namespace
@@ -52,9 +52,8 @@ NetcdfLibraryFile::~NetcdfLibraryFile() {
 /// Of opening the file and of its dimensions and variables.
 void NetcdfLibraryFile::require(int code) const {
   if (!is_found(code))
-    throw Error(ErrorCode::parse,
-                file_.path() +
-                    ": it is not a NetCDF file, or is cut short; give another or make it again");
+    fail_file(file_.path(),
+              "it is not a NetCDF file, or is cut short; give another or make it again");
 }
 
 /// True for a result code of success, false where what was asked for is not there.
@@ -177,7 +176,7 @@ void NetcdfLibraryFile::require_values(int variable, int code) const {
                               : code == NC_ERANGE
                                   ? " has a number out of range"
                                   : std::string(" cannot be read (") + nc_strerror(code) + ")";
-  throw Error(ErrorCode::parse, file_.path() + ": " + name + problem + "; make the file again");
+  fail_file(file_.path(), name + problem + "; make the file again");
 }
 
 void NetcdfLibraryFile::get(int variable, const std::vector<std::size_t>& start,

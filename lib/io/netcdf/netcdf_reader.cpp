@@ -4,8 +4,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "io/bytes/big_endian.h"
-
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,9 +148,7 @@ void NetcdfReader::require_sizes() const {
   }
 }
 
-void NetcdfReader::fail(const std::string& problem) const {
-  throw Error(ErrorCode::parse, path() + ": " + problem);
-}
+void NetcdfReader::fail(const std::string& problem) const { fail_file(path(), problem); }
 
 // ---- The header
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_subset.h"
 
-#include <calotte/error.h>
+#include "io/bytes/file_error.h"
 
 #include <algorithm>
 #include <cstring>
@@ -82,8 +82,8 @@ std::optional<std::size_t> axis_of(const NetcdfReader& source, const NetcdfSubse
     if (!subset.kept.contains(source.dimensions()[id].name))
       continue;
     if (axis)
-      throw Error(ErrorCode::invalid_argument,
-                  source.path() + ": " + variable.name +
+      refuse_path(source.path(),
+                  variable.name +
                       " has two dimensions of cells, edges or vertices; remove the variable");
     axis = d;
   }

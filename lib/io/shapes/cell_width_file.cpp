@@ -7,7 +7,6 @@
 #include "io/command.h"
 #include "io/shapes/jigsaw.h"
 
-#include <calotte/error.h>
 #include <calotte/read.h>
 
 #include <fstream>
@@ -17,27 +16,26 @@ namespace calotte {
 
 Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
                        const Surface& surface) {
+  using namespace io_detail;
   if (holds_rules(path))
-    return io_detail::named(path, [&, widths = read_widths(path, polygons, surface)] {
+    return named(path, [&, widths = read_widths(path, polygons, surface)] {
       return sampled(widths, surface);
     });
-  const std::string suffix = io_detail::suffix_of(path);
+  const std::string suffix = suffix_of(path);
   if (suffix == ".nc")
     return read_raster(path, {.quantity = RasterQuantity::cell_width, .surface = surface});
-  io_detail::refuse_foreign(path);
-  const bool polygonal = io_detail::is_geojson(path);
+  refuse_foreign(path);
+  const bool polygonal = is_geojson(path);
   if (suffix != ".msh" && !polygonal)
-    throw Error(ErrorCode::invalid_argument,
-                path + ": unknown suffix of a file of cell widths; give .nc, .msh, .geojson or "
-                       ".toml");
+    refuse_path(path, "unknown suffix of a file of cell widths; give .nc, .msh, .geojson or "
+                      ".toml");
   if (polygonal && !surface.is_sphere())
-    throw Error(ErrorCode::invalid_argument,
-                path + ": no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
-                       "JIGSAW's spacings (.msh), or rules (.toml)");
+    refuse_path(path, "no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
+                      "JIGSAW's spacings (.msh), or rules (.toml)");
   if (!polygonal)
-    return io_detail::widths_of(io_detail::read_jigsaw(path), path, surface);
-  std::ifstream in = io_detail::open_input(path);
-  return io_detail::read_cell_width_geojson(in, path, polygons);
+    return widths_of(read_jigsaw(path), path, surface);
+  std::ifstream in = open_input(path);
+  return read_cell_width_geojson(in, path, polygons);
 }
 
 } // namespace calotte

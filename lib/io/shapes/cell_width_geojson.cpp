@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/cell_width_polygons.h"
 #include "density/raster_field.h"
+#include "io/bytes/file_error.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/geojson_areas.h"
 
@@ -40,9 +41,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, name_ + ": " + where_ + problem);
-  }
+  [[noreturn]] void fail(const std::string& problem) const { fail_file(name_, where_ + problem); }
 
   double positive(const Json& value, const std::string& what) const {
     if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>()))
@@ -56,11 +55,10 @@ private:
     if (width == 0 && given != root.end())
       width = positive(*given, "\"" + key + "\"");
     if (!std::isfinite(width) || width < 0 || (needed && width == 0))
-      throw Error(ErrorCode::invalid_argument,
-                  name_ + ": no positive " +
-                      (key == "transition" ? "width of the transition"
-                                           : key.substr(0, key.size() - 5) + " width") +
-                      "; give it in km as an option or as the file's \"" + key + "\"");
+      refuse_path(name_, "no positive " +
+                             (key == "transition" ? "width of the transition"
+                                                  : key.substr(0, key.size() - 5) + " width") +
+                             "; give it in km as an option or as the file's \"" + key + "\"");
   }
 
   double width_inside(const Json& properties) const {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/raster_field.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/netcdf/netcdf_writer.h"
 #include "io/shapes/jigsaw.h"
 
-#include <calotte/error.h>
 #include <calotte/write.h>
 
 #include <algorithm>
@@ -62,17 +62,15 @@ void write_jigsaw(const std::string& path, const Raster& widths) {
 void write(const std::string& path, const Raster& widths) {
   density_detail::require_widths(widths);
   if (widths.of_plane)
-    throw Error(ErrorCode::invalid_argument,
-                path + ": files of cell widths are written of the sphere; give a raster of it");
+    refuse_path(path, "files of cell widths are written of the sphere; give a raster of it");
   const std::string suffix = suffix_of(path);
   if (suffix == ".nc")
     write_netcdf(path, widths);
   else if (suffix == ".msh")
     write_jigsaw(path, widths);
   else
-    throw Error(
-        ErrorCode::invalid_argument,
-        path + ": a raster of cell widths is NetCDF (.nc) or JIGSAW's (.msh); give such a name");
+    refuse_path(path,
+                "a raster of cell widths is NetCDF (.nc) or JIGSAW's (.msh); give such a name");
 }
 
 } // namespace calotte

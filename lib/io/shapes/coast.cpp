@@ -3,11 +3,10 @@
 
 #include "domain/spherical_area.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/command.h"
 #include "io/shapes/coast_file.h"
 #include "io/shapes/geojson_areas.h"
-
-#include <calotte/error.h>
 
 #include <cmath>
 #include <filesystem>
@@ -39,13 +38,11 @@ void require_gshhg(const std::string& path) {
   if (!name.starts_with("binned_GSHHS_") || std::filesystem::exists(path, error))
     return;
   const bool high = name.starts_with("binned_GSHHS_h"), full = name.starts_with("binned_GSHHS_f");
-  throw Error(ErrorCode::file, "cannot read " + path +
-                                   ": No such file; it comes with Debian's package gmt-gshhg-" +
-                                   (high   ? "high"
-                                    : full ? "full"
-                                           : "low") +
-                                   ", in /usr/share/gmt-gshhg; install it, or give other polygons "
-                                   "of land");
+  fail_read(path, std::string("No such file; it comes with Debian's package gmt-gshhg-") +
+                      (high   ? "high"
+                       : full ? "full"
+                              : "low") +
+                      ", in /usr/share/gmt-gshhg; install it, or give other polygons of land");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/text.h"
 #include "io/command.h"
@@ -75,8 +76,8 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
   }
   rings.close();
   if (rings.corners.empty())
-    throw Error(ErrorCode::parse, name + ": no corners in " + std::to_string(reader.number()) +
-                                      " lines; write two numbers x y on each line");
+    fail_file(name, "no corners in " + std::to_string(reader.number()) +
+                        " lines; write two numbers x y on each line");
   return rings;
 }
 
@@ -110,7 +111,7 @@ Surface domain_of(const FileRings& rings) {
 Surface domain_of_jigsaw(const std::string& path) {
   const Surface surface = read_jigsaw_geometry(path).surface;
   if (surface.is_sphere())
-    throw Error(ErrorCode::parse, path + ": a geometry of the sphere; give one of a plane");
+    fail_file(path, "a geometry of the sphere; give one of a plane");
   return surface;
 }
 

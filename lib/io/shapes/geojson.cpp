@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/json_stream.h"
 
 #include <calotte/error.h>
@@ -31,10 +32,10 @@ Json parse(std::istream& in, const std::string& name,
   try {
     return Json::parse(checked, keep);
   } catch (const Json::parse_error& error) {
-    throw Error(ErrorCode::parse, name + ": no JSON from byte " + std::to_string(error.byte) +
-                                      " on; the file was cut short or damaged");
+    fail_file(name, "no JSON from byte " + std::to_string(error.byte) +
+                        " on; the file was cut short or damaged");
   } catch (const Json::exception&) {
-    throw Error(ErrorCode::parse, name + ": a number that no double can hold; correct it");
+    fail_file(name, "a number that no double can hold; correct it");
   }
 }
 
@@ -52,8 +53,7 @@ void take_feature(const Json& object, std::int64_t number, const std::string& na
   if (type != "Feature" && (object.contains("coordinates") || object.contains("geometries")))
     return take({number, where, Json(), object}); // a geometry alone
   if (type != "Feature" && !(type.empty() && object.contains("geometry")))
-    throw Error(ErrorCode::parse,
-                name + ": " + where + "no object of the type \"Feature\"" + as_rfc);
+    fail_file(name, where + "no object of the type \"Feature\"" + as_rfc);
   take({number, where, object.value("properties", Json()), object.value("geometry", Json())});
 }
 
@@ -78,12 +78,11 @@ Json read_features(std::istream& in, const std::string& name,
   Json rest =
       parse(in, name, [&](const Json& feature) { take_feature(feature, count++, name, take); });
   if (!rest.is_object())
-    throw Error(ErrorCode::parse, name + ": no GeoJSON object; give features or a geometry");
+    fail_file(name, "no GeoJSON object; give features or a geometry");
   const std::string type = text_in(rest, "type");
   if (type == "FeatureCollection") {
     if (!array(rest, "features", name + ": ").empty())
-      throw Error(ErrorCode::parse,
-                  name + ": \"features\" holds other values than objects" + as_rfc);
+      fail_file(name, std::string("\"features\" holds other values than objects") + as_rfc);
   } else if (type == "Feature") {
     take_feature(rest, -1, name, take);
   } else {

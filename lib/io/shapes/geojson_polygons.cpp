@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson_polygons.h"
 
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
-
-#include <calotte/error.h>
 
 namespace calotte::io_detail {
 namespace {
@@ -27,9 +26,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, name_ + ": " + where_ + problem);
-  }
+  [[noreturn]] void fail(const std::string& problem) const { fail_file(name_, where_ + problem); }
 
   GeoPolygon polygon(const Json& rings) {
     if (!rings.is_array() || rings.empty())
@@ -87,7 +84,7 @@ GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPa
         all.geometries.push_back(polygons_of(feature, type, coordinates, name, pair));
       });
   if (all.geometries.empty())
-    throw Error(ErrorCode::parse, name + ": no polygons; give Polygon or MultiPolygon geometries");
+    fail_file(name, "no polygons; give Polygon or MultiPolygon geometries");
   return all;
 }
 

@@ -4,9 +4,8 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -38,8 +37,7 @@ public:
     for (std::string_view line; reader_.next_content(line);)
       section(line);
     if (file_.kind.empty())
-      throw Error(ErrorCode::parse,
-                  reader_.name() + ": no MSHID line; give a .msh file as JIGSAW writes it");
+      fail_file(reader_.name(), "no MSHID line; give a .msh file as JIGSAW writes it");
     require_vertices();
     return std::move(file_);
   }
@@ -208,16 +206,15 @@ private:
     for (std::size_t e = 0; e < file_.edges.size(); ++e)
       if (const std::int32_t last = std::max(file_.edges[e][0], file_.edges[e][1]);
           last >= file_.points.cols())
-        throw Error(ErrorCode::parse, reader_.name() + ": edge " + std::to_string(e) +
-                                          " has the point " + std::to_string(last) +
-                                          ", but there are " + std::to_string(file_.points.cols()) +
-                                          ", counted from 0");
+        fail_file(reader_.name(), "edge " + std::to_string(e) + " has the point " +
+                                      std::to_string(last) + ", but there are " +
+                                      std::to_string(file_.points.cols()) + ", counted from 0");
     for (Eigen::Index t = 0; t < file_.triangles.cols(); ++t)
       if (file_.triangles.col(t).maxCoeff() >= file_.points.cols())
-        throw Error(ErrorCode::parse,
-                    reader_.name() + ": triangle " + std::to_string(t) + " has vertex " +
-                        std::to_string(file_.triangles.col(t).maxCoeff()) + ", but there are " +
-                        std::to_string(file_.points.cols()) + " points, counted from 0");
+        fail_file(reader_.name(), "triangle " + std::to_string(t) + " has vertex " +
+                                      std::to_string(file_.triangles.col(t).maxCoeff()) +
+                                      ", but there are " + std::to_string(file_.points.cols()) +
+                                      " points, counted from 0");
   }
 
   static constexpr std::int64_t most_points = std::int64_t{1} << 31;
@@ -241,15 +238,14 @@ JigsawFile read_jigsaw(const std::string& path) {
 double radius_of(const JigsawFile& file, const std::string& name) {
   const auto& [a, b, c] = file.radii.value_or(std::array<double, 3>{1, 1, 1});
   if (a != b || b != c)
-    throw Error(ErrorCode::parse, name + ": the radii differ; only meshes of a sphere are read");
+    fail_file(name, "the radii differ; only meshes of a sphere are read");
   return a;
 }
 
 void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name) {
   if (file.values.size() != nodes)
-    throw Error(ErrorCode::parse, name + ": VALUE has " + std::to_string(file.values.size()) +
-                                      " widths for " + std::to_string(nodes) +
-                                      " nodes; give one for each");
+    fail_file(name, "VALUE has " + std::to_string(file.values.size()) + " widths for " +
+                        std::to_string(nodes) + " nodes; give one for each");
 }
 
 bool is_planar_mesh(const JigsawFile& file) {
@@ -260,17 +256,17 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
   if (file.dimensions == 3)
     return file.points;
   if (file.kind != "ellipsoid-mesh")
-    throw Error(ErrorCode::parse, name + ": a mesh of the plane; give an ellipsoid-mesh, or points "
-                                         "of NDIMS=3");
+    fail_file(name, "a mesh of the plane; give an ellipsoid-mesh, or points "
+                    "of NDIMS=3");
   constexpr double degrees = 180 / std::numbers::pi;
   Points3 points(3, file.points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const double latitude = file.points(1, i) * degrees;
     if (std::abs(latitude) > 90.001)
-      throw Error(ErrorCode::parse,
-                  name + ": latitude " + std::to_string(file.points(1, i)) + " of point " +
-                      std::to_string(i) + " is not an angle in radians from -pi/2 to pi/2",
-                  i);
+      fail_file(name,
+                "latitude " + std::to_string(file.points(1, i)) + " of point " + std::to_string(i) +
+                    " is not an angle in radians from -pi/2 to pi/2",
+                i);
     const Vec3 p = from_lonlat(file.points(0, i) * degrees, std::clamp(latitude, -90.0, 90.0));
     points.col(i) << p.x, p.y, p.z;
   }

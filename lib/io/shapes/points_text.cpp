@@ -3,6 +3,7 @@
 #include "base/lonlat.h"
 #include "base/points.h"
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 
 #include <calotte/error.h>
 #include <calotte/io.h>
@@ -299,9 +300,9 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
     result.lines.push_back(reader.number());
   }
   if (coordinates.empty())
-    throw Error(ErrorCode::parse, name + ": no points in " + std::to_string(reader.number()) +
-                                      (reader.number() == 1 ? " line" : " lines") + "; " +
-                                      format.expected);
+    io_detail::fail_file(name, "no points in " + std::to_string(reader.number()) +
+                                   (reader.number() == 1 ? " line" : " lines") + "; " +
+                                   format.expected);
   first.require_no_count(reader, 3);
   result.further_columns = first.has_further() && !names;
   result.points = Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/shapes/geojson_areas.h"
 #include "io/shapes/region_file.h"
@@ -45,9 +46,8 @@ Surface read_geojson(std::istream& in, const std::string& name) {
 void require_format(const std::string& name) {
   refuse_foreign(name);
   if (!is_geojson(name) && suffix_of(name) != ".pts")
-    throw Error(ErrorCode::invalid_argument,
-                name + ": the name determines no format of regions; name it .geojson, .json or "
-                       ".pts");
+    refuse_path(name, "the name determines no format of regions; name it .geojson, .json or "
+                      ".pts");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 #include "io/shapes/region_file.h"
 
@@ -72,9 +73,7 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::parse, reader_.name() + ": " + problem);
-  }
+  [[noreturn]] void fail(const std::string& problem) const { fail_file(reader_.name(), problem); }
 
   void set(const std::string& keyword, std::string_view value) {
     if (keyword == "type") {

@@ -155,9 +155,8 @@ public:
     const toml::table root = read_toml(path_);
     const toml::table* const table = root["cell-width"].as_table();
     if (table == nullptr || root.size() != 1)
-      throw Error(ErrorCode::parse,
-                  path_ +
-                      ": a file of widths has one table, [cell-width]; see calotte help widths");
+      io_detail::fail_file(path_,
+                           "a file of widths has one table, [cell-width]; see calotte help widths");
     WidthRules rules;
     rules.widths = rule_of(*table, &rules);
     if (surface_.is_sphere() || !rules.gradient) // else they are one raster
