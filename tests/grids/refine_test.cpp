@@ -476,16 +476,21 @@ TEST_CASE("a patch does not reach both sides of a site where the boundary meets 
 }
 
 TEST_CASE("meshes of irregular cells change, too [slow]") {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    CAPTURE(seed);
-    const Mesh base = delaunay(random_sphere(seed % 2 == 0 ? 400 : 2000, seed));
-    const Eigen::Vector3d at = base.points.col(static_cast<Eigen::Index>(seed * 17));
-    for (const bool finer : {true, false}) {
-      const WidthDemand demand = in_circle(at, 0.3, 2);
-      const ChangedMesh made = finer ? refine(base, demand) : coarsen(base, demand);
-      expect_changed(base, made);
-      expect_delaunay(made.mesh);
-    }
+  struct Irregular {
+    std::int64_t sites;
+    bool finer;
+  };
+  // A patch within others, one that is the whole sphere, and one of coarser cells.
+  for (const auto& [sites, finer] : {Irregular{2000, true}, {400, true}, {400, false}}) {
+    CAPTURE(sites);
+    CAPTURE(finer);
+    const Mesh base = delaunay(random_sphere(sites, 2));
+    const WidthDemand demand = in_circle(base.points.col(34), 0.3, 2);
+    const ChangedMesh made = finer ? refine(base, demand) : coarsen(base, demand);
+    REQUIRE(made.patches.size() == 1);
+    CHECK((made.patches[0].removed == sites) == (finer && sites == 400));
+    expect_changed(base, made);
+    expect_delaunay(made.mesh);
   }
 }
 
