@@ -99,6 +99,24 @@ DoubleVector in_arena(int threads, const Widths& widths, const Points3& places) 
   return tbb::task_arena(threads).execute([&] { return evaluate(widths, places); });
 }
 
+struct RuleAndLimit {
+  std::string name;
+  Widths rule, limited; ///< by a gradient of 0.03
+};
+
+/// A limit is prepared by one thread, once for all cases.
+const std::vector<RuleAndLimit>& on_earth() {
+  static const std::vector<RuleAndLimit> all = [] {
+    std::vector<RuleAndLimit> out;
+    for (auto& [name, rule] : rules()) {
+      out.push_back({name, rule, rule.limit_gradient(0.03)});
+      in_arena(1, out.back().limited, random_sphere(1, 4));
+    }
+    return out;
+  }();
+  return all;
+}
+
 } // namespace
 
 TEST_CASE("each width depends on its place alone, whatever is asked before it") {
@@ -120,39 +138,37 @@ TEST_CASE("each width depends on its place alone, whatever is asked before it") 
   }
 }
 
-// Slow: each rule is limited many times.
+// Slow: each rule is limited twice.
 TEST_CASE("a rule and its limit have the same bits in each run, for any number of threads [slow]") {
   const Points3 places = random_sphere(3000, 4);
-  for (const auto& [name, rule] : rules()) {
+  for (const auto& [name, rule, limited] : on_earth()) {
     CAPTURE(name);
-    for (const double gradient : {0.0, 0.03}) {
-      const auto widths = [&] { return gradient > 0 ? rule.limit_gradient(gradient) : rule; };
-      const DoubleVector first = in_arena(1, widths(), places);
-      int differ = 0;
-      for (const int threads : {1, 2, 7})
-        differ += in_arena(threads, widths(), places) != first ? 1 : 0;
-      CHECK(differ == 0);
-    }
+    const DoubleVector first = in_arena(1, rule, places);
+    int differ = 0;
+    for (const int threads : {1, 2, 7})
+      differ += in_arena(threads, rule, places) != first ? 1 : 0;
+    CHECK(differ == 0);
+    CHECK(in_arena(7, rule.limit_gradient(0.03), places) == in_arena(1, limited, places));
   }
 }
 
 TEST_CASE("a limited rule is nowhere above the rule, and hardly anywhere steeper") {
-  const Points3 places = random_sphere(20000, 6);
-  for (const auto& [name, rule] : rules()) {
+  constexpr double gradient = 0.03;
+  const Points3 places = random_sphere(10000, 6);
+  DoubleMatrix ways(300, places.cols()); // km
+  for (Eigen::Index k = 0; k < ways.cols(); ++k)
+    for (Eigen::Index i = 0; i < ways.rows(); ++i)
+      ways(i, k) = earth_radius_km * test::angle(places.col(i), places.col(k));
+  for (const auto& [name, rule, limit] : on_earth()) {
     CAPTURE(name);
-    const DoubleVector given = evaluate(rule, places);
-    for (const double gradient : {0.03}) {
-      const DoubleVector limited = evaluate(rule.limit_gradient(gradient), places);
-      CHECK((limited - given).maxCoeff() <= 0);
-      // From each place to the next ones: by no more than the gradient, but for a raster's step.
-      double worst = 0;
-      for (Eigen::Index i = 0; i < 300; ++i)
-        for (Eigen::Index k = 0; k < places.cols(); ++k) {
-          const double way = earth_radius_km * test::angle(places.col(i), places.col(k));
-          worst = std::max(worst, std::abs(limited[i] - limited[k]) - gradient * way);
-        }
-      CHECK(worst < gradient * 120);
-    }
+    const DoubleVector given = evaluate(rule, places), limited = evaluate(limit, places);
+    CHECK((limited - given).maxCoeff() <= 0);
+    // From each place to the next ones: by no more than the gradient, but for a raster's step.
+    double worst = 0;
+    for (Eigen::Index k = 0; k < ways.cols(); ++k)
+      for (Eigen::Index i = 0; i < ways.rows(); ++i)
+        worst = std::max(worst, std::abs(limited[i] - limited[k]) - gradient * ways(i, k));
+    CHECK(worst < gradient * 120);
   }
 }
 
@@ -160,20 +176,11 @@ TEST_CASE("a limited rule is nowhere above the rule, and hardly anywhere steeper
 TEST_CASE("on a sphere u times as large, rules of lengths u times as large are as on the Earth "
           "[slow]") {
   const Points3 places = random_sphere(3000, 7);
-  const auto limited = [&](const Widths& rule) {
-    return evaluate(rule.limit_gradient(0.03), places);
-  };
-  struct Rule {
-    std::string name;
-    DoubleVector widths, limited;
-  };
-  std::vector<Rule> on_earth;
-  for (const auto& [name, rule] : rules())
-    on_earth.push_back({name, evaluate(rule, places), limited(rule)});
   for (const double u : {0.532, 4.1}) {
     const auto elsewhere = rules(u);
-    for (std::size_t k = 0; k < on_earth.size(); ++k) {
-      CAPTURE(on_earth[k].name);
+    for (std::size_t k = 0; k < elsewhere.size(); ++k) {
+      const auto& [name, here, limited] = on_earth()[k];
+      CAPTURE(name);
       CAPTURE(u);
       const Widths rule = elsewhere[k].second.on_sphere(u * earth_radius_km);
       // Between nodes of a raster with and without a demand, widths are of neither kind.
@@ -186,10 +193,10 @@ TEST_CASE("on a sphere u times as large, rules of lengths u times as large are a
                                        : others[i] < u * widest;
         return differ;
       };
-      CHECK(differences(on_earth[k].widths, evaluate(rule, places), 1e-9) == 0);
+      CHECK(differences(evaluate(here, places), evaluate(rule, places), 1e-9) == 0);
       // The limit of a raster takes widths of one float for equal.
-      const DoubleVector there = limited(rule);
-      CHECK(differences(on_earth[k].limited, there, 1e-6) == 0);
+      const DoubleVector there = evaluate(rule.limit_gradient(0.03), places);
+      CHECK(differences(evaluate(limited, places), there, 1e-6) == 0);
       // Limited before or after: the gradient is that of the sphere that the widths are for.
       if (u < 1)
         CHECK(evaluate(elsewhere[k].second.limit_gradient(0.03).on_sphere(u * earth_radius_km),
