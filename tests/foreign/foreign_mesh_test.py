@@ -142,15 +142,16 @@ def check_mpas(path, case, radius):
     require(close(file.attributes["sphere_radius"], radius, 1e-9), "sphere_radius",
             str(file.attributes["sphere_radius"]))
     place = lambda kind, i: tuple(get(a + kind)[i] / radius for a in "xyz")
-    # Cells are numbered anew: find each by its place.
-    index = {tuple(round(x, 6) for x in p): k for k, p in enumerate(case.centres)}
+    # Cells are numbered anew: find each by its place, coarsely, which is exact below.
+    key = lambda p: tuple(round(x, 4) for x in p)
+    index = {key(p): k for k, p in enumerate(case.centres)}
     width = file.dimensions["maxEdges"]
     for i in range(n):
-        k = index.get(tuple(round(x, 6) for x in place("Cell", i)))
+        centre = place("Cell", i)
+        k = index.get(key(centre))
         if k is None:
-            near = min(range(n), key=lambda j: -truth.dot(case.centres[j], place("Cell", i)))
-            require(truth.dot(case.centres[near], place("Cell", i)) > 1 - 1e-12, "a cell moved", str(i))
-            k = near
+            k = min(range(n), key=lambda j: -truth.dot(case.centres[j], centre))
+        require(truth.dot(case.centres[k], centre) > 1 - 1e-12, "a cell moved", str(i))
         require(close(get("areaCell")[i] / radius ** 2, case.areas[k], 1e-6), "areaCell", f"{i}")
         if "size" in file.variables:
             require(close(get("size")[i], case.areas[k], 1e-12), "the field size", str(i))
@@ -206,7 +207,8 @@ def read_right(folder, name, options, case, radius, turned):
 
 
 def draw(folder, name, options, what):
-    code, _, err = calotte(folder, "draw", name, "-o", "out.png", "--what", what, "--size", "100", *options)
+    code, _, err = calotte(folder, "draw", name, "-o", "out.png", "--what", what, "--size", "64", "--no-coastlines",
+                           *options)
     require(code == 0 and os.path.getsize(os.path.join(folder, "out.png")) > 500, "draw", err)
 
 
