@@ -235,8 +235,9 @@ TEST_CASE("several patches in one call are those of a call each [slow]") {
 TEST_CASE("patches that do not touch commute [slow]") {
   const Mesh& base = uniform_sphere();
   const WidthDemand one = in_circle({0, 0, 1}, 0.1, 1.7), other = in_circle({1, 0, 0}, 0.1, 2.5);
-  const Mesh a = refine(refine(base, one).mesh, other).mesh,
-             b = refine(refine(base, other).mesh, one).mesh;
+  const RefineOptions options{.gradient = 0.1};
+  const Mesh a = refine(refine(base, one, options).mesh, other, options).mesh,
+             b = refine(refine(base, other, options).mesh, one, options).mesh;
   CHECK(sorted_points(a) == sorted_points(b));
   CHECK(renumbered(a, Numbering::curve).triangles == renumbered(b, Numbering::curve).triangles);
 }
@@ -413,10 +414,10 @@ TEST_CASE("a patch between the rings of a plane that a lake leaves [slow]") {
 TEST_CASE("the same bits on any number of threads and for any number of regions [slow]") {
   const Mesh& base = uniform_sphere();
   const WidthDemand demand = in_circle({0, 0, 1}, 0.12, 2);
-  const ChangedMesh expected = refine(base, demand);
+  RefineOptions options{.gradient = 0.1};
+  const ChangedMesh expected = refine(base, demand, options);
   for (const int threads : {1, 4}) {
     tbb::task_arena arena(threads);
-    RefineOptions options;
     options.partition.regions = 5 * threads;
     const ChangedMesh other = arena.execute([&] { return refine(base, demand, options); });
     CHECK(other.mesh.points == expected.mesh.points);

@@ -62,16 +62,17 @@ TEST_CASE("refine and coarsen keep the cells beside the part that they change") 
 
 TEST_CASE("cells of a plane that its boundary clips stay, as the file or the option tells") {
   const Bench bench;
-  REQUIRE(bench.run("cvt --rectangle 0,0,60,40 --cells 1500 -o plane.nc").code == 0);
-  bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[20, 20], [30, 2]]})");
+  REQUIRE(bench.run("cvt --rectangle 0,0,30,20 --cells 375 -o plane.nc").code == 0);
+  bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[10, 10], [15, 2]]})");
   bench.file("demand.toml", "[cell-width]\nlines = \"line.geojson\"\nwidth = 0.7\nover = 3\n");
-  const Outcome finer = bench.run("refine plane.nc --cell-width demand.toml -o finer.nc");
+  const Outcome finer =
+      bench.run("refine plane.nc --cell-width demand.toml --gradient 0.2 -o finer.nc");
   CAPTURE(finer.err);
   CHECK(finer.code == 1); // by the boundary
   CHECK(has(finer.err, "because they are at the boundary or next to it"));
   CHECK(bench.run("check --plane finer.nc").code == 0);
   const auto obtuse = [&](const std::string& name) {
-    REQUIRE(bench.run("info --plane " + name + " --rectangle 0,0,60,40 --report info.json").code ==
+    REQUIRE(bench.run("info --plane " + name + " --rectangle 0,0,30,20 --report info.json").code ==
             0);
     return nlohmann::json::parse(bench.file("info.json"))["obtuse"].get<int>();
   };
@@ -81,8 +82,8 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   check_refusals(bench, "refine --plane plane.vtp --cell-width demand.toml",
                  "-o finer.vtp | 2 | a planar mesh needs its domain");
   CHECK(bench
-            .run("refine --plane plane.vtp --rectangle 0,0,60,40 --cell-width demand.toml "
-                 "-o finer.vtp")
+            .run("refine --plane plane.vtp --rectangle 0,0,30,20 --cell-width demand.toml "
+                 "--gradient 0.2 -o finer.vtp")
             .code == 1);
   CHECK(read_mesh(bench.folder() / "finer.vtp", nullptr).points.cols() > 0);
 }
