@@ -125,7 +125,7 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
 
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("Australia: a graded grid has the same bits for all threads and regions [slow]") {
-  const Surface australia = land_around(gshhg('i'), direction(134, -25));
+  const Surface australia = land_around(gshhg('l'), direction(134, -25));
   CvtOptions options;
   options.density = tanh_bump(direction(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
   const test::FirstGenerators from = test::multilevel(1500, australia, options.density);
