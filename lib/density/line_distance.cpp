@@ -89,7 +89,8 @@ double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
   if (!sphere_)
     return domain_detail::square_from(Outline::Edge{{arc.from.x, arc.from.y}, {arc.to.x, arc.to.y}},
                                       {p.x, p.y});
-  if (!is_point(arc, sphere_))
+  const Vec3 &a = arc.from, &b = arc.to;
+  if (a.x != b.x || a.y != b.y || a.z != b.z) // points have one place, see arcs_of()
     return domain_detail::square_from(arc, p);
   const Vec3 apart = p - arc.from;
   return dot(apart, apart);
