@@ -399,5 +399,5 @@ TEST_CASE("a variable that is spoilt alone is found") { check_corruptions(40, 3)
 
 // Slow: the file is checked for up to 400 positions of each variable.
 TEST_CASE("a variable that is spoilt alone anywhere is found [slow]") {
-  check_corruptions(32, 400);
+  check_corruptions(40, 400);
 }
