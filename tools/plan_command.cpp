@@ -278,7 +278,7 @@ void require_request(const PlanRequest& request) {
 }
 
 /// The raster of a recipe's widths.
-Raster sampled_widths(const Recipe& recipe) {
+Raster raster_of(const Recipe& recipe) {
   return sampled(std::get<Widths>(recipe.resolution).on_sphere(recipe.radius_km), recipe.surface);
 }
 
@@ -298,7 +298,7 @@ Plan make_plan(const PlanRequest& request) {
     if (!request.picture.empty())
       draw_widths(request, schedule.density, plan);
     if (!request.raster.empty())
-      calotte::write(request.raster, sampled_widths(input.recipe));
+      calotte::write(request.raster, raster_of(input.recipe));
   });
   if (!request.report.empty())
     write_file(request.report, to_json(plan));

@@ -30,7 +30,10 @@ public:
   double least() const;       ///< of the nodes
   double greatest() const;    ///< of the nodes
   std::int64_t nodes() const; ///< their number
-  bool of_plane() const;
+  /// Of rules: the largest distance of nodes, in widths there. 1, or more where there would be too
+  /// many of them.
+  double apart() const;
+  bool of_plane() const; ///< whether lengths are those of a plane
 
   /// What copies share.
   const std::shared_ptr<const density_detail::SampledWidths>& sampled() const { return sampled_; }
@@ -56,7 +59,7 @@ Raster widths_of_density(const Raster& density);
 
 /// The number of cells that the widths h imply: the integral of 2/(sqrt(3) h^2) over the surface. A
 /// regular hexagon of width h has the area sqrt(3)/2 h^2. Over a part of the sphere or the plane
-/// within about 0.2%, as a mean over 2^18 random points.
+/// within about 0.2%: of a raster as a mean over 2^18 random points, of rules by boxes.
 /// \param surface of the kind of the widths; a plane with rings or two periods.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
 /// \throws Error invalid_argument for a radius out of range, and for another surface.
@@ -85,7 +88,8 @@ inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; 
 /// The largest |grad h| that cells see: the largest mean of the gradient over a square of the width
 /// h in the corner of a box between nodes, or over the box if that is smaller. (At a node the
 /// gradient of the interpolated field itself may be sqrt(2) times that of the widths that were
-/// sampled.) Most models need a value below steepest_width.
+/// sampled.) Most models need a value below steepest_width. Tiles that lie outside the surface that
+/// widths are for do not count.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
 /// \throws Error invalid_argument for a radius out of range, and for widths of a plane.
 Gradient largest_gradient(const WidthField& widths, double radius_km = earth_radius_km);

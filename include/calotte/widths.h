@@ -246,12 +246,15 @@ DoubleVector evaluate(const Widths& widths, const PointsRef& places);
 Ids active_rules(const Widths& minimum, const PointsRef& places);
 
 /// The widths as a run takes them: of rules at nodes that are at most the least width around them
-/// apart. They lie on tiles of one degree, in a plane of a 64th of its box. Each tile is divided by
-/// powers of two, up to 1024, and not at all where its widths differ by less than 1/1000. Between
-/// nodes widths are bilinear, and they are continuous from tile to tile. Where widths change by at
-/// most g km per km, they err by at most 1.3 g times the width. Of more than forty million nodes
-/// the densest are thinned. Outside a bounded surface nodes lie at corners of tiles only; without a
-/// demand they have the largest width of the others. Widths that are a raster keep its nodes.
+/// apart. They lie on tiles of one degree, in a plane on some four thousand. Each tile is divided
+/// by powers of two, up to 1024, and not at all where its widths differ by less than 1/1000.
+/// Between nodes widths are bilinear, and in the surface they are continuous. Where widths change
+/// by at most g km per km, they err by at most 1.3 g + 1/1000 times the width.
+///
+/// Nodes would be more than forty million, or 1024 in a tile: then they are more widths apart, see
+/// WidthField::apart(), and so many times as large is the error. Tiles that lie outside a bounded
+/// surface have nodes at their corners. Without a demand, outside, a node has the largest width of
+/// the others. Widths that are a raster keep its nodes.
 ///
 /// \param surface the sphere, a part of it, or a plane of finite area.
 /// \throws Error as sampled() and require_covering().

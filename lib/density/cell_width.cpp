@@ -8,8 +8,9 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/raster_field.h"
+#include "density/sampled_widths.h"
 #include "density/sampling.h"
-#include "density/width_samples.h"
+#include "density/tile_integral.h"
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 
@@ -117,6 +118,8 @@ Value joined_rows(const WidthTiles& tiles, const Value& none, const OfRow& of_ro
                   const Join& join) {
   std::vector<Value> all(static_cast<std::size_t>(tiles.size()), none);
   base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
+    if (tiles.lies_outside(k))
+      return;
     const WidthTiles::Tile tile = tiles[k];
     Value& value = all[static_cast<std::size_t>(k)];
     for (std::int64_t j = 0; j < tile.y().intervals(); ++j)
@@ -149,7 +152,8 @@ WidthField::WidthField(std::shared_ptr<const SampledWidths> widths) : sampled_(s
 
 double WidthField::least() const { return sampled_->least(); }
 double WidthField::greatest() const { return sampled_->greatest(); }
-std::int64_t WidthField::nodes() const { return sampled_->nodes(); }
+std::int64_t WidthField::nodes() const { return sampled_->count(); }
+double WidthField::apart() const { return sampled_->apart(); }
 bool WidthField::of_plane() const { return sampled_->of_plane(); }
 
 DoubleVector evaluate(const WidthField& widths, const PointsRef& places) {
@@ -188,18 +192,21 @@ double implied_cells(const WidthField& widths, const Surface& surface, double ra
   require_kind(widths.of_plane(), surface);
   require_radius(radius_km);
   const double unit = widths.of_plane() ? 1 : radius_km;
-  const SampledWidths& field = *widths.sampled();
+  const auto& nodes = widths.sampled()->nodes();
+  const auto cells = [&](double integral) {
+    return 2 / std::numbers::sqrt3 * unit * unit * integral;
+  };
   if (!widths.of_plane() && !surface.is_bounded()) {
     const auto of_row = [](const auto& part, std::int64_t j) { return integral_of_row(part, j); };
-    const double sum = std::visit(
-        [&](const auto& nodes) { return joined_rows(nodes, 0.0, of_row, std::plus<>()); },
-        field.field());
-    return 2 / std::numbers::sqrt3 * unit * unit * sum;
+    return cells(std::visit(
+        [&](const auto& field) { return joined_rows(field, 0.0, of_row, std::plus<>()); }, nodes));
   }
+  if (const auto* const tiles = std::get_if<WidthTiles>(&nodes))
+    return cells(density_detail::integral_in(*tiles, surface));
   constexpr std::int64_t samples = 1 << 18;
   const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
   const double mean = evaluate(widths, places).array().square().inverse().mean();
-  return 2 / std::numbers::sqrt3 * unit * unit * surface.area() * mean;
+  return cells(surface.area() * mean);
 }
 
 namespace density_detail {
@@ -343,7 +350,7 @@ Gradient largest_gradient(const WidthField& widths, double radius_km) {
   const auto steeper = [](const Corner& a, const Corner& b) { return b.square > a.square ? b : a; };
   const Corner steepest =
       std::visit([&](const auto& nodes) { return joined_rows(nodes, Corner(), of_row, steeper); },
-                 widths.sampled()->field());
+                 widths.sampled()->nodes());
   constexpr double degrees = 180 / std::numbers::pi;
   const double longitude = steepest.x * degrees;
   return {std::sqrt(std::max(0.0, steepest.square)) / radius_km,

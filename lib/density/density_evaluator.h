@@ -5,7 +5,7 @@
 #include "base/vec3.h"
 #include "density/bounds.h"
 #include "density/room.h"
-#include "density/width_samples.h"
+#include "density/sampled_widths.h"
 
 #include <calotte/density.h>
 

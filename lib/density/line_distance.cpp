@@ -70,7 +70,7 @@ BoxTree tree_in_plane(const std::vector<Arc>& lines) {
 
 } // namespace
 
-std::vector<Points3> boundary_of(const Surface& surface) {
+std::vector<Points3> closed_rings(const Surface& surface) {
   std::vector<Points3> lines;
   for (const DoubleMatrix& ring : surface.rings()) {
     Points3 line = Points3::Zero(3, ring.cols() + 1); // z of a plane

@@ -12,7 +12,7 @@
 namespace calotte::density_detail {
 namespace {
 
-constexpr int finest_shift = 2, shift_of_level = 1;
+constexpr int finest_shift = 2;
 
 struct Window {
   double west, east, south, north;
@@ -35,7 +35,8 @@ RasterBounds::RasterBounds(const RasterField& field)
     : RasterBounds(field, [&](std::int64_t i, std::int64_t j) { return field.value(i, j); }) {}
 
 RasterBounds::RasterBounds(const RasterField& field,
-                           const std::function<double(std::int64_t, std::int64_t)>& value) {
+                           const std::function<double(std::int64_t, std::int64_t)>& value)
+    : field_(&field) {
   const std::int64_t columns = field.x().intervals() + 1, rows = field.y().intervals() + 1;
   Level finest{finest_shift, ((columns - 1) >> finest_shift) + 1, {}};
   finest.squares.resize(
@@ -50,7 +51,7 @@ RasterBounds::RasterBounds(const RasterField& field,
   while (levels_.back().squares.size() > 1) {
     const Level& fine = levels_.back();
     const std::int64_t fine_rows = std::ssize(fine.squares) / fine.columns;
-    Level coarse{fine.shift + shift_of_level, (fine.columns + 1) / 2, {}};
+    Level coarse{fine.shift + 1, (fine.columns + 1) / 2, {}};
     coarse.squares.resize(static_cast<std::size_t>(coarse.columns * ((fine_rows + 1) / 2)));
     for (std::int64_t j = 0; j < fine_rows; ++j)
       for (std::int64_t i = 0; i < fine.columns; ++i)
@@ -75,22 +76,24 @@ Bounds RasterBounds::of_nodes(std::int64_t west, std::int64_t east, std::int64_t
   return bounds;
 }
 
-Bounds RasterBounds::within(const RasterField& field, const Vec3& centre, double reach) const {
-  const Axis &x = field.x(), &y = field.y();
+Bounds RasterBounds::within(const Vec3& centre, double reach) const {
+  const Axis &x = field_->x(), &y = field_->y();
   const auto bounds = [&](double west, double east, double south, double north) {
     return of_nodes(x.interval(west), x.interval(east) + 1, y.interval(south),
                     y.interval(north) + 1);
   };
-  if (field.of_plane())
+  if (field_->of_plane())
     return bounds(centre.x - reach, centre.x + reach, centre.y - reach, centre.y + reach);
   if (!(reach < std::numbers::pi / 2))
     return levels_.back().squares.front();
   constexpr double slack = 1e-9, turn = 2 * std::numbers::pi;
   const Window window = window_about(centre, reach + slack);
-  Bounds all;
-  for (const double shift : {-turn, 0.0, turn}) // the first longitude is from -pi to pi
-    if (window.west + shift <= x[x.intervals()] && window.east + shift >= x[0])
-      all.add(bounds(window.west + shift, window.east + shift, window.south, window.north));
+  // The west end lies on the raster, the east end on it or on its next turn.
+  const double west = window.west - turn * std::floor((window.west - x[0]) / turn),
+               east = west + (window.east - window.west);
+  Bounds all = bounds(west, east, window.south, window.north);
+  if (east > x[x.intervals()])
+    all.add(bounds(x[0], east - turn, window.south, window.north));
   return all;
 }
 

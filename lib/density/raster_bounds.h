@@ -16,15 +16,16 @@ namespace calotte::density_detail {
 /// size from level to level.
 class RasterBounds {
 public:
+  /// \param field must outlive it.
   explicit RasterBounds(const RasterField& field);
   /// \param value of a node, in place of the field's.
   RasterBounds(const RasterField& field,
                const std::function<double(std::int64_t i, std::int64_t j)>& value);
 
   /// Bounds of what is interpolated within a distance of a place.
-  /// \param field that it was made for. \param centre unit vector, of a plane x y 0.
+  /// \param centre unit vector, of a plane x y 0.
   /// \param reach radians, of a plane its unit.
-  Bounds within(const RasterField& field, const Vec3& centre, double reach) const;
+  Bounds within(const Vec3& centre, double reach) const;
 
 private:
   struct Level {
@@ -35,6 +36,7 @@ private:
   Bounds of_nodes(std::int64_t west, std::int64_t east, std::int64_t south,
                   std::int64_t north) const;
 
+  const RasterField* field_;
   std::vector<Level> levels_; ///< the finest first
 };
 

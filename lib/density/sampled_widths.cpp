@@ -1,359 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/elementary.h"
-#include "base/lonlat.h"
-#include "base/number_text.h"
-#include "base/parallel.h"
-#include "base/require.h"
-#include "density/line_distance.h"
-#include "density/raster_field.h"
-#include "density/width_rules.h"
-#include "density/width_samples.h"
-#include "density/width_tiles.h"
-#include "domain/surface.h"
+#include "density/sampled_widths.h"
 
-#include <calotte/widths.h>
+#include "base/vector_loops.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <numbers>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
+#include <utility>
 
-// Rasters of rules.
-
-namespace calotte {
-namespace density_detail {
+namespace calotte::density_detail {
 namespace {
 
-using base_detail::require;
-using base_detail::shortly;
-
-/// What a raster of a plane covers.
-struct PlaneBox {
-  Eigen::Vector2d low, size;
-};
-
-PlaneBox box_of(const Surface& plane) {
-  if (!plane.is_bounded())
-    return {Eigen::Vector2d::Zero(), plane.period()};
-  const Box2& box = domain_detail::outline_of<Plane>(plane)->box();
-  return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
-}
-
-/// Of a width that is the same everywhere.
-Raster one_width(double width, const Surface& surface) {
-  constexpr double far = 1e30; // the largest coordinate of a domain
-  const bool plane = !surface.is_sphere();
-  return {plane ? DoubleVector{{-far, far}} : DoubleVector{{0, 180}},
-          plane ? DoubleVector{{-far, far}} : DoubleVector{{-90, 90}},
-          DoubleMatrix::Constant(2, 2, width), plane};
-}
-
-/// \throws Error invalid_argument for rules of another kind than a surface.
-void require_kind_of(const WidthRule& rule, const Surface& surface) {
-  if (surface.is_sphere()) {
-    require(rule.space() != RuleSpace::plane,
-            "the widths are those of a plane; give the domain that they are for");
-    return;
+CALOTTE_VECTOR_WIDTHS
+void densities_of_widths(double least, std::size_t count, double* values) {
+  CALOTTE_VECTOR_LOOP
+  for (std::size_t k = 0; k < count; ++k) {
+    const double ratio = least / values[k], square = ratio * ratio;
+    values[k] = square * square;
   }
-  domain_detail::require_finite_plane(surface);
-  require(rule.space() != RuleSpace::sphere,
-          "the widths are those of the sphere; give rules of a plane");
 }
 
-Raster sample_on_sphere(const Widths& widths, double step) {
-  require(step == 0 || (step >= 0.01 && step <= 10),
-          "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
-  const std::shared_ptr<const WidthRule> rule = widths.rule();
-  return sample(*rule, step == 0 ? step_for(*rule, widths.radius_km()) : step);
-}
-
-Raster sample_in_plane(const Widths& widths, const Surface& plane, double step) {
-  const std::shared_ptr<const WidthRule> rule = widths.rule();
-  const PlaneBox box = box_of(plane);
-  constexpr double most_nodes = 2e7, usual_nodes = 4e6;
-  require(step == 0 ||
-              (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
-          "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
-              shortly(most_nodes) + " nodes; give another one");
-  Raster raster = step > 0
-                      ? grid_over(box.low, box.size, step, 2 * most_nodes)
-                      : grid_over(box.low, box.size,
-                                  std::min(rule->least() / 2, box.size.maxCoeff()), usual_nodes);
-  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
-    std::vector<Vec3> row;
-    for (const double x : raster.x)
-      row.push_back({x, raster.y[j], 0});
-    rule->evaluate(row, {raster.values.col(j).data(), row.size()});
-  });
-  return raster;
+RasterField checked_field(const Raster& widths) {
+  require_widths(widths);
+  return RasterField(widths);
 }
 
 } // namespace
 
-double step_for(const WidthRule& rule, double radius_km) {
-  constexpr double finest = 0.05, coarsest = 1, degrees = 180 / std::numbers::pi;
-  return std::clamp(rule.least() / radius_km * degrees, finest, coarsest);
+SampledWidths::SampledWidths(const Raster& widths)
+    : field_(checked_field(widths)), least_(widths.values.minCoeff()),
+      greatest_(widths.values.maxCoeff()), count_(widths.values.size()),
+      of_plane_(widths.of_plane) {}
+
+SampledWidths::SampledWidths(WidthTiles tiles, double apart)
+    : field_(std::move(tiles)), apart_(apart), of_plane_(std::get<WidthTiles>(field_).of_plane()) {
+  const std::vector<double>& values = std::get<WidthTiles>(field_).values();
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  least_ = *least;
+  greatest_ = *greatest;
+  count_ = std::ssize(values);
+  require_ratio(greatest_, least_);
 }
 
-Raster sample(const WidthRule& rule, double step) {
-  Raster raster = regular_grid(step);
-  const Eigen::Index columns = raster.x.size();
-  std::vector<double> zeros(static_cast<std::size_t>(columns), 0);
-  std::vector<Vec3> round(static_cast<std::size_t>(columns));
-  base_detail::from_lonlats(raster.x.data(), zeros.data(), columns, round.data());
-  base_detail::for_each_task(raster.y.size(), [&](std::int64_t j) {
-    const Vec3 meridian = base_detail::from_lonlat(0, raster.y[j]);
-    std::vector<Vec3> row;
-    for (const Vec3& at : round)
-      row.push_back({meridian.x * at.x, meridian.x * at.y, meridian.z});
-    rule.evaluate(row, {raster.values.col(j).data(), row.size()});
-  });
-  return raster;
+void SampledWidths::operator()(const double* x, const double* y, const double* z, std::size_t count,
+                               double* widths) const {
+  std::visit([&](const auto& field) { field(x, y, z, count, widths); }, field_);
 }
 
-Raster sample(const Widths& widths, const Surface& surface, double step) {
-  if (step == 0)
-    step = widths.step();
-  const std::shared_ptr<const WidthRule> rule = widths.rule();
-  if (const Raster* const given = rule->raster(); given != nullptr && step == 0) {
-    require_kind(given->of_plane, surface);
-    return *given;
-  }
-  if (rule->space() == RuleSpace::any && step == 0)
-    return one_width(rule->least(), surface);
-  require_kind_of(*rule, surface);
-  return surface.is_sphere() ? sample_on_sphere(widths, step)
-                             : sample_in_plane(widths, surface, step);
+void SampledWidths::densities(const double* x, const double* y, const double* z, std::size_t count,
+                              double* rho) const {
+  (*this)(x, y, z, count, rho);
+  densities_of_widths(least_, count, rho);
 }
 
-namespace {
-
-[[noreturn]] void refuse_place(double x, double y, bool of_plane) {
-  base_detail::refuse("no rule gives a width at " +
-                      (of_plane ? "x " + shortly(x) + ", y " + shortly(y)
-                                : "longitude " + shortly(x) + ", latitude " + shortly(y)) +
-                      "; add one that holds everywhere, such as a number");
+void SampledWidths::densities(const Eigen::Ref<const Points3>& points,
+                              Eigen::Ref<Eigen::VectorXd> rho) const {
+  evaluate_block(*this, points, rho);
+  densities_of_widths(least_, static_cast<std::size_t>(rho.size()), rho.data());
 }
 
-/// What a place is to rules.
-Vec3 place_of(double x, double y, bool of_plane) {
-  return of_plane ? Vec3{x, y, 0} : base_detail::from_lonlat(x, y);
-}
-
-/// Gives nodes outside a surface without a demand the largest width of the others.
-/// \param for_each_node calls body(x, y, width) for nodes in a fixed order, degrees on the sphere.
-/// \throws Error invalid_argument for one inside; where none is inside, for a corner.
-template <class ForEachNode>
-void fill_outside(const Widths& widths, const Surface& surface, const ForEachNode& for_each_node) {
-  const bool of_plane = !surface.is_sphere();
-  double widest = 0;
-  bool has_node = false; // inside
-  for_each_node([&](double x, double y, double& width) {
-    const bool asks = Widths::is_demand(width);
-    if (asks)
-      widest = std::max(widest, width);
-    if (asks && has_node)
-      return;
-    const Vec3 at = place_of(x, y, of_plane);
-    if (surface.is_bounded() && !surface.contains({at.x, at.y, at.z}))
-      return;
-    if (!asks)
-      refuse_place(x, y, of_plane);
-    has_node = true;
-  });
-  if (!has_node) // all of the surface lies between nodes
-    widest = std::max(widest, widest_at_corners(widths, surface));
-  for_each_node([&](double, double, double& width) {
-    if (!Widths::is_demand(width))
-      width = widest;
-  });
-}
-
-void fill_outside(const Widths& widths, const Surface& surface, Raster& raster) {
-  if (!raster.values.allFinite())
-    fill_outside(widths, surface, [&](const auto& body) {
-      for (Eigen::Index j = 0; j < raster.y.size(); ++j)
-        for (Eigen::Index i = 0; i < raster.x.size(); ++i)
-          body(raster.x[i], raster.y[j], raster.values(i, j));
-    });
-}
-
-// ---- Tiles
-
-constexpr std::int32_t most_intervals = 1024; // of a tile in one direction
-
-/// The intervals of a length for nodes at most a distance apart.
-std::int32_t intervals_for(double length, double apart) {
-  std::int32_t intervals = 1;
-  while (intervals < most_intervals && length > apart * intervals)
-    intervals *= 2;
-  return intervals;
-}
-
-/// A tile's middle, how far its corners are, and its largest extent from west to east.
-struct TileExtent {
-  Vec3 middle;
-  double reach, width, height; ///< radians, or of the plane
-};
-
-TileExtent extent_of(const TileBox& box, std::int64_t tile) {
-  const auto column = static_cast<double>(tile % box.columns),
-             row = static_cast<double>(tile / box.columns);
-  const double west = box.west + column * box.dx, south = box.south + row * box.dy;
-  const Vec3 middle = place_of(west + box.dx / 2, south + box.dy / 2, box.of_plane);
-  double reach = 0, widest = 0;
-  for (const double y : {south, south + box.dy}) {
-    const Vec3 a = place_of(west, y, box.of_plane), b = place_of(west + box.dx, y, box.of_plane);
-    reach = std::max(reach, norm(a - middle));
-    widest = std::max(widest, norm(b - a));
-  }
-  constexpr double slack = 1e-9;
-  if (box.of_plane)
-    return {middle, reach * (1 + slack), box.dx, box.dy};
-  const auto arc = [](double chord) { return 2 * base_detail::arc_sine(chord / 2); };
-  return {middle, arc(reach) + slack, arc(widest), box.dy * box.unit()};
-}
-
-/// \param unit km a radian, in a plane 1.
-WidthTiles::Shape shape_of(const WidthRule& rule, const TileExtent& tile, double unit) {
-  constexpr double flat = 1e-3; // a change of widths that corners tell well enough
-  const Bounds widths = rule.bounds(tile.middle, tile.reach);
-  if (!Widths::is_demand(widths.least) || widths.greatest <= (1 + flat) * widths.least)
-    return {1, 1};
-  return {intervals_for(tile.width * unit, widths.least),
-          intervals_for(tile.height * unit, widths.least)};
-}
-
-std::int64_t nodes_of(const WidthTiles::Shape& shape) {
-  return std::int64_t{shape.columns + 1} * (shape.rows + 1);
-}
-
-/// Halves the intervals of the tiles with the most nodes until all have at most so many.
-void thin(std::vector<WidthTiles::Shape>& shapes, std::int64_t most) {
-  const auto all = [&] {
-    return std::accumulate(
-        shapes.begin(), shapes.end(), std::int64_t{0},
-        [](std::int64_t sum, const auto& shape) { return sum + nodes_of(shape); });
-  };
-  for (std::int32_t rows = most_intervals; rows > 1 && all() > most; rows /= 2)
-    for (WidthTiles::Shape& shape : shapes)
-      if (shape.rows == rows)
-        shape = {std::max(shape.columns / 2, 1), rows / 2};
-}
-
-/// Whether a tile has no place in a bounded surface. \param boundary null of another one.
-bool lies_outside(const TileExtent& tile, const Surface& surface, const LineDistance* boundary) {
-  return boundary != nullptr && (*boundary)(tile.middle) > tile.reach &&
-         !surface.contains({tile.middle.x, tile.middle.y, tile.middle.z});
-}
-
-WidthTiles tiles_of(const Widths& widths, const TileBox& box, const Surface& surface) {
-  constexpr std::int64_t most_nodes = 40'000'000;
-  const std::shared_ptr<const WidthRule> rule = widths.rule();
-  const double unit = box.of_plane ? 1 : widths.radius_km();
-  std::optional<LineDistance> boundary;
-  if (surface.is_bounded())
-    boundary.emplace(boundary_of(surface), surface);
-  std::vector<WidthTiles::Shape> shapes(
-      static_cast<std::size_t>(std::int64_t{box.columns} * box.rows), {1, 1});
-  base_detail::for_each_task(std::ssize(shapes), [&](std::int64_t k) {
-    const TileExtent tile = extent_of(box, k);
-    if (!lies_outside(tile, surface, boundary ? &*boundary : nullptr))
-      shapes[static_cast<std::size_t>(k)] = shape_of(*rule, tile, unit);
-  });
-  thin(shapes, most_nodes);
-  WidthTiles tiles(box, shapes);
-  base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
-    const std::vector<Vec3> places = tiles.places(k);
-    rule->evaluate(places, {tiles.values(k), places.size()});
-  });
-  const bool whole = std::all_of(tiles.values().begin(), tiles.values().end(),
-                                 [](double width) { return Widths::is_demand(width); });
-  if (!whole)
-    fill_outside(widths, surface, [&](const auto& body) {
-      for (std::int64_t k = 0; k < tiles.size(); ++k)
-        tiles.for_each_node(k, body);
-    });
-  tiles.join_edges();
-  return tiles;
-}
-
-/// The box of a plane in squares, 64 along its longer side.
-TileBox tiles_of_plane(const Surface& plane) {
-  constexpr double along = 64;
-  const PlaneBox box = box_of(plane);
-  const double size = box.size.maxCoeff() / along;
-  const auto count = [&](int k) {
-    return static_cast<std::int32_t>(std::max(1.0, std::ceil(box.size[k] / size * (1 - 1e-12))));
-  };
-  const std::int32_t columns = count(0), rows = count(1);
-  return {box.low[0], box.size[0] / columns, box.low[1], box.size[1] / rows, columns, rows, true};
-}
-
-} // namespace
-
-double widest_at_corners(const Widths& widths, const Surface& surface) {
-  double widest = 0;
-  for (DoubleMatrix ring : surface.rings()) {
-    if (surface.is_sphere())
-      for (auto corner : ring.colwise())
-        corner /= corner.norm();
-    const DoubleVector there = evaluate(widths, ring);
-    for (Eigen::Index i = 0; i < ring.cols(); ++i)
-      if (!Widths::is_demand(there[i])) {
-        if (!surface.is_sphere())
-          refuse_place(ring(0, i), ring(1, i), true);
-        const auto [longitude, latitude] =
-            base_detail::lonlat_of({ring(0, i), ring(1, i), ring(2, i)});
-        refuse_place(longitude, latitude, false);
-      }
-    widest = std::max(widest, there.maxCoeff());
-  }
-  return widest;
-}
-
-} // namespace density_detail
-
-WidthField width_field(const Widths& widths, const Surface& surface) {
-  using namespace density_detail;
-  const std::shared_ptr<const WidthRule> rule = widths.rule();
-  if (rule->raster() != nullptr || rule->space() == RuleSpace::any) {
-    const Raster raster = calotte::sampled(widths, surface);
-    require_covering(raster, surface);
-    return raster;
-  }
-  require_kind_of(*rule, surface);
-  return WidthField(std::make_shared<const SampledWidths>(tiles_of(
-      widths, surface.is_sphere() ? tiles_of_sphere() : tiles_of_plane(surface), surface)));
-}
-
-Raster sampled(const Widths& widths, const Surface& surface, double step) {
-  Raster raster = density_detail::sample(widths, surface, step);
-  density_detail::fill_outside(widths, surface, raster);
-  return raster;
-}
-
-Widths Widths::with_step(double step) const {
-  base_detail::require(step > 0 && std::isfinite(step),
-                       "the step " + base_detail::shortly(step) +
-                           " of a raster is not a positive number; give one");
-  Widths widths = *this;
-  widths.step_ = step;
-  return widths;
-}
-
-Widths Widths::limit_gradient(double gradient, const Surface& surface) const {
-  if (surface.is_sphere() || rule_of_radius_->space() == density_detail::RuleSpace::any)
-    return limit_gradient(gradient);
-  Raster raster =
-      calotte::limit_gradient(density_detail::sample(*this, surface, 0), gradient, surface);
-  density_detail::fill_outside(*this, surface, raster);
-  return raster;
-}
-
-} // namespace calotte
+} // namespace calotte::density_detail

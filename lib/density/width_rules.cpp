@@ -66,7 +66,7 @@ public:
     if (!std::isfinite(reach))
       return {raster_.values.minCoeff(), raster_.values.maxCoeff()};
     std::call_once(bounded_, [&] { bounds_.emplace(*field()); });
-    return bounds_->within(*field(), place, reach);
+    return bounds_->within(place, reach);
   }
   const Raster* raster() const override { return &raster_; }
   const RasterField* field() const override {
@@ -112,7 +112,7 @@ public:
       widths[k] = silent[k] > rounding ? Widths::no_demand : widths[k];
   }
   Bounds bounds(const Vec3& place, double reach) const override {
-    return bounds_.within(field_, place, reach);
+    return bounds_.within(place, reach);
   }
   const RasterField* field() const override { return &field_; }
 
@@ -280,7 +280,7 @@ public:
       : ShareRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
         region_(std::move(region)) {
     if (region_.is_bounded())
-      boundary_.emplace(boundary_of(region_), region_);
+      boundary_.emplace(closed_rings(region_), region_);
   }
   void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
@@ -307,7 +307,7 @@ public:
     evaluate_block(field_, places, shares);
   }
   Bounds bounds(const Vec3& place, double reach) const override {
-    return bounds_.within(field_, place, reach);
+    return bounds_.within(place, reach);
   }
 
 private:
@@ -315,7 +315,17 @@ private:
   RasterBounds bounds_;
 };
 
-/// (1 - t) a + t b. \tparam Weight t of a share.
+/// (1 - t) a + t b.
+double blended_width(double a, double b, double t) {
+  if (!(t > 0))
+    return a;
+  if (t >= 1)
+    return b;
+  // What says nothing has no mean with a width.
+  return Widths::is_demand(std::max(a, b)) ? a + t * (b - a) : Widths::no_demand;
+}
+
+/// The same of rules. \tparam Weight t of a share.
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
   BlendRule(RuleSpace space, Rule a, Rule b, std::shared_ptr<const ShareRule> share)
@@ -325,23 +335,17 @@ public:
     a_->evaluate(places, widths);
     b_->evaluate(places, others);
     share_->evaluate(places, shares);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const double t = Weight(shares[k]);
-      if (t > 0 && t < 1) // what says nothing has no mean with a width
-        widths[k] = Widths::is_demand(std::max(widths[k], others[k]))
-                        ? widths[k] + t * (others[k] - widths[k])
-                        : Widths::no_demand;
-      else if (t >= 1)
-        widths[k] = others[k];
-    }
+    for (std::size_t k = 0; k < places.size(); ++k)
+      widths[k] = blended_width(widths[k], others[k], Weight(shares[k]));
   }
   Bounds bounds(const Vec3& place, double reach) const override {
-    const Bounds shares = share_->bounds(place, reach);
-    if (!(Weight(shares.greatest) > 0))
-      return a_->bounds(place, reach);
-    Bounds bounds = b_->bounds(place, reach);
-    if (Weight(shares.least) < 1)
-      bounds.add(a_->bounds(place, reach));
+    const Bounds shares = share_->bounds(place, reach), a = a_->bounds(place, reach),
+                 b = b_->bounds(place, reach);
+    Bounds bounds; // linear in t, and grows with both widths
+    for (const double t : {Weight(shares.least), Weight(shares.greatest)}) {
+      bounds.add(blended_width(a.least, b.least, t));
+      bounds.add(blended_width(a.greatest, b.greatest, t));
+    }
     return bounds;
   }
 
@@ -591,7 +595,7 @@ Share::Share(const Surface& region, const WidthProfile& profile) {
     return region.contains({place.x, place.y, place.z});
   };
   rule_of_radius_ = of_sides<DistanceRule<ShareRule>, ShareRule>(
-      boundary_of(region), is_inside,
+      closed_rings(region), is_inside,
       ProfileCurve(profile, "a distance", -farthest, farthest, "share", a_fraction), region);
 }
 

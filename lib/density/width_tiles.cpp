@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_tiles.h"
 
+#include "base/elementary.h"
 #include "base/lonlat.h"
 #include "base/vector_loops.h"
 #include "density/width_table.h"
@@ -39,19 +40,39 @@ void join(const Edge& a, const Edge& b) {
 
 } // namespace
 
-TileBox tiles_of_sphere() { return {-180, 1, -90, 1, 360, 180, false}; }
+Vec3 place_of(double x, double y, bool of_plane) {
+  return of_plane ? Vec3{x, y, 0} : base_detail::from_lonlat(x, y);
+}
+
+Extent extent_of(const BoxOfPlaces& box, bool of_plane) {
+  const Vec3 middle = place_of(box.west + box.dx / 2, box.south + box.dy / 2, of_plane);
+  double reach = 0, widest = 0;
+  for (const double y : {box.south, box.south + box.dy}) {
+    const Vec3 a = place_of(box.west, y, of_plane), b = place_of(box.west + box.dx, y, of_plane);
+    reach = std::max({reach, norm(a - middle), norm(b - middle)});
+    widest = std::max(widest, norm(b - a));
+  }
+  constexpr double slack = 1e-9;
+  if (of_plane)
+    return {middle, reach * (1 + slack), box.dx, box.dy};
+  const auto arc = [](double chord) { return 2 * base_detail::arc_sine(chord / 2); };
+  return {middle, arc(reach) + slack, arc(widest), box.dy * (std::numbers::pi / 180)};
+}
+
+TileBox tiles_of_sphere() { return {-180, 1, -90, 1, 360, 180, false, true, false}; }
 
 WidthTiles::WidthTiles(const TileBox& box, const std::vector<Shape>& shapes) : box_(box) {
   std::int32_t begin = 0;
   const auto add = [&](const Shape& shape) {
-    places_.begin.push_back(begin);
-    places_.columns.push_back(shape.columns);
-    places_.rows.push_back(shape.rows);
+    layout_.begin.push_back(begin);
+    layout_.columns.push_back(shape.columns);
+    layout_.rows.push_back(shape.rows);
   };
   auto shape = shapes.begin();
   for (std::int32_t row = 0; row < box.rows; ++row) {
     for (std::int32_t column = 0; column < box.columns; ++column, ++shape) {
       add(*shape);
+      outside_.push_back(shape->outside);
       begin += (shape->columns + 1) * (shape->rows + 1);
     }
     add({1, 1});
@@ -64,22 +85,22 @@ double WidthTiles::Tile::sine(std::int64_t j) const {
 }
 
 WidthTiles::Tile WidthTiles::operator[](std::int64_t tile) const {
-  const Place place = at(tile);
+  const TileNodes nodes = at(tile);
   const double unit = box_.unit();
   Tile result;
-  result.x_ = {x_of(tile, 0) * unit, box_.dx * unit / place.columns, place.columns};
-  result.y_ = {y_of(tile, 0) * unit, box_.dy * unit / place.rows, place.rows};
-  result.values_ = &values_[static_cast<std::size_t>(place.begin)];
+  result.x_ = {x_of(tile, 0) * unit, box_.dx * unit / nodes.columns, nodes.columns};
+  result.y_ = {y_of(tile, 0) * unit, box_.dy * unit / nodes.rows, nodes.rows};
+  result.values_ = &values_[static_cast<std::size_t>(nodes.begin)];
   return result;
 }
 
 std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
-  const Place place = at(tile);
+  const TileNodes nodes = at(tile);
   std::vector<Vec3> round, places;
-  for (std::int32_t i = 0; i <= place.columns; ++i)
+  for (std::int32_t i = 0; i <= nodes.columns; ++i)
     round.push_back(box_.of_plane ? Vec3{x_of(tile, i), 0, 0}
                                   : base_detail::from_lonlat(x_of(tile, i), 0));
-  for (std::int32_t j = 0; j <= place.rows; ++j) {
+  for (std::int32_t j = 0; j <= nodes.rows; ++j) {
     const double y = y_of(tile, j);
     const Vec3 meridian = box_.of_plane ? Vec3() : base_detail::from_lonlat(0, y);
     for (const Vec3& at : round)
@@ -91,7 +112,7 @@ std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
 
 /// \param across whether b lies east of a, and not north.
 void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
-  const Place of_a = at(a), of_b = at(b);
+  const TileNodes of_a = at(a), of_b = at(b);
   double *const values_a = values(a), *const values_b = values(b);
   if (across)
     density_detail::join({values_a + of_a.columns, of_a.columns + 1, of_a.rows},
@@ -102,12 +123,17 @@ void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
 }
 
 void WidthTiles::join_edges() {
+  const auto join_beside = [&](std::int64_t tile, std::int64_t beside, bool across) {
+    if (!lies_outside(tile) && !lies_outside(beside))
+      join(tile, beside, across);
+  };
+  const std::int64_t columns = box_.columns, last_row = size() - columns;
   for (std::int64_t tile = 0; tile < size(); ++tile) {
-    const bool is_last = tile % box_.columns == box_.columns - 1;
-    if (!is_last || !box_.of_plane)
-      join(tile, is_last ? tile + 1 - box_.columns : tile + 1, true);
-    if (tile + box_.columns < size())
-      join(tile, tile + box_.columns, false);
+    const bool is_last = tile % columns == columns - 1;
+    if (!is_last || box_.around_x)
+      join_beside(tile, is_last ? tile + 1 - columns : tile + 1, true);
+    if (tile < last_row || box_.around_y)
+      join_beside(tile, tile < last_row ? tile + columns : tile - last_row, false);
   }
 }
 
@@ -127,10 +153,10 @@ void find_cells_of_plane(const WidthTable::Grid& grid, const double* x, const do
 /// From the cells of a box, which are tiles, to those of the tiles.
 /// \param stride from a node to that north of it.
 CALOTTE_VECTOR_WIDTHS
-void find_nodes(const WidthTiles::Places& places, std::size_t count, GridCells& cells,
+void find_nodes(const WidthTiles::Layout& layout, std::size_t count, GridCells& cells,
                 std::int32_t* stride) {
-  const std::int32_t *const begin = places.begin.data(), *const columns = places.columns.data(),
-                            *const rows = places.rows.data();
+  const std::int32_t *const begin = layout.begin.data(), *const columns = layout.columns.data(),
+                            *const rows = layout.rows.data();
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
     const std::int32_t tile = cells.place[k], across = columns[tile], up = rows[tile];
@@ -173,7 +199,7 @@ void WidthTiles::operator()(const double* x, const double* y, const double* z, s
       find_cells_of_plane(grid, x + begin, y + begin, size, cells);
     else
       find_cells(grid, x + begin, y + begin, z + begin, size, cells);
-    find_nodes(places_, size, cells, stride.data());
+    find_nodes(layout_, size, cells, stride.data());
     interpolate_in_tiles(cells, stride.data(), values_.data(), size, widths + begin);
   }
 }

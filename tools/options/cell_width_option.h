@@ -57,7 +57,8 @@ WidthRules read_widths(const WidthWords& words, const Surface& surface = {});
 /// \throws Error file.
 std::string width_configuration(const WidthWords& words);
 
-/// The largest gradient of widths times a scale, of which a limit of the widths is one of theirs.
+/// The largest gradient of widths times a scale: that of a limit of the widths, but for a jump that
+/// the limit left.
 Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::optional<double> limit,
                      double scale);
 

@@ -140,7 +140,7 @@ def _density_for(grid, density, cell_width):
     """The density of a name or of widths, of the space that the grid is in."""
     plane = not grid.surface.is_sphere
     widths = (None if cell_width is None else
-              _arguments.rule(cell_width, grid.surface).field(grid.surface))
+              _arguments.rule(cell_width, grid.surface)._field(grid.surface))
     return _arguments.density(density, widths, plane)
 
 
@@ -1246,8 +1246,8 @@ def limited_area(path: Path, surface: SurfaceLike, cell_width: WidthLike, *,
     widths = _arguments.rule(cell_width, surface, earth_radius).on_sphere(earth_radius)
     grid = cvt(cell_width=widths, surface=surface, limited_area=True, earth_radius=earth_radius,
                **options)
-    output = _calotte.Output(str(path), "mpas", sphere_radius, _arguments.density(None, widths.field(grid.surface)),
-                             True, {}, "", None, None)
+    density = _arguments.density(None, widths._field(grid.mesh.surface))
+    output = _calotte.Output(str(path), "mpas", sphere_radius, density, True, {}, "", None, None)
     return _calotte.write_limited_area(output, grid.mesh, surface)
 
 

@@ -126,7 +126,7 @@ void add_widths(py::module_& module) {
           "A CellWidth with nodes so many degrees apart, in a plane of its unit; 0: by its least "
           "width. surface: the sphere (None), a part of it or a plane, where the rules must give a "
           "width everywhere.");
-  widths.def("field", [](const Widths& of, const Surface& surface) {
+  widths.def("_field", [](const Widths& of, const Surface& surface) {
     return call([&] { return width_field(of, surface); });
   });
   module.def("read_widths", [](const std::string& path, const Surface& surface, double radius_km) {

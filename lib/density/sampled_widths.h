@@ -20,7 +20,7 @@ public:
   /// \throws Error invalid_argument as require_widths().
   explicit SampledWidths(const Raster& widths);
   /// \throws Error invalid_argument for widths whose ratio exceeds 1e30.
-  explicit SampledWidths(WidthTiles tiles);
+  SampledWidths(WidthTiles tiles, double apart);
 
   /// Widths at unit vectors, or points of the plane, given by their coordinates.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
@@ -31,15 +31,18 @@ public:
 
   double least() const { return least_; }
   double greatest() const { return greatest_; }
-  std::int64_t nodes() const { return nodes_; }
+  std::int64_t count() const { return count_; }
+  /// The largest distance of nodes, in widths there.
+  double apart() const { return apart_; }
   bool of_plane() const { return of_plane_; }
 
-  const std::variant<RasterField, WidthTiles>& field() const { return field_; }
+  const std::variant<RasterField, WidthTiles>& nodes() const { return field_; }
 
 private:
   std::variant<RasterField, WidthTiles> field_;
   double least_, greatest_; ///< of the nodes
-  std::int64_t nodes_;
+  std::int64_t count_;
+  double apart_ = 1;
   bool of_plane_;
 };
 
