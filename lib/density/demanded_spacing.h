@@ -25,7 +25,7 @@ public:
 
 private:
   Density density_; ///< at places with z = 0 of a plane
-  double integral_; ///< I / n
+  double integral_; ///< of rho^(1/2) over the surface, divided by the number of cells
 };
 
 } // namespace calotte::density_detail

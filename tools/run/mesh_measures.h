@@ -29,7 +29,7 @@ struct Measured {
   std::optional<Range> areas;       ///< of all cells of an open mesh, if the file has them
   double cells_area = 0;            ///< their sum / 4 pi
   std::vector<std::int64_t> masks;  ///< cells by bdyMaskCell, if the file has it
-  std::vector<std::string> changes; ///< that reading made
+  std::vector<std::string> changes; ///< what the reader changed in the mesh, one line each
   std::vector<std::string> remarks; ///< about the mesh, one line each
 };
 

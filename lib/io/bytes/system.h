@@ -22,7 +22,7 @@ public:
   static Descriptor to_write_new(const std::string& path);    ///< one that does not exist yet
   static Descriptor to_write_direct(const std::string& path); ///< past the page cache
   static Descriptor to_lock(const std::string& path);         ///< follows no link, waits for nobody
-  /// Of the same open file: its lock stays until both are closed.
+  /// Another descriptor of the same open file. A lock on the file stays until both are closed.
   Descriptor duplicate() const;
 
   Descriptor(Descriptor&& other) noexcept;

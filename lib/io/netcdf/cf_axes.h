@@ -29,8 +29,8 @@ std::optional<RasterAxes> raster_axes(const NetcdfReader& file);
 /// Those on two dimensions of a variable; none where it has no such dimensions.
 std::optional<RasterAxes> axes_of(const NetcdfReader& file, const std::string& variable);
 
-/// How many degrees the unit of a variable is: of none, or one that starts with "deg", 1; of one
-/// that starts with "rad", 180 / pi. \throws Error parse, for others.
+/// The factor from a variable's unit to degrees: 1 without a unit, or for one that starts with
+/// "deg"; 180 / pi for one that starts with "rad". \throws Error parse, for others.
 double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
 
 /// All numbers of an axis, see cf_values(), in degrees. \throws Error parse, file.
