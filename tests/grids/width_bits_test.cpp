@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/parallel.h"
 #include "support/directions.h"
 #include "support/files.h"
 #include "support/gshhg.h"
@@ -9,11 +10,11 @@
 #include <calotte/widths.h>
 
 #include <doctest/doctest.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -223,7 +224,7 @@ TEST_CASE("tasks may ask a rule at once before it is prepared") {
                  limited = Widths::maximum({lines, 200.0}).limit_gradient(0.03),
                  whole = Widths::minimum({limited, lines, 700.0});
     std::vector<DoubleVector> got(64);
-    tbb::parallel_for(0, 64, [&](int k) {
+    base_detail::for_each_task(64, [&](std::int64_t k) {
       got[static_cast<std::size_t>(k)] = evaluate(k % 2 == 0 ? limited : whole, places);
     });
     for (std::size_t k = 2; k < got.size(); ++k)

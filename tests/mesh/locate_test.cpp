@@ -4,6 +4,7 @@
 #include <calotte/generators.h>
 #include <calotte/locate.h>
 
+#include "base/parallel.h"
 #include "base/points.h"
 #include "delaunay/delaunay.h"
 #include "exact/plane_predicates.h"
@@ -15,7 +16,6 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -324,7 +324,8 @@ TEST_CASE("a locator finds what locate() does, from any hints and in many thread
       CHECK(check_found(hints));
     std::array<bool, 8> same{};
     const Locator fresh(*mesh); // whose trees the threads make
-    tbb::parallel_for(std::size_t{0}, same.size(), [&](std::size_t k) {
+    base_detail::for_each_task(std::ssize(same), [&](std::int64_t task) {
+      const auto k = static_cast<std::size_t>(task);
       const Locations found = fresh.find(at, k % 2 == 0 ? wrong : Ids());
       same[k] = found.triangle == wanted.triangle && found.nearest == wanted.nearest &&
                 fresh.nearest(at) == wanted.nearest;
