@@ -251,10 +251,10 @@ Ids active_rules(const Widths& minimum, const PointsRef& places);
 /// Between nodes widths are bilinear, and in the surface they are continuous. Where widths change
 /// by at most g km per km, they err by at most 1.3 g + 1/1000 times the width.
 ///
-/// Nodes would be more than forty million, or 1024 in a tile: then they are more widths apart, see
-/// WidthField::apart(), and so many times as large is the error. Tiles that lie outside a bounded
-/// surface have nodes at their corners. Without a demand, outside, a node has the largest width of
-/// the others. Widths that are a raster keep its nodes.
+/// Where nodes would be more than forty million, or a tile have more than 1024 a side, they are
+/// farther apart, see WidthField::apart(), and the error grows as much. Tiles that lie outside a
+/// bounded surface have nodes at their corners. Without a demand, outside, a node has the largest
+/// width of the others. Widths that are a raster keep its nodes.
 ///
 /// \param surface the sphere, a part of it, or a plane of finite area.
 /// \throws Error as sampled() and require_covering().

@@ -70,16 +70,6 @@ BoxTree tree_in_plane(const std::vector<Arc>& lines) {
 
 } // namespace
 
-std::vector<Points3> closed_rings(const Surface& surface) {
-  std::vector<Points3> lines;
-  for (const DoubleMatrix& ring : surface.rings()) {
-    Points3 line = Points3::Zero(3, ring.cols() + 1); // z of a plane
-    line.topRows(ring.rows()) << ring, ring.col(0);
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
 LineDistance::LineDistance(const std::vector<Points3>& lines, const Surface& surface)
     : sphere_(surface.is_sphere()), arcs_(with_copies(arcs_of(lines, sphere_), surface.period())),
       tree_(sphere_ ? ArcTree(arcs_) : tree_in_plane(arcs_)) {}

@@ -14,9 +14,6 @@
 
 namespace calotte::density_detail {
 
-/// The rings of a surface as closed lines.
-std::vector<Points3> closed_rings(const Surface& surface);
-
 /// Distances from the nearest of many segments and points: arcs of the unit sphere, or straight
 /// lines of a plane.
 class LineDistance {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/raster_bounds.h"
 
-#include "base/lonlat.h"
+#include "base/elementary.h"
+#include "base/spherical_angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,11 @@ struct Window {
 
 /// That of longitudes and latitudes about a place of the sphere. \param reach below a half circle.
 Window window_about(const Vec3& centre, double reach) {
-  constexpr double half_circle = std::numbers::pi;
-  const auto [longitude, latitude] = base_detail::lonlat_of(centre);
-  const double x = longitude * half_circle / 180, y = latitude * half_circle / 180;
-  const double along = std::sin(reach) / std::cos(y);
-  const bool has_pole = std::abs(y) + reach >= half_circle / 2;
-  const double across = has_pole || along >= 1 ? half_circle : std::asin(along);
+  // Wider than sin(reach) asks for, by operations that have the same bits everywhere.
+  const double x = base_detail::longitude_of(centre.x, centre.y),
+               y = base_detail::latitude_of(centre.x, centre.y, centre.z),
+               ring = std::sqrt(centre.x * centre.x + centre.y * centre.y);
+  const double across = reach < ring ? base_detail::arc_sine(reach / ring) : std::numbers::pi;
   return {x - across, x + across, y - reach, y + reach};
 }
 

@@ -3,34 +3,17 @@
 
 #include "base/lonlat.h"
 #include "base/parallel.h"
-#include "density/line_distance.h"
+#include "domain/near_boundary.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 namespace calotte::density_detail {
 namespace {
-
-/// Where boxes lie in a surface.
-class Sides {
-public:
-  explicit Sides(const Surface& surface) : surface_(surface) {
-    if (surface.is_bounded())
-      boundary_.emplace(closed_rings(surface), surface);
-  }
-  bool contains(const Vec3& p) const { return !boundary_ || surface_.contains({p.x, p.y, p.z}); }
-  bool may_cross(const Extent& box) const {
-    return boundary_ && (*boundary_)(box.middle) <= box.reach;
-  }
-
-private:
-  const Surface& surface_;
-  std::optional<LineDistance> boundary_;
-};
 
 double area_of(const BoxOfPlaces& box, bool of_plane) {
   if (of_plane)
@@ -44,9 +27,9 @@ class TileIntegral {
 public:
   /// \param columns, rows at least those of the tile: powers of two.
   TileIntegral(const WidthTiles& tiles, std::int64_t tile, std::int64_t columns, std::int64_t rows,
-               const Sides& sides)
+               const Surface& surface)
       : tile_(tiles[tile]), place_(tiles.box().tile(tile)), of_plane_(tiles.of_plane()),
-        columns_(columns), rows_(rows), sides_(sides) {}
+        columns_(columns), rows_(rows), surface_(surface) {}
 
   double operator()() const { return sum(0, 0, columns_, rows_, true); }
 
@@ -62,8 +45,8 @@ private:
     if (crossed) {
       const Extent extent = extent_of(box, of_plane_);
       const bool one = columns == 1 && rows == 1;
-      crossed = !one && sides_.may_cross(extent);
-      if (!crossed && !sides_.contains(extent.middle))
+      crossed = !one && domain_detail::is_near_boundary(surface_, extent.middle, extent.reach);
+      if (!crossed && !contains(extent.middle))
         return 0;
     }
     const bool fine = columns <= columns_ / tile_.x().intervals() &&
@@ -82,6 +65,9 @@ private:
     return all;
   }
 
+  bool contains(const Vec3& p) const {
+    return !surface_.is_bounded() || surface_.contains({p.x, p.y, p.z});
+  }
   /// \param x, y in boxes.
   double width_at(double x, double y) const {
     const double u = x * static_cast<double>(tile_.x().intervals()) / static_cast<double>(columns_),
@@ -99,7 +85,7 @@ private:
   BoxOfPlaces place_;
   bool of_plane_;
   std::int64_t columns_, rows_;
-  const Sides& sides_;
+  const Surface& surface_;
 };
 
 } // namespace
@@ -111,12 +97,11 @@ double integral_in(const WidthTiles& tiles, const Surface& surface) {
   std::int64_t least = 1;
   while (static_cast<double>(least) * across < boxes_across && least < boxes_across)
     least *= 2;
-  const Sides sides(surface);
   std::vector<double> sums(static_cast<std::size_t>(tiles.size()));
   base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
     const WidthTiles::Tile tile = tiles[k];
     const TileIntegral integral(tiles, k, std::max(least, tile.x().intervals()),
-                                std::max(least, tile.y().intervals()), sides);
+                                std::max(least, tile.y().intervals()), surface);
     sums[static_cast<std::size_t>(k)] = integral();
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);

@@ -4,11 +4,11 @@
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/require.h"
-#include "density/line_distance.h"
 #include "density/raster_field.h"
 #include "density/sampled_widths.h"
 #include "density/width_rules.h"
 #include "density/width_tiles.h"
+#include "domain/near_boundary.h"
 #include "domain/surface.h"
 
 #include <calotte/widths.h>
@@ -19,7 +19,6 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -242,24 +241,22 @@ double apart_in(const std::vector<TileDemand>& demands,
   return apart;
 }
 
-/// Whether a tile has no place in a bounded surface. \param boundary null of another one.
-bool lies_outside(const Extent& tile, const Surface& surface, const LineDistance* boundary) {
-  return boundary != nullptr && (*boundary)(tile.middle) > tile.reach &&
-         !surface.contains({tile.middle.x, tile.middle.y, tile.middle.z});
+/// Whether a tile has no place in a surface.
+bool lies_outside(const Extent& tile, const Surface& surface) {
+  const Vec3& at = tile.middle;
+  return surface.is_bounded() && !domain_detail::is_near_boundary(surface, at, tile.reach) &&
+         !surface.contains({at.x, at.y, at.z});
 }
 
 SampledWidths tiles_of(const Widths& widths, const TileBox& box, const Surface& surface) {
   constexpr double most_nodes = 4e7;
   const std::shared_ptr<const WidthRule> rule = widths.rule();
   const double unit = box.of_plane ? 1 : widths.radius_km();
-  std::optional<LineDistance> boundary;
-  if (surface.is_bounded())
-    boundary.emplace(closed_rings(surface), surface);
   std::vector<TileDemand> demands(static_cast<std::size_t>(std::int64_t{box.columns} * box.rows));
   base_detail::for_each_task(std::ssize(demands), [&](std::int64_t k) {
     const Extent tile = extent_of(box.tile(k), box.of_plane);
     TileDemand& demand = demands[static_cast<std::size_t>(k)];
-    if (lies_outside(tile, surface, boundary ? &*boundary : nullptr))
+    if (lies_outside(tile, surface))
       demand.outside = true;
     else
       demand = demand_of(*rule, tile, unit);

@@ -13,6 +13,7 @@
 #include "density/raster_field.h"
 #include "density/width_cones.h"
 #include "density/width_profile.h"
+#include "domain/near_boundary.h"
 #include "domain/surface.h"
 
 #include <algorithm>
@@ -278,16 +279,13 @@ class ShareOfRegion : public ShareRule {
 public:
   explicit ShareOfRegion(Surface region)
       : ShareRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
-        region_(std::move(region)) {
-    if (region_.is_bounded())
-      boundary_.emplace(closed_rings(region_), region_);
-  }
+        region_(std::move(region)) {}
   void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
     for (std::size_t k = 0; k < places.size(); ++k)
       shares[k] = share_at(places[k]);
   }
   Bounds bounds(const Vec3& place, double reach) const override {
-    if (boundary_ && (*boundary_)(place) <= reach)
+    if (domain_detail::is_near_boundary(region_, place, reach))
       return {0, 1};
     return {share_at(place), share_at(place)};
   }
@@ -296,7 +294,6 @@ private:
   double share_at(const Vec3& p) const { return region_.contains({p.x, p.y, p.z}) ? 1 : 0; }
 
   Surface region_;
-  std::optional<LineDistance> boundary_;
 };
 
 class ShareOfRaster : public ShareRule {
@@ -356,6 +353,17 @@ private:
 
 double all_of(double share) { return share; }
 double rounded(double share) { return share >= 0.5 ? 1 : 0; }
+
+/// The rings of a surface as closed lines.
+std::vector<Points3> closed_rings(const Surface& surface) {
+  std::vector<Points3> lines;
+  for (const DoubleMatrix& ring : surface.rings()) {
+    Points3 line = Points3::Zero(3, ring.cols() + 1); // z of a plane
+    line.topRows(ring.rows()) << ring, ring.col(0);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
 
 std::shared_ptr<const WidthsOfRadius> for_any_radius(Rule rule) {
   return std::make_shared<WidthsOfRadius>(std::move(rule));

@@ -89,9 +89,8 @@ public:
 
   /// The values of a tile, row by row from its south-west corner.
   double* values(std::int64_t tile) { return &values_[static_cast<std::size_t>(at(tile).begin)]; }
-  /// All values, and the places of nodes as unit vectors or x y 0.
-  std::vector<double>& values() { return values_; }
-  const std::vector<double>& values() const { return values_; }
+  const std::vector<double>& values() const { return values_; } ///< tile by tile
+  /// The places of a tile's nodes, in the order of its values: unit vectors, or x y 0.
   std::vector<Vec3> places(std::int64_t tile) const;
   /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
