@@ -86,16 +86,17 @@ CutReport cut(const std::string& source, const std::string& target,
               const std::function<bool(const Eigen::Vector3d&)>& inside,
               const CutOptions& options = {});
 
-/// Writes the limited-area grid of generators, of a run in a region that is wider than the grid's:
-/// the cells of the grid's region with their rings, as cut() does. nominalMinDc is that of these
-/// cells. The whole tessellation stands in a file beside the new one for a while.
+/// Writes the limited-area grid of a run in a region that is wider than the grid's: the cells of
+/// the grid's region with their rings, see limited_area_mask(), and the masks of cut(). The cells
+/// are those of voronoi(mesh, mask).
 /// \param mesh of the wider region, as make_grid() makes it with Recipe::limited_area; its surface
 ///        holds the region and its rings.
 /// \param region that of the recipe.
-/// \param written what write() adds to an MPAS file; its sphere_radius has no effect.
-/// \throws Error as cut(), and as write().
+/// \param options of an MPAS file; vertices of cells are paired as MPAS-Atmosphere does unless they
+///        say otherwise; site_density and fields have no effect.
+/// \throws Error as limited_area_mask(), voronoi() and write().
 CutReport write_limited_area(const std::string& target, const Mesh& mesh, const Surface& region,
-                             const WriteOptions& written = {}, const CutOptions& options = {});
+                             const WriteOptions& options = {});
 
 } // namespace calotte
 CALOTTE_API_END

@@ -100,18 +100,18 @@ Check check(const Polygons& polygons);
 
 /// What a mesh file holds. At least one of `mesh` and `polygons` is present.
 struct MeshFile {
-  std::string format; ///< for messages, such as "MPAS" or "SCRIP"
+  std::string format = {}; ///< for messages, such as "MPAS" or "SCRIP"
 
   /// The triangulation of the sites in canonical form. It is the file's. Cells alone have one if
   /// they are the Voronoi cells of their centres; those of a part of the sphere, if each corner
   /// that cells surround is the circumcentre of three centres: then it has their triangles, and no
   /// others. No file holds the rings of a plane's surface, which clip the cells: a caller that
   /// knows them may set `mesh->surface` for write().
-  std::optional<Mesh> mesh;
+  std::optional<Mesh> mesh = {};
   /// The file's cells, unless they are all the Voronoi cells of `mesh`; those of a part of the
   /// sphere and of a plane with a boundary always.
-  std::optional<Polygons> polygons;
-  NotVoronoi not_voronoi; ///< why `polygons` do not follow from `mesh`; none without polygons
+  std::optional<Polygons> polygons = {};
+  NotVoronoi not_voronoi = {}; ///< why `polygons` do not follow from `mesh`; none without polygons
   /// Whether the file holds cells, in its own order: `polygons`, or the Voronoi cells of `mesh`. In
   /// other files `mesh` is what they hold, triangles or points.
   bool has_cells = false;
@@ -119,12 +119,12 @@ struct MeshFile {
   /// Radius of the sphere on which all points lie, with 12 digits; 1 if they lie on none.
   double sphere_radius = 1;
   VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
-  DoubleVector density;          ///< by site, as the file has it; empty if it has none
-  std::vector<MeshField> fields; ///< the file's fields
+  DoubleVector density = {};          ///< by site, as the file has it; empty if it has none
+  std::vector<MeshField> fields = {}; ///< the file's fields
 
-  std::vector<std::string>
-      changes; ///< what reading changed, such as "turned 12 clockwise triangles"
-  std::vector<std::string> ignored; ///< names of variables that were not read
+  std::vector<std::string> changes =
+      {}; ///< what reading changed, such as "turned 12 clockwise triangles"
+  std::vector<std::string> ignored = {}; ///< names of variables that were not read
 
   /// The polygons if they are other than Voronoi cells: without a mesh, or beside a closed one.
   const Polygons* other_cells() const {

@@ -91,6 +91,21 @@ struct Voronoi {
 ///         the boundary cuts it into several parts or encloses an island in it.
 Voronoi voronoi(const Mesh& mesh);
 
+/// A part of the tessellation: the cells of some sites, with the edges and vertices at these. A
+/// cell that is left out is missing, -1, from the lists of its neighbours. Edges with one cell
+/// follow the others; they keep their places, and dc is the distance to the missing cell. Kites are
+/// those of the cells that are there.
+///
+///     write("area.nc", {.polygons = polygons_of(voronoi(mesh, mask))});
+///
+/// \param mesh the Delaunay triangulation of its points; on the sphere or in a plane without rings.
+///        It may be open.
+/// \param mask by site: >= 0 for cells that are kept, as limited_area_mask() and sea_cells() make
+///        it of neighbours(mesh). The kept cells keep their order.
+/// \throws Error invalid_argument: for another number of masks, or none >= 0; naming the first kept
+///         site that triangles do not surround; as neighbours().
+Voronoi voronoi(const Mesh& mesh, const Ids& mask);
+
 /// The cells alone.
 Polygons polygons_of(Voronoi voronoi);
 

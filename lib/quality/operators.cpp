@@ -3,15 +3,17 @@
 
 #include "base/first_fault.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "integrals/moments.h"
+#include "mesh/stars.h"
 #include "quality/eigenvalues.h"
 #include "quality/error_norms.h"
 #include "quality/flat_hull.h"
 #include "quality/sides.h"
 #include "quality/truncation.h"
 #include "quality/voronoi_mesh.h"
-#include "quality/whole_cells.h"
 #include "voronoi/cell_fields.h"
+#include "voronoi/part.h"
 
 #include <calotte/check.h>
 #include <calotte/error.h>
@@ -96,7 +98,7 @@ Vec3 first_moment(const Voronoi& cells, std::int64_t i) {
   return sum;
 }
 
-/// From numbers of whole cells to sites.
+/// From numbers of cells to those of their sites.
 void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, OperatorErrors& out) {
   for (ErrorNorms* norms :
        {&out.divergence, &out.gradient, &out.laplacian, &out.curl, &out.tangential,
@@ -113,8 +115,19 @@ void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, Operato
   }
 }
 
+/// The mask of sites that triangles surround. \throws Error invalid_argument if there is none.
+Ids surrounded(const Mesh& mesh) {
+  const mesh_detail::Stars stars(faces_of(mesh));
+  Ids mask(mesh.points.cols());
+  for (std::int32_t site = 0; site < mask.size(); ++site)
+    mask[site] = stars.is_closed(site) ? 0 : none;
+  require(mask.maxCoeff() >= 0,
+          "triangles surround no site of the open mesh, so that it has no whole cell");
+  return mask;
+}
+
 OperatorErrors of_open(const Mesh& mesh) {
-  const WholeCells whole = whole_cells(mesh);
+  const voronoi_detail::CellPart whole = voronoi_detail::part_of(mesh, surrounded(mesh));
   OperatorErrors out = errors_of(whole.voronoi);
   out.off_centroid =
       off_centroid(whole.voronoi, [&](std::int64_t i) { return first_moment(whole.voronoi, i); });

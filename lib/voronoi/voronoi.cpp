@@ -28,35 +28,6 @@ namespace {
 /// columns err by 5 units of roundoff, their squares by twice that and 3 of their own.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
-void set_directions(const Mesh& mesh, Voronoi& out) {
-  make_room(out.cells, 3, mesh.points.cols());
-  FirstFault fault;
-  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i) {
-      const Vec3 unit = unit_column(column(mesh.points, i));
-      set_column(out.cells, i, unit);
-      if (!(std::abs(dot(unit, unit) - 1) < 1e-9)) // NaN for points without a direction
-        fault.at(i);
-    }
-  });
-  fault.refuse("site", "has no direction: give finite points other than 0");
-}
-
-void set_places(const Mesh& mesh, Voronoi& out) {
-  const Eigen::Vector2d& period = mesh.surface.period();
-  make_room(out.cells, 3, mesh.points.cols());
-  FirstFault fault;
-  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i != end; ++i) {
-      const double x = mesh.points(0, i), y = mesh.points(1, i);
-      set_column(out.cells, i, {x, y, 0});
-      if (!(x >= 0 && x < period[0] && y >= 0 && y < period[1]))
-        fault.at(i);
-    }
-  });
-  fault.refuse("site", "lies outside the periodic box: give the copy of it that is inside");
-}
-
 /// \throws Error invalid_argument for a mesh that does not cover its space.
 void set_space(const Mesh& mesh, Voronoi& out) {
   if (mesh.surface.is_sphere()) {
@@ -88,10 +59,7 @@ Rings begin(const Mesh& mesh, Voronoi& out) {
               " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
               ": give a mesh with both");
   Rings rings = find_rings(faces_of(mesh), out);
-  if (mesh.surface.is_sphere())
-    set_directions(mesh, out);
-  else
-    set_places(mesh, out);
+  out.cells = places_of(mesh);
   return rings;
 }
 
@@ -140,6 +108,32 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
 }
 
 } // namespace
+
+Points3 places_of(const Mesh& mesh) {
+  const bool on_sphere = mesh.surface.is_sphere();
+  const Eigen::Vector2d& period = mesh.surface.period();
+  const auto is_in = [](double x, double side) {
+    return std::isfinite(x) && (side == 0 || (x >= 0 && x < side));
+  };
+  Points3 places;
+  make_room(places, 3, mesh.points.cols());
+  FirstFault fault;
+  for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i != end; ++i) {
+      const Vec3& point = column(mesh.points, i);
+      const Vec3 place = on_sphere ? unit_column(point) : Vec3{point.x, point.y, 0};
+      set_column(places, i, place);
+      const bool right = on_sphere ? std::abs(dot(place, place) - 1) < 1e-9 // not NaN
+                                   : is_in(place.x, period[0]) && is_in(place.y, period[1]);
+      if (!right)
+        fault.at(i);
+    }
+  });
+  fault.refuse("site", on_sphere
+                           ? "has no direction: give finite points other than 0"
+                           : "lies outside the periodic box: give the copy of it that is inside");
+  return places;
+}
 
 BegunVoronoi begun(Mesh& mesh) {
   BegunVoronoi out;

@@ -161,9 +161,9 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
   Cvt grid = cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
   grid.mesh.surface = meshed;
   for (const double radius : {1.0, 6371229.0}) {
-    CutOptions options;
+    WriteOptions options;
     options.sphere_radius = radius;
-    write_limited_area(path, grid.mesh, region, {}, options);
+    write_limited_area(path, grid.mesh, region, options);
     CHECK(first_value(path, "nominalMinDc") == doctest::Approx(median_of_dc(path)).epsilon(0.02));
     // Hexagons of the disc's area: what the run was asked for.
     const double area = 2 * std::numbers::pi * (1 - std::cos(0.5)) / 3000;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/files.h"
+#include "support/full_disk.h"
 
 #include <calotte/cut.h>
 #include <calotte/error.h>
@@ -79,6 +80,11 @@ TEST_CASE("a limited area is the region and its rings") {
   CHECK(file.inside == report.cells_by_mask.front());
   CHECK(file.inside < file.cells);
   CHECK(file.cells < made.mesh.points.cols());
+  CHECK(written == calotte::test::read_file(scratch / "area.nc"));
+  { // in a folder that has room for it alone
+    const calotte::test::FullDisk full(written.size());
+    write_limited_area(scratch / "area.nc", made.mesh, made.recipe.surface);
+  }
   CHECK(written == calotte::test::read_file(scratch / "area.nc"));
   CHECK_THROWS_AS(write_grid(scratch / "area.vtp", made.mesh, made.recipe, made.schedule), Error);
   const Made other(graded());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/limited_area_masks.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -13,6 +15,22 @@ bool is_cell_mask(const MeshField& field) {
 }
 
 } // namespace
+
+std::string cell_mask_meaning(int rings) {
+  return rings == 0
+             ? "0 in the region"
+             : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells";
+}
+
+std::vector<std::uint8_t> flags_of(const Points3& places,
+                                   const std::function<bool(const Eigen::Vector3d&)>& inside) {
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(places.cols()));
+  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      flags[static_cast<std::size_t>(i)] = inside(places.col(i)) ? 1 : 0;
+  });
+  return flags;
+}
 
 std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields, std::int64_t cells) {
   constexpr double most = std::numeric_limits<std::int32_t>::max();

@@ -6,7 +6,10 @@
 #include <calotte/mesh_field.h>
 #include <calotte/types.h>
 
+#include <Eigen/Core>
+
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +19,7 @@
 namespace calotte::io_detail {
 
 inline constexpr const char* cell_mask = "bdyMaskCell";
+std::string cell_mask_meaning(int rings); ///< its long_name
 
 /// A mask that follows.
 struct DerivedMask {
@@ -25,6 +29,10 @@ struct DerivedMask {
 inline constexpr DerivedMask edge_mask{"bdyMaskEdge",
                                        "least bdyMaskCell of the cells on each edge"},
     vertex_mask{"bdyMaskVertex", "least bdyMaskCell of the cells on each vertex"};
+
+/// By place: 1 if it is inside, else 0. \param inside is called by several threads at once.
+std::vector<std::uint8_t> flags_of(const Points3& places,
+                                   const std::function<bool(const Eigen::Vector3d&)>& inside);
 
 /// The mask of so many cells among fields; none if there is no such field of 32-bit integers.
 std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields, std::int64_t cells);

@@ -31,14 +31,7 @@ GridFile write_with_rings(const std::string& path, const Mesh& mesh, const Recip
                           const WriteOptions& options) {
   require(format_of(path, options.format) == Format::mpas,
           path + ": a limited area is written as MPAS; give a name that ends in .nc");
-  CutOptions cut;
-  cut.sphere_radius = options.sphere_radius;
-  if (options.vertex_order)
-    cut.vertex_order = options.vertex_order;
-  cut.dimensions = options.dimensions;
-  cut.history = options.history;
-  cut.progress = options.progress;
-  const CutReport report = write_limited_area(path, mesh, recipe.surface, options, cut);
+  const CutReport report = write_limited_area(path, mesh, recipe.surface, options);
   return {report.cells, report.cells_by_mask.front(), {0, 0}};
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/cut.h>
 
-#include "base/parallel.h"
 #include "base/require.h"
 #include "io/cells/limited_area_masks.h"
-#include "io/mpas/mpas_cut.h"
+#include "io/mpas/mpas_part.h"
 #include "io/mpas/mpas_subset.h"
 #include "io/mpas/mpas_variables.h"
 
@@ -15,16 +14,6 @@
 namespace calotte {
 namespace io_detail {
 namespace {
-
-std::vector<std::uint8_t> flags_of(const Points3& places,
-                                   const std::function<bool(const Eigen::Vector3d&)>& inside) {
-  std::vector<std::uint8_t> flags(static_cast<std::size_t>(places.cols()));
-  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i)
-      flags[static_cast<std::size_t>(i)] = inside(places.col(i)) ? 1 : 0;
-  });
-  return flags;
-}
 
 Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
             int rings) {
@@ -53,10 +42,7 @@ void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
     subset.added.push_back(
         {name, kind.dimension(), meaning, [&mask](std::int64_t i) { return mask[i]; }});
   };
-  add(mpas_cell, masks.cells, cell_mask,
-      rings == 0
-          ? "0 in the region"
-          : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells");
+  add(mpas_cell, masks.cells, cell_mask, cell_mask_meaning(rings));
   add(mpas_edge, masks.edges, edge_mask.name, edge_mask.meaning);
   add(mpas_vertex, masks.vertices, vertex_mask.name, vertex_mask.meaning);
 }
@@ -76,7 +62,7 @@ DoubleVector kept_values(const MpasSource& source, const std::string& name, cons
 }
 
 /// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
-void add_density(const MpasSource& source, const MpasPart& part, double radius, Nominal nominal,
+void add_density(const MpasSource& source, const MpasPart& part, double radius,
                  NetcdfSubset& subset) {
   DoubleVector density = kept_values(source, mpas::mesh_density, part.cells);
   const double greatest = density.size() > 0 ? density.maxCoeff() : 0;
@@ -84,9 +70,8 @@ void add_density(const MpasSource& source, const MpasPart& part, double radius, 
     return;
   density /= greatest;
   add_division(source, mpas::mesh_density, greatest, subset);
-  if (nominal == Nominal::of_source && source.netcdf().find(mpas::nominal_min_dc) >= 0)
+  if (source.netcdf().find(mpas::nominal_min_dc) >= 0)
     return add_division(source, mpas::nominal_min_dc, std::pow(greatest, 0.25), subset);
-  subset.left_out.emplace_back(mpas::nominal_min_dc);
   const DoubleVector area = kept_values(source, mpas::area_cell, part.cells);
   if (area.size() > 0)
     subset.numbers.push_back(
@@ -116,10 +101,21 @@ CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
 }
 
 } // namespace
+} // namespace io_detail
 
-CutReport cut(const MpasSource& source, const std::string& target,
-              const std::function<bool(const Eigen::Vector3d&)>& inside, const CutOptions& options,
-              Nominal nominal) {
+CutReport cut(const std::string& source, const std::string& target, const Surface& region,
+              const CutOptions& options) {
+  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& place) {
+    return region.contains(place);
+  };
+  return cut(source, target, inside, options);
+}
+
+CutReport cut(const std::string& path, const std::string& target,
+              const std::function<bool(const Eigen::Vector3d&)>& inside,
+              const CutOptions& options) {
+  using namespace io_detail;
+  const MpasSource source(path);
   const double radius = options.sphere_radius.value_or(source.radius());
   require(radius > 0 && std::isfinite(radius),
           "the radius of the sphere is not positive and finite; give another");
@@ -131,7 +127,7 @@ CutReport cut(const MpasSource& source, const std::string& target,
   add_masks(masks, options.rings, subset);
   add_radius(source, radius, subset);
   add_vertex_order(source, part, order, subset);
-  add_density(source, part, radius, nominal, subset);
+  add_density(source, part, radius, subset);
   add_attributes(radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
@@ -140,22 +136,6 @@ CutReport cut(const MpasSource& source, const std::string& target,
   report.vertex_order = order;
   report.left_out = write_part(source, part, subset, target, options.progress);
   return report;
-}
-
-} // namespace io_detail
-
-CutReport cut(const std::string& source, const std::string& target, const Surface& region,
-              const CutOptions& options) {
-  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& place) {
-    return region.contains(place);
-  };
-  return cut(source, target, inside, options);
-}
-
-CutReport cut(const std::string& source, const std::string& target,
-              const std::function<bool(const Eigen::Vector3d&)>& inside,
-              const CutOptions& options) {
-  return io_detail::cut(io_detail::MpasSource(source), target, inside, options);
 }
 
 } // namespace calotte

@@ -350,11 +350,8 @@ py::dict cut_mesh(const std::string& source, const std::string& target, const Su
 
 /// \param mesh of a run of a limited area.
 py::dict write_limited(const Output& output, const Mesh& mesh, const Surface& region) {
-  CutOptions options;
-  options.sphere_radius = output.radius.value_or(1);
-  const WriteOptions written = options_of(output);
   const CutReport report =
-      call([&] { return write_limited_area(output.path, mesh, region, written, options); });
+      call([&] { return write_limited_area(output.path, mesh, region, options_of(output)); });
   py::dict values;
   values["cells"] = report.cells;
   values["cells_by_mask"] = report.cells_by_mask;
