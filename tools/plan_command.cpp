@@ -15,6 +15,7 @@
 #include "options/rule_shares.h"
 #include "options/sphere_radius_option.h"
 #include "options/warning.h"
+#include "run/cvt_actions.h"
 #include "run/cvt_costs.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
@@ -55,9 +56,9 @@ struct Plan {
   std::string density; ///< its name
   std::string doubt;   ///< about widths that may be in metres, or ""
   std::int64_t cells = 0;
-  double implied = 0;           ///< cells that widths in km imply; 0 for a density
-  double factor = 1;            ///< of the widths of the file, in this grid
-  std::vector<CvtLevel> levels; ///< of the run
+  double implied = 0;             ///< cells that widths in km imply; 0 for a density
+  double factor = 1;              ///< of the widths of the file, in this grid
+  std::vector<CvtAction> actions; ///< of the run
   SpacingSurvey spacing;
   std::optional<double> radius_km; ///< of the sphere, if known
   double width_seconds = 0;        ///< that reading widths in km and planning with them took
@@ -110,7 +111,7 @@ Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule&
   const Recipe& made = schedule.recipe;
   plan.cells = made.cells;
   plan.implied = schedule.implied_cells;
-  plan.levels = schedule.levels;
+  plan.actions = schedule.actions;
   if (plan.implied > 0)
     plan.factor = std::sqrt(plan.implied / static_cast<double>(plan.cells));
   if (schedule.widths)
@@ -161,15 +162,6 @@ std::string gradient_words(const Gradient& gradient) {
               : "");
 }
 
-/// "642 cells, up to 14 rounds of insertion".
-std::string level_words(const CvtLevel& level) {
-  return std::to_string(level.cells) + " cells" +
-         (level.insertion_rounds == 0 ? ""
-          : level.insertion_rounds == 1
-              ? ", 1 round of insertion"
-              : ", up to " + std::to_string(level.insertion_rounds) + " rounds of insertion");
-}
-
 std::string table(const Plan& plan) {
   std::ostringstream out;
   const auto row = [&out](const std::string& name, const std::string& value) {
@@ -189,8 +181,9 @@ std::string table(const Plan& plan) {
   row("cell width, degrees", interval(plan.spacing.least / radians_per_degree,
                                       plan.spacing.greatest / radians_per_degree));
   row("steepest gradient", gradient_words(plan.spacing.steepest));
-  for (const CvtLevel& level : plan.levels)
-    row("level of the run", level_words(level));
+  out << "actions of the run:\n";
+  for (const CvtAction& action : plan.actions)
+    row("  " + std::string(word_of(action.kind)), described(action));
   if (plan.width_seconds > 0)
     row("time of the widths", duration(plan.width_seconds));
   if (!plan.rules.empty())
@@ -230,9 +223,8 @@ std::string to_json(const Plan& plan) {
     json["width_seconds"] = plan.width_seconds;
   for (const RuleShare& rule : plan.rules)
     json["rules"].push_back({{"name", rule.name}, {"area", rule.area}, {"cells", rule.cells}});
-  for (const CvtLevel& level : plan.levels)
-    json["levels"].push_back(
-        {{"cells", level.cells}, {"insertion_rounds", level.insertion_rounds}});
+  for (const CvtAction& action : plan.actions)
+    json["actions"].push_back(json_of(action));
   json["estimates"] = {{"threads", plan.threads},
                        {"seconds", plan.costs.seconds},
                        {"memory_bytes", plan.costs.memory},

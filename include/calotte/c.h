@@ -271,18 +271,19 @@ CALOTTE_C_API calotte_status calotte_make_grid(const calotte_recipe* recipe,
                                                calotte_mesh** mesh, calotte_report* report,
                                                calotte_error* error);
 
-/** What follows from a recipe before any generator moves, as calotte::Schedule. The first five
+/** What follows from a recipe before any generator moves, as calotte::Schedule. The first seven
  * members are those of the caller; calotte_plan() fills the others. */
 typedef struct calotte_schedule {
   size_t size; /**< sizeof(calotte_schedule) */
-  /** Length of the following four arrays of the caller; a run has at most 14 levels. Each array may
-   * be null. calotte_plan() fills them, from the coarsest level to that of the result. */
-  int64_t level_capacity;
-  int64_t* level_cells;      /**< number of generators at the level's end */
-  int64_t* level_rounds;     /**< rounds of insertion and contraction */
-  double* level_tolerance;   /**< at which its descents end */
-  int64_t* level_iterations; /**< evaluations of a descent, at most */
-  int64_t levels;            /**< number of levels, of which the arrays hold the first */
+  /** Length of the following five arrays of the caller; a run has at most 31 actions. Each array
+   * may be null. calotte_plan() fills them with what the run does, in order. */
+  int64_t action_capacity;
+  const char** action_kind;   /**< "start", "bisect", "insert", "converge", "polish", "raise" */
+  int64_t* action_cells;      /**< number of generators at its end */
+  int64_t* action_times;      /**< how often, at most */
+  double* action_tolerance;   /**< at which each of its descents ends; 0 for none */
+  int64_t* action_iterations; /**< evaluations of each, at most */
+  int64_t actions;            /**< number of actions, of which the arrays hold the first */
   int64_t cells;             /**< of the run: with walls or a limited area more than are written;
                                 0 where the start's points are given */
   double implied_cells;      /**< by the widths; 0 without */

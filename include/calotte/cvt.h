@@ -89,16 +89,36 @@ struct CvtRegion {
 /// The value that the tolerance is compared with; 0 for Norm::none.
 double norm_of(const CvtIteration& iteration, Norm norm);
 
-/// A level of a run: descents of grids with about the same number of cells.
-struct CvtLevel {
-  /// Number of generators at its end. After bisections of a part of a surface with a boundary,
-  /// where midpoints outside are left out, there may be fewer.
+/// A step of a run: what happens to the generators, and the descent that follows.
+struct CvtAction {
+  /// What happens.
+  enum class Kind {
+    start,    ///< the generators of the start
+    bisect,   ///< a generator at the midpoint of each edge begins the next level
+    insert,   ///< a round of insertion and contraction, see split_and_collapse()
+    converge, ///< nothing: the generators of the last round descend to the end that is asked for
+    polish,   ///< the descent minimises a penalty for shapes, too, see Stop::well_centred
+    raise,    ///< the polish goes on with a larger penalty, where it fell short
+  };
+  Kind kind = Kind::start;
+  /// Number of generators at its end; of `start` and `bisect` at that of the rounds which follow.
+  /// After bisections of a part of a surface with a boundary, where midpoints outside are left out,
+  /// there may be fewer.
   std::int64_t cells = 0;
-  int insertion_rounds = 0; ///< at most: a round after a long descent counts for two
-  /// At which its descents end, in the norm l2_scaled with insertion rounds; but for the last
-  /// descent of the run, which ends where the caller asked for. 0 for runs with Norm::none.
-  double tolerance = 0;
-  int max_iterations = 0; ///< evaluations of these descents
+  /// How often, at most: a round after a long descent counts for two, and a penalty is raised only
+  /// where it helps. The last level has further rounds until it has its number of cells. Each time
+  /// a descent follows, but the last round of that level is followed by `converge`.
+  int times = 1;
+  Norm norm = Norm::l2_scaled; ///< of each descent; in a polish shapes decide
+  double tolerance = 0;        ///< of this norm; 0 with Norm::none and in a polish
+  int max_iterations = 0;      ///< evaluations of each descent
+};
+
+/// What was done of an action.
+struct CvtDone {
+  int times = 0;          ///< rounds or raises that were made; 1 for other actions
+  int iterations = 0;     ///< evaluations of its descents
+  std::int64_t cells = 0; ///< number of generators at its end; 0 if it was left out
 };
 
 /// The course of a run.
@@ -111,7 +131,8 @@ struct CvtReport {
   std::int64_t cells_beyond_limits = 0;
   std::int64_t worst_cell = -1;         ///< one with the shape farthest beyond; -1 for none
   double residual = 0;                  ///< the selected norm at the end of the run
-  std::vector<CvtLevel> levels;         ///< all of the schedule, from the coarsest
+  std::vector<CvtAction> actions;       ///< all of the schedule, in order
+  std::vector<CvtDone> done;            ///< of each; of fewer while it runs, or if it was stopped
   std::vector<CvtIteration> iterations; ///< all evaluations, of all levels, in order
   std::vector<CvtRegion> regions;       ///< of the last level
   double seconds = 0; ///< wall-clock time of the run, including the parts before a resumption
@@ -139,11 +160,11 @@ private:
 
 /// The progress of a run after an accepted iteration. Valid during the call that it is passed to.
 struct CvtProgress {
-  const CvtReport& report;     ///< of the run so far, with the current residual and seconds
-  int iterations_of_level = 0; ///< evaluations of the current descent, trials included
-  int bisections_left = 0;     ///< levels that follow the current one
-  int rounds_left = 0;         ///< rounds of insertion on this level after this descent
-  const CvtState& state;       ///< for write_checkpoint()
+  const CvtReport& report;       ///< of the run so far, with the current residual and seconds
+  int iterations_of_descent = 0; ///< evaluations, trials included
+  int bisections_left = 0;       ///< levels that follow the current one
+  int rounds_left = 0;           ///< rounds of insertion on this level after this descent
+  const CvtState& state;         ///< for write_checkpoint()
 };
 
 /// A centroidal Voronoi tessellation: generators that are the centroids of their Voronoi cells.

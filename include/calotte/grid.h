@@ -136,7 +136,7 @@ struct Schedule {
   Density density;                          ///< that the run follows, on its surface
   std::optional<WidthField> widths;         ///< that give it, see width_field(); none without
   Start::Kind first = Start::Kind::density; ///< how the points of the first level are made
-  std::vector<CvtLevel> levels;             ///< from the coarsest to that of the result
+  std::vector<CvtAction> actions;           ///< of the run, in order
   double implied_cells = 0;                 ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
   std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
@@ -181,11 +181,13 @@ template <class Value> struct Word {
   Value value;           ///< what it stands for
 };
 
-std::span<const Word<Start::Kind>> start_words(); ///< "automatic", "points", "multilevel", ...
-std::span<const Word<Norm>> norm_words();         ///< "l2", "linf", "l2-scaled", ..., "none"
-std::span<const Word<Method>> method_words();     ///< "auto", "lloyd", ...
-std::string_view word_of(Start::Kind kind);       ///< of start_words()
-std::string_view word_of(Norm norm);              ///< of norm_words()
+std::span<const Word<Start::Kind>> start_words();      ///< "automatic", "points", "multilevel", ...
+std::span<const Word<Norm>> norm_words();              ///< "l2", "linf", "l2-scaled", ..., "none"
+std::span<const Word<Method>> method_words();          ///< "auto", "lloyd", ...
+std::span<const Word<CvtAction::Kind>> action_words(); ///< "start", "bisect", "insert", ...
+std::string_view word_of(Start::Kind kind);            ///< of start_words()
+std::string_view word_of(Norm norm);                   ///< of norm_words()
+std::string_view word_of(CvtAction::Kind kind);        ///< of action_words()
 
 } // namespace calotte
 CALOTTE_API_END

@@ -27,24 +27,27 @@ calotte_report report_of(const CvtReport& report) {
           report.seconds};
 }
 
-/// Fills one of a caller's arrays of levels. \param member of a level.
-template <class Number, class Member>
-void fill_levels(const Schedule& schedule, std::int64_t capacity, Number* out, Member member) {
-  const auto& levels = schedule.levels;
+/// Fills one of a caller's arrays of actions. \param value of an action.
+template <class Item, class Value>
+void fill_actions(const Schedule& schedule, std::int64_t capacity, Item* out, Value value) {
+  const auto& actions = schedule.actions;
   if (out != nullptr)
-    std::transform(levels.begin(), levels.begin() + std::min(std::ssize(levels), capacity), out,
-                   [&](const CvtLevel& level) { return static_cast<Number>(level.*member); });
+    std::transform(actions.begin(), actions.begin() + std::min(std::ssize(actions), capacity), out,
+                   value);
 }
 
 calotte_schedule filled(const Schedule& schedule, calotte_schedule given) {
-  require(given.level_capacity >= 0, "level_capacity is negative; give 0 or more");
+  require(given.action_capacity >= 0, "action_capacity is negative; give 0 or more");
   const Recipe& made = schedule.recipe;
-  const std::int64_t capacity = given.level_capacity;
-  fill_levels(schedule, capacity, given.level_cells, &CvtLevel::cells);
-  fill_levels(schedule, capacity, given.level_rounds, &CvtLevel::insertion_rounds);
-  fill_levels(schedule, capacity, given.level_tolerance, &CvtLevel::tolerance);
-  fill_levels(schedule, capacity, given.level_iterations, &CvtLevel::max_iterations);
-  given.levels = std::ssize(schedule.levels);
+  const std::int64_t capacity = given.action_capacity;
+  const auto fill = [&](auto* out, auto value) { fill_actions(schedule, capacity, out, value); };
+  fill(given.action_kind, [](const CvtAction& action) { return word_of(action.kind).data(); });
+  fill(given.action_cells, [](const CvtAction& action) { return action.cells; });
+  fill(given.action_times, [](const CvtAction& action) { return std::int64_t{action.times}; });
+  fill(given.action_tolerance, [](const CvtAction& action) { return action.tolerance; });
+  fill(given.action_iterations,
+       [](const CvtAction& action) { return std::int64_t{action.max_iterations}; });
+  given.actions = std::ssize(schedule.actions);
   given.cells = made.cells;
   given.implied_cells = schedule.implied_cells;
   given.fixed = made.fixed.cols();

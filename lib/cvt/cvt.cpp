@@ -51,16 +51,21 @@ void require_options(const CvtOptions& options) {
 
 namespace {
 
+bool is_in_actions(const State& state) {
+  const Cursor& cursor = state.cursor;
+  return cursor.action >= 0 && cursor.action < std::ssize(state.report.actions) &&
+         std::ssize(state.report.done) == cursor.action + 1 && cursor.times >= 0 &&
+         cursor.idle >= 0 && cursor.glides >= 0;
+}
+
 /// Throws for a state that no run can have left, in any space.
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
   bool good = n >= 1 && state.id.size() == n && state.fixed >= 0 &&
-              state.fixed <= state.points.cols() && state.bisections_left >= 0 &&
-              state.rounds_left >= 0 && state.idle_rounds >= 0 && state.glides >= 0 &&
-              state.raised >= 0 && state.iterations_of_level >= 0 && std::isfinite(state.penalty) &&
-              state.penalty >= 0 && std::isfinite(state.demanded_spacing) &&
-              state.demanded_spacing > 0;
+              state.fixed <= state.points.cols() && is_in_actions(state) &&
+              std::isfinite(state.polish.penalty) && state.polish.penalty >= 0 &&
+              std::isfinite(state.polish.demanded_spacing) && state.polish.demanded_spacing > 0;
   for (std::size_t i = 0; good && i < n; ++i) {
     const std::int32_t id = state.id[i];
     good = id >= 0 && static_cast<std::size_t>(id) < n && seen[static_cast<std::size_t>(id)]++ == 0;
@@ -73,7 +78,7 @@ void require_state(const State& state) {
          memory.steps.size() == memory.curvatures.size();
   const Eigen::Index rows = memory.laplacian_at.cols();
   good = good && (rows == 0 || rows == state.points.cols());
-  good = good && memory.stride > 0 && memory.stride <= 1;
+  good = good && memory.stride > 0 && memory.stride <= 1 && memory.iterations >= 0;
   for (const std::int32_t site : state.site_of_input)
     good = good && site >= 0 && static_cast<std::size_t>(site) < n;
   if (!good)
@@ -85,29 +90,30 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
   CvtReport& report = state.report;
   const bool by_final_rule = options.density.uniform() || rule_of(iteration) == options.final_rule;
   report.residual = norm_of(iteration, options.norm);
-  if (state.penalty > 0) {
-    report.converged =
-        iteration.shape_excess <= (state.raised > 0 ? accepted_excess : polished_excess);
+  if (state.in_polish()) {
+    const bool raised = state.action().kind == CvtAction::Kind::raise;
+    report.converged = iteration.shape_excess <= (raised ? accepted_excess : polished_excess);
   } else if (options.norm == Norm::none) {
-    report.converged = state.iterations_of_level >= options.max_iterations;
+    report.converged = state.memory.iterations >= options.max_iterations;
   } else {
     // Near the end the finer rule replaces the coarser one; a run converges with the finer only,
     // unless it creeps.
     const bool crept = creeps(state, options);
     report.converged = (by_final_rule && report.residual <= options.tolerance) || crept;
     const double margin = options.rule == rule_at_sites ? 1 : 10;
-    state.final_rule = state.final_rule || report.residual <= margin * options.tolerance;
+    state.memory.final_rule =
+        state.memory.final_rule || report.residual <= margin * options.tolerance;
   }
 }
 
 bool level_ended(const State& state, const CvtOptions& options) {
-  return state.report.converged || state.iterations_of_level >= options.max_iterations ||
-         state.stuck || has_stalled(state);
+  return state.report.converged || state.memory.iterations >= options.max_iterations ||
+         state.memory.stuck || has_stalled(state);
 }
 
 /// A CVT's generators are the centroids of its cells; a polish keeps its own.
 void end_descent(State& state, Descent& descent) {
-  if (state.penalty == 0) {
+  if (!state.in_polish()) {
     descent.end_at_centroids();
     return;
   }
@@ -122,15 +128,15 @@ void end_descent(State& state, Descent& descent) {
 /// Moves dislocations, and polishes shapes, where they are.
 void work_locally(State& state, const CvtOptions& options, RunFunctional& functional,
                   Descent& descent) {
-  while (may_glide(state, options)) {
+  while (may_glide(state)) {
     if (functional.glide(state.points, limits_of_glide(state)) > 0)
       descent.restart();
-    ++state.glides;
+    ++state.cursor.glides;
     conclude(state, options, descent.here().iteration);
   }
-  const bool at_start = state.iterations_of_level == 1 && state.raised == 0;
-  if (state.penalty > 0 && at_start && !state.report.converged &&
-      functional.polish(state.points) > 0) {
+  const bool at_start =
+      state.memory.iterations == 1 && state.action().kind == CvtAction::Kind::polish;
+  if (at_start && !state.report.converged && functional.polish(state.points) > 0) {
     descent.restart();
     conclude(state, options, descent.here().iteration);
   }
@@ -146,7 +152,7 @@ struct Ending {
 Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const CvtOptions& options,
                const CvtCallback& callback) {
   State& state = State::of(whole);
-  if (state.penalty == 0 && options.norm != Norm::none) // the tolerance may be another now
+  if (!state.in_polish() && options.norm != Norm::none) // the tolerance may be another now
     state.report.converged = state.report.converged &&
                              (state.report.residual <= options.tolerance || creeps(state, options));
   if (level_ended(state, options)) {
@@ -159,10 +165,10 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
       make_functional(state.points, surface, options, std::move(level));
   ShapeLimits limits = shape_limits;
   limits.least_spacing = options.least_spacing;
-  functional->penalise({state.penalty, state.demanded_spacing, limits});
+  functional->penalise({state.polish.penalty, state.polish.demanded_spacing, limits});
   functional->hold(fixed_generators(state));
   Descent descent(state, options, *functional);
-  const bool resumed = state.iterations_of_level > 0;
+  const bool resumed = state.memory.iterations > 0;
   descent.begin();
   if (resumed)
     descent.step();
@@ -174,8 +180,8 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
       end_descent(state, descent);
     Clock::time_point now = start;
     state.report.seconds = before + lap(now);
-    const bool stopped = callback && callback({state.report, state.iterations_of_level,
-                                               state.bisections_left, state.rounds_left, whole});
+    const bool stopped = callback && callback({state.report, state.memory.iterations,
+                                               bisections_left(state), rounds_left(state), whole});
     if (ended || stopped) {
       state.report.regions = functional->regions();
       return {stopped, functional->take_mesh(state.points)};
@@ -183,33 +189,32 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
   }
 }
 
-/// Throws, before any work, if insertion or the bisections lead to fewer or more generators than a
-/// mesh can hold.
+/// Throws, before any work, if the actions lead to fewer or more generators than a mesh can hold.
 void require_room(const Surface& surface, const State& state, const CvtOptions& options) {
-  if (options.insertion_rounds > 0 &&
-      (options.cells < fewest_generators(surface) || options.cells > most_points))
+  const bool inserts = options.insertion_rounds > 0;
+  if (inserts && (options.cells < fewest_generators(surface) || options.cells > most_points))
     throw Error(ErrorCode::invalid_argument, "cells is " + std::to_string(options.cells) +
                                                  "; give at least " +
                                                  std::to_string(fewest_generators(surface)) +
                                                  " and at most " + std::to_string(most_points));
-  if (options.insertion_rounds > 0 && options.cells < state.fixed)
+  if (inserts && options.cells < state.fixed)
     throw Error(ErrorCode::invalid_argument,
                 "fixed generator " + std::to_string(options.cells) + " is beyond the " +
                     std::to_string(options.cells) +
                     " cells of the result; give more cells or fewer fixed generators",
                 options.cells);
   const std::int64_t n = state.points.cols();
+  const int bisections = bisections_left(state);
   int most = 0;
   for (std::int64_t cells = bisected(surface, n); cells <= most_points;
        cells = bisected(surface, cells))
     ++most;
-  if (state.bisections_left > most)
+  if (bisections > most)
     throw Error(ErrorCode::invalid_argument,
-                std::to_string(state.bisections_left) + " bisections of " + std::to_string(n) +
+                std::to_string(bisections) + " bisections of " + std::to_string(n) +
                     " generators are too many; give at most " + std::to_string(most));
   const std::int64_t cells =
-      bisected(surface, std::max(n, options.insertion_rounds > 0 ? options.cells : 0),
-               state.bisections_left);
+      bisected(surface, std::max(n, inserts ? options.cells : 0), bisections);
   if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
     throw Error(ErrorCode::invalid_argument, std::to_string(cells) +
                                                  " generators are too many for the method "
@@ -218,17 +223,24 @@ void require_room(const Surface& surface, const State& state, const CvtOptions& 
                                                  "; give the method lbfgs or lloyd");
 }
 
-/// The start of the descent of a stage.
-Level begin(const Surface& surface, Stage stage, State& state, const CvtOptions& options,
-            Ending&& ending) {
-  if (stage == Stage::polish || stage == Stage::raise) { // of the same points
-    stage == Stage::polish ? begin_polish(state) : begin_raised(state);
-    return {std::nullopt, std::move(ending.mesh)};
-  }
-  state.memory = {};
-  const Mesh mesh = mesh_of_run(state, surface, std::move(ending.mesh));
-  return stage == Stage::bisect ? begin_level(state, options, mesh)
-                                : begin_round(state, options, mesh);
+std::vector<CvtAction> actions_for(const Surface& surface, std::int64_t first,
+                                   const CvtOptions& options) {
+  return options.actions.empty() ? actions_of(surface, first, options) : options.actions;
+}
+
+/// The actions of a state's run, whose ends may be others now.
+/// \throws Error invalid_argument for those of another run.
+void renew_actions(const Surface& surface, const CvtOptions& options, State& state) {
+  std::vector<CvtAction>& theirs = state.report.actions;
+  std::vector<CvtAction> ours = actions_for(surface, theirs.front().cells, options);
+  const bool counts = options.insertion_rounds > 0;
+  const auto same = [&](const CvtAction& a, const CvtAction& b) {
+    return a.kind == b.kind && a.times == b.times && (!counts || a.cells == b.cells);
+  };
+  require(std::ranges::equal(theirs, ours, same),
+          "the state is of a run with other actions; give the recipe that it was made with, or no "
+          "state");
+  theirs = std::move(ours);
 }
 
 /// Throws, before any work, for a surface or options that a run refuses.
@@ -246,11 +258,8 @@ CvtOptions options_of_run(const Surface& surface, const CvtOptions& options) {
 Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions& options,
         const CvtCallback& callback) {
   State& state = State::of(whole);
-  require_state(state);
   require_points(state, surface);
   require_room(surface, state, options);
-  if (state.report.levels.empty())
-    state.report.levels = levels_of(surface, state.points.cols(), state.bisections_left, options);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   const auto descend = [&](Level&& start) {
@@ -258,26 +267,32 @@ Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions&
                    callback);
   };
   Ending ending = descend(std::move(level));
-  for (Stage next = stage_after(state, options); !ending.stopped && next != Stage::end;
-       next = stage_after(state, options))
-    ending = descend(begin(surface, next, state, options, std::move(ending)));
-  const bool ended = stage_after(state, options) == Stage::end;
+  std::optional<Cursor> next = next_of(state);
+  for (; !ending.stopped && next; next = next_of(state)) {
+    add_done(state);
+    ending = descend(begin_action(state, *next, surface, options, std::move(ending.mesh)));
+  }
+  add_done(state);
   state.memory = {};
   Cvt result;
   result.mesh = inner_mesh(mesh_of_run(state, surface, std::move(ending.mesh)), options.boundary);
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
-  result.report.well_centred = ended && state.penalty > 0 && result.report.converged;
+  if (!next) // the others were left out
+    result.report.done.resize(result.report.actions.size());
+  result.report.well_centred = !next && state.in_polish() && result.report.converged;
   result.report.converged =
-      ended && (options.well_centred ? state.descended : result.report.converged);
+      !next && (options.well_centred ? state.polish.descended : result.report.converged);
   result.report.seconds = before + lap(mark);
   return result;
 }
 
 Cvt run(const Surface& surface, Begun&& begun, const CvtOptions& options,
         const CvtCallback& callback) {
-  begun.state.rounds_left = rounds_of_level(begun.state.bisections_left, options);
+  CvtReport& report = begun.state.report;
+  report.actions = actions_for(surface, begun.state.points.cols(), options);
+  report.done = {{.times = 1}};
   return run(surface, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
              callback);
 }
@@ -317,8 +332,11 @@ Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
 
 Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
         const CvtCallback& callback) {
-  return cvt_detail::run(surface, std::move(state), {},
-                         cvt_detail::options_of_run(surface, options), callback);
+  using namespace cvt_detail;
+  const CvtOptions of_run = options_of_run(surface, options);
+  require_state(State::of(state));
+  renew_actions(surface, of_run, State::of(state));
+  return run(surface, std::move(state), {}, of_run, callback);
 }
 
 } // namespace calotte

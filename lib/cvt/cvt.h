@@ -78,6 +78,8 @@ struct CvtOptions {
   std::int64_t fixed = 0;
   Boundary boundary = Boundary::clip; ///< of a bounded surface
   Partition partition = {};           ///< affects time and memory, not the result
+  /// Of the run, in place of those that follow from the values above. Default: none.
+  std::vector<CvtAction> actions = {};
 };
 
 /// Computes a centroidal Voronoi tessellation of a surface. It moves the generators until they are,

@@ -57,16 +57,16 @@ Method Descent::method() const {
 bool Descent::uses_gradients() const { return options_.method != Method::lloyd; }
 
 void Descent::evaluate(const Points3& points, Evaluation& out) {
-  functional_.evaluate(points, state_.final_rule, uses_gradients(), out);
+  functional_.evaluate(points, state_.memory.final_rule, uses_gradients(), out);
   state_.report.iterations.push_back(out.iteration);
-  ++state_.iterations_of_level;
-  ++state_.since_restart;
+  ++state_.memory.iterations;
+  ++state_.memory.since_restart;
   ++state_.memory.since_laplacian;
   state_.memory.flipped = state_.memory.flipped || out.iteration.flips > 0 || out.iteration.rebuilt;
 }
 
 void Descent::begin() {
-  if (state_.iterations_of_level == 0) {
+  if (state_.memory.iterations == 0) {
     evaluate(state_.points, here_);
     return;
   }
@@ -83,7 +83,7 @@ void Descent::begin() {
 }
 
 void Descent::step() {
-  const bool other_rule = !options_.density.uniform() && state_.final_rule &&
+  const bool other_rule = !options_.density.uniform() && state_.memory.final_rule &&
                           rule_of(here_.iteration) != options_.final_rule;
   if (options_.method == Method::lloyd)
     lloyd_step();
@@ -96,7 +96,7 @@ void Descent::step() {
 void Descent::restart() {
   forget();
   state_.memory.flipped = true;
-  state_.since_restart = 0;
+  state_.memory.since_restart = 0;
   evaluate(state_.points, here_);
 }
 
@@ -320,20 +320,20 @@ void Descent::quasi_newton_step() {
   const std::size_t first = state_.report.iterations.size();
   if (line.slope < 0 && search(line)) {
     remember();
-  } else if (state_.penalty > 0) { // a Lloyd step may raise the penalty
-    state_.stuck = state_.memory.steps.empty();
+  } else if (state_.polish.penalty > 0) { // a Lloyd step may raise the penalty
+    state_.memory.stuck = state_.memory.steps.empty();
     forget();
     return;
   } else { // Lloyd's step always descends; the coarser rule's energy may have misled the search
     forget();
-    state_.final_rule = state_.final_rule || options_.norm != Norm::none;
+    state_.memory.final_rule = state_.memory.final_rule || options_.norm != Norm::none;
     functional_.set_centroids(state_.points, here_, trial_);
     evaluate(trial_, there_);
     // A density that is linear between the generators moves with them.
     const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;
     if (here_.iteration.linear_density && rose) {
       state_.report.iterations.back().accepted = false;
-      state_.stuck = options_.final_rule == rule_at_sites || options_.norm == Norm::none;
+      state_.memory.stuck = options_.final_rule == rule_at_sites || options_.norm == Norm::none;
       return;
     }
   }

@@ -141,7 +141,6 @@ State state_of(Sites& sites, const CvtOptions& options) {
   state.fixed = options.fixed;
   set_points(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
-  state.bisections_left = options.bisections;
   return state;
 }
 

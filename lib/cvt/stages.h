@@ -6,38 +6,31 @@
 #include "cvt/shape.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
+#include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>
 #include <calotte/surface.h>
 #include <calotte/types.h>
 
-#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-/// The course of a run: descents, and what happens to the generators between two of them.
+/// The course of a run: its actions, and what each does to the generators.
 ///
-///     descent -> [ insert -> descent ]* -> [ bisect -> descent -> [ insert -> descent ]* ]*
-///             -> [ glide -> descent -> glide* ] -> [ polish -> [ raise ]* ]
+///     start -> insert* -> [ bisect -> insert* ]* -> converge -> [ polish -> raise* ]
 ///
-/// A glide is part of the descent before the polish, see glide.h; a polish begins in subdomains,
-/// see polish.h.
+/// A descent follows each, see CvtAction. Without insertion the last bisection's is the end. A
+/// glide is part of the descent before the polish, see glide.h; a polish begins in subdomains, see
+/// polish.h.
 namespace calotte::cvt_detail {
 
 /// \throws Error invalid_argument for a value out of range.
 void require_options(const CvtOptions& options);
 
-/// What follows a descent.
-enum class Stage {
-  insert, ///< insertion and contraction on the same level
-  bisect, ///< the next level
-  polish, ///< a descent with the penalty of shape.h
-  raise,  ///< the polish goes on with a larger penalty, where it fell short
-  end,
-};
-
-/// The number of generators at the end of a level of a run with insertion.
-std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left);
+/// The actions of a run. \param first number of generators of the start.
+std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
+                                  const CvtOptions& options);
 
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
@@ -50,10 +43,15 @@ bool creeps(const State& state, const CvtOptions& options);
 /// Whether ten evaluations of a polish have hardly improved the worst shape.
 bool has_stalled(const State& state);
 
-Stage stage_after(const State& state, const CvtOptions& options);
+/// The cursor of the descent after the current one; none at the end of the run.
+std::optional<Cursor> next_of(const State& state);
+
+/// Levels that follow, and rounds of insertion on this one after the current descent.
+int bisections_left(const State& state);
+int rounds_left(const State& state);
 
 /// Whether dislocations may be moved: at the end of the descent before a polish, up to four times.
-bool may_glide(const State& state, const CvtOptions& options);
+bool may_glide(const State& state);
 
 /// The limits of the next glide: three times a little within shape_limits, so that few shapes come
 /// near these, then shape_limits, so that few are left to the penalty.
@@ -63,34 +61,12 @@ ShapeLimits limits_of_glide(const State& state);
 CvtOptions options_of_descent(const State& state, const Surface& surface,
                               const CvtOptions& options);
 
-void begin_descent(State& state);
+/// Begins the action at a cursor: changes the generators.
+/// \param mesh of them, if it is known.
+Level begin_action(State& state, const Cursor& cursor, const Surface& surface,
+                   const CvtOptions& options, std::optional<Connectivity>&& mesh);
 
-/// Coarser levels, where rounds are cheap, have more of them.
-inline int rounds_of_level(int bisections_left, const CvtOptions& options) {
-  constexpr int most = 14;
-  return std::min(options.insertion_rounds * (bisections_left + 1),
-                  std::max(options.insertion_rounds, most));
-}
-
-/// The tolerance, norm and number of evaluations of all descents but the last of a run with
-/// insertion. \pre the run has insertion rounds and a norm.
-CvtOptions early(const CvtOptions& options);
-
-/// The levels of a run.
-/// \param first number of generators of the start. \param bisections that follow.
-std::vector<CvtLevel> levels_of(const Surface& surface, std::int64_t first, int bisections,
-                                const CvtOptions& options);
-
-/// The next level.
-Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh);
-
-/// A round of insertion and contraction.
-Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh);
-
-/// Sets the factor of the penalty and the demanded spacing from the last evaluation.
-void begin_polish(State& state);
-
-/// Raises the factor.
-void begin_raised(State& state);
+/// Adds a descent that has ended to what was done of its action.
+void add_done(State& state);
 
 } // namespace calotte::cvt_detail

@@ -11,7 +11,7 @@
 
 namespace calotte::cvt_detail {
 
-/// The memory of a method.
+/// Of a descent so far.
 struct Memory {
   /// Of generators, and of the gradient then; oldest first.
   std::vector<base_detail::CompactField> steps, changes;
@@ -20,6 +20,25 @@ struct Memory {
   Points3 laplacian_at;    ///< generators that the graph Laplacian was made for
   int since_laplacian = 0; ///< evaluations
   bool flipped = false;    ///< edges, since then
+  int iterations = 0;      ///< evaluations of the descent
+  int since_restart = 0;   ///< evaluations since its points were changed
+  bool final_rule = false; ///< it has taken over
+  bool stuck = false;      ///< no step lowers the value, as far as the method can tell
+};
+
+/// Where a run is in its actions.
+struct Cursor {
+  std::int32_t action = 0; ///< in CvtReport::actions
+  int times = 0;  ///< what counts of CvtAction::times: a round after a long descent counts for two
+  int idle = 0;   ///< rounds that brought the number of generators no nearer to the level's end
+  int glides = 0; ///< how often dislocations were moved
+};
+
+/// What a polish minimises beside the energy.
+struct Polish {
+  double penalty = 0;          ///< of shapes; 0 before a polish
+  double demanded_spacing = 1; ///< at rho = 1
+  bool descended = true;       ///< the descent before it converged
 };
 
 /// What a CvtState holds.
@@ -32,21 +51,16 @@ struct State {
   std::vector<std::int32_t> id;            ///< of each: its column in the result
   std::vector<std::int32_t> site_of_input; ///< as Mesh's; of the start, or empty after a bisection
   std::int64_t fixed = 0;                  ///< generators with lower ids stay where they are
-  int bisections_left = 0;
-  int rounds_left = 0; ///< of insertion, on this level
-  int idle_rounds =
-      0; ///< of this level: they brought the number of generators no nearer to its end
-  int iterations_of_level = 0;
-  bool final_rule = false;     ///< it has taken over
-  bool stuck = false;          ///< no step lowers the value, as far as the method can tell
-  double penalty = 0;          ///< of shapes, in the polish; 0 before
-  double demanded_spacing = 1; ///< in the polish: at rho = 1
-  int glides = 0;              ///< how often dislocations were moved
-  int since_restart = 0;       ///< evaluations of the descent since its points were changed
-  int raised = 0;              ///< how often the penalty was raised
-  bool descended = true;       ///< the descent before the polish converged
+  Cursor cursor;
+  Polish polish;
   Memory memory;
   CvtReport report;
+
+  /// \pre the report has the actions.
+  const CvtAction& action() const {
+    return report.actions[static_cast<std::size_t>(cursor.action)];
+  }
+  bool in_polish() const { return polish.penalty > 0; }
 };
 
 /// Whether each generator stays where it is; empty if none does.

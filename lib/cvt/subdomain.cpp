@@ -204,12 +204,12 @@ Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& i
   options.norm = Norm::none;
   State state;
   state.points = start;
-  state.penalty = penalty.factor;
+  state.polish.penalty = penalty.factor;
   part.penalise(penalty);
   Descent descent(state, options, part);
   descent.begin();
-  while (descent.here().iteration.energy < infinite && !state.stuck &&
-         !ended(descent.here(), state.iterations_of_level))
+  while (descent.here().iteration.energy < infinite && !state.memory.stuck &&
+         !ended(descent.here(), state.memory.iterations))
     descent.step();
   if (!state.report.iterations.back().accepted)
     descent.restart(); // the subdomain is at a trial

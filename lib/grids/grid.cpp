@@ -29,6 +29,13 @@ constexpr std::array<Word<Start::Kind>, 11> starts{{{"automatic", Start::Kind::a
                                                     {"geodesic", Start::Kind::geodesic},
                                                     {"hexagonal", Start::Kind::hexagonal}}};
 
+constexpr std::array<Word<CvtAction::Kind>, 6> actions{{{"start", CvtAction::Kind::start},
+                                                        {"bisect", CvtAction::Kind::bisect},
+                                                        {"insert", CvtAction::Kind::insert},
+                                                        {"converge", CvtAction::Kind::converge},
+                                                        {"polish", CvtAction::Kind::polish},
+                                                        {"raise", CvtAction::Kind::raise}}};
+
 constexpr std::array<Word<Norm>, 5> norms{{{"l2", Norm::l2},
                                            {"linf", Norm::linf},
                                            {"l2-scaled", Norm::l2_scaled},
@@ -52,18 +59,6 @@ Points3 generators(const Schedule& schedule) {
   return all;
 }
 
-/// \throws Error invalid_argument for a state of a run whose levels are others.
-void require_levels(const Schedule& schedule, const CvtState& state) {
-  const std::vector<CvtLevel>& theirs = state.report().levels;
-  const auto same = [](const CvtLevel& a, const CvtLevel& b) {
-    return a.insertion_rounds == b.insertion_rounds &&
-           (a.insertion_rounds == 0 || a.cells == b.cells);
-  };
-  base_detail::require(std::ranges::equal(theirs, schedule.levels, same),
-                       "the state is of a run with other levels; give the recipe that it was "
-                       "made with, or no state");
-}
-
 CvtCallback callback_of(const ProgressCallback& progress) {
   if (!progress)
     return {};
@@ -80,13 +75,11 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
   const Recipe& recipe = schedule.recipe;
   base_detail::require(
-      !schedule.levels.empty() && recipe.stop.tolerance && recipe.stop.well_centred &&
+      !schedule.actions.empty() && recipe.stop.tolerance && recipe.stop.well_centred &&
           (recipe.start.kind != Start::Kind::multilevel || recipe.start.insertion_rounds),
       "the schedule lacks choices; give one of plan()");
   CvtOptions options = options_of(schedule);
   options.partition = run.partition;
-  if (run.state)
-    require_levels(schedule, *run.state);
   return run.state ? cvt(std::move(*run.state), recipe.surface, options, callback_of(run.progress))
                    : cvt(generators(schedule), recipe.surface, options, callback_of(run.progress));
 }
@@ -101,6 +94,12 @@ std::span<const Word<Method>> method_words() { return methods; }
 
 std::string_view word_of(Start::Kind kind) {
   return std::ranges::find(starts, kind, &Word<Start::Kind>::value)->word;
+}
+
+std::span<const Word<CvtAction::Kind>> action_words() { return actions; }
+
+std::string_view word_of(CvtAction::Kind kind) {
+  return std::ranges::find(actions, kind, &Word<CvtAction::Kind>::value)->word;
 }
 
 std::string_view word_of(Norm norm) {

@@ -203,8 +203,7 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
   recipe.stop.tolerance = tolerance;
   recipe.stop.well_centred = true;
   schedule.first = recipe.start.kind;
-  schedule.levels.resize(1);
-  schedule.levels = levels_of(surface, points.cols(), 0, options_of(schedule));
+  schedule.actions = actions_of(surface, points.cols(), options_of(schedule));
   return schedule;
 }
 

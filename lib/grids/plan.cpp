@@ -315,7 +315,8 @@ FirstLevel first_level(const Schedule& schedule) {
                        fixed);
 }
 
-/// \param schedule with all choices made, but for its levels.
+} // namespace
+
 CvtOptions options_of(const Schedule& schedule, int bisections) {
   const Recipe& recipe = schedule.recipe;
   CvtOptions options;
@@ -336,13 +337,8 @@ CvtOptions options_of(const Schedule& schedule, int bisections) {
   options.merge_within = recipe.merge_within;
   options.fixed = recipe.fixed.cols();
   options.boundary = recipe.boundary;
+  options.actions = schedule.actions;
   return options;
-}
-
-} // namespace
-
-CvtOptions options_of(const Schedule& schedule) {
-  return options_of(schedule, static_cast<int>(schedule.levels.size()) - 1);
 }
 
 } // namespace grids_detail
@@ -372,8 +368,8 @@ Schedule plan(Recipe recipe) {
   const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
   const CvtOptions options = options_of(schedule, first.bisections);
-  schedule.levels = levels_of(all.surface, first.cells, first.bisections, options);
   cvt_detail::require_options(options);
+  schedule.actions = actions_of(all.surface, first.cells, options);
   return schedule;
 }
 

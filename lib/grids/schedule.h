@@ -9,7 +9,7 @@
 namespace calotte::grids_detail {
 
 /// The options of the descents of a schedule; without the partition.
-/// \pre the recipe has its choices made.
-CvtOptions options_of(const Schedule& schedule);
+/// \param bisections that its actions hold. \pre the recipe has its choices made.
+CvtOptions options_of(const Schedule& schedule, int bisections = 0);
 
 } // namespace calotte::grids_detail

@@ -179,10 +179,10 @@ FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
 Points3 free_generators(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   const Surface& surface = recipe.surface;
-  const std::int64_t count = schedule.levels.front().cells - recipe.fixed.cols();
+  const std::int64_t count = schedule.actions.front().cells - recipe.fixed.cols();
   const Density sites = site_density(schedule.density, surface);
   if (recipe.start.kind == Start::Kind::multilevel)
-    return free_points(count, schedule.levels.front().cells, recipe.fixed, surface, sites,
+    return free_points(count, schedule.actions.front().cells, recipe.fixed, surface, sites,
                        recipe.seed);
   switch (schedule.first) {
   case Start::Kind::geodesic:

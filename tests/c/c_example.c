@@ -411,8 +411,9 @@ static void recipes(void) {
 
 static void plans(void) {
   const double x[] = {0, 180}, y[] = {-90, 0, 90}, km[] = {300, 300, 400, 400, 500, 500};
-  int64_t cells[14], rounds[14], iterations[14];
-  double tolerance[14];
+  const char* kind[31];
+  int64_t cells[31], times[31], iterations[31];
+  double tolerance[31];
   calotte_recipe recipe = {.size = sizeof recipe,
                            .widths = km,
                            .widths_x = x,
@@ -420,23 +421,26 @@ static void plans(void) {
                            .widths_nx = 2,
                            .widths_ny = 3};
   calotte_schedule schedule = {.size = sizeof schedule,
-                               .level_capacity = 14,
-                               .level_cells = cells,
-                               .level_rounds = rounds,
-                               .level_tolerance = tolerance,
-                               .level_iterations = iterations};
+                               .action_capacity = 31,
+                               .action_kind = kind,
+                               .action_cells = cells,
+                               .action_times = times,
+                               .action_tolerance = tolerance,
+                               .action_iterations = iterations};
   succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
-  expect(schedule.levels >= 1 && schedule.levels <= 14, "its levels");
-  expect(cells[schedule.levels - 1] == schedule.cells, "the last level has the cells");
+  expect(schedule.actions >= 5 && schedule.actions <= 31, "its actions");
+  expect(strcmp(kind[0], "start") == 0, "the first action");
+  expect(strcmp(kind[schedule.actions - 1], "raise") == 0, "the last action");
+  expect(cells[schedule.actions - 1] == schedule.cells, "the last action has the cells");
   expect(fabs((double)schedule.cells - schedule.implied_cells) <= 0.5, "as many as implied");
   expect(strcmp(schedule.start, "multilevel") == 0 && schedule.first != NULL, "its start");
-  expect(schedule.insertion_rounds == 1 && rounds[schedule.levels - 1] == 1, "its rounds");
+  expect(schedule.insertion_rounds == 1 && times[schedule.actions - 4] == 1, "its rounds");
   expect(schedule.well_centred == 1 && schedule.tolerance == 1e-4, "its end");
   expect(tolerance[0] > 0 && iterations[0] > 0 && schedule.fixed == 0, "its descents");
-  schedule.level_capacity = 0;
+  schedule.action_capacity = 0;
   cells[0] = -7;
-  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan without levels");
-  expect(cells[0] == -7 && schedule.levels >= 1, "no array is filled beyond its length");
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan without actions");
+  expect(cells[0] == -7 && schedule.actions >= 5, "no array is filled beyond its length");
   recipe.earth_radius_km = 6371. / 2;
   succeeds(calotte_plan(&recipe, &schedule, &error), "half the radius");
   expect(fabs(schedule.implied_cells * 4 - (double)schedule.cells * 4) <= 2, "a quarter of cells");
@@ -446,8 +450,8 @@ static void plans(void) {
   recipe.density = density;
   refuses(calotte_plan(&recipe, &schedule, &error), "several of a density, widths");
   recipe.density = NULL;
-  schedule.level_capacity = -1;
-  refuses(calotte_plan(&recipe, &schedule, &error), "level_capacity");
+  schedule.action_capacity = -1;
+  refuses(calotte_plan(&recipe, &schedule, &error), "action_capacity");
   schedule.size = 0;
   refuses(calotte_plan(&recipe, &schedule, &error), "sizeof(calotte_schedule)");
 }

@@ -147,10 +147,10 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   cvt(random_start(160, x8()), {}, options, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
     const cvt_detail::State& state = cvt_detail::State::of(now.state);
-    if (state.penalty > 0 || !here.accepted) // a polish minimises another function
+    if (state.in_polish() || !here.accepted) // a polish minimises another function
       return false;
-    const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left, state.glides);
-    const bool same = now.iterations_of_level > 1 && now_in == rule_and_stage;
+    const std::tuple now_in(here.rule, now.bisections_left, now.rounds_left, state.cursor.glides);
+    const bool same = now.iterations_of_descent > 1 && now_in == rule_and_stage;
     if (same)
       CHECK(here.energy <= before * (1 + 1e-7));
     (same ? steps : descents) += 1;
@@ -207,7 +207,7 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
     states.push_back(now.state);
     return false;
   });
-  REQUIRE(cvt_detail::State::of(states.back()).penalty > 0);
+  REQUIRE(cvt_detail::State::of(states.back()).in_polish());
   REQUIRE(states.size() > 40);
   constexpr std::size_t stride = test::sanitized ? 38 : 19;
   for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? stride : 1) {
@@ -288,7 +288,7 @@ TEST_CASE("stages: a round after a descent of more than 25 evaluations counts fo
         left = now.rounds_left;
         ++count;
       }
-      evaluations = now.iterations_of_level;
+      evaluations = now.iterations_of_descent;
       return false;
     });
     CHECK(left == 0);

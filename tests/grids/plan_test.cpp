@@ -19,6 +19,15 @@ using namespace calotte::test;
 
 namespace {
 
+using Kind = CvtAction::Kind;
+
+/// The rounds of the last level.
+int last_rounds(const Schedule& schedule) {
+  const auto at = std::ranges::find(schedule.actions.rbegin(), schedule.actions.rend(),
+                                    Kind::insert, &CvtAction::kind);
+  return at == schedule.actions.rend() ? 0 : at->times;
+}
+
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Surface part() { return circle({1, 1, 1}, 20 * degree); }
@@ -75,7 +84,7 @@ TEST_CASE("plan: the start follows from density, surface and fixed generators") 
   recipe.cells = 500;
   recipe.fixed = random_sphere(3);
   CHECK(kind(recipe) == Start::Kind::multilevel);
-  CHECK(plan(recipe).levels.back().insertion_rounds == 3);
+  CHECK(last_rounds(plan(recipe)) == 3);
   recipe.stop.iterations = 20;
   CHECK(kind(recipe) == Start::Kind::density);
   recipe = {};
@@ -85,7 +94,7 @@ TEST_CASE("plan: the start follows from density, surface and fixed generators") 
   recipe.cells = 0;
   recipe.start.points = random_sphere(100);
   CHECK(kind(recipe) == Start::Kind::points);
-  CHECK(plan(recipe).levels.front().cells == 100);
+  CHECK(plan(recipe).actions.front().cells == 100);
 }
 
 TEST_CASE("plan: a run that follows widths ends well-centred, at a wider tolerance") {
@@ -102,28 +111,38 @@ TEST_CASE("plan: a run that follows widths ends well-centred, at a wider toleran
   CHECK(plan(recipe).recipe.stop.tolerance == 1e-3);
 }
 
-TEST_CASE("plan: levels lead from a coarse grid to the number of cells") {
+TEST_CASE("plan: actions lead from a coarse grid to the number of cells") {
   Recipe recipe;
   recipe.cells = 40962;
   recipe.resolution = test::x8();
-  const Schedule schedule = plan(recipe);
-  REQUIRE(schedule.levels.size() > 2);
-  CHECK(schedule.levels.back().cells == 40962);
-  for (std::size_t k = 1; k < schedule.levels.size(); ++k) {
-    const CvtLevel &coarse = schedule.levels[k - 1], &fine = schedule.levels[k];
-    CHECK(std::abs(fine.cells - 4 * coarse.cells) <= 8);
-    CHECK(fine.insertion_rounds < coarse.insertion_rounds);
-    CHECK(fine.tolerance == 1e-3);
+  const std::vector<CvtAction> actions = plan(recipe).actions;
+  REQUIRE(actions.size() > 7);
+  CHECK(actions.front().kind == Kind::start);
+  for (std::size_t k = 1; actions[k].kind != Kind::converge; k += 2) {
+    CHECK(actions[k].kind == Kind::insert);
+    CHECK(actions[k].cells == actions[k - 1].cells);
+    CHECK(actions[k].tolerance == 1e-3);
+    if (actions[k + 1].kind == Kind::bisect) {
+      CHECK(std::abs(actions[k + 2].cells - 4 * actions[k].cells) <= 8);
+      CHECK(actions[k + 2].times < actions[k].times);
+    }
   }
-  const Schedule bisected = plan(with(Start::Kind::icosahedron, 642));
-  CHECK(bisected.levels.size() == 1);
+  REQUIRE(actions.end()[-3].kind == Kind::converge);
+  CHECK(actions.end()[-3].cells == 40962);
+  CHECK(actions.end()[-3].tolerance == 1e-4);
+  CHECK(actions.end()[-2].kind == Kind::polish);
+  CHECK(actions.back().kind == Kind::raise);
+  CHECK(plan(with(Start::Kind::icosahedron, 642)).actions.size() == 1);
   recipe = with(Start::Kind::icosahedron, 642);
   recipe.start.bisections = 2;
-  CHECK(plan(recipe).levels.front().cells == 42);
-  CHECK(plan(recipe).levels.back().cells == 642);
+  const Schedule bisected = plan(recipe);
+  REQUIRE(bisected.actions.size() == 3);
+  CHECK(bisected.actions.front().cells == 42);
+  CHECK(bisected.actions.back().kind == Kind::bisect);
+  CHECK(bisected.actions.back().cells == 642);
 }
 
-TEST_CASE("plan: the levels are those of the run") {
+TEST_CASE("plan: the actions are those of the run") {
   Recipe recipe;
   recipe.cells = 800;
   recipe.resolution = test::x8();
@@ -131,11 +150,22 @@ TEST_CASE("plan: the levels are those of the run") {
     recipe.surface = surface;
     const Schedule schedule = plan(recipe);
     const Cvt grid = make_grid(schedule);
-    REQUIRE(grid.report.levels.size() == schedule.levels.size());
-    for (std::size_t k = 0; k < schedule.levels.size(); ++k) {
-      CHECK(grid.report.levels[k].cells == schedule.levels[k].cells);
-      CHECK(grid.report.levels[k].insertion_rounds == schedule.levels[k].insertion_rounds);
+    REQUIRE(grid.report.actions.size() == schedule.actions.size());
+    REQUIRE(grid.report.done.size() == schedule.actions.size());
+    std::int64_t iterations = 0;
+    for (std::size_t k = 0; k < schedule.actions.size(); ++k) {
+      const CvtAction &planned = schedule.actions[k], &made = grid.report.actions[k];
+      const CvtDone& done = grid.report.done[k];
+      CHECK(made.kind == planned.kind);
+      CHECK(made.cells == planned.cells);
+      CHECK(made.times == planned.times);
+      CHECK((done.times > 0 || planned.kind == Kind::raise));
+      CHECK((done.times <= planned.times || planned.kind == Kind::insert));
+      if (planned.kind == Kind::insert)
+        CHECK(done.cells == doctest::Approx(planned.cells).epsilon(0.1));
+      iterations += done.iterations;
     }
+    CHECK(iterations == std::ssize(grid.report.iterations));
     CHECK(grid.mesh.points.cols() == 800);
     CHECK(grid.mesh.surface == surface);
     CHECK(grid.report.converged);

@@ -45,9 +45,15 @@ State some_state() {
     state.id.push_back((7 * i) % 30);
   for (int i = 0; i < 33; ++i)
     state.site_of_input.push_back(i % 30);
-  state.bisections_left = 2;
-  state.iterations_of_level = 17;
-  state.final_rule = true;
+  state.cursor = {.action = 1, .times = 2, .idle = 3, .glides = 4};
+  state.polish = {.penalty = 0.25, .demanded_spacing = 1.5, .descended = false};
+  state.memory.iterations = 17;
+  state.memory.since_restart = 16;
+  state.memory.final_rule = true;
+  state.memory.stuck = true;
+  state.report.actions = {{CvtAction::Kind::start, 12, 1, Norm::linf, 1e-3, 75},
+                          {CvtAction::Kind::insert, 30, 14, Norm::l2_scaled, 1e-4, 76}};
+  state.report.done = {{1, 20, 12}, {2, 17, 29}};
   for (std::uint64_t seed = 2; seed < 5; ++seed) {
     state.memory.steps.push_back(base_detail::compacted(random_sphere(30, seed), 30));
     state.memory.changes.push_back(base_detail::compacted(-0.5 * random_sphere(30, seed), 7.5));
@@ -108,16 +114,40 @@ void check_restored(const Memory& a, const Memory& b) {
   CHECK(equal(a.laplacian_at, b.laplacian_at));
   CHECK(a.since_laplacian == b.since_laplacian);
   CHECK(a.flipped == b.flipped);
+  CHECK(a.iterations == b.iterations);
+  CHECK(a.since_restart == b.since_restart);
+  CHECK(a.final_rule == b.final_rule);
+  CHECK(a.stuck == b.stuck);
 }
 
 void check_restored(const State& a, const State& b) {
   CHECK(equal(a.points, b.points));
   CHECK(a.id == b.id);
   CHECK(a.site_of_input == b.site_of_input);
-  CHECK(a.bisections_left == b.bisections_left);
-  CHECK(a.iterations_of_level == b.iterations_of_level);
-  CHECK(a.final_rule == b.final_rule);
+  CHECK(a.cursor.action == b.cursor.action);
+  CHECK(a.cursor.times == b.cursor.times);
+  CHECK(a.cursor.idle == b.cursor.idle);
+  CHECK(a.cursor.glides == b.cursor.glides);
+  CHECK(a.polish.penalty == b.polish.penalty);
+  CHECK(a.polish.demanded_spacing == b.polish.demanded_spacing);
+  CHECK(a.polish.descended == b.polish.descended);
   check_restored(a.memory, b.memory);
+  REQUIRE(a.report.actions.size() == b.report.actions.size());
+  for (std::size_t k = 0; k < a.report.actions.size(); ++k) {
+    const CvtAction &now = a.report.actions[k], &before = b.report.actions[k];
+    CHECK(now.kind == before.kind);
+    CHECK(now.cells == before.cells);
+    CHECK(now.times == before.times);
+    CHECK(now.norm == before.norm);
+    CHECK(now.tolerance == before.tolerance);
+    CHECK(now.max_iterations == before.max_iterations);
+  }
+  REQUIRE(a.report.done.size() == b.report.done.size());
+  for (std::size_t k = 0; k < a.report.done.size(); ++k) {
+    CHECK(a.report.done[k].times == b.report.done[k].times);
+    CHECK(a.report.done[k].iterations == b.report.done[k].iterations);
+    CHECK(a.report.done[k].cells == b.report.done[k].cells);
+  }
   CHECK(a.report.converged == b.report.converged);
   CHECK(a.report.residual == b.report.residual);
   CHECK(a.report.seconds == b.report.seconds);
@@ -216,7 +246,7 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
     });
     REQUIRE(states.size() > 10);
     const auto ruled = std::find_if(states.begin(), states.end(), [](const CvtState& state) {
-      return State::of(state).final_rule;
+      return State::of(state).memory.final_rule;
     });
     std::set<std::ptrdiff_t> places{
         0, 1, 2, ruled - states.begin() - 1, ruled - states.begin(), ruled - states.begin() + 1};

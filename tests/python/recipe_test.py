@@ -149,8 +149,10 @@ def test_a_plan_is_what_runs():
                   {"start": 200, "surface": "circle=0,0,20deg"},
                   {"start": 642, "kind": "icosahedron", "bisections": 2, "iterations": 3}):
         plan, grid = calotte.plan(**words), calotte.cvt(**words)
-        assert plan.levels == grid.levels and plan.cells == len(grid.mesh)
-        assert plan.levels[-1].cells == plan.cells
+        assert [(a.kind, a.cells, a.times, a.tolerance) for a in plan.actions] == [
+            (a.kind, a.cells, a.times, a.tolerance) for a in grid.actions]
+        assert plan.cells == len(grid.mesh) == plan.actions[-1].cells
+        assert sum(a.iterations for a in grid.actions) == grid.iterations
         assert plan.widths is None and np.isnan(plan.least_km)
     assert calotte.plan(start=calotte.random_points(50)).kind == "points"
     plan = calotte.plan(200.0, surface="circle=0,0,20deg", limited_area=True)

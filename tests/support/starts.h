@@ -5,6 +5,7 @@
 
 #include <calotte/grid.h>
 
+#include <algorithm>
 #include <cstdint>
 
 /// The first levels of runs, for tests that make the descents themselves.
@@ -18,7 +19,9 @@ struct FirstGenerators {
 
 inline FirstGenerators first_generators(const Recipe& recipe) {
   const Schedule schedule = plan(recipe);
-  return {grids_detail::free_generators(schedule), static_cast<int>(schedule.levels.size()) - 1,
+  return {grids_detail::free_generators(schedule),
+          static_cast<int>(
+              std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind)),
           schedule.first == Start::Kind::icosahedron};
 }
 

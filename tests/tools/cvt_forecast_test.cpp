@@ -14,16 +14,18 @@ namespace {
 /// The progress of a run, with a report of its own.
 struct Standing {
   CvtReport report;
-  int iterations_of_level = 0, bisections_left = 0;
+  int iterations_of_descent = 0, bisections_left = 0;
   CvtState state;
 
-  operator CvtProgress() const { return {report, iterations_of_level, bisections_left, 0, state}; }
+  operator CvtProgress() const {
+    return {report, iterations_of_descent, bisections_left, 0, state};
+  }
 };
 
 /// A level of iterations of two seconds each whose norms are factor^k.
 Standing decaying(int iterations, double factor) {
   Standing state;
-  state.iterations_of_level = iterations;
+  state.iterations_of_descent = iterations;
   for (int k = 0; k < iterations; ++k) {
     CvtIteration iteration;
     iteration.cells = 12;
@@ -42,12 +44,26 @@ Schedule one_level(double tolerance) {
   schedule.recipe.stop.norm = Norm::l2;
   schedule.recipe.stop.tolerance = tolerance;
   schedule.recipe.stop.well_centred = false;
-  schedule.levels.resize(1);
+  schedule.actions = {{.kind = CvtAction::Kind::start,
+                       .norm = Norm::l2,
+                       .tolerance = tolerance,
+                       .max_iterations = 1000}};
   return schedule;
 }
 
-const std::vector<CvtLevel> rounds_of_insertion{
-    {12, 3, 1e-3, 75}, {12, 2, 1e-3, 75}, {12, 1, 1e-3, 75}};
+/// Three levels with three, two and one round, in the norm of a schedule.
+std::vector<CvtAction> with_rounds(const Schedule& schedule) {
+  std::vector<CvtAction> actions;
+  for (const int rounds : {3, 2, 1})
+    for (const bool insert : {false, true}) {
+      CvtAction& action = actions.emplace_back(schedule.actions.front());
+      action.kind = insert        ? CvtAction::Kind::insert
+                    : rounds == 3 ? CvtAction::Kind::start
+                                  : CvtAction::Kind::bisect;
+      action.times = insert ? rounds : 1;
+    }
+  return actions;
+}
 
 } // namespace
 
@@ -90,9 +106,9 @@ TEST_CASE("there is no prediction from few iterations, or from those of another 
   DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
   CHECK(!forecast(decaying(9, 0.9), end_of_descent));
   Standing next = decaying(50, 0.9);
-  next.iterations_of_level = 9;
+  next.iterations_of_descent = 9;
   CHECK(!forecast(next, end_of_descent));
-  next.iterations_of_level = 0;
+  next.iterations_of_descent = 0;
   CHECK(!forecast(next, end_of_descent));
 }
 
@@ -144,7 +160,8 @@ TEST_CASE("the time left is a range that holds the levels that follow") {
   CHECK(left->least == doctest::Approx(0.7 * rest));
   CHECK(left->most == doctest::Approx(1.4 * rest));
   state.bisections_left = 2;
-  schedule.levels = rounds_of_insertion; // two descents on the last level, three and four before it
+  schedule.actions =
+      with_rounds(schedule); // two descents on the last level, three and four before it
   left = remaining(state, schedule);
   REQUIRE(left);
   CHECK(left->least < left->most);
@@ -164,7 +181,7 @@ TEST_CASE("the time left follows the wall clock, of which evaluations are a part
   CHECK(busy->least == doctest::Approx(3 * idle->least));
   CHECK(busy->most == doctest::Approx(3 * idle->most));
   state.bisections_left = 2;
-  schedule.levels = rounds_of_insertion;
+  schedule.actions = with_rounds(schedule);
   const auto levels = remaining(state, schedule);
   state.report.seconds = 0;
   CHECK(levels->most == doctest::Approx(3 * remaining(state, schedule)->most));
@@ -174,7 +191,7 @@ TEST_CASE("progress names the level, the norm and the prediction") {
   Standing state = decaying(101, 0.9);
   state.bisections_left = 2;
   Schedule schedule = one_level(std::pow(0.9, 110));
-  schedule.levels.resize(3);
+  schedule.actions.resize(3, {.kind = CvtAction::Kind::bisect});
   CHECK(describe(state, schedule)
             .starts_with("12 cells, iteration 101, l2 2.66e-05 of 9e-06, energy x cells 0, then 2 "
                          "finer levels, "));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 namespace calotte::tools {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::size_t fewest = 10, most = 500;
 /// The last iterations of the current level; empty if there are too few.
 std::span<const CvtIteration> recent(const CvtProgress& progress) {
   const std::span all(progress.report.iterations);
-  const auto level = std::min(all.size(), static_cast<std::size_t>(progress.iterations_of_level));
+  const auto level = std::min(all.size(), static_cast<std::size_t>(progress.iterations_of_descent));
   return level < fewest ? all.last(0) : all.last(std::clamp(level / 2, fewest, most));
 }
 
@@ -69,7 +70,7 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& 
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
   // The trials of the last step may exceed the limit.
-  const double to_limit = std::max(end.max_iterations - progress.iterations_of_level, 0);
+  const double to_limit = std::max(end.max_iterations - progress.iterations_of_descent, 0);
   if (end.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
   const Decay decay = fit(iterations, end.norm);
@@ -104,45 +105,40 @@ double spent_on_level(const CvtProgress& progress) {
   return seconds;
 }
 
-DescentEnd end_of(const Stop& stop) {
-  return stop.iterations ? DescentEnd{Norm::none, 0, *stop.iterations}
-                         : DescentEnd{stop.norm, *stop.tolerance, stop.max_iterations};
+/// The action whose descent runs.
+const CvtAction& action_of(const CvtProgress& progress, const Schedule& schedule) {
+  const std::size_t begun = std::max<std::size_t>(progress.report.done.size(), 1);
+  return schedule.actions[std::min(begun, schedule.actions.size()) - 1];
 }
 
-/// The end of the current descent.
-DescentEnd end_of(const CvtProgress& progress, const Schedule& schedule) {
-  const CvtLevel& level = schedule.levels.end()[-1 - std::ptrdiff_t{progress.bisections_left}];
-  const bool last = progress.bisections_left == 0 && progress.rounds_left == 0;
-  if (last || level.insertion_rounds == 0 || schedule.recipe.stop.iterations)
-    return end_of(schedule.recipe.stop);
-  return {Norm::l2_scaled, level.tolerance, level.max_iterations};
-}
-
-/// The time of the next level over that of the current one: four times for four times as many
-/// cells, less for its fewer rounds of insertion.
-double next_level(int bisections_left, const Schedule& schedule) {
-  const auto descents = [&](int left) {
-    return 1.0 + schedule.levels.end()[-1 - std::ptrdiff_t{left}].insertion_rounds;
-  };
-  return 4 * descents(bisections_left - 1) / descents(bisections_left);
+/// The descents of each level, from the coarsest.
+std::vector<int> descents_of(const Schedule& schedule) {
+  std::vector<int> descents;
+  for (const CvtAction& action : schedule.actions)
+    if (action.kind == CvtAction::Kind::start || action.kind == CvtAction::Kind::bisect)
+      descents.push_back(1);
+    else if (action.kind == CvtAction::Kind::insert)
+      descents.back() += action.times;
+  return descents;
 }
 
 } // namespace
 
 std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule) {
-  const bool inserts = schedule.levels.back().insertion_rounds > 0;
-  const bool last = progress.bisections_left == 0 && progress.rounds_left == 0;
-  const auto descent = forecast(progress, end_of(progress, schedule));
+  const CvtAction& action = action_of(progress, schedule);
+  const auto descent = forecast(progress, {action.norm, action.tolerance, action.max_iterations});
   if (!descent)
     return std::nullopt;
   const double scale = pace(progress);
-  if (last && !inserts)
+  const std::vector<int> descents = descents_of(schedule);
+  if (progress.bisections_left == 0 && progress.rounds_left == 0 && descents.back() == 1)
     return Remaining{0.7 * scale * descent->seconds, 1.4 * scale * descent->seconds};
-  double level = spent_on_level(progress) + descent->seconds, later = descent->seconds;
-  later += progress.rounds_left * descent->seconds;
-  level += progress.rounds_left * descent->seconds;
-  for (int left = progress.bisections_left; left > 0; --left)
-    later += level *= next_level(left, schedule);
+  double later = (1 + progress.rounds_left) * descent->seconds;
+  double level = spent_on_level(progress) + later;
+  // Four times for four times as many cells, less for fewer rounds of insertion.
+  for (auto k = std::ssize(descents) - progress.bisections_left; k < std::ssize(descents); ++k)
+    later += level *=
+        4.0 * descents[static_cast<std::size_t>(k)] / descents[static_cast<std::size_t>(k - 1)];
   if (*schedule.recipe.stop.well_centred)
     later += 0.2 * level;
   return Remaining{0.5 * scale * later, 2 * scale * later};
@@ -152,7 +148,7 @@ std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   const Stop& stop = schedule.recipe.stop;
   const CvtIteration& last = progress.report.iterations.back();
   std::string text = std::to_string(last.cells) + " cells, iteration " +
-                     std::to_string(progress.iterations_of_level);
+                     std::to_string(progress.iterations_of_descent);
   const bool polishes = last.shape_excess > 0;
   if (polishes)
     text += formatted(", shapes %.2g beyond their limits", last.shape_excess);

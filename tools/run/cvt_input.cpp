@@ -208,12 +208,14 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                     (schedule.on_lines > 0 ? " fixed generators" : " fixed points") +
                     " leave room for " + std::to_string(cells - fixed) +
                     " free ones: " + std::to_string(cells) + " cells");
+  const auto bisections = static_cast<std::size_t>(
+      std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind));
   if (schedule.recipe.start.kind == Start::Kind::continuation &&
       schedule.first == Start::Kind::density)
-    notes.push_back(
-        std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " +
-        std::to_string(schedule.levels.front().cells) + " points drawn from the density" +
-        (schedule.levels.size() > 1 ? ", bisected " + times(schedule.levels.size() - 1) : ""));
+    notes.push_back(std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " +
+                    std::to_string(schedule.actions.front().cells) +
+                    " points drawn from the density" +
+                    (bisections > 0 ? ", bisected " + times(bisections) : ""));
   return notes;
 }
 

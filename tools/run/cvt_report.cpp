@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/cvt_report.h"
 
+#include "run/cvt_actions.h"
 #include "text/text.h"
 
 #include <calotte/version.h>
@@ -34,11 +35,16 @@ Json to_json(const CvtIteration& iteration) {
           {"seconds_solver", iteration.seconds_solver}};
 }
 
-Json to_json(const CvtLevel& level) {
-  return {{"cells", level.cells},
-          {"insertion_rounds", level.insertion_rounds},
-          {"tolerance", level.tolerance},
-          {"max_iterations", level.max_iterations}};
+/// With what was done of each.
+Json actions_of(const CvtReport& report) {
+  Json array = Json::array();
+  for (std::size_t k = 0; k < report.actions.size(); ++k) {
+    const CvtDone done = k < report.done.size() ? report.done[k] : CvtDone{};
+    Json& action = array.emplace_back(json_of(report.actions[k]));
+    action["done"] = {
+        {"times", done.times}, {"iterations", done.iterations}, {"cells", done.cells}};
+  }
+  return array;
 }
 
 Json to_json(const CvtRegion& region) {
@@ -83,7 +89,7 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
   json["area"] = area;
   json["threads"] = threads;
   json["seconds"] = report.seconds;
-  json["levels"] = array_of(report.levels);
+  json["actions"] = actions_of(report);
   json["iterations"] = array_of(report.iterations);
   json["regions"] = array_of(report.regions);
   if (!states.empty())

@@ -28,7 +28,7 @@ constexpr std::string_view checkpoint_format = "calotte checkpoint ";
 
 std::string checkpoint_head() {
   std::string line(checkpoint_format);
-  line += "14, ";
+  line += "15, ";
   line += little_endian ? "little" : "big";
   line += "-endian\n";
   return line;
@@ -48,17 +48,23 @@ template <class Region, class Visit> void visit_region(Region& r, const Visit& v
   visit(r.sites), visit(r.seconds);
 }
 
-template <class Level, class Visit> void visit_level(Level& l, const Visit& visit) {
-  visit(l.cells), visit(l.insertion_rounds), visit(l.tolerance), visit(l.max_iterations);
+template <class Action, class Visit> void visit_action(Action& a, const Visit& visit) {
+  visit(a.kind), visit(a.cells), visit(a.times), visit(a.norm), visit(a.tolerance),
+      visit(a.max_iterations);
+}
+
+template <class Done, class Visit> void visit_done(Done& d, const Visit& visit) {
+  visit(d.times), visit(d.iterations), visit(d.cells);
 }
 
 template <class State, class Visit> void visit_scalars(State& s, const Visit& visit) {
-  visit(s.fixed), visit(s.bisections_left), visit(s.rounds_left), visit(s.idle_rounds),
-      visit(s.iterations_of_level);
-  visit(s.final_rule), visit(s.stuck), visit(s.glides), visit(s.since_restart), visit(s.raised),
-      visit(s.penalty), visit(s.demanded_spacing), visit(s.descended);
+  visit(s.fixed);
+  visit(s.cursor.action), visit(s.cursor.times), visit(s.cursor.idle), visit(s.cursor.glides);
+  visit(s.polish.penalty), visit(s.polish.demanded_spacing), visit(s.polish.descended);
+  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.stride),
+      visit(s.memory.iterations), visit(s.memory.since_restart), visit(s.memory.final_rule),
+      visit(s.memory.stuck);
   visit(s.report.converged), visit(s.report.residual), visit(s.report.seconds);
-  visit(s.memory.since_laplacian), visit(s.memory.flipped), visit(s.memory.stride);
 }
 
 /// What follows an array's length: points, ids, or a list of points.
@@ -97,9 +103,12 @@ void put_checkpoint(const Sink& sink, const State& state, const std::string& con
   out.raw(std::ssize(command)).text(command);
   visit_arrays(state, Put{&out});
   visit_scalars(state, raw);
-  out.raw(std::ssize(state.report.levels));
-  for (const CvtLevel& level : state.report.levels)
-    visit_level(level, raw);
+  out.raw(std::ssize(state.report.actions));
+  for (const CvtAction& action : state.report.actions)
+    visit_action(action, raw);
+  out.raw(std::ssize(state.report.done));
+  for (const CvtDone& done : state.report.done)
+    visit_done(done, raw);
   out.raw(std::ssize(state.report.iterations));
   for (const CvtIteration& iteration : state.report.iterations)
     visit_iteration(iteration, raw);
@@ -166,7 +175,9 @@ State take_state(Bytes& bytes) {
   const Take take{&bytes};
   visit_scalars(state, take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)
-    visit_level(state.report.levels.emplace_back(), take);
+    visit_action(state.report.actions.emplace_back(), take);
+  for (std::int64_t k = take_count(bytes); k > 0; --k)
+    visit_done(state.report.done.emplace_back(), take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)
     visit_iteration(state.report.iterations.emplace_back(), take);
   for (std::int64_t k = take_count(bytes); k > 0; --k)

@@ -18,7 +18,7 @@ import importlib
 from . import _display, _mesh, widths  # add the methods that are written in Python
 from ._calotte import (CellWidth, Check, Density, Error, Locations, Mesh, OperatorErrors, Polygons,
                        Quality, Raster, Surface, Voronoi, Widths, __version__)
-from ._functions import (ChangedMesh, ChangedPatch, Cvt, Level, Plan, Weights, bisect,
+from ._functions import (Action, ChangedMesh, ChangedPatch, Cvt, Plan, Weights, bisect,
                          bisected_icosahedron, channel, check, circle, coarsen, cubed_sphere,
                          cull, cut, cvt, delaunay, density, ellipse, fibonacci_sphere,
                          from_lonlat, geodesic_sphere, hexagonal_lattice, interpolate,
@@ -29,7 +29,7 @@ from ._functions import (ChangedMesh, ChangedPatch, Cvt, Level, Plan, Weights, b
                          voronoi, write)
 
 __all__ = [
-    "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error", "Level",
+    "Action", "CellWidth", "ChangedMesh", "ChangedPatch", "Check", "Cvt", "Density", "Error",
     "Locations", "Mesh", "OperatorErrors", "Plan", "Polygons", "Quality", "Raster", "Surface",
     "Voronoi", "Weights", "Widths", "__version__", "bisect", "bisected_icosahedron", "channel",
     "check", "circle", "coarsen", "cubed_sphere", "cull", "cut", "cvt", "delaunay", "density",

@@ -410,19 +410,29 @@ def interpolate(mesh: Grid | Raster, values: ArrayLike, positions: ArrayLike | G
 # ---- Centroidal Voronoi tessellations
 
 @dataclass(frozen=True)
-class Level:
-    """A level of a run: descents of grids with about the same number of cells.
+class Action:
+    """A step of a run: what happens to the generators, and the descent that follows.
 
+    kind: start (its generators), bisect (one more at the midpoint of each edge), insert (a round of
+        insertion and contraction), converge (the descent to the end), polish (shapes come within
+        their limits), raise (with a larger penalty, where it fell short).
     cells: at its end.
-    insertion_rounds: the largest number of rounds of insertion and contraction.
-    tolerance: at which its descents end, but for the last one of a run; 0 with iterations.
-    max_iterations: of a descent.
+    times: how often, at most.
+    norm: of each descent.
+    tolerance: of this norm; 0 with iterations, and in a polish.
+    max_iterations: of each descent.
+    done: how often the run did it; 0 for one that was left out, and of a plan.
+    iterations: of all its descents.
     """
 
+    kind: str
     cells: int
-    insertion_rounds: int
+    times: int
+    norm: str
     tolerance: float
     max_iterations: int
+    done: int = 0
+    iterations: int = 0
 
 
 @dataclass(frozen=True, repr=False)
@@ -436,11 +446,11 @@ class Cvt:
     worst_cell: the cell farthest beyond them; -1 for none.
     residual: the norm at the end, relative to the spacing of the cells.
     energy: at the end: integral of density times squared distance from the generator.
-    iterations: their number, on all levels.
+    iterations: their number, of all actions.
     seconds: of wall-clock time.
     energies: by iteration.
     norms: by iteration, l2-scaled.
-    levels: of the run, from the coarsest; see Level.
+    actions: of the run, in order; see Action.
     cells: with walls the Polygons between them; otherwise None.
     """
 
@@ -455,7 +465,7 @@ class Cvt:
     seconds: float
     energies: Array
     norms: Array
-    levels: tuple[Level, ...] = ()
+    actions: tuple[Action, ...] = ()
     cells: Polygons | None = None
 
     def _grid(self) -> Any:
@@ -490,7 +500,7 @@ class Plan:
     """What a run would do, of plan().
 
     cells: their number.
-    levels: of the run, from the coarsest; see Level.
+    actions: of the run, in order; see Action.
     kind: of its start; see cvt().
     widths: the least and the greatest, km, in a plane in its unit; None without widths.
     gradient: the largest of the widths, km per km; most models need less than 0.03. None in a plane
@@ -499,7 +509,7 @@ class Plan:
     """
 
     cells: int
-    levels: tuple[Level, ...]
+    actions: tuple[Action, ...]
     kind: str
     widths: tuple[float, float] | None = None
     gradient: float | None = None
@@ -519,7 +529,7 @@ class Plan:
         unit = "" if self.gradient is None else " km"
         widths = "" if self.widths is None else f", {self.widths[0]:.4g} to {self.widths[1]:.4g}{unit}"
         return (f"<calotte.Plan: {_display.counted(self.cells, 'cell')}, start {self.kind}, "
-                f"{_display.counted(len(self.levels), 'level')}{widths}>")
+                f"{_display.counted(len(self.actions), 'action')}{widths}>")
 
     def _width(self, k: int) -> float:
         return math.nan if self.widths is None else self.widths[k]
@@ -527,19 +537,19 @@ class Plan:
 
 def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
          earth_radius: float = EARTH_RADIUS_KM, **options: Any) -> Plan:
-    """What cvt() would do with the same arguments: cells, levels, and what the widths demand.
+    """What cvt() would do with the same arguments: cells, actions, and what the widths demand.
 
     options: other arguments of cvt(), such as start and density.
 
     >>> plan(120.0).cells
     40962
-    >>> [level.cells for level in plan(start=2562, density="x8").levels]
+    >>> [action.cells for action in plan(start=2562, density="x8").actions]
     [642, 2562]
     """
     recipe = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
                              **options)
     schedule = _calotte.plan(recipe)
-    made = {"cells": schedule.cells, "kind": schedule.kind, "levels": _levels(schedule.levels)}
+    made = {"cells": schedule.cells, "kind": schedule.kind, "actions": _actions(schedule.actions)}
     widths = schedule.widths
     if widths is None:
         return Plan(**made)
@@ -550,8 +560,8 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
     return Plan(**made, gradient=slope, steepest=(longitude, latitude))
 
 
-def _levels(rows):
-    return tuple(Level(*row) for row in rows)
+def _actions(rows):
+    return tuple(Action(*row) for row in rows)
 
 
 def _take_start(recipe, start):
@@ -695,7 +705,7 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
     if schedule.widths is not None and not schedule.widths.of_plane:
         _warn_of_steep(schedule, recipe)
     mesh, report, between = _calotte.make_grid(recipe, schedule, regions, _reporting(progress))
-    report["levels"] = _levels(report["levels"])
+    report["actions"] = _actions(report["actions"])
     if between is not None:
         cells, cells._content = between
         report["cells"] = cells

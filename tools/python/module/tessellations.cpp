@@ -147,11 +147,16 @@ void add_recipe(py::module_& module) {
       [](auto& recipe) -> auto& { return recipe.duplicates; });
 }
 
-py::list levels_of(const std::vector<CvtLevel>& levels) {
+/// \param done of each, as far as the run went.
+py::list actions_of(const std::vector<CvtAction>& actions, const std::vector<CvtDone>& done = {}) {
   py::list values;
-  for (const CvtLevel& level : levels)
-    values.append(
-        py::make_tuple(level.cells, level.insertion_rounds, level.tolerance, level.max_iterations));
+  for (std::size_t k = 0; k < actions.size(); ++k) {
+    const CvtAction& action = actions[k];
+    const CvtDone made = k < done.size() ? done[k] : CvtDone{};
+    values.append(py::make_tuple(word_in(action_words(), action.kind), action.cells, action.times,
+                                 word_in(norm_words(), action.norm), action.tolerance,
+                                 action.max_iterations, made.times, made.iterations));
+  }
   return values;
 }
 
@@ -164,8 +169,8 @@ void add_schedule(py::module_& module) {
                              [](const Schedule& schedule) {
                                return word_in(start_words(), schedule.recipe.start.kind);
                              })
-      .def_property_readonly("levels",
-                             [](const Schedule& schedule) { return levels_of(schedule.levels); })
+      .def_property_readonly("actions",
+                             [](const Schedule& schedule) { return actions_of(schedule.actions); })
       .def_readonly("implied_cells", &Schedule::implied_cells)
       .def_readonly("widths", &Schedule::widths);
   module.def("plan", [](const Recipe& recipe) { return call([&] { return plan(recipe); }); });
@@ -197,7 +202,7 @@ py::dict report_of(const CvtReport& report) {
   values["iterations"] = report.iterations.size();
   values["energy"] = report.iterations.empty() ? 0 : report.iterations.back().energy;
   values["seconds"] = report.seconds;
-  values["levels"] = levels_of(report.levels);
+  values["actions"] = actions_of(report.actions, report.done);
   DoubleVector energies(std::ssize(report.iterations)), norms(std::ssize(report.iterations));
   Eigen::Index k = 0;
   for (const CvtIteration& iteration : report.iterations) {
