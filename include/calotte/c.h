@@ -6,9 +6,12 @@
  * The library for C, and for languages that call C (Fortran by iso_c_binding, Julia by ccall,
  * Rust).
  *
- *     calotte_recipe recipe = {.size = sizeof recipe, .cells = 40962};
- *     calotte_error error = {.size = sizeof error};
+ *     calotte_recipe recipe;
+ *     calotte_error error;
  *     calotte_mesh* mesh = NULL;
+ *     calotte_recipe_init(&recipe);
+ *     calotte_error_init(&error);
+ *     recipe.cells = 40962;
  *     if (calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error) != CALOTTE_OK)
  *       fprintf(stderr, "%s\n", error.message);
  *
@@ -19,20 +22,28 @@
  * the same bits for any number of threads. Threads may call functions at the same time, also with
  * the same mesh.
  *
- * Every struct starts with its size, which the caller sets to sizeof: a program that was compiled
- * with an older header works with a newer library. The library reads and writes as many bytes at
- * most. Members that are 0 have their defaults, and so have those that the caller's struct lacks. A
- * size of 0 is CALOTTE_INVALID_ARGUMENT, and so is a member that the library does not know and that
- * is not 0. All members but arrays of characters have 8 bytes where pointers have.
+ * Every struct has a function of its name and _init, which sets all members to their defaults; the
+ * caller then sets what it asks for. A struct that was not initialised is
+ * CALOTTE_INVALID_ARGUMENT. The defaults of all structs but calotte_recipe are 0, so that
+ * {.size = sizeof(calotte_surface)} initialises a surface, too. In a language that cannot call
+ * inline functions a program sets `size`, and calls calotte_recipe_init_sized().
+ *
+ * The first member is the struct's size: a program that was compiled with an older header works
+ * with a newer library, which reads and writes as many bytes at most. Members that the caller's
+ * struct lacks have their defaults. A member that the library does not know and that is not 0 is
+ * CALOTTE_INVALID_ARGUMENT. All members but arrays of characters have 8 bytes where pointers have.
  */
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/** \def CALOTTE_C_API
+ * The shared library exports what is declared with it. */
 #ifdef __GNUC__
 #define CALOTTE_C_API __attribute__((visibility("default")))
 #else
@@ -62,6 +73,12 @@ typedef struct calotte_error {
   char message[512]; /**< one line, ended by 0, with the remedy */
 } calotte_error;
 
+/** Initialises an error. */
+static inline void calotte_error_init(calotte_error* error) {
+  memset(error, 0, sizeof *error);
+  error->size = sizeof *error;
+}
+
 /** "MAJOR.MINOR.PATCH", for ever valid. */
 CALOTTE_C_API const char* calotte_version(void);
 
@@ -76,7 +93,7 @@ typedef enum calotte_kind {
   CALOTTE_PLANE = 1   /**< the plane, in any unit of length */
 } calotte_kind;
 
-/** Where points live, as calotte::Surface. All members 0: the whole sphere. */
+/** Where points live, as calotte::Surface. Default: the whole sphere. */
 typedef struct calotte_surface {
   size_t size;      /**< sizeof(calotte_surface) */
   int64_t kind;     /**< a calotte_kind */
@@ -87,6 +104,12 @@ typedef struct calotte_surface {
   const double* corners;
   const int64_t* begin; /**< rings + 1: ring i has the corners begin[i] to begin[i + 1] - 1 */
 } calotte_surface;
+
+/** Initialises a surface. */
+static inline void calotte_surface_init(calotte_surface* surface) {
+  memset(surface, 0, sizeof *surface);
+  surface->size = sizeof *surface;
+}
 
 /* ---- Meshes */
 
@@ -117,6 +140,12 @@ typedef struct calotte_triangulation {
   int64_t inputs;               /**< number of input points */
   const int32_t* site_of_input; /**< for each input point its site */
 } calotte_triangulation;
+
+/** Initialises a triangulation. */
+static inline void calotte_triangulation_init(calotte_triangulation* view) {
+  memset(view, 0, sizeof *view);
+  view->size = sizeof *view;
+}
 
 /** Fills *view. */
 CALOTTE_C_API calotte_status calotte_mesh_view(const calotte_mesh* mesh,
@@ -183,6 +212,12 @@ typedef struct calotte_tessellation {
   const double* vertex_area;       /**< of each vertex' triangle */
 } calotte_tessellation;
 
+/** Initialises a tessellation. */
+static inline void calotte_tessellation_init(calotte_tessellation* view) {
+  memset(view, 0, sizeof *view);
+  view->size = sizeof *view;
+}
+
 /** Fills *view. */
 CALOTTE_C_API calotte_status calotte_cells_view(const calotte_cells* cells,
                                                 calotte_tessellation* view, calotte_error* error);
@@ -197,8 +232,12 @@ typedef int (*calotte_density)(const double* xyz, int64_t n, double* rho, void* 
 /** Called after each iteration; a result other than 0 ends the run there, with its mesh. */
 typedef int (*calotte_progress)(int64_t iterations, double residual, void* data);
 
-/** What a user asks for, as calotte::Recipe, which documents the ranges. A member that is 0 or null
- * has its default; {sizeof recipe} and a number of cells are complete. */
+/** In place of a number of a recipe: the library chooses, as the member says. */
+#define CALOTTE_AUTOMATIC (-1)
+
+/** What a user asks for, as calotte::Recipe, which documents the ranges. Initialised by
+ * calotte_recipe_init(), it lacks a number of cells only. A number means itself, also 0. A default
+ * other than 0 and null stands in brackets. */
 typedef struct calotte_recipe {
   size_t size; /**< sizeof(calotte_recipe) */
   /** Number of cells, fixed points among them. 0: as many as the widths imply, or of the start's
@@ -216,7 +255,7 @@ typedef struct calotte_recipe {
   const double* widths_y; /**< widths_ny, ascending: degrees of latitude; y in a plane */
   int64_t widths_nx;      /**< >= 2 */
   int64_t widths_ny;      /**< >= 2 */
-  double earth_radius_km; /**< of the sphere that the widths refer to; 0: 6371 */
+  double earth_radius_km; /**< of the sphere that the widths refer to; > 0 [6371] */
   /** Generators that stay where they are, the first sites of the mesh: 3 numbers each on the
    * sphere, 2 in a plane. Null: none. */
   const double* fixed;
@@ -226,16 +265,23 @@ typedef struct calotte_recipe {
   const char* start;          /**< "automatic" (null), "multilevel", "density", ...: --start */
   const char* norm;           /**< "l2-scaled" (null), "linf", ...: --norm */
   const char* method;         /**< "auto" (null), "lloyd", "lbfgs", ...: --method */
-  int64_t bisections;         /**< of the converged grid; 0: none, or those of the start */
-  int64_t insertion_rounds;   /**< of the start multilevel; 0: 1, with fixed points 3 */
-  double tolerance;           /**< of the norm; 0: 1e-4 if the run ends well-centred, else 1e-6 */
-  int64_t max_iterations;     /**< evaluations of a descent; 0: 1000 */
-  int64_t iterations;         /**< exactly this number in place of norm and tolerance; 0: none */
-  /** 1: shapes are brought within the limits of models at the end; -1: a pure CVT; 0: 1 for the
-   * start multilevel unless `iterations` is given, else -1. */
+  /** Of the converged grid, 0 to 13. Automatic: those that the starts multilevel and continuation
+   * choose, else 0. These starts take no number. [CALOTTE_AUTOMATIC] */
+  int64_t bisections;
+  /** Of the start multilevel, 1 to 100. Automatic: 1, with fixed points 3. [CALOTTE_AUTOMATIC] */
+  int64_t insertion_rounds;
+  /** Of the norm, > 0. Automatic: 1e-4 if the run ends well-centred, else 1e-6.
+   * [CALOTTE_AUTOMATIC] */
+  double tolerance;
+  int64_t max_iterations; /**< evaluations of a descent, at most [1000] */
+  /** Exactly this number of evaluations of each level, >= 1, in place of norm, tolerance and
+   * max_iterations. Automatic: these end the run. [CALOTTE_AUTOMATIC] */
+  int64_t iterations;
+  /** 1: shapes are brought within the limits of models at the end; 0: a pure CVT. Automatic: 1 for
+   * the start multilevel unless `iterations` is given, else 0. [CALOTTE_AUTOMATIC] */
   int64_t well_centred;
-  double least_spacing;        /**< of that end: the least edge over the spacing; 0: 0.8 */
-  int64_t seed;                /**< of random points; 0: 1 */
+  double least_spacing;        /**< of that end: the least edge over the spacing; 0 to 0.95 [0.8] */
+  int64_t seed;                /**< of random points [1] */
   int64_t limited_area;        /**< 1: the surface, a part of the sphere, with rings around it, for
                                   calotte_write_grid(); requires widths */
   int64_t walls_x;             /**< 1: the box ends at walls in x; see calotte_write_grid() */
@@ -248,7 +294,17 @@ typedef struct calotte_recipe {
    * rules (.toml), NetCDF (.nc), JIGSAW's spacings (.msh), polygons that have widths (.geojson).
    * Null: none. */
   const char* widths_file;
+  int64_t initialised; /**< 1, by calotte_recipe_init(): 0 in other members is not a default */
 } calotte_recipe;
+
+/** Initialises a recipe of `size` bytes, for languages that cannot call inline functions: `size` is
+ * that of the caller's struct, which has the first members of this one. */
+CALOTTE_C_API void calotte_recipe_init_sized(calotte_recipe* recipe, size_t size);
+
+/** Initialises a recipe. */
+static inline void calotte_recipe_init(calotte_recipe* recipe) {
+  calotte_recipe_init_sized(recipe, sizeof *recipe);
+}
 
 /** The course of a run, as calotte::CvtReport. */
 typedef struct calotte_report {
@@ -262,6 +318,12 @@ typedef struct calotte_report {
   double energy;               /**< at the end */
   double seconds;              /**< wall-clock time */
 } calotte_report;
+
+/** Initialises a report. */
+static inline void calotte_report_init(calotte_report* report) {
+  memset(report, 0, sizeof *report);
+  report->size = sizeof *report;
+}
 
 /** Makes the grid of a recipe, as the command `calotte cvt` does.
  * progress: null for none. progress_data: its last argument. report: may be null.
@@ -292,9 +354,15 @@ typedef struct calotte_schedule {
   const char* start;         /**< as calotte_recipe.start; for ever valid */
   const char* first;         /**< how the points of the first level are made, likewise */
   int64_t insertion_rounds;  /**< of the last level */
-  int64_t well_centred;      /**< 1 if the run ends so, else -1 */
+  int64_t well_centred;      /**< 1 if the run ends so, else 0 */
   double tolerance;          /**< of the norm */
 } calotte_schedule;
+
+/** Initialises a schedule. */
+static inline void calotte_schedule_init(calotte_schedule* schedule) {
+  memset(schedule, 0, sizeof *schedule);
+  schedule->size = sizeof *schedule;
+}
 
 /** Makes all choices of a recipe, as calotte_make_grid() does before it starts. */
 CALOTTE_C_API calotte_status calotte_plan(const calotte_recipe* recipe, calotte_schedule* schedule,

@@ -55,7 +55,7 @@ calotte_schedule filled(const Schedule& schedule, calotte_schedule given) {
   given.start = word_of(made.start.kind).data();
   given.first = word_of(schedule.first).data();
   given.insertion_rounds = made.start.insertion_rounds.value_or(0);
-  given.well_centred = *made.stop.well_centred ? 1 : -1;
+  given.well_centred = *made.stop.well_centred ? 1 : 0;
   given.tolerance = *made.stop.tolerance;
   return given;
 }

@@ -24,6 +24,12 @@ void set_threads(int count);
 ///        CALOTTE_INVALID_ARGUMENT.
 calotte_status guarded(calotte_error* error, const std::function<void()>& work);
 
+/// The remedy for a caller's struct that has not been initialised. \param name of its type.
+inline std::string initialise(const std::string& name) {
+  return "initialise the " + name.substr(std::string("calotte_").size()) + " with " + name +
+         "_init()";
+}
+
 /// The size of a caller's struct. \param name of its type.
 /// \throws Error invalid_argument for a null pointer and for a size that no struct of this type
 /// has.
@@ -31,16 +37,18 @@ template <class Struct> std::size_t size_of(const Struct* given, const std::stri
   constexpr std::size_t most = 1 << 16; // a member that was never set
   require(given != nullptr, "the pointer to a " + name + " is null; give the address of one");
   require(given->size >= sizeof given->size && given->size <= most,
-          "the size of the " + name + " is " + std::to_string(given->size) + "; set it to sizeof(" +
-              name + ")");
+          "the size of the " + name + " is " + std::to_string(given->size) + "; " +
+              initialise(name));
   return given->size;
 }
 
-/// A caller's struct with all members that the library knows: 0 where the caller's has none.
+/// A caller's struct with all members that the library knows.
+/// \param usual has those that the caller's lacks. Default: 0.
 /// \throws Error invalid_argument as size_of(), and for other members that are not 0.
-template <class Struct> Struct known_part(const Struct* given, const std::string& name) {
+template <class Struct>
+Struct known_part(const Struct* given, const std::string& name, const Struct& usual = {}) {
   const std::size_t size = size_of(given, name);
-  Struct known{};
+  Struct known = usual;
   std::memcpy(&known, given, std::min(size, sizeof known));
   const auto* bytes = reinterpret_cast<const unsigned char*>(given);
   require(std::all_of(bytes + std::min(size, sizeof known), bytes + size,

@@ -5,7 +5,10 @@
 #include <calotte/read.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -19,6 +22,11 @@ int integer_of(std::int64_t value, const std::string& name) {
   require(value >= -most && value <= most,
           name + " is " + std::to_string(value) + "; give at most " + std::to_string(most));
   return static_cast<int>(value);
+}
+
+/// None where the library chooses.
+std::optional<int> choice_of(std::int64_t value, const std::string& name) {
+  return value == CALOTTE_AUTOMATIC ? std::nullopt : std::optional(integer_of(value, name));
 }
 
 bool flag_of(std::int64_t value, const std::string& name) {
@@ -120,29 +128,21 @@ Start start_of(const calotte_recipe& given, bool sphere) {
   start.kind = value_of(given.start, start_words(), start.kind, "start");
   start.points =
       spatial_points(given.start_points, given.start_count, sphere, "the start's points");
-  if (given.bisections != 0)
-    start.bisections = integer_of(given.bisections, "the number of bisections");
-  if (given.insertion_rounds != 0)
-    start.insertion_rounds =
-        integer_of(given.insertion_rounds, "the number of rounds of insertion");
+  start.bisections = choice_of(given.bisections, "the number of bisections");
+  start.insertion_rounds = choice_of(given.insertion_rounds, "the number of rounds of insertion");
   return start;
 }
 
 Stop stop_of(const calotte_recipe& given) {
   Stop stop;
   stop.norm = value_of(given.norm, norm_words(), stop.norm, "norm");
-  if (given.tolerance != 0)
+  if (given.tolerance != CALOTTE_AUTOMATIC)
     stop.tolerance = given.tolerance;
-  if (given.max_iterations != 0)
-    stop.max_iterations = integer_of(given.max_iterations, "max_iterations");
-  if (given.iterations != 0)
-    stop.iterations = integer_of(given.iterations, "the number of iterations");
-  require(given.well_centred >= -1 && given.well_centred <= 1,
-          "well_centred is " + std::to_string(given.well_centred) + "; give -1, 0 or 1");
-  if (given.well_centred != 0)
-    stop.well_centred = given.well_centred == 1;
-  if (given.least_spacing != 0)
-    stop.least_spacing = given.least_spacing;
+  stop.max_iterations = integer_of(given.max_iterations, "max_iterations");
+  stop.iterations = choice_of(given.iterations, "the number of iterations");
+  if (given.well_centred != CALOTTE_AUTOMATIC)
+    stop.well_centred = flag_of(given.well_centred, "well_centred");
+  stop.least_spacing = given.least_spacing;
   return stop;
 }
 
@@ -152,6 +152,54 @@ void take_method(const calotte_recipe& given, Recipe& recipe) {
   if (flag_of(given.refuse_duplicates, "refuse_duplicates"))
     recipe.duplicates = Duplicates::refuse;
   recipe.merge_within = given.merge_within;
+}
+
+// ---- The defaults
+
+calotte_recipe usual_recipe() {
+  const Recipe usual;
+  calotte_recipe recipe{};
+  recipe.size = sizeof recipe;
+  recipe.earth_radius_km = usual.radius_km;
+  recipe.bisections = recipe.insertion_rounds = recipe.iterations = CALOTTE_AUTOMATIC;
+  recipe.tolerance = recipe.well_centred = CALOTTE_AUTOMATIC;
+  recipe.max_iterations = usual.stop.max_iterations;
+  recipe.least_spacing = usual.stop.least_spacing;
+  recipe.seed = static_cast<std::int64_t>(usual.seed);
+  recipe.merge_within = usual.merge_within;
+  recipe.initialised = 1;
+  return recipe;
+}
+
+/// Whether a recipe ends before `initialised`: that of version 1.0.0, where 0 stands for defaults.
+bool is_of_1_0(std::size_t size) { return size <= offsetof(calotte_recipe, initialised); }
+
+/// A recipe of version 1.0.0 in the numbers of today.
+calotte_recipe from_1_0(calotte_recipe recipe) {
+  const calotte_recipe usual = usual_recipe();
+  const auto take = [&](auto member) {
+    if (recipe.*member == 0)
+      recipe.*member = usual.*member;
+  };
+  recipe.well_centred = recipe.well_centred == 0    ? std::int64_t{CALOTTE_AUTOMATIC}
+                        : recipe.well_centred == -1 ? 0
+                                                    : recipe.well_centred;
+  take(&calotte_recipe::earth_radius_km), take(&calotte_recipe::bisections);
+  take(&calotte_recipe::insertion_rounds), take(&calotte_recipe::tolerance);
+  take(&calotte_recipe::max_iterations), take(&calotte_recipe::iterations);
+  take(&calotte_recipe::least_spacing), take(&calotte_recipe::seed);
+  return recipe;
+}
+
+/// A caller's recipe, with the defaults of what its struct lacks.
+calotte_recipe initialised(const calotte_recipe* pointer) {
+  const std::string name = "calotte_recipe";
+  if (is_of_1_0(size_of(pointer, name)))
+    return from_1_0(known_part(pointer, name));
+  const calotte_recipe given = known_part(pointer, name, usual_recipe());
+  require(given.initialised == 1,
+          "the size of the recipe is set, but not its defaults; " + initialise(name));
+  return given;
 }
 
 } // namespace
@@ -179,13 +227,12 @@ Surface surface_of(const calotte_surface* given) {
 }
 
 Recipe recipe_of(const calotte_recipe* pointer) {
-  const calotte_recipe given = known_part(pointer, "calotte_recipe");
+  const calotte_recipe given = initialised(pointer);
   Recipe recipe;
   recipe.cells = given.cells;
   recipe.surface = surface_of(given.surface);
   const bool sphere = recipe.surface.is_sphere();
-  if (given.earth_radius_km != 0)
-    recipe.radius_km = given.earth_radius_km;
+  recipe.radius_km = given.earth_radius_km;
   take_resolution(given, recipe);
   recipe.limited_area = flag_of(given.limited_area, "limited_area");
   recipe.walls = {flag_of(given.walls_x, "walls_x"), flag_of(given.walls_y, "walls_y")};
@@ -194,10 +241,21 @@ Recipe recipe_of(const calotte_recipe* pointer) {
   recipe.fixed = spatial_points(given.fixed, given.fixed_count, sphere, "the fixed points");
   recipe.start = start_of(given, sphere);
   recipe.stop = stop_of(given);
-  if (given.seed != 0)
-    recipe.seed = static_cast<std::uint64_t>(given.seed);
+  recipe.seed = static_cast<std::uint64_t>(given.seed);
   take_method(given, recipe);
   return recipe;
 }
 
 } // namespace calotte::c_detail
+
+void calotte_recipe_init_sized(calotte_recipe* recipe, size_t size) {
+  using namespace calotte::c_detail;
+  if (recipe == nullptr || size < sizeof recipe->size)
+    return;
+  std::memset(recipe, 0, size);
+  if (!is_of_1_0(size)) {
+    const calotte_recipe usual = usual_recipe();
+    std::memcpy(recipe, &usual, std::min(size, sizeof usual));
+  }
+  recipe->size = size;
+}

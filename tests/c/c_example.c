@@ -18,7 +18,14 @@ static void expect(int holds, const char* what) {
   }
 }
 
-static calotte_error error = {.size = sizeof error};
+static calotte_error error; /* main() initialises it */
+
+static calotte_recipe recipe_of(int64_t cells) {
+  calotte_recipe recipe;
+  calotte_recipe_init(&recipe);
+  recipe.cells = cells;
+  return recipe;
+}
 
 /* The status is that of a bad option, and the message holds a text. */
 static void refuses(calotte_status status, const char* text) {
@@ -35,7 +42,8 @@ static void succeeds(calotte_status status, const char* what) {
 }
 
 static calotte_triangulation view_of(const calotte_mesh* mesh) {
-  calotte_triangulation view = {.size = sizeof view};
+  calotte_triangulation view;
+  calotte_triangulation_init(&view);
   succeeds(calotte_mesh_view(mesh, &view, &error), "a view");
   return view;
 }
@@ -114,7 +122,8 @@ static void sphere(void) {
   calotte_mesh* mesh = NULL;
   calotte_cells* cells = NULL;
   calotte_triangulation t;
-  calotte_tessellation v = {.size = sizeof v};
+  calotte_tessellation v;
+  calotte_tessellation_init(&v);
   mesh = mesh_of(octahedron, 7, NULL, "an octahedron");
   t = view_of(mesh);
   expect(t.dimensions == 3 && t.sites == 6 && t.triangles == 8 && t.inputs == 7, "its counts");
@@ -135,7 +144,8 @@ static void planes(void) {
   calotte_mesh* mesh = NULL;
   calotte_cells* cells = NULL;
   calotte_triangulation t;
-  calotte_tessellation v = {.size = sizeof v};
+  calotte_tessellation v;
+  calotte_tessellation_init(&v);
   mesh = mesh_of(square, 5, &plane, "a square");
   t = view_of(mesh);
   expect(t.dimensions == 2 && t.triangles == 4, "its triangles");
@@ -167,8 +177,9 @@ static void planes(void) {
 static void surfaces(void) {
   const int64_t falling[2] = {3, 0};
   calotte_mesh* mesh = NULL;
-  calotte_surface surface = {.size = sizeof surface};
-  mesh = mesh_of(octahedron, 6, &surface, "all zero is the sphere");
+  calotte_surface surface;
+  calotte_surface_init(&surface);
+  mesh = mesh_of(octahedron, 6, &surface, "the default is the sphere");
   expect(view_of(mesh).dimensions == 3, "its dimensions");
   calotte_mesh_free(mesh);
   mesh = NULL;
@@ -193,7 +204,8 @@ static void surfaces(void) {
   surface.period[0] = -1;
   refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "give two lengths");
   surface.size = 0;
-  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error), "sizeof(calotte_surface)");
+  refuses(calotte_delaunay(square, 5, &surface, &mesh, &error),
+          "initialise the surface with calotte_surface_init()");
   expect(mesh == NULL, "outputs stay unchanged");
 }
 
@@ -240,42 +252,89 @@ static void positions(void) {
 
 /* ---- Structs of other sizes */
 
-static void sizes(void) {
+static const char uninitialised[] = "initialise the recipe with calotte_recipe_init()";
+
+/* Sizes of recipes that no initialised one has. */
+static void recipe_sizes(void) {
   struct {
     calotte_recipe recipe;
     double newer;
-  } later = {.recipe = {.size = sizeof later, .cells = 42}};
-  calotte_recipe recipe = {.size = sizeof recipe};
-  calotte_error brief = {.size = offsetof(calotte_error, message) + 8, .message = "unchanged text"};
-  calotte_triangulation view = {.size = offsetof(calotte_triangulation, triangles),
-                                .triangles = -7};
+  } later;
+  calotte_recipe recipe = {.size = 0, .cells = 42};
   calotte_mesh* mesh = NULL;
-  recipe.cells = 42;
-  calotte_mesh_free(grid_of(&recipe, "a size and a number of cells are a request"));
-  recipe.size = offsetof(calotte_recipe, surface);
-  recipe.iterations = -5;
-  mesh = grid_of(&recipe, "members that a shorter struct lacks are not read");
-  succeeds(calotte_mesh_view(mesh, &view, &error), "a short view");
-  expect(view.sites == 42 && view.triangles == -7, "the library writes what fits");
-  view.size = 0;
-  refuses(calotte_mesh_view(mesh, &view, &error), "sizeof(calotte_triangulation)");
-  calotte_mesh_free(mesh);
-  mesh = NULL;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), uninitialised);
+  recipe.size = (size_t)-1;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), uninitialised);
+  recipe.size = sizeof recipe;
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), uninitialised);
+  refuses(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &error), "calotte_recipe is null");
+  calotte_recipe_init_sized(NULL, sizeof recipe);
+  calotte_recipe_init_sized(&recipe, 0);
+  expect(recipe.size == sizeof recipe, "no size, no struct");
+
+  memset(&later, 1, sizeof later);
+  calotte_recipe_init_sized(&later.recipe, sizeof later);
+  expect(later.recipe.size == sizeof later && later.newer == 0 && later.recipe.seed == 1,
+         "a longer struct is initialised");
+  later.recipe.cells = 42;
   calotte_mesh_free(grid_of(&later.recipe, "members of a longer struct may be 0"));
   later.newer = 1;
   refuses(calotte_make_grid(&later.recipe, NULL, NULL, &mesh, NULL, &error), "beyond the");
-  recipe.size = 0;
-  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "sizeof(calotte_recipe)");
-  recipe.size = (size_t)-1;
-  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "sizeof(calotte_recipe)");
-  refuses(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &error), "calotte_recipe is null");
+  expect(mesh == NULL, "outputs stay unchanged");
+}
+
+/* The recipe of version 1.0.0, which no function initialised: 0 stands for the default, and -1 for
+ * a pure CVT. */
+static void old_recipes(void) {
+  calotte_recipe recipe = {.size = offsetof(calotte_recipe, widths_file), .cells = 100};
+  calotte_recipe today = recipe_of(100), old;
+  calotte_schedule schedule;
+  calotte_mesh *one = NULL, *two = NULL;
+  calotte_triangulation a, b;
+  calotte_schedule_init(&schedule);
+  today.start = recipe.start = "random";
+  recipe.widths_file = "beyond the struct";
+  one = grid_of(&recipe, "a size and a number of cells were a request");
+  two = grid_of(&today, "the same");
+  a = view_of(one);
+  b = view_of(two);
+  expect(memcmp(a.points, b.points, 300 * sizeof(double)) == 0, "has the same bits");
+  calotte_mesh_free(one);
+  calotte_mesh_free(two);
+  recipe.start = "multilevel";
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
+  expect(schedule.well_centred == 1 && schedule.tolerance == 1e-4, "0 is the default");
+  recipe.well_centred = -1;
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
+  expect(schedule.well_centred == 0 && schedule.tolerance == 1e-6, "-1 is a pure CVT");
+  recipe.size = offsetof(calotte_recipe, surface);
+  recipe.iterations = -5;
+  calotte_mesh_free(grid_of(&recipe, "members that a shorter struct lacks are not read"));
+  memset(&old, 1, sizeof old);
+  calotte_recipe_init_sized(&old, offsetof(calotte_recipe, widths_file));
+  expect(old.seed == 0 && old.widths_file != NULL, "nothing beyond it is written");
+  old.cells = 100;
+  succeeds(calotte_plan(&old, &schedule, &error), "its plan");
+}
+
+static void other_sizes(void) {
+  calotte_recipe recipe = recipe_of(42);
+  calotte_error brief = {.size = offsetof(calotte_error, message) + 8, .message = "unchanged text"};
+  calotte_triangulation view = {.size = offsetof(calotte_triangulation, triangles),
+                                .triangles = -7};
+  calotte_mesh* mesh = grid_of(&recipe, "a number of cells is a request");
+  succeeds(calotte_mesh_view(mesh, &view, &error), "a short view");
+  expect(view.sites == 42 && view.triangles == -7, "the library writes what fits");
+  view.size = 0;
+  refuses(calotte_mesh_view(mesh, &view, &error),
+          "initialise the triangulation with calotte_triangulation_init()");
+  calotte_mesh_free(mesh);
+  mesh = NULL;
   expect(calotte_make_grid(NULL, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_INVALID_ARGUMENT &&
              strlen(brief.message) == 7 && strcmp(brief.message + 8, " text") != 0,
          "a short message");
   expect(strcmp(brief.message + 10, "text") == 0, "nothing beyond it is written");
   brief.size = 0;
-  recipe.size = sizeof recipe;
-  recipe.iterations = 0;
   expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &brief) == CALOTTE_INVALID_ARGUMENT &&
              mesh == NULL,
          "an error without a size");
@@ -284,11 +343,12 @@ static void sizes(void) {
 /* ---- Grids */
 
 static void runs(void) {
-  calotte_recipe recipe = {.size = sizeof recipe, .cells = 642};
-  calotte_report report = {.size = sizeof report};
+  calotte_recipe recipe = recipe_of(642);
+  calotte_report report;
   calotte_mesh *mesh = NULL, *again = NULL;
   calotte_triangulation a, b;
   int calls = 0;
+  calotte_report_init(&report);
   succeeds(calotte_make_grid(&recipe, count, &calls, &mesh, &report, &error), "a uniform grid");
   expect(report.converged && calls > 1 && report.iterations >= calls, "its report");
   expect(report.residual <= 1e-6 && report.energy > 0 && report.worst_cell == -1, "its numbers");
@@ -321,17 +381,17 @@ static void runs(void) {
              again == NULL,
          "a density that ends the run");
   report.size = 0;
-  refuses(calotte_make_grid(&recipe, NULL, NULL, &again, &report, &error), "calotte_report");
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &again, &report, &error),
+          "initialise the report with calotte_report_init()");
   refuses(calotte_make_grid(&recipe, NULL, NULL, NULL, NULL, &error), "receives the mesh");
   calotte_mesh_free(mesh);
 }
 
 static void recipes(void) {
   const double fixed[] = {0.5, 0.5, 1.5, 0.5};
-  calotte_recipe recipe = {.size = sizeof recipe};
-  calotte_mesh *mesh = NULL, *one = NULL, *two = NULL;
-  calotte_triangulation view, other;
-  recipe.cells = 60;
+  calotte_recipe recipe = recipe_of(60);
+  calotte_mesh* mesh = NULL;
+  calotte_triangulation view;
   recipe.surface = &rectangle;
   recipe.fixed = fixed;
   recipe.fixed_count = 2;
@@ -341,51 +401,37 @@ static void recipes(void) {
   expect(memcmp(view.points, fixed, sizeof fixed) == 0, "fixed points are the first sites");
   calotte_mesh_free(mesh);
 
-  memset(&recipe, 0, sizeof recipe);
-  recipe.size = sizeof recipe;
-  recipe.cells = 100;
+  recipe = recipe_of(100);
   recipe.surface = &octant;
   mesh = grid_of(&recipe, "a part of the sphere");
   expect(view_of(mesh).sites == 100, "its cells");
   succeeds(calotte_check(mesh, &error), "its triangles");
   calotte_mesh_free(mesh);
+}
 
-  recipe.surface = NULL;
-  recipe.start = "random";
-  one = grid_of(&recipe, "random points");
-  recipe.seed = 1;
-  two = grid_of(&recipe, "the seed 1");
-  view = view_of(one);
-  other = view_of(two);
-  expect(memcmp(view.points, other.points, 300 * sizeof(double)) == 0, "is the default");
-  calotte_mesh_free(two);
-  recipe.seed = 2;
-  two = grid_of(&recipe, "another seed");
-  other = view_of(two);
-  expect(memcmp(view.points, other.points, 300 * sizeof(double)) != 0, "gives other points");
-  calotte_mesh_free(two);
-  calotte_mesh_free(one);
-
-  mesh = NULL;
-  memset(&recipe, 0, sizeof recipe);
-  recipe.size = sizeof recipe;
+static void refused_recipes(void) {
+  const double fixed[] = {0.5, 0.5, 1.5, 0.5};
+  calotte_recipe recipe = recipe_of(0);
+  calotte_mesh* mesh = NULL;
   refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), "no number of cells");
 #define REFUSES(MEMBER, VALUE, TEXT)                                                               \
-  recipe.cells = 100;                                                                              \
+  recipe = recipe_of(100);                                                                         \
   recipe.MEMBER = VALUE;                                                                           \
-  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), TEXT);                      \
-  recipe.MEMBER = 0
+  refuses(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error), TEXT)
   REFUSES(cells, -1, "-1");
   REFUSES(start, "somewhere", "'somewhere'; give one of automatic, points, multilevel");
   REFUSES(norm, "l3", "'l3'; give one of l2, linf");
   REFUSES(method, "newton", "'newton'; give one of auto, lloyd");
-  REFUSES(bisections, -1, "bisections");
+  REFUSES(bisections, -2, "bisections");
   REFUSES(bisections, 5000000000, "5000000000");
-  REFUSES(insertion_rounds, -1, "rounds of insertion");
-  REFUSES(tolerance, -1, "tolerance");
+  REFUSES(insertion_rounds, -2, "rounds of insertion");
+  REFUSES(tolerance, -2, "tolerance");
   REFUSES(max_iterations, -1, "iterations");
-  REFUSES(iterations, -1, "iterations");
-  REFUSES(well_centred, 2, "give -1, 0 or 1");
+  REFUSES(iterations, -2, "iterations");
+  REFUSES(insertion_rounds, 0, "rounds of insertion is 0; give 1 to 100");
+  REFUSES(tolerance, 0, "tolerance");
+  REFUSES(iterations, 0, "iterations is 0; give 1 or more");
+  REFUSES(well_centred, 2, "well_centred is 2; give 0 or 1");
   REFUSES(least_spacing, 1, "spacing");
   REFUSES(limited_area, 1, "limited area");
   REFUSES(limited_area, 2, "limited_area is 2; give 0 or 1");
@@ -399,7 +445,7 @@ static void recipes(void) {
   REFUSES(widths, fixed, "widths_x and widths_y");
   REFUSES(widths_nx, 2, "null pointer");
 #undef REFUSES
-  recipe.cells = 0;
+  recipe = recipe_of(0);
   recipe.start_points = octahedron;
   recipe.start_count = 7;
   recipe.refuse_duplicates = 1;
@@ -409,24 +455,76 @@ static void recipes(void) {
   expect(mesh == NULL, "outputs stay unchanged");
 }
 
+/* Numbers that the caller gives mean themselves, also 0. */
+static void zeros(void) {
+  calotte_recipe recipe = recipe_of(100), other = recipe;
+  calotte_report report;
+  calotte_schedule schedule;
+  calotte_mesh *one = NULL, *two = NULL;
+  calotte_triangulation a, b;
+  calotte_report_init(&report);
+  calotte_schedule_init(&schedule);
+  recipe.start = other.start = "random";
+  other.seed = 0;
+  one = grid_of(&recipe, "the seed 1");
+  two = grid_of(&other, "the seed 0");
+  a = view_of(one);
+  b = view_of(two);
+  expect(memcmp(a.points, b.points, 300 * sizeof(double)) != 0, "other random points");
+  calotte_mesh_free(one);
+  calotte_mesh_free(two);
+
+  recipe = recipe_of(200);
+  recipe.surface = &octant;
+  recipe.density = density;
+  succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
+  expect(strcmp(schedule.start, "multilevel") == 0 && schedule.well_centred == 1, "its start");
+  other = recipe;
+  other.bisections = 0;
+  succeeds(calotte_plan(&other, &schedule, &error), "no bisections");
+  expect(strcmp(schedule.start, "density") == 0, "exclude the start multilevel");
+  other = recipe;
+  other.well_centred = 0;
+  succeeds(calotte_plan(&other, &schedule, &error), "a pure CVT");
+  expect(schedule.well_centred == 0 && schedule.tolerance == 1e-6, "its end");
+
+  recipe.surface = NULL;
+  one = grid_of(&recipe, "the least spacing 0.8");
+  other = recipe;
+  other.least_spacing = 0;
+  two = grid_of(&other, "any spacing");
+  a = view_of(one);
+  b = view_of(two);
+  expect(memcmp(a.points, b.points, 600 * sizeof(double)) != 0, "moves other generators");
+  calotte_mesh_free(one);
+  calotte_mesh_free(two);
+
+  recipe.start = "density";
+  recipe.well_centred = recipe.max_iterations = 0;
+  succeeds(calotte_make_grid(&recipe, NULL, NULL, &one, &report, &error), "no evaluation");
+  expect(report.iterations == 0 && !report.converged, "its report");
+  calotte_mesh_free(one);
+}
+
 static void plans(void) {
   const double x[] = {0, 180}, y[] = {-90, 0, 90}, km[] = {300, 300, 400, 400, 500, 500};
   const char* kind[31];
   int64_t cells[31], times[31], iterations[31];
   double tolerance[31];
-  calotte_recipe recipe = {.size = sizeof recipe,
-                           .widths = km,
-                           .widths_x = x,
-                           .widths_y = y,
-                           .widths_nx = 2,
-                           .widths_ny = 3};
-  calotte_schedule schedule = {.size = sizeof schedule,
-                               .action_capacity = 31,
-                               .action_kind = kind,
-                               .action_cells = cells,
-                               .action_times = times,
-                               .action_tolerance = tolerance,
-                               .action_iterations = iterations};
+  calotte_recipe recipe = recipe_of(0);
+  calotte_schedule schedule;
+  recipe.widths = km;
+  recipe.widths_x = x;
+  recipe.widths_y = y;
+  recipe.widths_nx = 2;
+  recipe.widths_ny = 3;
+  calotte_schedule_init(&schedule);
+  schedule.action_capacity = 31;
+  schedule.action_kind = kind;
+  schedule.action_cells = cells;
+  schedule.action_times = times;
+  schedule.action_tolerance = tolerance;
+  schedule.action_iterations = iterations;
   succeeds(calotte_plan(&recipe, &schedule, &error), "a plan");
   expect(schedule.actions >= 5 && schedule.actions <= 31, "its actions");
   expect(strcmp(kind[0], "start") == 0, "the first action");
@@ -444,16 +542,17 @@ static void plans(void) {
   recipe.earth_radius_km = 6371. / 2;
   succeeds(calotte_plan(&recipe, &schedule, &error), "half the radius");
   expect(fabs(schedule.implied_cells * 4 - (double)schedule.cells * 4) <= 2, "a quarter of cells");
-  recipe.earth_radius_km = -1;
-  refuses(calotte_plan(&recipe, &schedule, &error), "radius");
   recipe.earth_radius_km = 0;
+  refuses(calotte_plan(&recipe, &schedule, &error), "radius");
+  recipe.earth_radius_km = 6371;
   recipe.density = density;
   refuses(calotte_plan(&recipe, &schedule, &error), "several of a density, widths");
   recipe.density = NULL;
   schedule.action_capacity = -1;
   refuses(calotte_plan(&recipe, &schedule, &error), "action_capacity");
   schedule.size = 0;
-  refuses(calotte_plan(&recipe, &schedule, &error), "sizeof(calotte_schedule)");
+  refuses(calotte_plan(&recipe, &schedule, &error),
+          "initialise the schedule with calotte_schedule_init()");
 }
 
 static void put(const char* path, const char* text) {
@@ -463,8 +562,10 @@ static void put(const char* path, const char* text) {
 
 /* A file of rules says the same as in the command. */
 static void rules(void) {
-  calotte_recipe recipe = {.size = sizeof recipe, .widths_file = "c_example.toml"};
-  calotte_schedule schedule = {.size = sizeof schedule};
+  calotte_recipe recipe = recipe_of(0);
+  calotte_schedule schedule;
+  calotte_schedule_init(&schedule);
+  recipe.widths_file = "c_example.toml";
   put("c_example.toml", "[cell-width]\nlatitude = [[-90, 600], [0, 300], [90, 600]]\n");
   succeeds(calotte_plan(&recipe, &schedule, &error), "rules");
   expect(schedule.cells > 2000 && schedule.cells < 6545, "cells of 300 to 600 km");
@@ -482,7 +583,7 @@ static void rules(void) {
 
 static void files(const char* path) {
   const double x[] = {0, 180}, y[] = {-90, 90}, km[] = {600, 600, 600, 600};
-  calotte_recipe recipe = {.size = sizeof recipe, .cells = 642};
+  calotte_recipe recipe = recipe_of(642);
   calotte_mesh *mesh = NULL, *read = NULL;
   calotte_triangulation a, b;
   mesh = grid_of(&recipe, "a uniform grid");
@@ -516,9 +617,7 @@ static void files(const char* path) {
   refuses(calotte_write_grid("area.vtp", mesh, &recipe, 1, &error), "give a name that ends in .nc");
   calotte_mesh_free(mesh);
 
-  memset(&recipe, 0, sizeof recipe);
-  recipe.size = sizeof recipe;
-  recipe.cells = 200;
+  recipe = recipe_of(200);
   recipe.surface = &box;
   recipe.walls_y = 1;
   mesh = grid_of(&recipe, "a box with walls");
@@ -557,13 +656,18 @@ static void errors(void) {
 int main(int argc, char** argv) {
   if (argc != 2 || strlen(calotte_version()) < 5)
     return 2;
+  calotte_error_init(&error);
   sphere();
   planes();
   surfaces();
   positions();
-  sizes();
+  recipe_sizes();
+  old_recipes();
+  other_sizes();
   runs();
   recipes();
+  refused_recipes();
+  zeros();
   plans();
   rules();
   files(argv[1]);

@@ -4,8 +4,8 @@ module calotte
   use iso_c_binding
   implicit none
 
-  ! The types of calotte/c.h. A program sets `size` to c_sizeof(variable); what else it does not set
-  ! has its default.
+  ! The types of calotte/c.h. A program calls calotte_recipe_init() for a recipe, and for others
+  ! sets `size` to c_sizeof(variable); what else it does not set has its default.
   type, bind(c) :: calotte_error
     integer(c_size_t) :: size = 0
     integer(c_int64_t) :: index = 0
@@ -43,6 +43,7 @@ module calotte
     integer(c_int64_t) :: boundary_generators = 0, refuse_duplicates = 0
     real(c_double) :: merge_within = 0
     type(c_ptr) :: widths_file = c_null_ptr
+    integer(c_int64_t) :: initialised = 0
   end type
 
   type, bind(c) :: calotte_report
@@ -61,6 +62,11 @@ module calotte
   end type
 
   interface
+    subroutine calotte_recipe_init_sized(recipe, size) bind(c)
+      import
+      type(calotte_recipe), intent(inout) :: recipe
+      integer(c_size_t), value :: size
+    end subroutine
     integer(c_int) function calotte_make_grid(recipe, progress, progress_data, mesh, report, error) &
         bind(c)
       import
@@ -93,6 +99,12 @@ module calotte
 
 contains
 
+  ! Sets the size and all defaults.
+  subroutine calotte_recipe_init(recipe)
+    type(calotte_recipe), intent(inout) :: recipe
+    call calotte_recipe_init_sized(recipe, c_sizeof(recipe))
+  end subroutine
+
   ! Widths differ by two between the hemispheres.
   integer(c_int) function density(xyz, n, rho, data) bind(c)
     integer(c_int64_t), value :: n
@@ -119,13 +131,13 @@ program fortran_example
   character(kind=c_char, len=8), target :: method = 'lloyd' // c_null_char
   character(len=1000) :: path
 
-  recipe%size = c_sizeof(recipe)
   report%size = c_sizeof(report)
   view%size = c_sizeof(view)
   error%size = c_sizeof(error)
   box%size = c_sizeof(box)
   call get_command_argument(1, path)
 
+  call calotte_recipe_init(recipe)
   recipe%cells = 1000
   recipe%density = c_funloc(density)
   recipe%fixed = c_loc(fixed)
@@ -143,8 +155,12 @@ program fortran_example
   ! A periodic box, by Lloyd's method.
   box%kind = 1
   box%period = [2, 1]
-  recipe = calotte_recipe(size=c_sizeof(recipe), cells=200, surface=c_loc(box), method=c_loc(method), &
-                          tolerance=1e-3_c_double, well_centred=-1)
+  call calotte_recipe_init(recipe)
+  recipe%cells = 200
+  recipe%surface = c_loc(box)
+  recipe%method = c_loc(method)
+  recipe%tolerance = 1e-3_c_double
+  recipe%well_centred = 0
   call require(calotte_make_grid(recipe, c_null_funptr, c_null_ptr, mesh, report, error))
   call look(2_c_int64_t)
   if (report%converged /= 1 .or. view%triangles /= 400) error stop 'a box of 200 cells has 400 triangles'
@@ -154,6 +170,9 @@ program fortran_example
   recipe%cells = 2
   if (calotte_make_grid(recipe, c_null_funptr, c_null_ptr, mesh, report, error) /= 6 &
       .or. c_associated(mesh)) error stop 'a grid of 2 cells is refused'
+  recipe = calotte_recipe(size=c_sizeof(recipe), cells=200)
+  if (calotte_make_grid(recipe, c_null_funptr, c_null_ptr, mesh, report, error) /= 6) &
+    error stop 'a recipe without its defaults is refused'
 
 contains
 

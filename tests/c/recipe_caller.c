@@ -32,47 +32,68 @@ static calotte_surface box = {
 
 static double start_points[3 * start_count];
 
+static void set_widths(calotte_recipe* recipe, const double* km, const double* x, int64_t nx,
+                       const double* y, int64_t ny) {
+  recipe->widths = km;
+  recipe->widths_x = x;
+  recipe->widths_y = y;
+  recipe->widths_nx = nx;
+  recipe->widths_ny = ny;
+}
+
 /* Returns 0 for an unknown name. */
 static int recipe_named(const char* name, calotte_recipe* out) {
-  const struct {
-    const char* name;
-    calotte_recipe recipe;
-  } requests[] = {
-      {"uniform", {.cells = 642}},
-      {"x8", {.cells = 2562, .density = density}},
-      {"widths",
-       {.widths = widths_km,
-        .widths_x = width_longitudes,
-        .widths_y = width_latitudes,
-        .widths_nx = width_columns,
-        .widths_ny = width_rows}},
-      {"rules", {.widths_file = "rules.toml"}},
-      {"region", {.cells = 500, .surface = &region}},
-      {"limited-area",
-       {.surface = &small_region,
-        .widths = uniform_km,
-        .widths_x = uniform_longitudes,
-        .widths_y = uniform_latitudes,
-        .widths_nx = 2,
-        .widths_ny = 2,
-        .limited_area = 1}},
-      {"plane", {.cells = 300, .surface = &rectangle}},
-      {"box", {.cells = 400, .surface = &box}},
-      {"walls", {.cells = 300, .surface = &box, .walls_y = 1}},
-      {"fixed", {.cells = 500, .fixed = fixed_directions, .fixed_count = fixed_count}},
-      {"points", {.start_points = start_points, .start_count = start_count}},
-      {"pure", {.cells = 642, .density = density, .well_centred = -1, .tolerance = 1e-3}},
-      {"well-centred", {.cells = 642, .well_centred = 1}},
-      {"lloyd", {.cells = 642, .density = density, .method = "lloyd", .iterations = 20}},
-  };
-  size_t i;
-  for (i = 0; i < sizeof requests / sizeof *requests; ++i)
-    if (strcmp(requests[i].name, name) == 0) {
-      *out = requests[i].recipe;
-      out->size = sizeof *out;
-      return 1;
-    }
-  return 0;
+  calotte_recipe_init(out);
+  if (strcmp(name, "uniform") == 0) {
+    out->cells = 642;
+  } else if (strcmp(name, "x8") == 0) {
+    out->cells = 2562;
+    out->density = density;
+  } else if (strcmp(name, "widths") == 0) {
+    set_widths(out, widths_km, width_longitudes, width_columns, width_latitudes, width_rows);
+  } else if (strcmp(name, "rules") == 0) {
+    out->widths_file = "rules.toml";
+  } else if (strcmp(name, "region") == 0) {
+    out->cells = 500;
+    out->surface = &region;
+  } else if (strcmp(name, "limited-area") == 0) {
+    out->surface = &small_region;
+    set_widths(out, uniform_km, uniform_longitudes, 2, uniform_latitudes, 2);
+    out->limited_area = 1;
+  } else if (strcmp(name, "plane") == 0) {
+    out->cells = 300;
+    out->surface = &rectangle;
+  } else if (strcmp(name, "box") == 0) {
+    out->cells = 400;
+    out->surface = &box;
+  } else if (strcmp(name, "walls") == 0) {
+    out->cells = 300;
+    out->surface = &box;
+    out->walls_y = 1;
+  } else if (strcmp(name, "fixed") == 0) {
+    out->cells = 500;
+    out->fixed = fixed_directions;
+    out->fixed_count = fixed_count;
+  } else if (strcmp(name, "points") == 0) {
+    out->start_points = start_points;
+    out->start_count = start_count;
+  } else if (strcmp(name, "pure") == 0) {
+    out->cells = 642;
+    out->density = density;
+    out->well_centred = 0;
+    out->tolerance = 1e-3;
+  } else if (strcmp(name, "well-centred") == 0) {
+    out->cells = 642;
+    out->well_centred = 1;
+  } else if (strcmp(name, "lloyd") == 0) {
+    out->cells = 642;
+    out->density = density;
+    out->method = "lloyd";
+    out->iterations = 20;
+  } else {
+    return 0;
+  }
+  return 1;
 }
 
 static int write_points(const char* path, const calotte_triangulation* view) {
@@ -89,10 +110,12 @@ static int write_points(const char* path, const calotte_triangulation* view) {
 
 int main(int argc, char** argv) {
   calotte_recipe recipe;
-  calotte_error error = {.size = sizeof error};
-  calotte_triangulation view = {.size = sizeof view};
+  calotte_error error;
+  calotte_triangulation view;
   calotte_mesh* mesh = NULL;
   int i, k, good;
+  calotte_error_init(&error);
+  calotte_triangulation_init(&view);
   for (i = 0; i < start_count; ++i)
     for (k = 0; k < 3; ++k)
       start_points[3 * i + k] = start_coordinate(i, k);

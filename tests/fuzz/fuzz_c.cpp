@@ -11,8 +11,8 @@ namespace {
 
 /// Positions are located, and values interpolated, or neither output is set.
 void look_up(const calotte_mesh* mesh, const Eigen::MatrixXd& positions) {
-  calotte_triangulation view{};
-  view.size = sizeof view;
+  calotte_triangulation view;
+  calotte_triangulation_init(&view);
   require(calotte_mesh_view(mesh, &view, nullptr) == 0);
   const auto n = static_cast<std::size_t>(positions.cols());
   const std::vector<double> ones(static_cast<std::size_t>(view.sites), 1);
@@ -33,8 +33,8 @@ void look_up(const calotte_mesh* mesh, const Eigen::MatrixXd& positions) {
 /// The C functions: each returns a status, and what succeeds has consistent views.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   calotte::fuzz::Bytes bytes(data, size);
-  calotte_surface surface{};
-  surface.size = sizeof surface;
+  calotte_surface surface;
+  calotte_surface_init(&surface);
   surface.kind = bytes.integer(0, 1);
   if (surface.kind == CALOTTE_PLANE) {
     surface.period[0] = bytes.number();
@@ -43,8 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int rows = surface.kind == CALOTTE_PLANE ? 2 : 3;
   const Eigen::MatrixXd points = bytes.columns(rows, 60);
   calotte_mesh* mesh = nullptr;
-  calotte_error error{};
-  error.size = sizeof error;
+  calotte_error error;
+  calotte_error_init(&error);
   const calotte_status status =
       calotte_delaunay(points.data(), points.cols(), &surface, &mesh, &error);
   require((status == 0) == (mesh != nullptr));
@@ -54,8 +54,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   look_up(mesh, bytes.columns(rows, 8));
   calotte_cells* cells = nullptr;
   if (calotte_voronoi(mesh, &cells, &error) == 0) {
-    calotte_tessellation tessellation{};
-    tessellation.size = sizeof tessellation;
+    calotte_tessellation tessellation;
+    calotte_tessellation_init(&tessellation);
     require(calotte_cells_view(cells, &tessellation, &error) == 0);
   }
   calotte_cells_free(cells);
