@@ -54,9 +54,10 @@ struct Density {
 
   Kind kind = Kind::uniform;    ///< what determines the density
   std::vector<Bump> bumps = {}; ///< combined by maximum or sum, of which there is one at least
-  /// Of Kind::widths, as density_of() makes them; no effect for other kinds.
+  /// Of Kind::widths, as density_of() makes them. A uniform density with these, a callable or bumps
+  /// is ill-formed; for other kinds they have no effect.
   std::shared_ptr<const density_detail::SampledWidths> widths = {};
-  Callable callable = {}; ///< not empty for Kind::callable; no effect for other kinds
+  Callable callable = {}; ///< not empty for Kind::callable; see `widths`
 
   /// True if the density is 1 everywhere.
   bool uniform() const { return kind == Kind::uniform; }

@@ -105,6 +105,8 @@ std::vector<Profile> profiles_of(const Density& density) {
     refuse("the density is that of cell widths, but has none; see density_of()");
   if (density.kind == Kind::callable && !density.callable)
     refuse("the density is a callable, but none is given");
+  if (density.uniform() && (density.callable || density.widths || !density.bumps.empty()))
+    refuse("the density is uniform, but has bumps, widths or a callable; set its kind, too");
   std::vector<Profile> profiles;
   for (std::size_t b = 0; bumps && b < density.bumps.size(); ++b) {
     profiles.push_back(profile_of(density.bumps[b], b));

@@ -251,6 +251,11 @@ TEST_CASE("an ill-formed density is one line that names the bump and the remedy"
   }
   CHECK(message_of(of_bumps({})) != "");
   CHECK(message_of(of({})) != "");
+  Density no_kind = of([](const auto&, Eigen::Ref<Eigen::VectorXd> rho) { rho.setOnes(); });
+  no_kind.kind = Density::Kind::uniform; // what a caller has who sets the callable alone
+  CHECK(message_of(no_kind) ==
+        "the density is uniform, but has bumps, widths or a callable; set its kind, too");
+  CHECK(message_of(of_bumps({Bump{}}, Density::Kind::uniform)) == message_of(no_kind));
   for (const double value : {-1e-300, nan, infinite, -infinite}) {
     const Density density = of([=](const auto& x, Eigen::Ref<Eigen::VectorXd> rho) {
       rho.setOnes();

@@ -26,7 +26,7 @@ GROUPS = [
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
 WIDTHS = ["by_latitude", "distance_to", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
-KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Level", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
+KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
          "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 
 
