@@ -1,208 +1,238 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times calotte::delaunay and its peers in one process, in rounds: each round runs every row once
-// on the same sites, so that a ratio of two rows of a round saw the same machine. The next round
-// starts with the next row. Every result is checked; a wrong one ends in a message and exit code 1.
+// Times calotte::triangulate and its peers on the sphere and in the plane, in one process. Every
+// result is checked; a wrong one ends in a message and exit code 1.
 
-#include "built_peers.h"
 #include "clouds.h"
-#include "fresh.h"
 #include "peers.h"
 #include "program.h"
 #include "stripack.h"
 
 #include <CGAL/version.h>
-#include <benchmark/benchmark.h>
 
-#include <functional>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <exception>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <thread>
+#include <stdexcept>
+#include <type_traits>
 
 namespace calotte::bench {
 
 namespace {
 
-struct Options : RoundOptions {
-  std::vector<std::string> sets = {"random"};
-  std::vector<std::int64_t> sizes = {163842, 2621442};
-  std::vector<std::string> rows = {"calotte", "one-thread", "one-region", "cgal", "stripack"};
-  std::vector<int> sweep;
-  std::int64_t stripack_limit = 200000, qhull_limit = 200000;
-  bool warm = false, fresh = false;
-  BuiltPeers built;
-};
-
-/// The sites of one set, computed at first use, and the triangulation of the first run.
-struct Workload {
-  std::string set;
-  Points3 points;
-  std::optional<Outcome> reference; ///< from the first of the library's rows
-};
-
-using Run = std::function<Outcome(const Points3&)>;
-
-struct Row {
-  std::string name;
-  Run run;
-  bool peer = false;
-  std::int64_t limit = std::numeric_limits<std::int64_t>::max(); ///< sites
-  std::string only_set = {}; ///< where it is not for all of them
-};
-
 const std::vector<std::string> row_names = {"calotte",          "one-thread", "one-region",
                                             "side-by-side",     "cgal",       "stripack",
                                             "stripack-natural", "qhull"};
 
-/// TRMESH on the sites of the set bisection, coarse levels first.
-Outcome run_stripack_natural(const Points3& shuffled) {
-  return run_stripack(natural_bisection(shuffled.cols()));
+struct Options : RoundOptions {
+  std::vector<std::string> rows = {"calotte", "one-thread", "one-region", "cgal", "stripack"};
+  std::vector<int> sweep;
+  std::int64_t limit = 200000;
+  bool warm = false, fresh = false;
+  std::string pbbs, geogram;
+};
+
+/// The triangles of a peer compared with the library's. Peers decide by the stored doubles, the
+/// library by the exact directions. On random sites the difference does not affect any decision; on
+/// a bisected icosahedron it affects many, so that triangles are only counted there.
+enum class Expected { same, as_many, all_but_at_hull };
+
+struct Competitor {
+  std::string name;
+  std::function<Outcome(const Points3&)> run;
+  bool ours = false;
+  Expected expected = Expected::same;
+};
+
+/// The sites of one set, computed at first use, and the triangles of the library's first run.
+struct Workload {
+  std::string set;
+  std::int64_t n = 0;
+  Points3 points;
+  std::optional<Digest> reference;
+};
+
+Competitor library(std::string name, const std::string& set, int threads,
+                   std::optional<int> regions = {}) {
+  DelaunayOptions options;
+  options.partition.regions = regions;
+  const Surface surface = in_plane(set) ? Surface::plane() : Surface::sphere();
+  return {std::move(name),
+          [=](const Points3& points) { return run_calotte(points, surface, threads, options); },
+          true};
 }
 
-Row library_row(std::string name, int threads, std::optional<int> regions = {}) {
-  return {std::move(name), [=](const Points3& points) {
-            DelaunayOptions options;
-            options.partition.regions = regions;
-            return run_calotte(points, threads, options);
-          }};
-}
-
-std::vector<Row> make_rows(const Options& options) {
-  std::vector<Row> rows;
-  for (const std::string& name : options.rows) {
-    if (name == "calotte") {
-      rows.push_back(library_row("calotte", options.threads));
-    } else if (name == "one-thread") {
-      rows.push_back(library_row(threads_row(1), 1));
-    } else if (name == "one-region") {
-      rows.push_back(library_row("calotte one region", 1, 1));
-    } else if (name == "side-by-side") {
-      rows.push_back({"calotte side by side", [threads = options.threads](const Points3& points) {
-                        return run_side_by_side(points, threads);
-                      }});
-    } else if (name == "cgal") {
-      rows.push_back({"CGAL", run_cgal, true});
-    } else if (name == "stripack" && has_stripack()) {
-      rows.push_back({"STRIPACK", run_stripack, true, options.stripack_limit});
-    } else if (name == "stripack-natural" && has_stripack()) {
-      rows.push_back({"STRIPACK, natural order", run_stripack_natural, true, options.stripack_limit,
-                      "bisection"});
-    } else if (name == "qhull" && has_qhull()) {
-      rows.push_back({"Qhull", run_qhull, true, options.qhull_limit});
-    }
-  }
-  if (const std::string& program = options.built.geogram; !program.empty())
-    for (const int threads : {1, options.threads})
-      rows.push_back({threads == 1 ? "geogram 1 thread" : "geogram",
-                      [=](const Points3& points) { return run_geogram(program, points, threads); },
-                      true});
-  for (const int threads : options.sweep)
-    rows.push_back(library_row(threads_row(threads), threads));
-  return rows;
-}
-
-/// One line that describes how an outcome differs from the expected one; empty if it does not.
-/// Peers decide by the stored doubles, the library by the exact directions. On random sites the
-/// difference does not affect any decision; on a bisected icosahedron it affects many, so that the
-/// peers' triangles are only counted there.
-std::string fault(const Outcome& outcome, const Row& row, const std::string& set, std::int64_t n,
-                  const std::optional<Outcome>& reference) {
-  if (!outcome.failure.empty())
-    return outcome.failure;
-  const std::int64_t expected = 2 * n - 4;
-  if (outcome.triangles != expected) {
-    return std::to_string(outcome.triangles) + " triangles with " + std::to_string(outcome.sites) +
-           " vertices, where " + std::to_string(expected) + " are due";
-  }
-  const bool same_decisions = !row.peer || set != "bisection";
-  if (same_decisions && reference && outcome.digest != reference->digest)
-    return "another set of triangles than the library's first run gave";
+/// \returns nothing for a peer that is missing, takes fewer sites or is of the other surface.
+std::optional<Competitor> competitor(const std::string& name, const std::string& set,
+                                     std::int64_t n, const Options& options) {
+  const int threads = options.threads;
+  const bool plane = in_plane(set);
+  const bool serial_hull = !plane && n <= options.limit;
+  const Expected peers = set == "bisection" ? Expected::as_many : Expected::same;
+  if (name == "calotte")
+    return library(name, set, threads);
+  if (name == "one-thread")
+    return library(threads_row(1), set, 1);
+  if (name == "one-region")
+    return library("calotte one region", set, 1, 1);
+  if (name == "side-by-side")
+    return Competitor{"calotte side by side",
+                      [=](const Points3& points) {
+                        return run_side_by_side(
+                            points, plane ? Surface::plane() : Surface::sphere(), threads);
+                      },
+                      true};
+  if (name == "cgal")
+    return Competitor{"CGAL", plane ? run_cgal_plane : run_cgal, false, peers};
+  if (name == "stripack" && serial_hull && has_stripack)
+    return Competitor{"STRIPACK", run_stripack, false, peers};
+  if (name == "stripack-natural" && serial_hull && has_stripack && set == "bisection")
+    return Competitor{
+        "STRIPACK, natural order",
+        [](const Points3& shuffled) { return run_stripack(natural_bisection(shuffled.cols())); },
+        false, peers};
+  if (name == "qhull" && serial_hull && !qhull_version().empty())
+    return Competitor{"Qhull", run_qhull, false, peers};
   return {};
 }
 
+/// The rows asked for, then those of the user's own programs and of the sweep.
+std::vector<Competitor> competitors(const std::string& set, std::int64_t n,
+                                    const Options& options) {
+  const bool plane = in_plane(set);
+  std::vector<Competitor> result;
+  for (const std::string& name : options.rows)
+    if (std::optional<Competitor> found = competitor(name, set, n, options))
+      result.push_back(std::move(*found));
+  for (const int threads : {1, options.threads}) {
+    const std::string suffix = threads == 1 ? " 1 thread" : "";
+    if (plane && !options.pbbs.empty())
+      result.push_back({"PBBS" + suffix,
+                        [=, program = options.pbbs](const Points3& points) {
+                          return run_pbbs(program, points, threads);
+                        },
+                        false, Expected::all_but_at_hull});
+    if (!options.geogram.empty() && (threads == 1 || !plane)) // it is serial in the plane
+      result.push_back({"geogram" + suffix, [=, program = options.geogram](const Points3& points) {
+                          return run_geogram(program, points, plane, threads);
+                        }});
+  }
+  for (const int threads : options.sweep)
+    result.push_back(library(threads_row(threads), set, threads));
+  return result;
+}
+
+/// Runs a triangulation in a new process, whose memory no earlier run has touched.
+/// \pre this process has started no threads.
+Outcome run_in_new_process(const std::function<Outcome()>& run) {
+  static_assert(std::is_trivially_copyable_v<Outcome>);
+  int ends[2];
+  if (pipe(ends) != 0)
+    throw std::runtime_error("no pipe");
+  const pid_t child = fork();
+  if (child == 0) {
+    try {
+      const Outcome outcome = run();
+      _exit(write(ends[1], &outcome, sizeof outcome) == sizeof outcome ? 0 : 1);
+    } catch (const std::exception& error) {
+      std::cerr << error.what() << '\n';
+      _exit(1);
+    }
+  }
+  close(ends[1]);
+  Outcome outcome;
+  const bool received = child > 0 && read(ends[0], &outcome, sizeof outcome) == sizeof outcome;
+  close(ends[0]);
+  if (child > 0)
+    waitpid(child, nullptr, 0);
+  if (!received)
+    throw std::runtime_error("the new process ended without a result");
+  return outcome;
+}
+
 /// Runs a row as the options say: in a new process, or here, perhaps after a run that is not timed.
-Outcome run_once(Workload& work, std::int64_t n, const Row& row, const Options& options) {
+Outcome run_once(Workload& work, const Competitor& row, const Options& options) {
   if (options.fresh)
-    return run_in_new_process([&] { return row.run(cloud(work.set, n)); });
+    return run_in_new_process([&] { return row.run(cloud(work.set, work.n)); });
   if (work.points.cols() == 0)
-    work.points = cloud(work.set, n);
-  if (options.warm && !row.peer)
+    work.points = cloud(work.set, work.n);
+  if (options.warm && row.ours)
     row.run(work.points);
   return row.run(work.points);
 }
 
-void run_row(benchmark::State& state, Workload& work, std::int64_t n, const Row& row,
-             const Options& options) {
-  for (auto _ : state) {
-    const Outcome outcome = run_once(work, n, row, options);
-    state.SetIterationTime(outcome.seconds);
-    if (const std::string message = fault(outcome, row, work.set, n, work.reference);
-        !message.empty()) {
-      state.SkipWithError(message.c_str());
-      return;
-    }
-    if (!row.peer && !work.reference)
-      work.reference = outcome;
-    state.counters["cpu"] = outcome.cpu_seconds;
-  }
+/// \throws std::runtime_error if triangles are not the expected ones.
+void check(const Digest& triangles, const Competitor& row, const Workload& work) {
+  const std::int64_t count = triangles.count;
+  if (!in_plane(work.set) && count != 2 * work.n - 4)
+    throw std::runtime_error(std::to_string(count) + " triangles, where " +
+                             std::to_string(2 * work.n - 4) + " are due");
+  if (!work.reference)
+    return;
+  const std::int64_t due = work.reference->count;
+  bool good = triangles == *work.reference;
+  if (row.expected == Expected::as_many)
+    good = count == due;
+  else if (row.expected == Expected::all_but_at_hull)
+    good = count <= due && 100 * count > 99 * due;
+  if (!good)
+    throw std::runtime_error("another set of triangles than the library's first run gave");
 }
 
-std::vector<RoundRow> rows_of(const std::vector<Row>& rows, const std::shared_ptr<Workload>& work,
-                              std::int64_t n, const Options& options) {
-  std::vector<RoundRow> result;
-  for (const Row& row : rows) {
-    if (!row.only_set.empty() && row.only_set != work->set)
-      continue;
-    const auto run = [work, n, row, options](benchmark::State& state) {
-      run_row(state, *work, n, row, options);
-    };
-    result.push_back({row.name, run, row.limit});
-  }
+Sample measure(Workload& work, const Competitor& row, const Options& options) {
+  const Outcome outcome = run_once(work, row, options);
+  check(outcome.triangles, row, work);
+  if (row.ours && !work.reference)
+    work.reference = outcome.triangles;
+  return sample_of(outcome);
+}
+
+/// The library's own row opens the first round, as the reference for the peers.
+std::vector<Row> rows(const std::string& set, std::int64_t n, const Options& options) {
+  const auto work = std::make_shared<Workload>(Workload{set, n, {}, {}});
+  std::vector<Row> result;
+  for (const Competitor& row : competitors(set, n, options))
+    result.push_back({row.name, [=, &options] { return measure(*work, row, options); }});
   return result;
 }
 
-/// Registered in the order of execution; the sets alternate, too. The library's own row opens the
-/// first round, as the reference for the peers.
-void register_all(const Options& options) {
-  const std::vector<Row> rows = make_rows(options);
-  for (const std::int64_t n : options.sizes) {
-    std::vector<std::shared_ptr<Workload>> works;
-    for (const std::string& set : options.sets)
-      works.push_back(std::make_shared<Workload>(Workload{set, {}, {}}));
-    for (int round = 0; round < options.rounds; ++round)
-      for (const auto& work : works)
-        register_round(work->set, n, round, rows_of(rows, work, n, options));
-  }
-}
-
 void add_options(CLI::App& app, Options& options) {
-  add_list_option(app, "--sets", options.sets, "sets of sites: random, bisection, x8",
+  add_list_option(app, "--sets", options.sets,
+                  "sets of sites: random, bisection; of the plane: uniform, clusters, line",
                   CLI::IsMember(cloud_names()));
   add_list_option(app, "--sizes", options.sizes, "numbers of sites", CLI::Range(4, 300000000));
   add_list_option(app, "--rows", options.rows,
                   "what to time: " + CLI::detail::join(row_names, ", "), CLI::IsMember(row_names));
+  add_threads_option(app, options);
   add_list_option(app, "--sweep", options.sweep,
                   "also time the library on these numbers of threads", CLI::PositiveNumber);
-  add_round_options(app, options);
-  app.add_option("--stripack-limit", options.stripack_limit,
-                 "most sites that STRIPACK is given; it is slow beyond")
+  app.add_option("--limit", options.limit,
+                 "maximum number of sites for STRIPACK and Qhull, which are slow beyond")
       ->capture_default_str();
-  app.add_option("--qhull-limit", options.qhull_limit, "the same for Qhull")->capture_default_str();
   app.add_flag("--warm", options.warm,
                "before each of the library's runs, one that is not timed: beside peers that take "
                "half a minute, whose arrays are touched before their clock starts");
   app.add_flag("--fresh", options.fresh,
                "each run in a new process, whose memory no run has touched: what a command takes")
       ->excludes("--warm");
-  add_geogram_option(app, options.built);
+  app.add_option("--pbbs", options.pbbs,
+                 "also time this program of your own build in the plane: delaunay of PBBS' "
+                 "incrementalDelaunay (github.com/cmuparlay/pbbsbench)")
+      ->check(CLI::ExistingFile);
+  app.add_option("--geogram", options.geogram,
+                 "also time this program of your own build: compute_delaunay of geogram's "
+                 "Delaunay_psm (github.com/BrunoLevy/geogram)")
+      ->check(CLI::ExistingFile);
 }
 
 std::map<std::string, std::string> peers() {
   std::map<std::string, std::string> versions = {{"CGAL", CGAL_VERSION_STR}};
-  if (has_stripack())
+  if (has_stripack)
     versions["STRIPACK"] = "";
-  if (has_qhull())
+  if (!qhull_version().empty())
     versions["Qhull"] = qhull_version();
   return versions;
 }
@@ -213,8 +243,11 @@ std::map<std::string, std::string> peers() {
 int main(int argc, char** argv) {
   using namespace calotte::bench;
   Options options;
+  options.sets = {"random"};
+  options.sizes = {163842, 2621442};
   return run_program(
-      argc, argv,
-      {"Times the library's Delaunay triangulation of the sphere and its peers, interleaved.",
-       peers(), [&](CLI::App& app) { add_options(app, options); }, [&] { register_all(options); }});
+      argc, argv, options,
+      {"Times the library's Delaunay triangulation and its peers, interleaved.", peers(),
+       [&](CLI::App& app) { add_options(app, options); },
+       [&](const std::string& set, std::int64_t n) { return rows(set, n, options); }});
 }

@@ -5,10 +5,7 @@
 // measurements.
 
 #include "clouds.h"
-#include "cvt/cvt.h"
-#include "delaunay/delaunay.h"
 #include "program.h"
-#include "stopwatch.h"
 #include "support/starts.h"
 
 #include "cvt/functional.h"
@@ -19,38 +16,26 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <array>
 #include <memory>
-#include <optional>
-#include <stdexcept>
 
 namespace calotte::bench {
 
 namespace {
 
-const std::vector<std::string> decompositions = {"default", "uniform", "x8"};
 const std::map<std::string, Overlap> sorts = {
     {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
 
 struct Options : RoundOptions {
-  std::vector<std::string> sets = {"uniform", "x8"};
-  std::vector<std::int64_t> sizes = {163842};
   std::vector<std::string> works = {"iteration", "triangulation"};
   std::vector<int> regions = {0, 96};
   std::vector<std::string> sorts = {"halo"};
   std::vector<std::string> decompositions = {"default"};
-  int iterations = 9, triangulations = 4;
 };
 
-struct Workload {
-  std::string set;
-  std::int64_t n = 0;
-  Points3 points; ///< computed at first use
-};
+/// Runs of each work in a round; the first ones use fresh memory and count for nothing, and the
+/// first two iterations test the start's mesh twice. Regions count with their medians.
+constexpr int iterations = 9, first_iteration = 2, triangulations = 4, first_triangulation = 1;
 
 /// The quantity that one row measures.
 struct Cut {
@@ -65,8 +50,7 @@ std::string name_of(const Cut& cut) {
 }
 
 /// Cells of a nearly converged CVT: a coarse one, bisected.
-Points3 generators(const std::string& set, std::int64_t n) {
-  const Density density = named_density(set);
+Points3 generators(const Density& density, std::int64_t n) {
   const std::int64_t coarse = std::min<std::int64_t>(n, 10242);
   const test::FirstGenerators from = test::continuation(coarse, density);
   CvtOptions options;
@@ -86,17 +70,12 @@ Points3 generators(const std::string& set, std::int64_t n) {
 
 /// Centres of the paper's decompositions: bisected icosahedra, and a coarse CVT of the x8 density.
 Points3 centres_of(const std::string& decomposition, int regions) {
-  const auto& sizes = bisected_sizes();
-  const auto at = std::find(sizes.begin(), sizes.end(), regions);
-  if (decomposition == "uniform") {
-    if (at == sizes.end())
-      throw std::invalid_argument("a uniform decomposition has 42, 162 ... regions");
-    return bisected_icosahedron(static_cast<int>(at - sizes.begin()) + 1);
-  }
+  if (decomposition == "uniform")
+    return bisected_icosahedron(bisection_level(regions));
   CvtOptions options;
-  options.density = x8_density();
+  options.density = named_density("x8");
   options.tolerance = 1e-3;
-  return cvt(random_sphere(regions, site_density(x8_density())), Surface::sphere(), options)
+  return cvt(random_sphere(regions, site_density(options.density)), Surface::sphere(), options)
       .mesh.points;
 }
 
@@ -110,220 +89,128 @@ Partition partition_of(const Cut& cut) {
   return options;
 }
 
-/// Lists, by region: seconds, owned, halo (sites), received and sent (bytes).
-struct Lists {
-  std::vector<double> seconds, owned, halo, received, sent;
-};
-
-constexpr double position_bytes = 3 * sizeof(double);
-
-void add_lists(benchmark::State& state, Lists lists) {
-  for (const double halo : lists.halo)
-    lists.received.push_back(position_bytes * halo);
-  if (lists.sent.empty())
-    lists.sent = lists.received;
-  set_lists(state, {{"seconds", lists.seconds},
-                    {"owned", lists.owned},
-                    {"halo", lists.halo},
-                    {"received", lists.received},
-                    {"sent", lists.sent}});
-}
-
-/// For lists with one value per region: the median for each region, without the first
-/// `without` lists.
-std::vector<double> medians(const std::vector<std::vector<double>>& lists, int without) {
-  std::vector<double> result;
-  for (std::size_t k = 0; k < lists.front().size(); ++k) {
-    std::vector<double> values;
-    for (auto list = lists.begin() + without; list != lists.end(); ++list)
-      values.push_back(list->at(k));
-    result.push_back(median(values));
-  }
-  return result;
-}
+using Lists = std::map<std::string, std::vector<double>>;
 
 /// Adds the number of sites that each region would receive in an iteration of a distributed run,
-/// and the number of bytes that it would send.
+/// and the number of bytes of positions that it would send.
 void count_halos(const Points3& points, const Partition& partition, Lists& lists) {
   const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
   const delaunay_detail::Regions regions = delaunay_detail::divide(sites, partition);
-  lists.halo.resize(regions.centres.size(), 0);
-  lists.sent.resize(regions.centres.size(), 0);
+  std::vector<double>& halo = lists["halo"];
+  std::vector<double>& sent = lists["sent"];
+  halo.resize(regions.centres.size());
+  sent.resize(regions.centres.size());
   for (std::size_t k = 0; k < regions.members.size(); ++k)
     for (const delaunay_detail::Run& run : regions.members[k])
       for (std::int32_t r = run.begin; r != run.end; ++r)
         if (const auto owner = static_cast<std::size_t>(regions.owner[r]); owner != k) {
-          ++lists.halo[k];
-          lists.sent[owner] += position_bytes;
+          ++halo[k];
+          sent[owner] += 3 * sizeof(double);
         }
 }
 
-/// Iterations of Lloyd's method. The seconds of a region are the median over all iterations but the
-/// first two, which test the start's mesh twice and use fresh memory.
-class Iterations {
-public:
-  Iterations(const Workload& work, const Cut& cut)
-      : points_(work.points), partition_(partition_of(cut)),
-        functional_(
-            cvt_detail::make_functional(work.points, Surface::sphere(), options_of(work, cut))) {}
+/// \param seconds of all runs, and of each region in each run.
+Sample sample_of(const std::vector<double>& seconds,
+                 const std::vector<std::vector<double>>& by_region, Lists lists) {
+  std::vector<double>& medians = lists["seconds"];
+  for (const std::vector<double>& values : by_region)
+    medians.push_back(median(values));
+  return {median(seconds), {}, std::move(lists)};
+}
 
-  /// \returns the wall-clock seconds of this iteration.
-  double step() {
-    const std::vector<CvtRegion> before = functional_->regions();
-    const Stopwatch watch;
-    functional_->evaluate(points_, false, false, evaluation_);
-    Timed timed;
-    watch.stop(timed);
-    regions_ = functional_->regions();
-    std::vector<double>& seconds = seconds_.emplace_back();
-    for (std::size_t k = 0; k < regions_.size(); ++k)
-      seconds.push_back(regions_[k].seconds - before.at(k).seconds);
-    points_.swap(evaluation_.centroids);
-    return timed.seconds;
-  }
-
-  Lists lists() const {
-    Lists lists;
-    lists.seconds = medians(seconds_, warm_up);
-    for (const CvtRegion& region : regions_)
-      lists.owned.push_back(static_cast<double>(region.sites));
-    count_halos(points_, partition_, lists);
-    return lists;
-  }
-
-  static constexpr int warm_up = 2;
-
-private:
-  static CvtOptions options_of(const Workload& work, const Cut& cut) {
-    CvtOptions options;
-    options.density = named_density(work.set);
-    options.partition = partition_of(cut);
-    return options;
-  }
-
-  Points3 points_;
-  Partition partition_;
-  std::unique_ptr<cvt_detail::RunFunctional> functional_;
-  cvt_detail::Evaluation evaluation_;
-  std::vector<CvtRegion> regions_;
-  std::vector<std::vector<double>> seconds_; ///< of each iteration, by region
-};
-
-void run_iterations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
-  Iterations iterations(work, cut);
+/// Iterations of Lloyd's method.
+Sample run_iterations(Points3 points, const Density& density, const Partition& partition) {
+  CvtOptions options;
+  options.density = density;
+  options.partition = partition;
+  const std::unique_ptr<cvt_detail::RunFunctional> functional =
+      cvt_detail::make_functional(points, Surface::sphere(), options);
+  cvt_detail::Evaluation evaluation;
+  std::vector<CvtRegion> regions = functional->regions();
   std::vector<double> seconds;
-  for (int i = 0; i < count; ++i)
-    seconds.push_back(iterations.step());
-  state.SetIterationTime(median({seconds.begin() + Iterations::warm_up, seconds.end()}));
-  add_lists(state, iterations.lists());
-}
-
-/// Triangulations. The seconds of a region (gather, project, triangulate, cull and certify) are the
-/// median over all but the first, which uses fresh memory. Regions start far apart, because the
-/// first one finds the caches cold. The centres are given; the time to choose them is not measured.
-class Triangulations {
-public:
-  Triangulations(const Workload& work, const Cut& cut)
-      : points_(work.points), partition_(partition_of(cut)),
-        centres_(delaunay_detail::make_centres(
-            delaunay_detail::make_sites(work.points, Duplicates::merge, 0), partition_)) {}
-
-  /// The regions in cyclic order from the first-th on.
-  DelaunayReport step(std::size_t first) {
-    Points3 centres(3, centres_.size());
-    const std::size_t count = centres_.size();
-    for (std::size_t k = 0; k < count; ++k)
-      base_detail::set_column(centres, static_cast<std::int64_t>(k), centres_[(first + k) % count]);
-    partition_.given_centres = centres;
-    DelaunayReport report =
-        triangulate(points_, Surface::sphere(), {.partition = partition_}).report;
-    if (report.serial) {
-      report.seconds_per_region = {report.seconds.triangulate};
-      return report;
-    }
-    const auto in_place = [&](auto& list) {
-      std::rotate(list.begin(), list.end() - static_cast<std::ptrdiff_t>(first), list.end());
-    };
-    in_place(report.seconds_per_region);
-    in_place(report.owned_per_region);
-    in_place(report.sites_per_region);
-    return report;
+  std::vector<std::vector<double>> by_region(regions.size());
+  for (int i = 0; i < iterations; ++i) {
+    const std::vector<CvtRegion> before = std::exchange(regions, {});
+    const Stopwatch watch;
+    functional->evaluate(points, false, false, evaluation);
+    const Timed timed = watch.stop();
+    regions = functional->regions();
+    points.swap(evaluation.centroids);
+    if (i < first_iteration)
+      continue;
+    seconds.push_back(timed.seconds);
+    for (std::size_t k = 0; k < regions.size(); ++k)
+      by_region.at(k).push_back(regions[k].seconds - before.at(k).seconds);
   }
-
-  std::size_t regions() const { return centres_.size(); }
-
-  static constexpr int warm_up = 1;
-
-private:
-  const Points3& points_;
-  Partition partition_;
-  std::vector<base_detail::Vec3> centres_;
-};
-
-void run_triangulations(benchmark::State& state, const Workload& work, const Cut& cut, int count) {
-  Triangulations triangulations(work, cut);
-  DelaunayReport report;
-  std::vector<double> total;
-  std::vector<std::vector<double>> seconds;
-  for (int i = 0; i < count; ++i) {
-    const auto turn = static_cast<std::size_t>(i);
-    report = triangulations.step(turn * triangulations.regions() / static_cast<std::size_t>(count));
-    total.push_back(report.seconds.total);
-    seconds.push_back(report.seconds_per_region);
-  }
-  const int without = Triangulations::warm_up;
-  state.SetIterationTime(median({total.begin() + without, total.end()}));
   Lists lists;
-  lists.seconds = medians(seconds, without);
-  for (std::size_t k = 0; k < report.owned_per_region.size(); ++k) {
-    const auto owned = static_cast<double>(report.owned_per_region[k]);
-    lists.owned.push_back(owned);
-    lists.halo.push_back(static_cast<double>(report.sites_per_region[k]) - owned);
+  for (const CvtRegion& region : regions)
+    lists["owned"].push_back(static_cast<double>(region.sites));
+  count_halos(points, partition, lists);
+  return sample_of(seconds, by_region, std::move(lists));
+}
+
+/// Triangulations. A region's seconds are those to gather, project, triangulate, cull and certify.
+/// Regions start far apart, because the first one finds the caches cold. The centres are given; the
+/// time to choose them is not measured.
+Sample run_triangulations(const Points3& points, Partition partition) {
+  const auto centres = delaunay_detail::make_centres(
+      delaunay_detail::make_sites(points, Duplicates::merge, 0), partition);
+  const std::size_t count = centres.size();
+  std::vector<double> seconds;
+  std::vector<std::vector<double>> by_region(count);
+  Lists lists;
+  lists["owned"].resize(count);
+  lists["halo"].resize(count);
+  for (std::size_t i = 0; i < triangulations; ++i) {
+    const std::size_t first = i * count / triangulations;
+    Points3 rotated(3, count);
+    for (std::size_t k = 0; k < count; ++k)
+      base_detail::set_column(rotated, static_cast<std::int64_t>(k), centres[(first + k) % count]);
+    partition.given_centres = rotated;
+    const DelaunayReport report =
+        triangulate(points, Surface::sphere(), {.partition = partition}).report;
+    if (i < first_triangulation)
+      continue;
+    seconds.push_back(report.seconds.total);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t region = (first + k) % count;
+      const auto owned = static_cast<double>(report.owned_per_region.at(k));
+      by_region[region].push_back(report.serial ? report.seconds.triangulate
+                                                : report.seconds_per_region.at(k));
+      lists["owned"][region] = owned;
+      lists["halo"][region] = static_cast<double>(report.sites_per_region.at(k)) - owned;
+    }
   }
-  add_lists(state, lists);
+  return sample_of(seconds, by_region, std::move(lists));
 }
 
-void run_cut(benchmark::State& state, Workload& work, const Cut& cut, const Options& options) {
-  if (work.points.cols() == 0)
-    work.points = generators(work.set, work.n);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-  tbb::task_arena arena(1);
-  for (auto _ : state)
-    arena.execute([&] {
-      if (cut.work == "iteration")
-        run_iterations(state, work, cut, options.iterations);
-      else
-        run_triangulations(state, work, cut, options.triangulations);
+std::vector<Row> rows(const std::string& set, std::int64_t n, const Options& options) {
+  const Density density = named_density(set);
+  const auto points = std::make_shared<Points3>(); // computed at first use
+  const auto run = [=](const Cut& cut) {
+    if (points->cols() == 0)
+      *points = generators(density, n);
+    Sample sample;
+    on_threads(1, [&] {
+      const Partition partition = partition_of(cut);
+      sample = cut.work == "iteration" ? run_iterations(*points, density, partition)
+                                       : run_triangulations(*points, partition);
     });
-}
-
-std::vector<RoundRow> make_rows(const Options& options, const std::shared_ptr<Workload>& work) {
-  std::vector<RoundRow> rows;
-  for (const std::string& kind : options.works)
+    return sample;
+  };
+  std::vector<Row> result;
+  for (const std::string& work : options.works)
     for (const std::string& decomposition : options.decompositions)
       for (const std::string& sort : options.sorts)
         for (const int regions : options.regions) {
-          const Cut cut{kind, sort, decomposition, regions};
-          const auto run = [work, cut, &options](benchmark::State& state) {
-            run_cut(state, *work, cut, options);
-          };
-          rows.push_back({name_of(cut), run});
+          const Cut cut{work, sort, decomposition, regions};
+          result.push_back({name_of(cut), [=] { return run(cut); }});
         }
-  return rows;
-}
-
-void register_all(const Options& options) {
-  std::vector<std::shared_ptr<Workload>> works;
-  for (const std::int64_t n : options.sizes)
-    for (const std::string& set : options.sets)
-      works.push_back(std::make_shared<Workload>(Workload{set, n, {}}));
-  for (int round = 0; round < options.rounds; ++round)
-    for (const auto& work : works)
-      register_round(work->set, work->n, round, make_rows(options, work));
+  return result;
 }
 
 void add_options(CLI::App& app, Options& options) {
-  add_grid_options(app, options.sets, options.sizes);
+  add_grid_options(app, options);
   add_list_option(app, "--works", options.works, "iteration, triangulation",
                   CLI::IsMember({"iteration", "triangulation"}));
   add_list_option(app, "--regions", options.regions, "numbers of regions; 0 for the library's own",
@@ -331,17 +218,7 @@ void add_options(CLI::App& app, Options& options) {
   add_list_option(app, "--sorts", options.sorts, "halo, distance, voronoi", CLI::IsMember(sorts));
   add_list_option(app, "--decompositions", options.decompositions,
                   "centres: default, uniform (42, 162 ... regions), x8",
-                  CLI::IsMember(decompositions));
-  app.add_option("--iterations", options.iterations, "of each run; the first two count for nothing")
-      ->check(CLI::Range(Iterations::warm_up + 1, 10000))
-      ->capture_default_str();
-  app.add_option("--triangulations", options.triangulations,
-                 "of each run, beginning with regions far apart; the first counts for nothing")
-      ->check(CLI::Range(Triangulations::warm_up + 3, 10000)) // a median of two is their mean
-      ->capture_default_str();
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+                  CLI::IsMember({"default", "uniform", "x8"}));
 }
 
 } // namespace
@@ -351,10 +228,13 @@ void add_options(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
   using namespace calotte::bench;
   Options options;
+  options.sets = {"uniform", "x8"};
+  options.sizes = {163842};
   options.rounds = 3;
-  return run_program(argc, argv,
-                     {"Measures what each region of a decomposition takes, on one thread.",
-                      {},
-                      [&](CLI::App& app) { add_options(app, options); },
-                      [&] { register_all(options); }});
+  return run_program(
+      argc, argv, options,
+      {"Measures what each region of a decomposition takes, on one thread.",
+       {},
+       [&](CLI::App& app) { add_options(app, options); },
+       [&](const std::string& set, std::int64_t n) { return rows(set, n, options); }});
 }

@@ -3,7 +3,10 @@
 
 #include "clouds.h"
 
+#include <benchmark/benchmark.h>
 #include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <exception>
@@ -62,8 +65,47 @@ void keep_memory() {
 #endif
 }
 
-int run(int argc, char** argv, const Program& program) {
+void run_row(benchmark::State& state, const Row& row) {
+  for (auto _ : state)
+    try {
+      const Sample sample = row.run();
+      state.SetIterationTime(sample.seconds);
+      for (const auto& [name, value] : sample.counters)
+        state.counters[name] = value;
+      if (!sample.lists.empty())
+        state.SetLabel(nlohmann::json(sample.lists).dump());
+    } catch (const std::exception& error) {
+      state.SkipWithError(error.what());
+    }
+}
+
+/// In the order of execution; the sets alternate, too.
+void register_rounds(const RoundOptions& options, const Program& program) {
+  for (const std::int64_t n : options.sizes) {
+    std::vector<std::vector<Row>> rows_of_sets;
+    for (const std::string& set : options.sets)
+      rows_of_sets.push_back(program.rows(set, n));
+    for (int round = 0; round < options.rounds; ++round)
+      for (std::size_t s = 0; s < rows_of_sets.size(); ++s)
+        for (std::size_t i = 0; i < rows_of_sets[s].size(); ++i) {
+          const std::vector<Row>& rows = rows_of_sets[s];
+          const Row& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
+          const std::string name = options.sets[s] + "/n:" + std::to_string(n) +
+                                   "/round:" + std::to_string(round) + "/" + row.name;
+          benchmark::RegisterBenchmark(name.c_str(), [row](auto& state) { run_row(state, row); })
+              ->Iterations(1)
+              ->UseManualTime()
+              ->Unit(benchmark::kSecond);
+        }
+  }
+}
+
+int run(int argc, char** argv, RoundOptions& options, const Program& program) {
   CLI::App app{program.purpose};
+  app.add_option("--rounds", options.rounds, "how often every row runs; the last one given counts")
+      ->check(CLI::PositiveNumber)
+      ->take_last()
+      ->capture_default_str();
   program.add_options(app);
   app.allow_extras();
   app.footer("Google Benchmark's own options work too: --benchmark_filter, --benchmark_out, "
@@ -79,7 +121,7 @@ int run(int argc, char** argv, const Program& program) {
   for (const auto& [name, version] : program.peers)
     benchmark::AddCustomContext("peer " + name, version);
   keep_memory();
-  program.register_rows();
+  register_rounds(options, program);
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   benchmark::Shutdown();
@@ -88,43 +130,35 @@ int run(int argc, char** argv, const Program& program) {
 
 } // namespace
 
-void add_round_options(CLI::App& app, RoundOptions& options) {
-  app.add_option("--rounds", options.rounds, "how often every row runs")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of the library's rows")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+void on_threads(int threads, const std::function<void()>& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(work);
 }
 
-void add_grid_options(CLI::App& app, std::vector<std::string>& sets,
-                      std::vector<std::int64_t>& sizes) {
-  add_list_option(app, "--sets", sets, "densities: uniform, x8", CLI::IsMember({"uniform", "x8"}));
-  add_list_option(app, "--sizes", sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2",
-                  CLI::IsMember(bisected_sizes()));
+Sample sample_of(const Timed& timed) {
+  Sample sample{timed.seconds, {}, {}};
+  if (timed.cpu_seconds > 0)
+    sample.counters["cpu"] = timed.cpu_seconds;
+  return sample;
 }
 
 std::string threads_row(int threads) {
   return "calotte " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-void register_round(const std::string& set, std::int64_t n, int round,
-                    const std::vector<RoundRow>& rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const RoundRow& row = rows[(i + static_cast<std::size_t>(round)) % rows.size()];
-    if (n > row.limit)
-      continue;
-    const std::string name =
-        set + "/n:" + std::to_string(n) + "/round:" + std::to_string(round) + "/" + row.name;
-    benchmark::RegisterBenchmark(name.c_str(), row.run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kSecond);
-  }
+void add_threads_option(CLI::App& app, RoundOptions& options) {
+  app.add_option("--threads", options.threads, "threads of the library's rows")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
-void set_lists(benchmark::State& state, const std::map<std::string, std::vector<double>>& lists) {
-  state.SetLabel(nlohmann::json(lists).dump());
+void add_grid_options(CLI::App& app, RoundOptions& options) {
+  add_list_option(app, "--sets", options.sets, "densities: uniform, x8",
+                  CLI::IsMember({"uniform", "x8"}));
+  add_list_option(app, "--sizes", options.sizes, "numbers of cells: 42, 162 ... 10 * 4^level + 2",
+                  CLI::IsMember(bisected_sizes()));
 }
 
 double median(std::vector<double> values) {
@@ -132,9 +166,9 @@ double median(std::vector<double> values) {
   return (values.at((values.size() - 1) / 2) + values.at(values.size() / 2)) / 2;
 }
 
-int run_program(int argc, char** argv, const Program& program) {
+int run_program(int argc, char** argv, RoundOptions& options, const Program& program) {
   try {
-    return run(argc, argv, program);
+    return run(argc, argv, options, program);
   } catch (const std::exception& error) {
     std::cerr << argv[0] << ": " << error.what() << '\n';
     return 1;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "peers.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
-#include <vector>
 
 #ifdef CALOTTE_BENCH_QHULL
 extern "C" {
@@ -19,15 +18,9 @@ namespace calotte::bench {
 
 namespace {
 
-/// A hull, freed at the end.
-class Hull {
-public:
-  explicit Hull(Points3& points) {
-    qh_zero(&qh, stderr);
-    char options[] = "qhull Qt";
-    error = qh_new_qhull(&qh, 3, static_cast<int>(points.cols()), points.data(), False, options,
-                         nullptr, stderr);
-  }
+/// Qhull's memory, freed at the end.
+struct Hull {
+  Hull() { qh_zero(&qh, stderr); }
   ~Hull() {
     int bytes = 0, blocks = 0;
     qh_freeqhull(&qh, !qh_ALL);
@@ -36,47 +29,33 @@ public:
   Hull(const Hull&) = delete;
   Hull& operator=(const Hull&) = delete;
 
-  /// Calls body(a, b, c) for each triangle, counter-clockwise seen from outside.
-  template <class Body> void for_each_triangle(const Body& body) {
-    for (const facetT* facet = qh.facet_list; facet && facet->next; facet = facet->next) {
-      std::array<std::int32_t, 3> corner{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto* vertex = static_cast<const vertexT*>(facet->vertices->e[i].p);
-        corner[i] = static_cast<std::int32_t>(qh_pointid(&qh, vertex->point));
-      }
-      if (facet->toporient != qh_ORIENTclock)
-        std::swap(corner[1], corner[2]);
-      body(corner[0], corner[1], corner[2]);
-    }
-  }
-
   qhT qh{};
-  int error = 0;
 };
 
 } // namespace
 
 Outcome run_qhull(const Points3& points) {
   Points3 input = points;
-  Outcome outcome;
+  char options[] = "qhull Qt";
+  Hull hull;
   const Stopwatch watch;
-  Hull hull(input);
-  watch.stop(outcome);
-  if (hull.error != 0) {
-    outcome.failure = "Qhull gave up with error " + std::to_string(hull.error);
-    return outcome;
+  const int error = qh_new_qhull(&hull.qh, 3, static_cast<int>(input.cols()), input.data(), False,
+                                 options, nullptr, stderr);
+  Outcome outcome{watch.stop(), {}};
+  if (error != 0)
+    throw std::runtime_error("Qhull gave up with error " + std::to_string(error));
+  for (const facetT* facet = hull.qh.facet_list; facet && facet->next; facet = facet->next) {
+    std::array<std::int32_t, 3> corner{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto* vertex = static_cast<const vertexT*>(facet->vertices->e[i].p);
+      corner[i] = static_cast<std::int32_t>(qh_pointid(&hull.qh, vertex->point));
+    }
+    if (facet->toporient != qh_ORIENTclock)
+      std::swap(corner[1], corner[2]);
+    outcome.triangles.add(corner[0], corner[1], corner[2]);
   }
-  outcome.sites = hull.qh.num_vertices;
-  Digest digest;
-  hull.for_each_triangle([&](std::int32_t a, std::int32_t b, std::int32_t c) {
-    ++outcome.triangles;
-    digest.add(a, b, c);
-  });
-  outcome.digest = digest.value();
   return outcome;
 }
-
-bool has_qhull() { return true; }
 
 std::string qhull_version() {
   const std::string full = qh_version; // version, date
@@ -85,9 +64,7 @@ std::string qhull_version() {
 
 #else
 
-Outcome run_qhull(const Points3&) { return {}; }
-
-bool has_qhull() { return false; }
+Outcome run_qhull(const Points3&) { throw std::logic_error("built without Qhull"); }
 
 std::string qhull_version() { return {}; }
 
