@@ -162,17 +162,23 @@ TEST_CASE("a state that no run has left is refused") {
     return true;
   });
   CHECK_NOTHROW(cvt(good, {}, options));
-  std::vector<CvtState> bad(5, good);
+  std::vector<CvtState> bad(9, good);
   State::of(bad[0]).id[3] = State::of(bad[0]).id[4];
   State::of(bad[1]).id.pop_back();
   State::of(bad[2]).points(0, 7) = std::nan("");
   State::of(bad[3]).points *= 2;
   State::of(bad[4]).site_of_input[0] = 50;
+  State::of(bad[5]).cursor.action = 1;
+  State::of(bad[6]).report.done.clear();
+  State::of(bad[7]).report.actions.clear();
+  State::of(bad[8]).memory.iterations = -1;
   for (const CvtState& state : bad)
     CHECK_THROWS_AS(cvt(state, {}, options), Error);
-  CvtState few;
+  CvtState few = good;
   State::of(few).points = good.points().leftCols(11);
   State::of(few).id = base_detail::themselves(11);
+  State::of(few).site_of_input.clear();
+  State::of(few).memory = {};
   CHECK_THROWS_WITH_AS(
       cvt(few, {}, options),
       "the state has 11 generators, and a run on the surface has at least 12; give "

@@ -493,4 +493,8 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
   spoilt.values[2] = 1000;
   Patch(path).put(spoilt);
   CHECK(has(message_of([&] { read_coast(path); }), "GSHHG"));
+  Mpas raster;
+  raster.variables["z"] = {"z", {1}, {"of z"}, true, {1}};
+  raster.create(path, NC_DOUBLE, [](int) {});
+  CHECK(has(message_of([&] { read_coast(path); }), "give it as a raster, if it is one"));
 }

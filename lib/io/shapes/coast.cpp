@@ -51,8 +51,14 @@ void require_gshhg(const std::string& path) {
 Coast read_coast(const std::string& path) {
   using namespace io_detail;
   require_gshhg(path);
-  if (is_netcdf_file(path))
-    return read_gshhg(NetcdfReader(path));
+  if (is_netcdf_file(path)) {
+    const NetcdfReader file(path);
+    if (!file.has_variable("N_bins_in_360_longitude_range"))
+      refuse_path(path,
+                  "holds no polygons of land, which NetCDF files have as binned ones of GSHHG "
+                  "only; give it as a raster, if it is one, or polygons as GeoJSON");
+    return read_gshhg(file);
+  }
   std::ifstream in = open_input(path);
   Coast coast;
   for (const GeoArea& area : read_areas(in, path))
