@@ -7,7 +7,7 @@
 #include "base/require.h"
 #include "density/raster_field.h"
 #include "grids/room.h"
-#include "voronoi/box_overlaps.h"
+#include "remap/box_overlaps.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,12 +19,12 @@ DoubleVector land_fractions(const Voronoi& cells, const Raster& land) {
   using namespace grids_detail;
   require(!land.of_plane, "the raster of land is one of a plane; give longitudes and latitudes");
   density_detail::require_values(land, "land", density_detail::a_fraction);
-  const voronoi_detail::BoxTiling tiling(lon_lat_boxes(land));
+  const remap_detail::BoxTiling tiling(lon_lat_boxes(land));
   DoubleVector fractions(cells.cells.cols());
   for_each_block(fractions.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    voronoi_detail::BoxOverlaps overlaps(tiling);
+    remap_detail::BoxOverlaps overlaps(tiling);
     std::vector<Vec3> corners;
-    voronoi_detail::WeightRow shared;
+    remap_detail::WeightRow shared;
     for (std::int64_t i = begin; i < end; ++i) {
       corners.clear();
       for (const std::int32_t vertex : cells.vertices_on_cell[i])

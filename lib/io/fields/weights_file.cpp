@@ -7,7 +7,7 @@
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
 #include "io/netcdf/netcdf_reader.h"
-#include "voronoi/weight_rows.h"
+#include "remap/weight_rows.h"
 
 #include <calotte/error.h>
 #include <calotte/field_grid.h>
@@ -25,9 +25,9 @@ namespace io_detail {
 namespace {
 
 using base_detail::require;
-using voronoi_detail::matrix_of;
-using voronoi_detail::Weight;
-using voronoi_detail::WeightRow;
+using remap_detail::matrix_of;
+using remap_detail::Weight;
+using remap_detail::WeightRow;
 
 // ---- The grids beside the weights
 

@@ -4,12 +4,13 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "base/triangle.h"
 #include "mesh/connectivity.h"
 #include "mesh/faces.h"
 #include "mesh/locate.h"
 #include "mesh/seen_mesh.h"
-#include "voronoi/room.h"
-#include "voronoi/weight_rows.h"
+#include "remap/room.h"
+#include "remap/weight_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,12 @@
 #include <vector>
 
 namespace calotte {
-namespace voronoi_detail {
+namespace remap_detail {
 namespace {
 
-using base_detail::require;
+using base_detail::next_vertex, base_detail::point, base_detail::previous_vertex;
+using mesh_detail::Corner, mesh_detail::Faces, mesh_detail::faces_of, mesh_detail::next_around;
+using mesh_detail::SeenMesh, mesh_detail::vertex_across;
 
 // ---- Natural neighbours
 
@@ -184,10 +187,10 @@ Weights weights_of(const SeenMesh<S>& seen, const PointsRef& positions, const Lo
 }
 
 } // namespace
-} // namespace voronoi_detail
+} // namespace remap_detail
 
 Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Interpolation kind) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   require(kind != Interpolation::conservative,
           "conservative weights are those of cells, not of positions; use conservative_weights()");
   const Locations at = mesh_detail::locate_within_rounding(mesh, positions);

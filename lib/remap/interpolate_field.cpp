@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
-#include "voronoi/room.h"
+#include "remap/room.h"
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include <string>
 
 namespace calotte {
-namespace voronoi_detail {
+namespace remap_detail {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -54,10 +54,10 @@ double category_of(const Weights& weights, std::int64_t row, const double* value
 }
 
 } // namespace
-} // namespace voronoi_detail
+} // namespace remap_detail
 
 MeshField interpolate(const GridWeights& weights, const MeshField& field, double min_cover) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   const Weights& matrix = weights.weights;
   const std::int64_t count = field.count();
   base_detail::require(field.location == Location::cells,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "voronoi/room.h"
+#include "remap/room.h"
 
 #include <calotte/conservative.h>
 
@@ -11,7 +11,7 @@
 
 /// The boxes of a raster, completed to a tiling of the sphere by boxes outside of it, so that each
 /// point is in a box.
-namespace calotte::voronoi_detail {
+namespace calotte::remap_detail {
 
 /// The height of a parallel: the sine of its latitude, and what its magnitude lacks to 1, which
 /// keeps its digits near the poles.
@@ -99,4 +99,4 @@ private:
   std::vector<std::int32_t> row_of_;    ///< of the raster, -1 outside
 };
 
-} // namespace calotte::voronoi_detail
+} // namespace calotte::remap_detail

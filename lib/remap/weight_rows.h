@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/require.h"
-#include "voronoi/room.h"
+#include "remap/room.h"
 
 #include <calotte/interpolate.h>
 
@@ -16,7 +16,7 @@
 #include <vector>
 
 /// Rows of weights that tasks make, on their way to one matrix.
-namespace calotte::voronoi_detail {
+namespace calotte::remap_detail {
 
 /// A weight of a column.
 struct Weight {
@@ -95,4 +95,4 @@ Weights matrix_of(std::int64_t rows, std::int64_t columns, const SetRow& set_row
       [&](None&, std::int64_t i, WeightRow& row) { set_row(i, row); });
 }
 
-} // namespace calotte::voronoi_detail
+} // namespace calotte::remap_detail

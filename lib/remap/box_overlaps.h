@@ -2,15 +2,15 @@
 #pragma once
 
 #include "base/vec3.h"
-#include "voronoi/box_tiling.h"
-#include "voronoi/room.h"
-#include "voronoi/weight_rows.h"
+#include "remap/box_tiling.h"
+#include "remap/room.h"
+#include "remap/weight_rows.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace calotte::voronoi_detail {
+namespace calotte::remap_detail {
 
 /// The areas that polygons share with the boxes of a tiling. The boundary of a polygon is cut at
 /// meridians and parallels; each piece adds the area between it and the parallel below to its box,
@@ -66,4 +66,4 @@ private:
   bool holds_south_pole_ = false;
 };
 
-} // namespace calotte::voronoi_detail
+} // namespace calotte::remap_detail

@@ -5,10 +5,10 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
-#include "voronoi/box_overlaps.h"
-#include "voronoi/box_tiling.h"
-#include "voronoi/polygon_overlaps.h"
-#include "voronoi/weight_rows.h"
+#include "remap/box_overlaps.h"
+#include "remap/box_tiling.h"
+#include "remap/polygon_overlaps.h"
+#include "remap/weight_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@
 #include <vector>
 
 namespace calotte {
-namespace voronoi_detail {
+namespace remap_detail {
 namespace {
 
 void require_polygons(const Polygons& polygons) {
@@ -312,10 +312,10 @@ private:
 };
 
 } // namespace
-} // namespace voronoi_detail
+} // namespace remap_detail
 
 GridWeights conservative_weights(const Polygons& source, const Polygons& target) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   base_detail::require(source.surface.is_sphere() == target.surface.is_sphere() &&
                            source.surface.period() == target.surface.period(),
                        "the cells are on different surfaces, or in planes of different periods; "
@@ -327,20 +327,20 @@ GridWeights conservative_weights(const Polygons& source, const Polygons& target)
 }
 
 GridWeights conservative_weights(const Polygons& source, const LonLatBoxes& target) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   SharedWithBoxes found = shared_with_boxes(source, target);
   Weights shared = transposed(found.shared);
   return weights_of_areas(shared, std::move(found.polygons), areas(target));
 }
 
 GridWeights conservative_weights(const LonLatBoxes& source, const Polygons& target) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   SharedWithBoxes found = shared_with_boxes(target, source);
   return weights_of_areas(found.shared, areas(source), std::move(found.polygons));
 }
 
 GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& target) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   require_boxes(source);
   require_boxes(target);
   const std::vector<std::vector<SharedLength>> columns = shared_columns(target, source),
@@ -358,7 +358,7 @@ GridWeights conservative_weights(const LonLatBoxes& source, const LonLatBoxes& t
 }
 
 Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   require_polygons(polygons);
   Ids found(positions.cols());
   const auto locate_in = [&](const auto& space, const auto& position_of) {
@@ -387,7 +387,7 @@ Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
 
 Weights interpolation_weights(const LonLatBoxes& source, const PointsRef& positions,
                               Interpolation kind) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   base_detail::require(kind == Interpolation::nearest || kind == Interpolation::linear,
                        "a raster has weights at positions of the kinds nearest and linear only; "
                        "give one of these");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "voronoi/box_tiling.h"
+#include "remap/box_tiling.h"
 
 #include "base/lonlat.h"
 #include "base/parallel.h"
@@ -14,10 +14,10 @@
 #include <string>
 
 namespace calotte {
-namespace voronoi_detail {
+namespace remap_detail {
 namespace {
 
-using base_detail::require;
+using base_detail::from_lonlat, base_detail::longitude_of, base_detail::lonlat_of;
 
 constexpr double degree_in_radians = std::numbers::pi / 180;
 constexpr double slack =
@@ -173,7 +173,7 @@ std::int64_t BoxTiling::row_at(const Height& height) const {
   return after - heights_.begin() - 1;
 }
 
-} // namespace voronoi_detail
+} // namespace remap_detail
 
 LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows) {
   constexpr std::int64_t most = std::int64_t{1} << 20;
@@ -195,7 +195,7 @@ LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows) {
 }
 
 LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& latitudes) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   require(longitudes.size() >= 3 && latitudes.size() >= 2,
           "there are " + std::to_string(longitudes.size()) + " longitudes and " +
               std::to_string(latitudes.size()) + " latitudes; give at least 3 and 2");
@@ -219,7 +219,7 @@ LonLatBoxes lon_lat_boxes(const Raster& raster) {
 }
 
 void require_boxes(const LonLatBoxes& boxes) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   const DoubleVector &meridians = boxes.meridians, &parallels = boxes.parallels;
   const Eigen::Index columns = boxes.longitudes.size(), rows = boxes.latitudes.size();
   require(columns >= 1 && rows >= 1 && meridians.size() == columns + 1 &&
@@ -244,7 +244,7 @@ void require_boxes(const LonLatBoxes& boxes) {
 }
 
 DoubleVector areas(const LonLatBoxes& boxes) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   require_boxes(boxes);
   const Eigen::Index columns = boxes.longitudes.size(), rows = boxes.latitudes.size();
   DoubleVector out(columns * rows);
@@ -259,7 +259,7 @@ DoubleVector areas(const LonLatBoxes& boxes) {
 }
 
 Points3 nodes(const LonLatBoxes& boxes) {
-  using namespace voronoi_detail;
+  using namespace remap_detail;
   const Eigen::Index columns = boxes.longitudes.size(), rows = boxes.latitudes.size();
   Points3 out(3, columns * rows);
   for_each_block(rows, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "voronoi/box_overlaps.h"
+#include "remap/box_overlaps.h"
 
 #include "base/spherical_angles.h"
 
@@ -9,8 +9,10 @@
 #include <numbers>
 #include <utility>
 
-namespace calotte::voronoi_detail {
+namespace calotte::remap_detail {
 namespace {
+
+using base_detail::longitude_of;
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
@@ -355,4 +357,4 @@ double BoxOverlaps::set(std::span<const Vec3> corners, WeightRow& out) {
   return pieces_.empty() ? 0 : set_areas(out);
 }
 
-} // namespace calotte::voronoi_detail
+} // namespace calotte::remap_detail

@@ -6,8 +6,8 @@
 #include "curve/curve_squares.h"
 #include "curve/hilbert.h"
 #include "exact/space.h"
-#include "voronoi/room.h"
-#include "voronoi/weight_rows.h"
+#include "remap/room.h"
+#include "remap/weight_rows.h"
 
 #include <calotte/polygons.h>
 
@@ -21,7 +21,7 @@
 
 /// The areas that polygons share with others: pairs that a tree of boxes finds, each clipped by
 /// half-spaces (Sutherland and Hodgman, Comm. ACM 17, 1974).
-namespace calotte::voronoi_detail {
+namespace calotte::remap_detail {
 
 using curve_detail::Box3;
 using curve_detail::BoxTree;
@@ -292,4 +292,4 @@ private:
   std::vector<SignedPart> parts_, other_parts_;
 };
 
-} // namespace calotte::voronoi_detail
+} // namespace calotte::remap_detail
