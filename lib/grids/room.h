@@ -3,11 +3,11 @@
 
 #include "cvt/room.h"
 
-/// Grids as users ask for them: the choices of a recipe, the points to start from, and the run; and
-/// which cells of a grid are a limited area with its rings, land, or sea.
+/// Grids as users ask for them: the choices of a recipe, the points to start from, and the run; the
+/// parts of a mesh that are made anew; and which cells of a grid are a limited area with its rings.
 ///
-/// In: a recipe. Out: the schedule of its descents; a mesh with a report. In: cells, a region, a
-/// coast or a raster. Out: masks and fractions.
+/// In: a recipe, or a mesh with a demand. Out: the schedule of its descents; a mesh with a report.
+/// In: cells and a region. Out: masks.
 namespace calotte::grids_detail {
 using namespace cvt_detail; // and the rooms below it
 }

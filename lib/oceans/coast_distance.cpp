@@ -2,7 +2,7 @@
 #include "base/require.h"
 #include "density/width_profile.h"
 #include "density/width_rules.h"
-#include "grids/shores.h"
+#include "oceans/shores.h"
 
 #include <calotte/widths.h>
 
@@ -25,7 +25,7 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
 } // namespace
 
 Widths Widths::by_coast(const Coast& coast, const WidthProfile& profile, CoastSide side) {
-  using namespace grids_detail;
+  using namespace oceans_detail;
   const density_detail::ProfileCurve curve = curve_of(profile, side);
   const std::vector<ShoreArc> shore = shore_arcs(coast);
   base_detail::require(!shore.empty(), "the coast has no shore to be distant from; give rings");

@@ -6,7 +6,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/raster_field.h"
-#include "grids/room.h"
+#include "oceans/room.h"
 #include "remap/box_overlaps.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace calotte {
 
 DoubleVector land_fractions(const Voronoi& cells, const Raster& land) {
-  using namespace grids_detail;
+  using namespace oceans_detail;
   require(!land.of_plane, "the raster of land is one of a plane; give longitudes and latitudes");
   density_detail::require_values(land, "land", density_detail::a_fraction);
   const remap_detail::BoxTiling tiling(lon_lat_boxes(land));

@@ -5,7 +5,7 @@
 #include "base/require.h"
 #include "domain/loops.h"
 #include "exact/predicates.h"
-#include "grids/room.h"
+#include "oceans/room.h"
 
 #include <cmath>
 #include <numbers>
@@ -13,7 +13,7 @@
 namespace calotte {
 namespace {
 
-using namespace grids_detail;
+using namespace oceans_detail;
 
 /// Sines and cosines of azimuths of directions seen from a place, up to a common factor.
 class Compass {

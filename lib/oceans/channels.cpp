@@ -5,7 +5,7 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "density/disc_rule.h"
-#include "grids/shores.h"
+#include "oceans/shores.h"
 
 #include <calotte/delaunay.h>
 #include <calotte/widths.h>
@@ -24,10 +24,12 @@
 // the sea: the places with two nearest points of the shore or more.
 
 namespace calotte {
-namespace grids_detail {
+namespace oceans_detail {
 namespace {
 
+using base_detail::arc_sine;
 using density_detail::Disc;
+using domain_detail::for_each_short_part;
 
 /// Points along the shores.
 struct ShorePoints {
@@ -148,10 +150,10 @@ void require_positive(double value, const char* name) {
 }
 
 } // namespace
-} // namespace grids_detail
+} // namespace oceans_detail
 
 Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
-  using namespace grids_detail;
+  using namespace oceans_detail;
   require_positive(rule.cells, "number of cells");
   require_positive(rule.least, "least width");
   require_positive(rule.widest, "widest channel");

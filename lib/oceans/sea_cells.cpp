@@ -2,7 +2,7 @@
 #include <calotte/ocean.h>
 
 #include "base/require.h"
-#include "grids/room.h"
+#include "oceans/room.h"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/disc_rule.h"
-#include "grids/rotations.h"
+#include "oceans/rotations.h"
 #include "support/constants.h"
 #include "support/directions.h"
 #include "support/files.h"

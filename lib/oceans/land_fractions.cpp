@@ -6,7 +6,7 @@
 #include "base/require.h"
 #include "base/spherical_triangle.h"
 #include "curve/hilbert.h"
-#include "grids/room.h"
+#include "oceans/room.h"
 #include "voronoi/cell_walk.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/groups.h"
@@ -25,8 +25,12 @@
 // coast.
 
 namespace calotte {
-namespace grids_detail {
+namespace oceans_detail {
 namespace {
+
+using base_detail::for_each_task, base_detail::triangle_area;
+using curve_detail::curve_key, curve_detail::to_cube;
+using voronoi_detail::CellWalk, voronoi_detail::sort_in_groups, voronoi_detail::start_of;
 
 constexpr double whole_sphere = 4 * std::numbers::pi;
 
@@ -281,10 +285,10 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
 }
 
 } // namespace
-} // namespace grids_detail
+} // namespace oceans_detail
 
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
-  using namespace grids_detail;
+  using namespace oceans_detail;
   Traces traces = traces_of(cells, arcs_of(coast));
   const EdgeCrossings crossings =
       by_edge(std::move(traces.crossings), cells.edges_on_cell.items.maxCoeff() + 1);
@@ -292,7 +296,7 @@ DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
 }
 
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines) {
-  using namespace grids_detail;
+  using namespace oceans_detail;
   const CellWalk walk(cells);
   std::vector<std::int32_t> found;
   std::int32_t cell = 0;

@@ -3,14 +3,16 @@
 
 #include "domain/arcs.h"
 #include "domain/side_cells.h"
-#include "grids/room.h"
+#include "oceans/room.h"
 
 #include <calotte/ocean.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace calotte::grids_detail {
+namespace calotte::oceans_detail {
+
+using domain_detail::Side, domain_detail::SideCells;
 
 /// An arc of a coast between land, to its left, and the sea.
 struct ShoreArc {
@@ -40,4 +42,4 @@ private:
   Side land_ = Side::inside, sea_ = Side::outside;
 };
 
-} // namespace calotte::grids_detail
+} // namespace calotte::oceans_detail

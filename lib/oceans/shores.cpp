@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grids/shores.h"
+#include "oceans/shores.h"
 
+#include "base/lonlat.h"
 #include "base/number_text.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/rings.h"
 #include "exact/predicates.h"
 
-#include <calotte/lonlat.h>
 #include <calotte/ocean.h>
 
 #include <algorithm>
@@ -18,8 +18,11 @@
 #include <vector>
 
 namespace calotte {
-namespace grids_detail {
+namespace oceans_detail {
 namespace {
+
+using domain_detail::as_unit;
+using exact_detail::same_direction;
 
 /// Without those that repeat the one before.
 std::vector<Vec3> corners_of(const Points3& ring, std::int64_t number) {
@@ -120,10 +123,10 @@ const std::vector<ShoreArc>& once(const std::vector<ShoreArc>& shore) {
       last = each.arc.from;
     }
   if (share * repeated > shore.size()) {
-    const Points2 at = to_lonlat(Points3(Eigen::Vector3d(last.x, last.y, last.z)));
+    const base_detail::LonLat at = base_detail::lonlat_of(last);
     require(false, "areas of land are there twice, one with a corner at longitude " +
-                       base_detail::shortly(at(0, 0)) + ", latitude " +
-                       base_detail::shortly(at(1, 0)) + "; give each once");
+                       base_detail::shortly(at.longitude) + ", latitude " +
+                       base_detail::shortly(at.latitude) + "; give each once");
   }
   return shore;
 }
@@ -153,11 +156,11 @@ std::vector<ShoreArc> shore_arcs(const Coast& coast) {
   return in_shores(all);
 }
 
-} // namespace grids_detail
+} // namespace oceans_detail
 
 std::vector<Points3> shores(const Coast& coast) {
   std::vector<Points3> lines;
-  for (const grids_detail::ShoreArc& shore : grids_detail::shore_arcs(coast)) {
+  for (const oceans_detail::ShoreArc& shore : oceans_detail::shore_arcs(coast)) {
     const auto& [from, to] = shore.arc;
     lines.emplace_back(3, 2) << from.x, to.x, from.y, to.y, from.z, to.z;
   }

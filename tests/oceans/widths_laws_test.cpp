@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "grids/rotations.h"
+#include "oceans/rotations.h"
 #include "support/constants.h"
 #include "support/directions.h"
 

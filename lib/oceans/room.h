@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/parallel.h"
+#include "base/points.h"
+#include "base/require.h"
+#include "base/vec3.h"
+#include "domain/arcs.h"
+#include "exact/predicates.h"
+
+/// Coasts, land and sea: the shores of a coast and their sides, the land around a place, the
+/// fraction of each cell that is land, and which cells are the sea.
+///
+/// Of the class Widths, which is of the room density, two members are defined here, since they know
+/// shores: by_coast(), by the distance from them, and by_channel(), by the width of straits. The
+/// rules that they return are those of density.
+///
+/// In: a coast or a raster of land, the cells of a tessellation. Out: fractions, masks, widths.
+namespace calotte::oceans_detail {
+using base_detail::block_count, base_detail::for_each_block;
+using base_detail::column, base_detail::set_column;
+using base_detail::require;
+using base_detail::Vec3;
+using domain_detail::Arc;
+using exact_detail::normalised;
+} // namespace calotte::oceans_detail
