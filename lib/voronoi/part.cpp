@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/part.h"
 
+#include "base/lists.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
