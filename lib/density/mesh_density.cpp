@@ -16,6 +16,7 @@ namespace calotte {
 namespace {
 
 using namespace density_detail;
+using mesh_detail::TriangleGrid;
 
 /// Widths at the sites of a mesh, with a copy of what they are found by.
 template <Space S> class MeshWidths {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "mesh/room.h"
+#include "curve/room.h"
 
 /// Domains of the plane: polygons with holes and doubly periodic boxes, exact tests of inside and
 /// outside, and Voronoi cells clipped by the boundary. Regions of the sphere: polygons of arcs of
@@ -9,5 +9,5 @@
 ///
 /// In: rings of corners and a period. Out: outlines with search grids, and clipped cells.
 namespace calotte::domain_detail {
-using namespace mesh_detail; // and the rooms below it
+using namespace curve_detail; // and the rooms below it
 }

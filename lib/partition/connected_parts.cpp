@@ -15,6 +15,8 @@
 namespace calotte::partition_detail {
 namespace {
 
+using base_detail::lists_by_key;
+
 using Members = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
 std::size_t at(std::int32_t id) { return static_cast<std::size_t>(id); }

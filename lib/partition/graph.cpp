@@ -12,6 +12,8 @@
 namespace calotte::partition_detail {
 namespace {
 
+using base_detail::exclusive_scan, base_detail::lists_by_key;
+
 /// Sets `out` to the neighbours of a cell as a Graph has them.
 void gather(const IdLists& neighbours, std::int64_t cell, std::vector<std::int32_t>& out) {
   out.clear();

@@ -115,7 +115,7 @@ void partition(const IdLists& neighbours, std::span<const std::int64_t> counts,
   for (const std::int64_t parts : counts)
     require_parts(parts, cells);
   const Partitioner partitioner(neighbours, options.weights);
-  Monitor monitor(options.progress);
+  base_detail::Monitor monitor(options.progress);
   monitor.begin("partition", 1, std::ssize(counts));
   for_each_task(std::ssize(counts), [&](std::int64_t k) {
     visit(partitioner.partition(counts[static_cast<std::size_t>(k)]));

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "base/room.h"
+#include "base/first_fault.h"
+#include "base/parallel.h"
+#include "base/require.h"
 
 /// Partitions of cells for the processes of a model, by METIS, which no other room uses. Its files
 /// belong to calotte::io, as the core does without METIS.
 ///
 /// In: the neighbours of each cell, their weights, numbers of parts. Out: the part of each cell.
 namespace calotte::partition_detail {
-using namespace base_detail;
-}
+using base_detail::FirstFault;
+using base_detail::for_each_block, base_detail::for_each_task;
+using base_detail::require, base_detail::require_count;
+} // namespace calotte::partition_detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "delaunay/room.h"
+#include "integrals/room.h"
 
 /// The Voronoi tessellation that is dual to a mesh, as a C-grid model staggers it: edges, kites,
 /// lengths, areas, angles, tangential weights, and fields on the cells.
@@ -10,4 +11,5 @@
 /// measures.
 namespace calotte::voronoi_detail {
 using namespace delaunay_detail; // and the rooms below it
-}
+using namespace integrals_detail;
+} // namespace calotte::voronoi_detail
