@@ -100,7 +100,7 @@ struct CvtAction {
     polish,   ///< the descent minimises a penalty for shapes, too, see Stop::well_centred
     raise,    ///< the polish goes on with a larger penalty, where it fell short
   };
-  Kind kind = Kind::start;
+  Kind kind = Kind::start; ///< see Kind
   /// Number of generators at its end; of `start` and `bisect` at that of the rounds which follow.
   /// After bisections of a part of a surface with a boundary, where midpoints outside are left out,
   /// there may be fewer.

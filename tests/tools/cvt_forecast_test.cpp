@@ -196,6 +196,7 @@ TEST_CASE("progress names the level, the norm and the prediction") {
             .starts_with("12 cells, iteration 101, l2 2.66e-05 of 9e-06, energy x cells 0, then 2 "
                          "finer levels, "));
   schedule.recipe.stop.iterations = 4000;
+  schedule.actions = {{.norm = Norm::none, .max_iterations = 4000}};
   state.bisections_left = 0;
   CHECK(describe(state, schedule) ==
         "12 cells, iteration 101, energy x cells 0, 91 min to 3.0 h left");
