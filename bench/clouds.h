@@ -2,7 +2,7 @@
 #pragma once
 
 #include <calotte/density.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <string>

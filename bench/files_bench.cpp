@@ -13,9 +13,10 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <benchmark/benchmark.h>
 

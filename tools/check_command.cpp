@@ -7,7 +7,6 @@
 #include "run/shapes.h"
 
 #include <calotte/check.h>
-#include <calotte/check_file.h>
 #include <calotte/mesh_file.h>
 
 #include <CLI/App.hpp>

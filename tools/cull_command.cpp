@@ -9,7 +9,7 @@
 #include "run/progress.h"
 #include "text/text.h"
 
-#include <calotte/cull.h>
+#include <calotte/cut.h>
 #include <calotte/read.h>
 #include <calotte/version.h>
 

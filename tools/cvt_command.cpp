@@ -20,10 +20,12 @@
 #include "run/progress.h"
 #include "text/text.h"
 
+#include <calotte/checkpoint.h>
 #include <calotte/error.h>
-#include <calotte/io.h>
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
+#include <calotte/read.h>
 #include <calotte/version.h>
+#include <calotte/write.h>
 #include <calotte/write_grid.h>
 
 #include <CLI/App.hpp>

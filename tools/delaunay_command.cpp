@@ -14,10 +14,11 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
-#include <calotte/io.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <CLI/App.hpp>
 

@@ -15,7 +15,7 @@
 #include "run/spacing_survey.h"
 #include "text/text.h"
 
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include <CLI/App.hpp>
 

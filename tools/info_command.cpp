@@ -18,7 +18,6 @@
 #include <calotte/error.h>
 #include <calotte/limited_area.h>
 #include <calotte/mesh_file.h>
-#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <CLI/App.hpp>

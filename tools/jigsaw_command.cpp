@@ -12,7 +12,8 @@
 #include "text/text.h"
 
 #include <calotte/grid.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <CLI/App.hpp>
 

@@ -8,7 +8,7 @@
 #include "text/text.h"
 
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/write.h>
 
 #include <CLI/App.hpp>
 

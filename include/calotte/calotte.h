@@ -2,11 +2,8 @@
 #pragma once
 
 /// All of the library.
-#include <calotte/cell_width.h>
 #include <calotte/check.h>
-#include <calotte/check_file.h>
-#include <calotte/conservative.h>
-#include <calotte/cull.h>
+#include <calotte/checkpoint.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
@@ -16,28 +13,20 @@
 #include <calotte/field_grid.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
-#include <calotte/interpolate.h>
-#include <calotte/io.h>
 #include <calotte/limited_area.h>
-#include <calotte/lists.h>
 #include <calotte/locate.h>
-#include <calotte/lonlat.h>
 #include <calotte/matrices.h>
-#include <calotte/model.h>
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
+#include <calotte/mesh_file.h>
 #include <calotte/ocean.h>
-#include <calotte/operators.h>
-#include <calotte/options.h>
 #include <calotte/partition.h>
-#include <calotte/polygons.h>
 #include <calotte/progress.h>
 #include <calotte/quality.h>
 #include <calotte/raster.h>
 #include <calotte/read.h>
 #include <calotte/refine.h>
-#include <calotte/renumber.h>
+#include <calotte/remap.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
 #include <calotte/widths.h>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/mesh.h>
 #include <calotte/progress.h>
-#include <calotte/types.h>
 
 #include <array>
 #include <cstdint>

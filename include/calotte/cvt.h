@@ -4,7 +4,7 @@
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/export.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <memory>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <calotte/export.h>
+#include <calotte/mesh.h>
 #include <calotte/raster.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <functional>
 #include <memory>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/conservative.h>
 #include <calotte/export.h>
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
+#include <calotte/remap.h>
 
 #include <cstdint>
 #include <optional>

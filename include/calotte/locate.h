@@ -3,7 +3,7 @@
 
 #include <calotte/error.h>
 #include <calotte/export.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <memory>
 

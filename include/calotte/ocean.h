@@ -3,9 +3,9 @@
 
 #include <calotte/export.h>
 #include <calotte/limited_area.h>
+#include <calotte/mesh.h>
 #include <calotte/raster.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include <calotte/error.h>
 #include <calotte/export.h>
-#include <calotte/lists.h>
 #include <calotte/matrices.h>
 #include <calotte/progress.h>
 

@@ -3,7 +3,7 @@
 
 #include <calotte/export.h>
 #include <calotte/matrices.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 CALOTTE_API_BEGIN
 namespace calotte {

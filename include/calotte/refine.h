@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/cell_width.h>
 #include <calotte/cvt.h>
+#include <calotte/delaunay.h>
 #include <calotte/export.h>
-#include <calotte/options.h>
+#include <calotte/mesh.h>
 #include <calotte/progress.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 #include <calotte/widths.h>
 
 #include <cstdint>

@@ -3,9 +3,8 @@
 
 #include <calotte/density.h>
 #include <calotte/export.h>
-#include <calotte/polygons.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 

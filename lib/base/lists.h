@@ -3,7 +3,7 @@
 
 #include "base/room.h"
 
-#include <calotte/lists.h>
+#include <calotte/matrices.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "base/require.h"
 #include "base/vec3.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <numeric>

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <span>
 #include <vector>

@@ -7,9 +7,9 @@
 
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
-#include <calotte/interpolate.h>
 #include <calotte/locate.h>
 #include <calotte/read.h>
+#include <calotte/remap.h>
 #include <calotte/version.h>
 #include <calotte/voronoi.h>
 #include <calotte/write.h>

@@ -3,7 +3,7 @@
 
 #include "c/guard.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 /// What the opaque pointer of C points to.
 struct calotte_mesh {

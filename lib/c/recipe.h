@@ -4,8 +4,8 @@
 #include "c/guard.h"
 
 #include <calotte/grid.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <Eigen/Core>
 

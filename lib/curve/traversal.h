@@ -5,7 +5,7 @@
 #include "curve/radix_sort.h"
 #include "curve/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

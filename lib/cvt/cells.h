@@ -15,10 +15,10 @@
 #include "integrals/patches.h"
 
 #include <calotte/cvt.h>
+#include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/options.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cmath>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include "cvt/room.h"
 
 #include <calotte/cvt.h>
+#include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/options.h>
 #include <calotte/surface.h>
 
 #include <concepts>

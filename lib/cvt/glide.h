@@ -6,7 +6,7 @@
 #include "cvt/subdomain.h"
 #include "cvt/tessellation.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 

@@ -5,7 +5,7 @@
 #include "domain/surface.h"
 
 #include <calotte/density.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 

@@ -4,8 +4,8 @@
 #include "cvt/room.h"
 
 #include <calotte/cvt.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 /// The triangles of a mesh that belong to a bounded surface.
 namespace calotte::cvt_detail {

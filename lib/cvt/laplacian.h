@@ -8,8 +8,8 @@
 #include "mesh/connectivity.h"
 
 #include <calotte/density.h>
-#include <calotte/lists.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <limits>

@@ -10,8 +10,8 @@
 
 #include <calotte/cvt.h>
 #include <calotte/density.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 #include <optional>

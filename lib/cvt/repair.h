@@ -6,7 +6,7 @@
 #include "exact/space.h"
 #include "mesh/connectivity.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <optional>

@@ -8,7 +8,7 @@
 #include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

@@ -9,8 +9,8 @@
 #include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 #include <optional>

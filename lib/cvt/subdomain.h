@@ -17,7 +17,7 @@
 #include "mesh/submesh.h"
 
 #include <calotte/cvt.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <array>
 #include <cstdint>

@@ -11,8 +11,8 @@
 #include "integrals/patches.h"
 
 #include <calotte/cvt.h>
-#include <calotte/options.h>
-#include <calotte/types.h>
+#include <calotte/delaunay.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <functional>

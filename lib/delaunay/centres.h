@@ -4,7 +4,7 @@
 #include "delaunay/room.h"
 #include "delaunay/sites.h"
 
-#include <calotte/options.h>
+#include <calotte/delaunay.h>
 
 #include <cstdint>
 #include <vector>

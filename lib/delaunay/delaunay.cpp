@@ -14,7 +14,7 @@
 #include "domain/surface.h"
 
 #include <calotte/error.h>
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 #include "delaunay/regions.h"
 #include "delaunay/room.h"
 
-#include <calotte/options.h>
+#include <calotte/delaunay.h>
 
 namespace calotte::delaunay_detail {
 

@@ -5,8 +5,8 @@
 #include "domain/outline.h"
 #include "domain/spherical_outline.h"
 
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 /// Points outside a bounded surface: in the triangulation of the unbounded one, sites inside
 /// together with these all have closed stars.

@@ -5,8 +5,8 @@
 #include "delaunay/room.h"
 #include "exact/plane_predicates.h"
 
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <functional>
 #include <vector>

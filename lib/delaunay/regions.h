@@ -4,8 +4,8 @@
 #include "delaunay/room.h"
 #include "delaunay/sites.h"
 
-#include <calotte/lists.h>
-#include <calotte/options.h>
+#include <calotte/delaunay.h>
+#include <calotte/matrices.h>
 
 #include <cstdint>
 #include <vector>

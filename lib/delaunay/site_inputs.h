@@ -10,7 +10,7 @@
 #include "exact/predicates.h"
 
 #include <calotte/error.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "delaunay/site_boxes.h"
 #include "exact/plane_predicates.h"
 
-#include <calotte/options.h>
+#include <calotte/delaunay.h>
 
 #include <cstdint>
 #include <optional>

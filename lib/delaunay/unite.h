@@ -7,7 +7,7 @@
 #include "delaunay/sites.h"
 #include "delaunay/triangulate.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <array>
 #include <cstdint>

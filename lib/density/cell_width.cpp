@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/cell_width.h>
+#include <calotte/widths.h>
 
 #include "base/elementary.h"
 #include "base/lonlat.h"

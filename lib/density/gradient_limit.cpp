@@ -11,7 +11,6 @@
 #include "domain/surface.h"
 #include "exact/space.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/widths.h>
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <span>
 #include <vector>

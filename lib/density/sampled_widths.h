@@ -5,7 +5,7 @@
 #include "density/room.h"
 #include "density/width_tiles.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstddef>
 #include <cstdint>

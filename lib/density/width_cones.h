@@ -3,7 +3,7 @@
 
 #include "density/room.h"
 
-#include <calotte/cell_width.h>
+#include <calotte/widths.h>
 
 namespace calotte::density_detail {
 

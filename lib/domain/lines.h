@@ -4,7 +4,7 @@
 #include "base/vec3.h"
 #include "domain/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "domain/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 namespace calotte::domain_detail {
 

@@ -7,7 +7,7 @@
 #include "domain/room.h"
 #include "domain/side_cells.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstddef>
 #include <cstdint>

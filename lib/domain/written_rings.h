@@ -5,7 +5,7 @@
 #include "domain/room.h"
 
 #include <calotte/error.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <span>
 #include <string>

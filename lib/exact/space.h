@@ -7,8 +7,8 @@
 #include "exact/predicates.h"
 #include "exact/room.h"
 
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cmath>
 #include <concepts>

@@ -4,8 +4,8 @@
 #include "generators/room.h"
 
 #include <calotte/density.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 
 #include "base/lonlat.h"
 #include "base/points.h"

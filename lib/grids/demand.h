@@ -6,8 +6,8 @@
 #include "grids/room.h"
 
 #include <calotte/locate.h>
+#include <calotte/mesh.h>
 #include <calotte/refine.h>
-#include <calotte/types.h>
 
 #include <optional>
 

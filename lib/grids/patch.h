@@ -6,8 +6,8 @@
 #include "grids/room.h"
 #include "mesh/submesh.h"
 
-#include <calotte/lists.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <span>

@@ -5,8 +5,8 @@
 #include "grids/room.h"
 
 #include <calotte/grid.h>
+#include <calotte/mesh.h>
 #include <calotte/refine.h>
-#include <calotte/types.h>
 
 /// The run that makes new sites for a patch.
 namespace calotte::grids_detail {

@@ -17,7 +17,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/locate.h>
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

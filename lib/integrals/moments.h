@@ -11,7 +11,7 @@
 #include "integrals/room.h"
 
 #include <calotte/density.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <span>

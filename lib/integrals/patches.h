@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "integrals/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <array>
 #include <cstdint>

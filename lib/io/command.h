@@ -3,12 +3,12 @@
 
 #include "io/room.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/export.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
 #include <calotte/raster.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
+#include <calotte/widths.h>
 #include <calotte/write.h>
 
 #include <memory>

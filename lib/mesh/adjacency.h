@@ -3,7 +3,7 @@
 
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 /// Builds a mesh from the contents of a file.
 namespace calotte::mesh_detail {

@@ -6,7 +6,7 @@
 #include "mesh/ids.h"
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 
 #include "base/first_fault.h"
 #include "base/parallel.h"

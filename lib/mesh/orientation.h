@@ -3,7 +3,7 @@
 
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 

@@ -12,7 +12,7 @@
 #include "mesh/ids.h"
 
 #include <calotte/error.h>
-#include <calotte/renumber.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

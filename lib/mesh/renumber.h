@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 
 #include "mesh/room.h"
 
-#include <calotte/lists.h>
+#include <calotte/matrices.h>
 
 #include <cstdint>
 #include <utility>

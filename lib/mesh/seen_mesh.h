@@ -8,7 +8,7 @@
 #include "mesh/convex_boundary.h"
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <array>

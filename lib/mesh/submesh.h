@@ -4,7 +4,7 @@
 #include "mesh/connectivity.h"
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

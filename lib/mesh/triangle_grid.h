@@ -7,7 +7,7 @@
 #include "exact/space.h"
 #include "mesh/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include "mesh/faces.h"
 #include "mesh/room.h"
 
-#include <calotte/lists.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/conservative.h>
 #include <calotte/ocean.h>
+#include <calotte/remap.h>
 
 #include "base/parallel.h"
 #include "base/points.h"

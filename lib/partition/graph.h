@@ -3,7 +3,7 @@
 
 #include "partition/room.h"
 
-#include <calotte/lists.h>
+#include <calotte/matrices.h>
 
 #include <cstdint>
 #include <span>

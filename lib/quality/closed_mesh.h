@@ -7,8 +7,8 @@
 #include "quality/room.h"
 
 #include <calotte/density.h>
+#include <calotte/mesh.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 

@@ -5,8 +5,8 @@
 #include "quality/room.h"
 
 #include <calotte/density.h>
+#include <calotte/mesh.h>
 #include <calotte/quality.h>
-#include <calotte/types.h>
 
 #include <cstdint>
 

@@ -6,7 +6,7 @@
 #include "quality/parts.h"
 #include "quality/room.h"
 
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include <cmath>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "quality/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include "base/first_fault.h"
 #include "base/points.h"
@@ -17,7 +17,6 @@
 
 #include <calotte/check.h>
 #include <calotte/error.h>
-#include <calotte/quality.h>
 
 #include <cmath>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include "quality/parts.h"
 #include "quality/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "quality/room.h"
 
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 #include <calotte/voronoi.h>
 
 namespace calotte::quality_detail {

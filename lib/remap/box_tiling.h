@@ -4,7 +4,7 @@
 #include "base/vec3.h"
 #include "remap/room.h"
 
-#include <calotte/conservative.h>
+#include <calotte/remap.h>
 
 #include <cstdint>
 #include <vector>

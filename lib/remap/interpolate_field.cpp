@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/conservative.h>
+#include <calotte/remap.h>
 
 #include "base/parallel.h"
 #include "base/require.h"

@@ -9,7 +9,7 @@
 #include "remap/room.h"
 #include "remap/weight_rows.h"
 
-#include <calotte/polygons.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

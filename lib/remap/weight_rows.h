@@ -5,7 +5,7 @@
 #include "base/require.h"
 #include "remap/room.h"
 
-#include <calotte/interpolate.h>
+#include <calotte/remap.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -4,8 +4,8 @@
 #include "domain/outline.h"
 #include "voronoi/room.h"
 
-#include <calotte/lists.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <vector>

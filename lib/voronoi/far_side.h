@@ -3,7 +3,7 @@
 
 #include "voronoi/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

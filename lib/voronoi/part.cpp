@@ -10,7 +10,7 @@
 #include "voronoi/open.h"
 #include "voronoi/stages.h"
 
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/check.h>
+#include <calotte/checkpoint.h>
 #include <calotte/cvt.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include "cvt/cvt.h"
 #include "support/constants.h"

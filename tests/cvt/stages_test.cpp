@@ -9,11 +9,13 @@
 #include "support/text.h"
 
 #include <calotte/check.h>
+#include <calotte/checkpoint.h>
 #include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
 #include <calotte/quality.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 #include <oneapi/tbb/global_control.h>

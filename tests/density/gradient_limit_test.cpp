@@ -3,9 +3,9 @@
 #include "support/files.h"
 #include "support/random.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/raster.h>
 #include <calotte/surface.h>
+#include <calotte/widths.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>

@@ -5,9 +5,8 @@
 #include "support/random.h"
 #include "support/text.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/density.h>
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 #include <calotte/raster.h>
 #include <calotte/widths.h>
 

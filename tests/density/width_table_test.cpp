@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_table.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/generators.h>
+#include <calotte/widths.h>
 
 #include <doctest/doctest.h>
 

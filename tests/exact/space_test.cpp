@@ -3,7 +3,7 @@
 #include "support/random.h"
 
 #include <calotte/error.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 

@@ -3,9 +3,8 @@
 
 #include <calotte/check.h>
 #include <calotte/error.h>
-#include <calotte/operators.h>
+#include <calotte/mesh.h>
 #include <calotte/quality.h>
-#include <calotte/renumber.h>
 #include <calotte/voronoi.h>
 
 using namespace calotte;

@@ -4,11 +4,12 @@
 #include "io/command.h"
 #include "scratch_file.h"
 
+#include <calotte/checkpoint.h>
 #include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
 #include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <cstring>
 

@@ -3,10 +3,10 @@
 #include "mutation.h"
 #include "scratch_file.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
+#include <calotte/widths.h>
 
 using namespace calotte;
 

@@ -3,7 +3,6 @@
 
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 
 #include <doctest/doctest.h>
 

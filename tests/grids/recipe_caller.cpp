@@ -4,8 +4,8 @@
 #include "grids/requests.h"
 
 #include <calotte/error.h>
+#include <calotte/generators.h>
 #include <calotte/grid.h>
-#include <calotte/lonlat.h>
 
 #include <exception>
 #include <fstream>

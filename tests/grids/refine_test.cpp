@@ -7,9 +7,9 @@
 #include <calotte/generators.h>
 #include <calotte/grid.h>
 #include <calotte/locate.h>
+#include <calotte/mesh.h>
 #include <calotte/quality.h>
 #include <calotte/refine.h>
-#include <calotte/renumber.h>
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>

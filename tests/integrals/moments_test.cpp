@@ -7,7 +7,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/renumber.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

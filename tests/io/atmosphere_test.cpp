@@ -4,12 +4,11 @@
 #include "support/spoilt_files.h"
 #include "support/text.h"
 
-#include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/grid.h>
 #include <calotte/mesh_file.h>
-#include <calotte/model.h>
 #include <calotte/refine.h>
+#include <calotte/write.h>
 #include <calotte/write_grid.h>
 
 #include <doctest/doctest.h>

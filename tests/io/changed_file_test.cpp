@@ -2,12 +2,11 @@
 #include "support/files.h"
 #include "support/text.h"
 
-#include <calotte/check_file.h>
-#include <calotte/conservative.h>
 #include <calotte/cut.h>
 #include <calotte/grid.h>
 #include <calotte/mesh_file.h>
 #include <calotte/refine.h>
+#include <calotte/remap.h>
 #include <calotte/write.h>
 
 #include <doctest/doctest.h>

@@ -7,10 +7,10 @@
 #include "support/meshes.h"
 #include "support/spoilt_files.h"
 
-#include <calotte/check_file.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
+#include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
 #include <doctest/doctest.h>

@@ -3,10 +3,12 @@
 #include "cvt/state.h"
 #include "support/files.h"
 
+#include <calotte/checkpoint.h>
 #include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 

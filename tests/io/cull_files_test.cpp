@@ -10,7 +10,6 @@
 #include "support/gshhg.h"
 #include "support/text.h"
 
-#include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>

@@ -6,7 +6,7 @@
 #include "support/random.h"
 #include "support/text.h"
 
-#include <calotte/cull.h>
+#include <calotte/cut.h>
 #include <calotte/generators.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>

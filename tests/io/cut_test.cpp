@@ -6,11 +6,11 @@
 #include "support/global_file.h"
 #include "support/text.h"
 
-#include <calotte/check_file.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/mesh_file.h>
 #include <calotte/write.h>
 
 #include <doctest/doctest.h>

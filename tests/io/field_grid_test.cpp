@@ -10,7 +10,8 @@
 #include <calotte/error.h>
 #include <calotte/field_grid.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,6 @@
 #include "support/files.h"
 
 #include <calotte/check.h>
-#include <calotte/check_file.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>

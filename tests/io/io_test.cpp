@@ -8,7 +8,8 @@
 
 #include <calotte/error.h>
 #include <calotte/field_grid.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 

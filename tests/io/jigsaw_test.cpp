@@ -7,7 +7,8 @@
 #include "support/text.h"
 
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <cmath>
 #include <functional>

@@ -8,7 +8,8 @@
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <cmath>
 #include <filesystem>

@@ -19,7 +19,8 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 #include <netcdf.h>

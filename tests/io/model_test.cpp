@@ -4,13 +4,12 @@
 #include "support/files.h"
 #include "support/spoilt_files.h"
 
-#include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/mesh_file.h>
-#include <calotte/model.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 

@@ -15,7 +15,8 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>

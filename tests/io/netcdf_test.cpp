@@ -10,7 +10,8 @@
 #include "support/text.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 #include <netcdf.h>

@@ -10,7 +10,6 @@
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
 #include <calotte/write.h>

@@ -6,13 +6,13 @@
 #include "support/files.h"
 #include "support/laws.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/widths.h>
+#include <calotte/write.h>
 
 #include <doctest/doctest.h>
 

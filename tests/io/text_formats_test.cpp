@@ -6,9 +6,10 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
-#include <calotte/io.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <nlohmann/json.hpp>
 

@@ -7,8 +7,9 @@
 #include "support/polyhedra.h"
 #include "support/text.h"
 
-#include <calotte/io.h>
 #include <calotte/mesh_file.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <array>
 #include <random>

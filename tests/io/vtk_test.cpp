@@ -6,8 +6,9 @@
 #include "support/text.h"
 
 #include <calotte/density.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <bit>
 #include <cstring>

@@ -10,7 +10,7 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 #include <calotte/voronoi.h>
 
 #include <doctest/doctest.h>

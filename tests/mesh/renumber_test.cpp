@@ -10,7 +10,6 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>

@@ -8,7 +8,7 @@
 #include <calotte/check.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/neighbours.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 

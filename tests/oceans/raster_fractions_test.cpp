@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/conservative.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/ocean.h>
+#include <calotte/remap.h>
 #include <calotte/voronoi.h>
 
 #include "base/lonlat.h"

@@ -7,10 +7,10 @@
 #include "support/densities.h"
 #include "support/laws.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/voronoi.h>
+#include <calotte/widths.h>
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
@@ -12,7 +12,6 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/quality.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/interpolate.h>
+#include <calotte/remap.h>
 #include <calotte/voronoi.h>
 
 #include "delaunay/delaunay.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/lonlat.h>
-#include <calotte/types.h>
+#include <calotte/generators.h>
+#include <calotte/mesh.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -5,7 +5,7 @@
 #include "support/sanitizer.h"
 
 #include <calotte/error.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 

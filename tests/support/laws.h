@@ -5,7 +5,7 @@
 #include "support/oracle.h"
 
 #include <calotte/check.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <Eigen/Geometry>
 

@@ -7,7 +7,7 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 

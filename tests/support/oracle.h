@@ -3,7 +3,7 @@
 
 #include "exact.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <array>

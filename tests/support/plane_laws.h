@@ -3,7 +3,7 @@
 
 #include "support/laws.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

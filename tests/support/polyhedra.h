@@ -3,7 +3,7 @@
 
 #include "support/encodings.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cmath>
 

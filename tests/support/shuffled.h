@@ -3,7 +3,7 @@
 
 #include "support/random.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <numeric>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/check_file.h>
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
 

@@ -2,7 +2,7 @@
 #include "support/command.h"
 
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/command.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <calotte/mesh_file.h>
 

@@ -2,8 +2,8 @@
 #include "support/command.h"
 
 #include <calotte/check.h>
-#include <calotte/io.h>
 #include <calotte/quality.h>
+#include <calotte/read.h>
 
 #include <doctest/doctest.h>
 

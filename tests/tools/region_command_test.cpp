@@ -2,7 +2,7 @@
 #include "support/command.h"
 #include "support/constants.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

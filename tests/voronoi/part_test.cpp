@@ -3,8 +3,8 @@
 #include <calotte/error.h>
 #include <calotte/generators.h>
 #include <calotte/limited_area.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/neighbours.h>
 #include <calotte/ocean.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <calotte/density.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
 #include <calotte/surface.h>
-#include <calotte/types.h>
 
 #include <functional>
 #include <numbers>

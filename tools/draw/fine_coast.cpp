@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/fine_coast.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/error.h>
 #include <calotte/read.h>
+#include <calotte/widths.h>
 
 #include <array>
 #include <filesystem>

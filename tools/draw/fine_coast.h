@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <string>
 #include <vector>

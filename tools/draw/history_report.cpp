@@ -6,7 +6,7 @@
 
 #include <calotte/error.h>
 #include <calotte/grid.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <nlohmann/json.hpp>
 

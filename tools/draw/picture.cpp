@@ -5,7 +5,7 @@
 #include "text/text.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/write.h>
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

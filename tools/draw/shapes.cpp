@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/shapes.h"
 
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 
 #include <algorithm>
 #include <cmath>

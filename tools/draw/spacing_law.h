@@ -4,7 +4,7 @@
 #include "draw/axes.h"
 
 #include <calotte/density.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <string>
 #include <vector>

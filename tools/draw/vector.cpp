@@ -6,7 +6,7 @@
 #include "draw/projection.h"
 #include "draw/text.h"
 
-#include <calotte/cell_width.h>
+#include <calotte/widths.h>
 
 namespace calotte::tools {
 

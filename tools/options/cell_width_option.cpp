@@ -7,7 +7,6 @@
 #include "text/text.h"
 
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 #include <calotte/read.h>
 
 #include <CLI/App.hpp>

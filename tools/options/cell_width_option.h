@@ -3,8 +3,8 @@
 
 #include "help/cli_forward.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/read.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 #include <optional>

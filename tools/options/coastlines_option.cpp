@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/coastlines_option.h"
 
-#include <calotte/cell_width.h>
+#include <calotte/widths.h>
 
 #include <CLI/App.hpp>
 

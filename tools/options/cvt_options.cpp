@@ -6,8 +6,10 @@
 #include "options/format_options.h"
 #include "options/numbers.h"
 
+#include <calotte/checkpoint.h>
 #include <calotte/cut.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <CLI/App.hpp>
 

@@ -6,7 +6,7 @@
 #include "options/warning.h"
 #include "text/text.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <CLI/App.hpp>
 

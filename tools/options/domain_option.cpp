@@ -5,7 +5,7 @@
 #include "options/numbers.h"
 #include "text/text.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <CLI/App.hpp>
 

@@ -5,7 +5,8 @@
 #include "options/model_option.h"
 #include "options/sphere_radius_option.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <memory>
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "help/cli_forward.h"
 
-#include <calotte/model.h>
+#include <calotte/write.h>
 
 #include <optional>
 #include <string>

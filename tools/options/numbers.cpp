@@ -3,7 +3,7 @@
 
 #include "text/text.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <CLI/App.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <cstdint>
 #include <string>

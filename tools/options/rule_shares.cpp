@@ -2,7 +2,7 @@
 #include "options/rule_shares.h"
 
 #include <calotte/generators.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>

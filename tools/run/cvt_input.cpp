@@ -8,7 +8,7 @@
 #include "options/region_option.h"
 #include "text/text.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <boost/crc.hpp>
 

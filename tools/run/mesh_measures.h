@@ -5,7 +5,6 @@
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
-#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <cstdint>

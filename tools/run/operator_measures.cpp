@@ -3,7 +3,7 @@
 
 #include "text/text.h"
 
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "options/units_option.h"
 
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include <nlohmann/json_fwd.hpp>
 

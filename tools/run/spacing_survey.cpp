@@ -2,7 +2,6 @@
 #include "run/spacing_survey.h"
 
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/cell_width.h>
 #include <calotte/density.h>
 #include <calotte/surface.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 #include "text/text.h"
 #include "view/view_mesh.h"
 
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 
 #include <iomanip>
 #include <sstream>

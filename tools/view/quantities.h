@@ -4,7 +4,6 @@
 #include "options/units_option.h"
 
 #include <calotte/mesh_file.h>
-#include <calotte/operators.h>
 #include <calotte/quality.h>
 
 #include <cstdint>

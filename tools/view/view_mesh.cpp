@@ -6,7 +6,7 @@
 #include "text/text.h"
 
 #include <calotte/check.h>
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 #include <calotte/surface.h>
 
 #include <algorithm>

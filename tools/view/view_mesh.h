@@ -3,10 +3,10 @@
 
 #include "view/quantities.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/density.h>
 #include <calotte/mesh_file.h>
 #include <calotte/surface.h>
+#include <calotte/widths.h>
 
 #include <cstdint>
 #include <optional>

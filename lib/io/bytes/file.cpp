@@ -8,7 +8,8 @@
 #include "io/command.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -2,7 +2,7 @@
 #include "io/bytes/file_error.h"
 #include "io/netcdf/cf_values.h"
 
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <algorithm>
 #include <limits>

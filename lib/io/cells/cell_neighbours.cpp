@@ -4,8 +4,8 @@
 #include "base/require.h"
 #include "io/cells/polygons.h"
 
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/neighbours.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -10,10 +10,10 @@
 #include "mesh/rows.h"
 #include "mesh/stars.h"
 
-#include <calotte/conservative.h>
 #include <calotte/error.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/neighbours.h>
+#include <calotte/remap.h>
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include "io/cells/room.h"
 #include "io/netcdf/netcdf_reader.h"
 
-#include <calotte/check_file.h>
+#include <calotte/mesh_file.h>
 
 #include <algorithm>
 #include <cstdint>

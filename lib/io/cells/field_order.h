@@ -3,8 +3,7 @@
 
 #include "io/cells/room.h"
 
-#include <calotte/mesh_field.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

@@ -11,10 +11,11 @@
 #include "io/netcdf/netcdf_reader.h"
 #include "io/netcdf/netcdf_writer.h"
 
-#include <calotte/io.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/types.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "base/vec3.h"
 #include "io/cells/room.h"
 
-#include <calotte/lists.h>
+#include <calotte/matrices.h>
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 

@@ -3,9 +3,8 @@
 
 #include "io/cells/room.h"
 
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/types.h>
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "io/cells/room.h"
 
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 

@@ -5,8 +5,8 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/room.h"
 
-#include <calotte/io.h>
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
+#include <calotte/write.h>
 
 #include <array>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "io/cells/room.h"
 
-#include <calotte/io.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
+#include <calotte/write.h>
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/check_file.h>
+#include <calotte/mesh_file.h>
 
 #include "io/cells/deviations.h"
 #include "io/check/grid_check.h"

@@ -5,7 +5,7 @@
 #include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_reader.h"
 
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
 
 #include <string>
 #include <vector>

@@ -5,8 +5,10 @@
 #include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 
+#include <calotte/checkpoint.h>
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <boost/crc.hpp>
 

@@ -8,10 +8,11 @@
 #include "io/mpas/mpas.h"
 #include "io/shapes/points_text.h"
 
-#include <calotte/io.h>
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/types.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <iosfwd>
 #include <string>

@@ -8,8 +8,7 @@
 #include "io/mpas/mpas.h"
 #include "voronoi/part.h"
 
-#include <calotte/neighbours.h>
-#include <calotte/renumber.h>
+#include <calotte/mesh.h>
 #include <calotte/write.h>
 
 #include <cstdint>

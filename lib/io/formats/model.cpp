@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/model.h>
+#include <calotte/write.h>
 
 #include <algorithm>
 

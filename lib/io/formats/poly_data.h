@@ -4,7 +4,7 @@
 #include "io/formats/formats.h"
 #include "io/formats/room.h"
 
-#include <calotte/lists.h>
+#include <calotte/matrices.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/cull.h>
+#include <calotte/cut.h>
 
 #include "base/require.h"
 #include "io/command.h"

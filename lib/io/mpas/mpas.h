@@ -9,9 +9,10 @@
 #include "io/mpas/room.h"
 #include "io/netcdf/netcdf_reader.h"
 
-#include <calotte/io.h>
 #include <calotte/limited_area.h>
+#include <calotte/read.h>
 #include <calotte/voronoi.h>
+#include <calotte/write.h>
 
 #include <cstdint>
 #include <functional>

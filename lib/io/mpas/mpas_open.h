@@ -5,7 +5,7 @@
 #include "io/cells/id_table.h"
 #include "io/mpas/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "io/netcdf/netcdf_subset.h"
 
 #include <calotte/limited_area.h>
-#include <calotte/lists.h>
-#include <calotte/types.h>
+#include <calotte/matrices.h>
+#include <calotte/mesh.h>
 #include <calotte/write.h>
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "io/mpas/mpas.h"
 #include "io/mpas/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 /// The variables of places in MPAS files, and the measures that are computed with the places of
 /// vertices and edges. Unless the mesh is whole, its places are computed here and not stored. The

@@ -6,7 +6,7 @@
 #include "io/netcdf/netcdf_writer.h"
 #include "io/netcdf/room.h"
 
-#include <calotte/mesh_field.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <functional>

@@ -3,8 +3,8 @@
 
 #include "io/shapes/room.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/raster.h>
+#include <calotte/widths.h>
 
 #include <iosfwd>
 #include <string>

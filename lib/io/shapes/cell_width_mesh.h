@@ -4,8 +4,8 @@
 #include "delaunay/delaunay.h"
 #include "io/shapes/room.h"
 
+#include <calotte/mesh.h>
 #include <calotte/raster.h>
-#include <calotte/types.h>
 
 namespace calotte::io_detail {
 

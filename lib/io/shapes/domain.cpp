@@ -7,7 +7,7 @@
 #include "io/shapes/geojson_polygons.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
 
 #include <algorithm>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "base/vec3.h"
 #include "io/shapes/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <array>
 #include <cstddef>

@@ -3,9 +3,9 @@
 
 #include "io/shapes/room.h"
 
-#include <calotte/cell_width.h>
+#include <calotte/mesh.h>
 #include <calotte/raster.h>
-#include <calotte/types.h>
+#include <calotte/widths.h>
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "io/command.h"
 #include "io/shapes/jigsaw.h"
 
-#include <calotte/cell_width.h>
+#include <calotte/widths.h>
 
 #include <algorithm>
 #include <numbers>

@@ -6,7 +6,8 @@
 #include "io/bytes/file_error.h"
 
 #include <calotte/error.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "io/bytes/text.h"
 #include "io/shapes/room.h"
 
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 namespace calotte::io_detail {
 

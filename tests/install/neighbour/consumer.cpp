@@ -8,8 +8,8 @@
 #include <calotte/density.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
-#include <calotte/interpolate.h>
 #include <calotte/locate.h>
+#include <calotte/remap.h>
 #include <calotte/voronoi.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/interpolate.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
+#include <calotte/remap.h>
 
 #include <Eigen/Core>
 

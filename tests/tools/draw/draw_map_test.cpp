@@ -15,7 +15,8 @@
 
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/io.h>
+#include <calotte/read.h>
+#include <calotte/write.h>
 
 #include <cairo.h>
 #include <doctest/doctest.h>

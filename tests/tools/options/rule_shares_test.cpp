@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/rule_shares.h"
 
-#include <calotte/lonlat.h>
+#include <calotte/generators.h>
 #include <calotte/widths.h>
 
 #include <doctest/doctest.h>

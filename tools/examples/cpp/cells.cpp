@@ -2,7 +2,6 @@
 // Makes the Voronoi cells of a mesh, and reads one of them: its neighbours, corners and area.
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 #include <calotte/voronoi.h>
 
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
 #include <calotte/locate.h>
-#include <calotte/lonlat.h>
 
 #include <cstdint>
 #include <iostream>

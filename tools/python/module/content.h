@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <calotte/mesh.h>
 #include <calotte/mesh_file.h>
-#include <calotte/renumber.h>
 
 #include <pybind11/pybind11.h>
 

@@ -4,7 +4,7 @@
 #include "module.h"
 
 #include <calotte/error.h>
-#include <calotte/types.h>
+#include <calotte/mesh.h>
 
 #include <Eigen/Geometry>
 #include <tbb/parallel_invoke.h>

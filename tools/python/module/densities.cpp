@@ -3,10 +3,10 @@
 #include "members.h"
 #include "module.h"
 
-#include <calotte/cell_width.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/read.h>
+#include <calotte/widths.h>
 
 #include <string>
 #include <tuple>

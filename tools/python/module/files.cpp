@@ -6,11 +6,9 @@
 
 #include "draw/coastlines.h"
 
-#include <calotte/cull.h>
 #include <calotte/cut.h>
 #include <calotte/error.h>
 #include <calotte/mesh_file.h>
-#include <calotte/model.h>
 #include <calotte/partition.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>

@@ -8,7 +8,7 @@
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
-#include <calotte/renumber.h>
+#include <calotte/mesh.h>
 
 #include <cstdint>
 #include <memory>

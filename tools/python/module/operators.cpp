@@ -3,7 +3,7 @@
 #include "members.h"
 #include "module.h"
 
-#include <calotte/operators.h>
+#include <calotte/quality.h>
 
 #include <array>
 #include <cstddef>

@@ -4,7 +4,6 @@
 #include "module.h"
 
 #include <calotte/generators.h>
-#include <calotte/lonlat.h>
 
 #include <cstdint>
 
