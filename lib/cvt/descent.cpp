@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/vector_field.h"
-#include "cvt/cvt.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/multigrid.h"
+#include "cvt/options.h"
 #include "cvt/room.h"
 #include "cvt/state.h"
 #include "density/density_evaluator.h"

@@ -7,7 +7,6 @@
 #include "base/points.h"
 #include "base/vector_loops.h"
 #include "cvt/cells.h"
-#include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "cvt/polish.h"
 #include "cvt/shape.h"

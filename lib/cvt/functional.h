@@ -3,8 +3,8 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "cvt/cvt.h"
 #include "cvt/laplacian.h"
+#include "cvt/options.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/tessellation.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/cvt.h"
 #include "cvt/insertion.h"
+#include "cvt/options.h"
 #include "cvt/room.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"

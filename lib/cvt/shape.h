@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cvt/cells.h"
-#include "cvt/cvt.h"
+#include "cvt/options.h"
 #include "cvt/placed_mesh.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"

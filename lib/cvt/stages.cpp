@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
-#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/insertion.h"
 #include "cvt/levels.h"

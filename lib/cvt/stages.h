@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/cvt.h"
+#include "cvt/options.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
 #include "cvt/state.h"

@@ -25,7 +25,7 @@ namespace bg = boost::geometry;
 
 using Place = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Place, false, false>; ///< counter-clockwise, not closed
-using Polygons = bg::model::multi_polygon<Polygon>;
+using MultiPolygon = bg::model::multi_polygon<Polygon>;
 
 /// The stereographic projection from the point across from a centre; distances at the centre are
 /// right, others are enlarged.
@@ -83,8 +83,8 @@ Polygon::ring_type projected(const Points3& ring, const Stereographic& map) {
 }
 
 /// Outer rings with the holes inside them.
-Polygons polygons_of(const Surface::Rings& rings, const Stereographic& map) {
-  Polygons polygons;
+MultiPolygon polygons_of(const Surface::Rings& rings, const Stereographic& map) {
+  MultiPolygon polygons;
   std::vector<Polygon::ring_type> holes;
   for (const DoubleMatrix& ring : rings) {
     Polygon::ring_type line = projected(ring, map);
@@ -136,7 +136,7 @@ Surface widened(const Surface& surface, double distance) {
   if (reach > farthest || outline.side(-1 * centre) != Side::outside)
     return {};
   const Stereographic map(centre);
-  Polygons wide;
+  MultiPolygon wide;
   constexpr double inscribed = 1.02; // corners become polygons, here of 24 corners for a circle
   const double offset = inscribed * distance * Stereographic::scale(reach);
   bg::buffer(polygons_of(surface.rings(), map), wide,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/number_text.h"
 #include "base/require.h"
-#include "cvt/cvt.h"
 #include "cvt/levels.h"
+#include "cvt/options.h"
 #include "cvt/stages.h"
 #include "domain/surface.h"
 #include "generators/boundary.h"

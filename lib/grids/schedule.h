@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/cvt.h"
+#include "cvt/options.h"
 #include "grids/room.h"
 
 #include <calotte/grid.h>
