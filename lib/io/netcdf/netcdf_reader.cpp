@@ -169,12 +169,12 @@ std::vector<std::string> NetcdfReader::variable_names() const {
   return names;
 }
 
-int NetcdfReader::require_variable(const std::string& name) const {
+int NetcdfReader::require_variable(const std::string& name, const std::string& remedy) const {
   const int v = find(name);
   if (v < 0 && !header_.groups.empty())
     fail_for_groups("it has no variable " + name);
   if (v < 0)
-    fail("it has no variable " + name + "; give a file that has");
+    fail("it has no variable " + name + "; " + remedy);
   return v;
 }
 

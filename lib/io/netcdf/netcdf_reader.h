@@ -37,6 +37,10 @@ public:
 
   /// The index of a variable; -1 if there is none of that name.
   int find(const std::string& variable) const;
+  /// The same. \throws Error parse where there is none, with the remedy; with another for files
+  /// that have groups.
+  int require_variable(const std::string& name,
+                       const std::string& remedy = "give a file that has") const;
   std::vector<std::string> variable_names() const;
   bool has_variable(const std::string& name) const { return find(name) >= 0; }
   std::vector<std::string> dimensions_of(const std::string& variable) const;
@@ -83,7 +87,6 @@ public:
 
 private:
   const NetcdfDimension* find_dimension(const std::string& name) const;
-  int require_variable(const std::string& name) const;
   [[noreturn]] void fail_for_groups(const std::string& problem) const;
   std::optional<NetcdfType> type_of(const std::string& variable) const;
   const NetcdfAttribute* find_attribute(const std::string& variable,

@@ -53,10 +53,9 @@ Coast read_coast(const std::string& path) {
   require_gshhg(path);
   if (is_netcdf_file(path)) {
     const NetcdfReader file(path);
-    if (!file.has_variable("N_bins_in_360_longitude_range"))
-      refuse_path(path,
-                  "holds no polygons of land, which NetCDF files have as binned ones of GSHHG "
-                  "only; give it as a raster, if it is one, or polygons as GeoJSON");
+    file.require_variable("N_bins_in_360_longitude_range",
+                          "NetCDF files have polygons of land as binned ones of GSHHG only; give "
+                          "it as a raster, if it is one, or polygons as GeoJSON");
     return read_gshhg(file);
   }
   std::ifstream in = open_input(path);
