@@ -543,8 +543,8 @@ def plan(cell_width: WidthLike = None, *, surface: SurfaceLike | None = None,
 
     >>> plan(120.0).cells
     40962
-    >>> [action.cells for action in plan(start=2562, density="x8").actions]
-    [642, 2562]
+    >>> [action.kind for action in plan(start=2562, density="x8").actions]
+    ['start', 'insert', 'bisect', 'insert', 'converge', 'polish', 'raise']
     """
     recipe = _recipe(cell_width=cell_width, surface=surface, earth_radius=earth_radius,
                              **options)
