@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/stages.h"
 
+#include "cvt/course.h"
 #include "cvt/functional.h"
 #include "cvt/insertion.h"
 #include "cvt/levels.h"
@@ -24,26 +25,18 @@ double spacing_of(const CvtIteration& iteration) {
 
 using Kind = CvtAction::Kind;
 
-/// A round after a descent of more than 25 evaluations counts for two: where widths are steep, a
-/// round takes long and gains less.
-int count_of_round(const State& state) {
-  constexpr int steep = 25;
-  return state.memory.iterations > steep ? 2 : 1;
-}
+int count_of_round(const State& state) { return state.memory.iterations > course::steep ? 2 : 1; }
 
-/// The edges of a round: a twentieth of the dislocations that the density demands while rounds are
-/// left, and the difference to the number of cells. Half of them give less energy, but the errors
-/// of a model's vorticity, divergence and kinetic energy grow with the number of dislocations. With
-/// fewer, cells are sheared, so that the stable step of gravity waves is shorter.
+/// The edges of a round: of both kinds while rounds are left, and the difference to the number of
+/// cells.
 EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density& density) {
-  constexpr double share = 0.05; // of the dislocations
-  constexpr double most = 0.02;  // of the generators
   const CvtAction& action = state.action();
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
   if (state.cursor.times < action.times)
     both = static_cast<std::int64_t>(
-        std::ceil(std::min(share * dislocations(mesh, density), most * static_cast<double>(n))));
+        std::ceil(std::min(course::share_of_dislocations * dislocations(mesh, density),
+                           course::share_of_generators * static_cast<double>(n))));
   return {both + std::max<std::int64_t>(action.cells - n, 0),
           both + std::max<std::int64_t>(n - action.cells, 0), state.fixed};
 }
@@ -52,19 +45,12 @@ std::int64_t missing_cells(const State& state) {
   return std::abs(state.points.cols() - state.action().cells);
 }
 
-/// Whether the number of generators is far from that of the level's end, as at a start from points
-/// that were given: rounds change it first, after descents of a few evaluations.
 bool is_far(const State& state) {
-  constexpr std::int64_t part = 20, few = 10;
-  return missing_cells(state) > std::max(state.action().cells / part, few);
+  return missing_cells(state) > std::max(state.action().cells / course::far_part, course::far_few);
 }
 
-/// Whether further rounds may bring the number of generators to that of the level's end. Between
-/// generators that stay there may be no edge left to split or to collapse.
-bool may_come_nearer(const Cursor& cursor) {
-  constexpr int most = 20;
-  return cursor.idle < most;
-}
+/// Whether further rounds may bring the number of generators to that of the level's end.
+bool may_come_nearer(const Cursor& cursor) { return cursor.idle < course::most_idle; }
 
 /// The kind of the action after another; none after the last.
 std::optional<Kind> kind_after(const State& state, const Cursor& cursor) {
@@ -89,11 +75,9 @@ bool inserts(const State& state) {
                              [](const CvtAction& action) { return action.kind == Kind::insert; });
 }
 
-/// Coarser levels, where rounds are cheap, have more of them.
 int rounds_of_level(int bisections_left, const CvtOptions& options) {
-  constexpr int most = 14;
   return std::min(options.insertion_rounds * (bisections_left + 1),
-                  std::max(options.insertion_rounds, most));
+                  std::max(options.insertion_rounds, course::most_rounds));
 }
 
 /// The number of generators at the end of a level of a run with insertion.
@@ -105,12 +89,11 @@ std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bise
 
 /// The end of all descents of a run with insertion but the last.
 void set_early(CvtAction& action) {
-  constexpr int most = 75;
-  constexpr double tolerance = 1e-3;
-  action.tolerance =
-      action.norm == Norm::l2_scaled ? std::max(tolerance, action.tolerance) : tolerance;
+  action.tolerance = action.norm == Norm::l2_scaled
+                         ? std::max(course::early_tolerance, action.tolerance)
+                         : course::early_tolerance;
   action.norm = Norm::l2_scaled;
-  action.max_iterations = std::min(action.max_iterations, most);
+  action.max_iterations = std::min(action.max_iterations, course::early_iterations);
 }
 
 /// One time more of the action at the cursor.
@@ -151,38 +134,33 @@ Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh, int
 }
 
 void begin_polish(State& state) {
-  constexpr double factor = 60; // of an excess squared, in units of a cell's energy
   const CvtIteration& last = state.report.iterations.back();
-  state.polish = {.penalty = factor * last.energy / static_cast<double>(last.cells),
+  state.polish = {.penalty = course::penalty * last.energy / static_cast<double>(last.cells),
                   .demanded_spacing = spacing_of(last),
                   .descended =
                       state.report.converged || state.cursor.glides > 0}; // which need convergence
 }
 
 void begin_raised(State& state) {
-  constexpr double factor = 4;
-  state.polish.penalty *= factor;
+  state.polish.penalty *= course::raise;
   ++state.cursor.times;
 }
-
-constexpr std::int64_t flat_from = 2000; // generators
 
 /// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
 /// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees. Where the
 /// density is 0, cells are of any width.
 bool is_resolved(const State& state, const Surface& surface, const Density& density) {
-  constexpr Eigen::Index most_samples = 4096;
-  constexpr double widest = 0.25;
   const Eigen::Index n = state.points.cols();
-  if (!surface.is_sphere() || n < flat_from)
+  if (!surface.is_sphere() || n < course::flat_from)
     return false;
-  const Eigen::Index stride = (n + most_samples - 1) / most_samples;
+  const Eigen::Index stride = (n + course::samples_of_widths - 1) / course::samples_of_widths;
   Points3 samples(3, (n + stride - 1) / stride);
   for (Eigen::Index k = 0; k < samples.cols(); ++k)
     samples.col(k) = state.points.col(k * stride);
   const DoubleVector area = evaluate(density, samples).cwiseSqrt().cwiseInverse();
   const double mean = area.mean() * static_cast<double>(n) / surface.area();
-  return std::isfinite(mean) && area.maxCoeff() <= widest * widest * mean;
+  return std::isfinite(mean) &&
+         area.maxCoeff() <= course::widest_linear * course::widest_linear * mean;
 }
 
 } // namespace
@@ -194,13 +172,10 @@ const CvtIteration& last_accepted(const State& state) {
 }
 
 bool creeps(const State& state, const CvtOptions& options) {
-  constexpr int with_descent = 1; // glide after which the descent goes on
-  constexpr double progress = 0.5;
-  // After insertion only dislocations are out of balance; other starts are so everywhere.
-  const int window = inserts(state) ? 6 : 45;
+  const int window = inserts(state) ? course::creeping_after_insertion : course::creeping;
   if (!options.well_centred || options.norm == Norm::none || state.in_polish())
     return false;
-  if (state.cursor.glides > with_descent)
+  if (state.cursor.glides > course::glides_with_descent)
     return true;
   if (state.memory.since_restart <= window)
     return false;
@@ -214,12 +189,12 @@ bool creeps(const State& state, const CvtOptions& options) {
       (k <= window ? now : before) =
           std::min(k <= window ? now : before, norm_of(iteration, options.norm));
   }
-  return before < std::numeric_limits<double>::infinity() && now > progress * before;
+  return before < std::numeric_limits<double>::infinity() &&
+         now > course::creeping_progress * before;
 }
 
 bool has_stalled(const State& state) {
-  constexpr int window = 10;
-  constexpr double progress = 0.95;
+  constexpr int window = course::stall;
   if (!state.in_polish() || state.memory.iterations < 2 * window)
     return false;
   const auto end = state.report.iterations.end() - window;
@@ -227,12 +202,11 @@ bool has_stalled(const State& state) {
   for (auto i = end + window - state.memory.iterations; i != end; ++i)
     if (i->accepted)
       before = std::min(before, i->shape_excess);
-  return last_accepted(state).shape_excess > progress * before;
+  return last_accepted(state).shape_excess > course::stall_progress * before;
 }
 
 std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
                                   const CvtOptions& options) {
-  constexpr int most_in_polish = 60, most_raised = 2;
   const bool inserts = options.insertion_rounds > 0, counted = options.norm == Norm::none;
   const CvtAction last{.norm = options.norm,
                        .tolerance = counted ? 0 : options.tolerance,
@@ -259,9 +233,10 @@ std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
   if (inserts)
     add(Kind::converge, last, cells);
   if (options.well_centred) {
-    const CvtAction polish{.norm = options.norm, .tolerance = 0, .max_iterations = most_in_polish};
+    const CvtAction polish{
+        .norm = options.norm, .tolerance = 0, .max_iterations = course::polish_iterations};
     add(Kind::polish, polish, cells);
-    add(Kind::raise, polish, cells, most_raised);
+    add(Kind::raise, polish, cells, course::most_raised);
   }
   return actions;
 }
@@ -293,19 +268,17 @@ int rounds_left(const State& state) {
 }
 
 bool may_glide(const State& state) {
-  constexpr int most = 4;
-  return !state.in_polish() && state.report.converged && state.cursor.glides < most &&
+  return !state.in_polish() && state.report.converged &&
+         state.cursor.glides < course::most_glides &&
          kind_after(state, state.cursor) == Kind::polish;
 }
 
 ShapeLimits limits_of_glide(const State& state) {
-  constexpr int within = 3;
-  return state.cursor.glides < within ? early_glide_limits() : shape_limits;
+  return state.cursor.glides < course::early_glides ? early_glide_limits() : shape_limits;
 }
 
 CvtOptions options_of_descent(const State& state, const Surface& surface,
                               const CvtOptions& options) {
-  constexpr double fine = 1e-5;
   const CvtAction& action = state.action();
   CvtOptions here = options;
   here.norm = action.norm;
@@ -319,20 +292,19 @@ CvtOptions options_of_descent(const State& state, const Surface& surface,
     here.method = Method::lbfgs;
     return here;
   }
-  const bool last = action.kind == Kind::converge, fine_level = state.points.cols() >= flat_from;
+  const bool last = action.kind == Kind::converge,
+             fine_level = state.points.cols() >= course::flat_from;
   if (here.method == Method::automatic && fine_level && (!last || options.well_centred))
-    here.method = Method::lbfgs; // descents are short, and a graph Laplacian takes as long as five
-                                 // evaluations to make
+    here.method = Method::lbfgs;
   if (last) {
-    here.final_rule = action.tolerance < fine ? options.final_rule : options.rule;
+    here.final_rule = action.tolerance < course::fine_tolerance ? options.final_rule : options.rule;
     return here;
   }
   here.well_centred = false; // its end by creeping is for the last descent
   here.final_rule = here.rule;
-  constexpr int few = 8;
   const bool further = action.kind != Kind::insert || is_due(state, state.cursor);
   if (further && is_far(state))
-    here.max_iterations = std::min(here.max_iterations, few);
+    here.max_iterations = std::min(here.max_iterations, course::evaluations_while_far);
   return here;
 }
 
