@@ -17,6 +17,7 @@
 #include "options/warning.h"
 #include "run/cvt_actions.h"
 #include "run/cvt_costs.h"
+#include "run/cvt_input.h"
 #include "run/progress.h"
 #include "run/spacing_survey.h"
 #include "text/text.h"
@@ -67,29 +68,6 @@ struct Plan {
   CvtCosts costs;
 };
 
-/// What a plan begins with.
-struct PlanInput {
-  Recipe recipe;
-  WidthRules rules; ///< of widths, if there are any
-};
-
-PlanInput input_of(const PlanRequest& request) {
-  PlanInput input;
-  Recipe& recipe = input.recipe;
-  const WidthWords& words = request.density->widths;
-  if (!request.part.region.empty())
-    recipe.surface = region_of(request.part.region, request.part.inside, words.radius);
-  const Resolution resolution = resolution_of(*request.density, recipe.surface);
-  recipe.resolution = for_recipe(resolution);
-  if (const auto* const rules = std::get_if<WidthRules>(&resolution))
-    input.rules = *rules;
-  recipe.cells = request.cells.value_or(0);
-  recipe.radius_km = words.radius;
-  recipe.limited_area = request.part.limited_area;
-  recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
-  return input;
-}
-
 /// Widths in km: on the whole sphere all quantities follow from their nodes.
 SpacingSurvey survey(const Schedule& schedule, double factor, const WidthWords& words,
                      std::optional<double> limit) {
@@ -103,7 +81,7 @@ SpacingSurvey survey(const Schedule& schedule, double factor, const WidthWords& 
   return {least, least, widths.greatest() * scale, steepest_of(widths, words, limit, factor)};
 }
 
-Plan plan_of(const PlanRequest& request, const PlanInput& input, const Schedule& schedule) {
+Plan plan_of(const PlanRequest& request, const GridInput& input, const Schedule& schedule) {
   const Recipe& recipe = input.recipe;
   Plan plan;
   plan.density = density_name(*request.density);
@@ -281,7 +259,7 @@ Plan make_plan(const PlanRequest& request) {
   Plan plan;
   with_threads(request.threads, [&] {
     const auto start = std::chrono::steady_clock::now();
-    const PlanInput input = input_of(request);
+    const GridInput input = read_grid(*request.density, request.part, request.cells);
     const Schedule schedule = calotte::plan(input.recipe);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     plan = plan_of(request, input, schedule);

@@ -85,13 +85,6 @@ Stop stop_of(const CvtRequest& request) {
   return stop;
 }
 
-/// The part of the sphere that a request asks for; the whole sphere if it asks for none.
-Surface part_of(const CvtRequest& request) {
-  return request.part.region.empty()
-             ? Surface()
-             : region_of(request.part.region, request.part.inside, request.density->widths.radius);
-}
-
 /// "1 line holds", "3 lines hold".
 std::string counted(std::ptrdiff_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -132,19 +125,33 @@ void require_start(const CvtRequest& request) {
     refuse("--lonlat applies to a file of points only; leave it out");
 }
 
+GridInput read_grid(const DensityWords& density, const RegionWords& part,
+                    std::optional<std::int64_t> cells, std::optional<Surface> plane) {
+  GridInput input;
+  Recipe& recipe = input.recipe;
+  recipe.cells = cells.value_or(0);
+  recipe.radius_km = density.widths.radius;
+  if (plane)
+    recipe.surface = *std::move(plane);
+  else if (!part.region.empty())
+    recipe.surface = region_of(part.region, part.inside, recipe.radius_km);
+  Resolution resolution = resolution_of(density, recipe.surface);
+  recipe.resolution = for_recipe(resolution);
+  if (auto* const rules = std::get_if<WidthRules>(&resolution))
+    input.rules = std::move(*rules);
+  recipe.limited_area = part.limited_area;
+  recipe.boundary = ends_at_boundary(part) ? Boundary::generators : Boundary::clip;
+  return input;
+}
+
 CvtInput read_input(const CvtRequest& request) {
   CvtInput input;
+  GridInput grid = read_grid(*request.density, request.part, request.cells,
+                             planar(request) ? surface_of(*request.domain) : std::nullopt);
+  input.gradient = grid.rules.gradient;
   Recipe& recipe = input.recipe;
-  recipe.cells = request.cells.value_or(0);
-  recipe.surface = planar(request) ? *surface_of(*request.domain) : part_of(request);
-  const Resolution resolution = resolution_of(*request.density, recipe.surface);
-  recipe.resolution = for_recipe(resolution);
-  if (const auto* const rules = std::get_if<WidthRules>(&resolution))
-    input.gradient = rules->gradient;
-  recipe.radius_km = request.density->widths.radius;
-  recipe.limited_area = request.part.limited_area;
+  recipe = std::move(grid.recipe);
   recipe.walls = walls_of(*request.domain);
-  recipe.boundary = ends_at_boundary(request.part) ? Boundary::generators : Boundary::clip;
   recipe.start = start_of(request);
   recipe.stop = stop_of(request);
   recipe.seed = request.seed.value_or(recipe.seed);

@@ -13,6 +13,17 @@
 
 namespace calotte::tools {
 
+/// What to mesh, and how wide its cells are: the part of a recipe that does not ask for a run.
+struct GridInput {
+  Recipe recipe;
+  WidthRules rules; ///< of widths, if there are any
+};
+
+/// \param plane the surface, unless it is the sphere or the part of it.
+/// \throws Error invalid_argument, parse, file.
+GridInput read_grid(const DensityWords& density, const RegionWords& part,
+                    std::optional<std::int64_t> cells, std::optional<Surface> plane = {});
+
 /// What a request asks for, with its files read.
 struct CvtInput {
   /// A file of points, and the lines of it where they stand.
