@@ -81,7 +81,6 @@ struct CvtOutcome {
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
   std::string grid;        ///< a line about the part of the mesh that is written, or ""
-  std::string doubt;       ///< about a mesh that should end at the boundary, or ""
   std::string worst_place; ///< of the cell of the worst shape: " (at ...)", or ""
   double area = 0;         ///< of the surface
   int signal = 0;          ///< the signal that ended it early
@@ -314,9 +313,6 @@ CvtOutcome tessellate_and_write(const CvtRequest& request, Schedule& schedule) {
   Run run = prepare(request, progress);
   const Interruption interruption;
   CvtOutcome outcome = tessellate(request, run, progress);
-  if (const std::int64_t count = run.schedule.on_boundary; count > 0)
-    outcome.doubt =
-        doubt_of_boundary(outcome.mesh, run.schedule.recipe.fixed.cols() - count, count);
   write_result(request, run, outcome, progress);
   schedule = std::move(run.schedule);
   return outcome;
@@ -339,8 +335,12 @@ void warn_of_result(const CvtRequest& request, const Schedule& schedule,
                           : "bisections of a domain with a boundary leave out midpoints outside "
                             "it; --start multilevel ") +
                      "gives exactly as many\n";
-  if (!outcome.doubt.empty())
-    warn(outcome.doubt);
+  if (outcome.report.off_boundary > 0)
+    warn("the mesh leaves the boundary of the region in places: " +
+         std::to_string(outcome.report.off_boundary) + " of its outer edges do not join the " +
+         std::to_string(schedule.on_boundary) +
+         " generators on the boundary; where the region or what it leaves out is narrower than its "
+         "cells, give more cells");
 }
 
 /// Writes the grid of --hexagons, which is the optimal one of its density: there is nothing to run.

@@ -317,6 +317,9 @@ typedef struct calotte_report {
   double residual;             /**< the norm at the end */
   double energy;               /**< at the end */
   double seconds;              /**< wall-clock time */
+  /** With boundary_generators: the mesh's outer edges that do not join generators on the boundary;
+   * 0 if the mesh ends there. */
+  int64_t off_boundary;
 } calotte_report;
 
 /** Initialises a report. */

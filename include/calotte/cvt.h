@@ -129,7 +129,11 @@ struct CvtReport {
   bool well_centred = false; ///< a polish brought all shapes within their limits
   /// After a polish that did not: the number of cells whose triangles are beyond a limit.
   std::int64_t cells_beyond_limits = 0;
-  std::int64_t worst_cell = -1;         ///< one with the shape farthest beyond; -1 for none
+  std::int64_t worst_cell = -1; ///< one with the shape farthest beyond; -1 for none
+  /// With Boundary::generators: the number of the mesh's outer edges that do not join generators on
+  /// the boundary, or that are missing there; 0 if the mesh ends at the boundary all around. It may
+  /// leave it where the surface, or what it leaves out, is narrower than a cell.
+  std::int64_t off_boundary = 0;
   double residual = 0;                  ///< the selected norm at the end of the run
   std::vector<CvtAction> actions;       ///< all of the schedule, in order
   std::vector<CvtDone> done;            ///< of each; of fewer while it runs, or if it was stopped

@@ -24,7 +24,8 @@ calotte_report report_of(const CvtReport& report) {
           std::ssize(report.iterations),
           report.residual,
           report.iterations.empty() ? 0 : report.iterations.back().energy,
-          report.seconds};
+          report.seconds,
+          report.off_boundary};
 }
 
 /// Fills one of a caller's arrays of actions. \param value of an action.

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -59,6 +61,23 @@ Points3 generators(const Schedule& schedule) {
   return all;
 }
 
+/// See CvtReport::off_boundary.
+std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
+  const std::int64_t last = schedule.recipe.fixed.cols(), first = last - schedule.on_boundary;
+  if (first == last)
+    return 0;
+  std::int64_t outer = 0, away = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (int v = 0; v < 3; ++v) {
+      if (mesh.neighbours(v, t) >= 0)
+        continue;
+      const std::int32_t a = mesh.triangles((v + 1) % 3, t), b = mesh.triangles((v + 2) % 3, t);
+      ++outer;
+      away += std::min(a, b) < first || std::max(a, b) >= last;
+    }
+  return std::max(away, std::abs(outer - schedule.on_boundary));
+}
+
 CvtCallback callback_of(const ProgressCallback& progress) {
   if (!progress)
     return {};
@@ -80,8 +99,11 @@ Cvt make_grid(const Schedule& schedule, RunOptions run) {
       "the schedule lacks choices; give one of plan()");
   CvtOptions options = options_of(schedule);
   options.partition = run.partition;
-  return run.state ? cvt(std::move(*run.state), recipe.surface, options, callback_of(run.progress))
-                   : cvt(generators(schedule), recipe.surface, options, callback_of(run.progress));
+  const CvtCallback callback = callback_of(run.progress);
+  Cvt grid = run.state ? cvt(std::move(*run.state), recipe.surface, options, callback)
+                       : cvt(generators(schedule), recipe.surface, options, callback);
+  grid.report.off_boundary = off_boundary(grid.mesh, schedule);
+  return grid;
 }
 
 Cvt make_grid(const Recipe& recipe, RunOptions options) {

@@ -9,10 +9,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::test;
@@ -300,4 +303,54 @@ TEST_CASE("make_grid: a run that is stopped goes on from its state to the same b
   CHECK_THROWS_AS(make_grid(recipe, going), Error);
   stopping.progress = [](const Progress&) { return Next::cancel; };
   CHECK(test::code_of([&] { make_grid(recipe, stopping); }) == ErrorCode::cancelled);
+}
+
+TEST_CASE("make_grid: a run goes on to the same bits after each of its actions") {
+  Recipe recipe;
+  recipe.cells = 800;
+  recipe.resolution = test::x8();
+  std::vector<CvtState> ends;
+  std::optional<CvtState> before;
+  RunOptions watching;
+  watching.progress = [&](const Progress& now) {
+    const CvtReport& report = now.run->report;
+    if (before && before->report().done.size() != report.done.size())
+      ends.push_back(*before);
+    before = now.run->state;
+    return Next::proceed;
+  };
+  const Cvt whole = make_grid(recipe, watching);
+  ends.push_back(*before);
+  REQUIRE(ends.size() >= 5); // start, insert, bisect, converge, polish
+  for (const CvtState& state : ends) {
+    RunOptions going;
+    going.state = state;
+    const Cvt resumed = make_grid(recipe, going);
+    CHECK(resumed.mesh.points == whole.mesh.points);
+    REQUIRE(resumed.report.done.size() == whole.report.done.size());
+    for (std::size_t k = 0; k < whole.report.done.size(); ++k) {
+      CHECK(resumed.report.done[k].times == whole.report.done[k].times);
+      CHECK(resumed.report.done[k].iterations == whole.report.done[k].iterations);
+      CHECK(resumed.report.done[k].cells == whole.report.done[k].cells);
+    }
+  }
+}
+
+TEST_CASE("make_grid: a mesh that leaves the boundary where it is narrow says by how many edges") {
+  // Two bays with a wall between them that is much thinner than a cell.
+  Points3 wall(3, 8);
+  Eigen::Index next = 0;
+  for (const auto& [longitude, latitude] : std::vector<std::pair<double, double>>{
+           {0, 0}, {20, 0}, {20, 20}, {10.1, 20}, {10.05, 2}, {9.95, 2}, {9.9, 20}, {0, 20}})
+    wall.col(next++) = from_lonlat(Eigen::Vector2d(longitude, latitude));
+  Recipe recipe;
+  recipe.cells = 60;
+  recipe.boundary = Boundary::generators;
+  recipe.start.kind = Start::Kind::random;
+  recipe.surface = Surface::sphere().within({wall});
+  CHECK(make_grid(recipe).report.off_boundary > 0);
+  recipe.surface = part();
+  CHECK(make_grid(recipe).report.off_boundary == 0);
+  recipe.boundary = Boundary::clip;
+  CHECK(make_grid(recipe).report.off_boundary == 0);
 }

@@ -235,22 +235,4 @@ void rethrow_with_line(const Error& error, const CvtInput& input) {
   rethrow_with_line(error, input.file.name, lines);
 }
 
-std::string doubt_of_boundary(const Mesh& mesh, std::int64_t first, std::int64_t count) {
-  std::int64_t outer = 0, away = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int v = 0; v < 3; ++v) {
-      if (mesh.neighbours(v, t) >= 0)
-        continue;
-      const std::int32_t a = mesh.triangles((v + 1) % 3, t), b = mesh.triangles((v + 2) % 3, t);
-      ++outer;
-      away += std::min(a, b) < first || std::max(a, b) >= first + count;
-    }
-  if (away == 0 && outer == count)
-    return "";
-  return "the mesh leaves the boundary of the region in places: its " + std::to_string(outer) +
-         " outer edges do not join the " + std::to_string(count) +
-         " generators on the boundary; where the region or what it leaves out is narrower than "
-         "its cells, give more cells";
-}
-
 } // namespace calotte::tools

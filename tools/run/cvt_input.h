@@ -67,8 +67,4 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
 /// Replaces the column of a bad point of the start in an error by the line in its file.
 [[noreturn]] void rethrow_with_line(const Error& error, const CvtInput& input);
 
-/// A remark on a mesh that should end at generators on the boundary, where it does not; "" for
-/// others. \param first the first generator on the boundary. \param count their number.
-std::string doubt_of_boundary(const Mesh& mesh, std::int64_t first, std::int64_t count);
-
 } // namespace calotte::tools

@@ -444,6 +444,8 @@ class Cvt:
     well_centred: whether all shapes are within the limits of models.
     cells_beyond_limits: number of cells beyond them, where that was asked for.
     worst_cell: the cell farthest beyond them; -1 for none.
+    off_boundary: with boundary "generators" the number of the mesh's outer edges that do not join
+        generators there; 0 if it ends at the boundary.
     residual: the norm at the end, relative to the spacing of the cells.
     energy: at the end: integral of density times squared distance from the generator.
     iterations: their number, of all actions.
@@ -459,6 +461,7 @@ class Cvt:
     well_centred: bool
     cells_beyond_limits: int
     worst_cell: int
+    off_boundary: int
     residual: float
     energy: float
     iterations: int
@@ -711,6 +714,9 @@ def cvt(start: int | ArrayLike | None = None, *, density: DensityLike | None = N
         report["cells"] = cells
     grid = Cvt(mesh, **report)
     _warn_of_shortfall(grid.converged, grid.cells_beyond_limits)
+    if grid.off_boundary:
+        warnings.warn(f"the mesh leaves the boundary in places: {grid.off_boundary} of its outer edges do not join "
+                      "generators there; where the surface is narrower than its cells, give more cells", stacklevel=2)
     return grid
 
 

@@ -198,6 +198,7 @@ py::dict report_of(const CvtReport& report) {
   values["well_centred"] = report.well_centred;
   values["cells_beyond_limits"] = report.cells_beyond_limits;
   values["worst_cell"] = report.worst_cell;
+  values["off_boundary"] = report.off_boundary;
   values["residual"] = report.residual;
   values["iterations"] = report.iterations.size();
   values["energy"] = report.iterations.empty() ? 0 : report.iterations.back().energy;
