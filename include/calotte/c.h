@@ -349,16 +349,16 @@ typedef struct calotte_schedule {
   double* action_tolerance;   /**< at which each of its descents ends; 0 for none */
   int64_t* action_iterations; /**< evaluations of each, at most */
   int64_t actions;            /**< number of actions, of which the arrays hold the first */
-  int64_t cells;             /**< of the run: with walls or a limited area more than are written;
-                                0 where the start's points are given */
-  double implied_cells;      /**< by the widths; 0 without */
-  int64_t fixed;             /**< fixed generators, those on the boundary among them */
-  int64_t on_boundary;       /**< the last of them, by boundary_generators */
-  const char* start;         /**< as calotte_recipe.start; for ever valid */
-  const char* first;         /**< how the points of the first level are made, likewise */
-  int64_t insertion_rounds;  /**< of the last level */
-  int64_t well_centred;      /**< 1 if the run ends so, else 0 */
-  double tolerance;          /**< of the norm */
+  int64_t cells;              /**< of the run: with walls or a limited area more than are written;
+                                 0 where the start's points are given */
+  double implied_cells;       /**< by the widths; 0 without */
+  int64_t fixed;              /**< fixed generators, those on the boundary among them */
+  int64_t on_boundary;        /**< the last of them, by boundary_generators */
+  const char* start;          /**< as calotte_recipe.start; for ever valid */
+  const char* first;          /**< how the points of the first level are made, likewise */
+  int64_t insertion_rounds;   /**< of the last level */
+  int64_t well_centred;       /**< 1 if the run ends so, else 0 */
+  double tolerance;           /**< of the norm */
 } calotte_schedule;
 
 /** Initialises a schedule. */
