@@ -24,6 +24,11 @@
 ///     const Cvt grid = make_grid(recipe);
 ///     if (!grid.report.converged || !grid.report.well_centred)
 ///       ...
+///
+/// A number is a width in km: make_grid({.resolution = Widths(120)}) is a grid of the sphere whose
+/// cells are 120 km wide. All functions run in the caller's task arena, which sets the threads:
+///
+///     tbb::task_arena(4).execute([&] { grid = make_grid(recipe); });
 CALOTTE_API_BEGIN
 namespace calotte {
 

@@ -19,8 +19,9 @@ struct Locations {
   /// vertices, unit vectors on the sphere, times the weights, up to a factor. From 0 to 1, their
   /// sum is 1; exactly 0 on the edge across. NaN outside.
   Triples weights;
-  /// The nearest site, the lowest of those that are equally near. Exact in a Delaunay triangulation
-  /// and in a part of one, also where sites have no triangle.
+  /// The nearest site, the lowest of those that are equally near: that whose Voronoi cell holds the
+  /// position. Exact in a Delaunay triangulation and in a part of one, also where sites have no
+  /// triangle.
   Ids nearest;
 };
 

@@ -93,7 +93,8 @@ struct WriteOptions {
   Numbering numbering =
       Numbering::by_format; ///< of the cells; a plane supports by_format and input
   /// Radius of the sphere in NetCDF files, in the file's unit of length (MPAS: metres); > 0 and
-  /// finite; default 1. A plane and the other formats store the points unchanged.
+  /// finite; default 1. What a model expects find_model() tells. A plane and the other formats
+  /// store the points unchanged.
   double sphere_radius = 1;
   /// Of complete MPAS files. Default: none, after_edges, but before_edges for a limited area.
   std::optional<VertexOrder> vertex_order = {};

@@ -35,12 +35,11 @@ std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
-/// Whether the last six evaluations of a descent before a polish have not halved the norm, or the
-/// last 45 of a run without insertion: generators creep along defects, and glides take dislocations
-/// on faster. After the second glide, always: a descent follows the first only.
+/// Whether the last evaluations of a descent before a polish have hardly lowered the norm, see
+/// course::creeping. After glides which no descent follows, always.
 bool creeps(const State& state, const CvtOptions& options);
 
-/// Whether ten evaluations of a polish have hardly improved the worst shape.
+/// Whether the last evaluations of a polish have hardly improved the worst shape.
 bool has_stalled(const State& state);
 
 /// The cursor of the descent after the current one; none at the end of the run.
@@ -50,10 +49,10 @@ std::optional<Cursor> next_of(const State& state);
 int bisections_left(const State& state);
 int rounds_left(const State& state);
 
-/// Whether dislocations may be moved: at the end of the descent before a polish, up to four times.
+/// Whether dislocations may be moved: at the end of the descent before a polish, a few times.
 bool may_glide(const State& state);
 
-/// The limits of the next glide: three times a little within shape_limits, so that few shapes come
+/// The limits of the next glide: at first a little within shape_limits, so that few shapes come
 /// near these, then shape_limits, so that few are left to the penalty.
 ShapeLimits limits_of_glide(const State& state);
 

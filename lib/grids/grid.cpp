@@ -94,7 +94,8 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
   const Recipe& recipe = schedule.recipe;
   base_detail::require(
-      !schedule.actions.empty() && recipe.stop.tolerance && recipe.stop.well_centred &&
+      !schedule.actions.empty() && schedule.actions.front().kind == CvtAction::Kind::start &&
+          recipe.stop.tolerance && recipe.stop.well_centred &&
           (recipe.start.kind != Start::Kind::multilevel || recipe.start.insertion_rounds),
       "the schedule lacks choices; give one of plan()");
   CvtOptions options = options_of(schedule);

@@ -36,7 +36,9 @@ KeptStars kept_stars(const Mesh& mesh, const Ids& mask) {
   for (std::int32_t site = 0; site < mask.size(); ++site) {
     if (mask[site] < 0)
       continue;
-    if (!stars.is_closed(site))
+    int corners = 0;
+    const bool closed = stars.for_each_corner(site, [&](Corner) { ++corners; });
+    if (!closed || corners != stars.size(site)) // of one fan
       refuse("site " + std::to_string(site) +
                  " is to have a cell, but triangles do not surround it; leave it out, or mesh more "
                  "points around it",

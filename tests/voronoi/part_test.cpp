@@ -165,6 +165,18 @@ TEST_CASE("cells of an open mesh that triangles do not surround are refused, and
   };
   CHECK(refusal(whole, Ids::Constant(400, -1)) == "no site is to have a cell; keep at least one");
   CHECK(refusal(whole, Ids::Zero(3)) == "there are 3 masks for 400 sites; give one for each");
+  Mesh pinched = open; // a triangle more at a site that others surround
+  const std::int32_t n = static_cast<std::int32_t>(open.points.cols());
+  const std::int32_t site = kept_sites(mask_where(open, in_cap)).front();
+  pinched.points.conservativeResize(3, n + 2);
+  pinched.points.rightCols(2) << 0, 0.1, 0.1, 0, -1, -1;
+  pinched.triangles.conservativeResize(3, open.triangles.cols() + 1);
+  pinched.neighbours.conservativeResize(3, open.triangles.cols() + 1);
+  pinched.triangles.rightCols(1) << site, n, n + 1;
+  pinched.neighbours.rightCols(1).setConstant(-1);
+  Ids alone = Ids::Constant(n + 2, -1);
+  alone[site] = 0;
+  CHECK(refusal(pinched, alone).starts_with("site " + std::to_string(site) + " is to have a cell"));
   Mesh broken = whole;
   broken.neighbours(1, 4) = broken.neighbours(0, 4);
   CHECK(refusal(broken, Ids::Zero(400)).starts_with("triangle "));
