@@ -202,7 +202,7 @@ std::string to_json(const Plan& plan) {
   for (const RuleShare& rule : plan.rules)
     json["rules"].push_back({{"name", rule.name}, {"area", rule.area}, {"cells", rule.cells}});
   for (const CvtAction& action : plan.actions)
-    json["actions"].push_back(json_of(action));
+    json["actions"].push_back(tools::to_json(action));
   json["estimates"] = {{"threads", plan.threads},
                        {"seconds", plan.costs.seconds},
                        {"memory_bytes", plan.costs.memory},

@@ -239,7 +239,8 @@ typedef int (*calotte_progress)(int64_t iterations, double residual, void* data)
  * calotte_recipe_init(), it lacks a number of cells only. A number means itself, also 0. A default
  * other than 0 and null stands in brackets. */
 typedef struct calotte_recipe {
-  size_t size; /**< sizeof(calotte_recipe) */
+  size_t size;         /**< sizeof(calotte_recipe) */
+  int64_t initialised; /**< 1, by calotte_recipe_init(): 0 in other members is not a default */
   /** Number of cells, fixed points among them. 0: as many as the widths imply, or of the start's
    * points. */
   int64_t cells;
@@ -294,7 +295,6 @@ typedef struct calotte_recipe {
    * rules (.toml), NetCDF (.nc), JIGSAW's spacings (.msh), polygons that have widths (.geojson).
    * Null: none. */
   const char* widths_file;
-  int64_t initialised; /**< 1, by calotte_recipe_init(): 0 in other members is not a default */
 } calotte_recipe;
 
 /** Initialises a recipe of `size` bytes, for languages that cannot call inline functions: `size` is

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <calotte/export.h>
-#include <calotte/limited_area.h>
 #include <calotte/mesh.h>
 #include <calotte/raster.h>
 #include <calotte/surface.h>

@@ -171,31 +171,9 @@ calotte_recipe usual_recipe() {
   return recipe;
 }
 
-/// Whether a recipe ends before `initialised`: that of version 1.0.0, where 0 stands for defaults.
-bool is_of_1_0(std::size_t size) { return size <= offsetof(calotte_recipe, initialised); }
-
-/// A recipe of version 1.0.0 in the numbers of today.
-calotte_recipe from_1_0(calotte_recipe recipe) {
-  const calotte_recipe usual = usual_recipe();
-  const auto take = [&](auto member) {
-    if (recipe.*member == 0)
-      recipe.*member = usual.*member;
-  };
-  recipe.well_centred = recipe.well_centred == 0    ? std::int64_t{CALOTTE_AUTOMATIC}
-                        : recipe.well_centred == -1 ? 0
-                                                    : recipe.well_centred;
-  take(&calotte_recipe::earth_radius_km), take(&calotte_recipe::bisections);
-  take(&calotte_recipe::insertion_rounds), take(&calotte_recipe::tolerance);
-  take(&calotte_recipe::max_iterations), take(&calotte_recipe::iterations);
-  take(&calotte_recipe::least_spacing), take(&calotte_recipe::seed);
-  return recipe;
-}
-
 /// A caller's recipe, with the defaults of what its struct lacks.
 calotte_recipe initialised(const calotte_recipe* pointer) {
   const std::string name = "calotte_recipe";
-  if (is_of_1_0(size_of(pointer, name)))
-    return from_1_0(known_part(pointer, name));
   const calotte_recipe given = known_part(pointer, name, usual_recipe());
   require(given.initialised == 1,
           "the size of the recipe is set, but not its defaults; " + initialise(name));
@@ -253,9 +231,7 @@ void calotte_recipe_init_sized(calotte_recipe* recipe, size_t size) {
   if (recipe == nullptr || size < sizeof recipe->size)
     return;
   std::memset(recipe, 0, size);
-  if (!is_of_1_0(size)) {
-    const calotte_recipe usual = usual_recipe();
-    std::memcpy(recipe, &usual, std::min(size, sizeof usual));
-  }
+  const calotte_recipe usual = usual_recipe();
+  std::memcpy(recipe, &usual, std::min(size, sizeof usual));
   recipe->size = size;
 }

@@ -22,6 +22,7 @@ module calotte
 
   type, bind(c) :: calotte_recipe
     integer(c_size_t) :: size = 0
+    integer(c_int64_t) :: initialised = 0
     integer(c_int64_t) :: cells = 0
     type(c_ptr) :: surface = c_null_ptr
     type(c_funptr) :: density = c_null_funptr
@@ -43,7 +44,6 @@ module calotte
     integer(c_int64_t) :: boundary_generators = 0, refuse_duplicates = 0
     real(c_double) :: merge_within = 0
     type(c_ptr) :: widths_file = c_null_ptr
-    integer(c_int64_t) :: initialised = 0
   end type
 
   type, bind(c) :: calotte_report

@@ -68,12 +68,12 @@ std::vector<CvtAction> with_rounds(const Schedule& schedule) {
 } // namespace
 
 TEST_CASE("the end of an exponential decay is predicted to the iteration") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  end_of_descent.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  action.tolerance = std::pow(0.9, 300.5); // 0.9^301 is the first below
   for (const Norm norm : {Norm::l2, Norm::linf})
     for (const int iterations : {10, 11, 100, 290}) {
-      end_of_descent.norm = norm;
-      const auto end = forecast(decaying(iterations, 0.9), end_of_descent);
+      action.norm = norm;
+      const auto end = forecast(decaying(iterations, 0.9), action);
       REQUIRE(end);
       CHECK(end->converges);
       CHECK(end->seconds == doctest::Approx(2 * (301 - (iterations - 1))));
@@ -81,13 +81,13 @@ TEST_CASE("the end of an exponential decay is predicted to the iteration") {
 }
 
 TEST_CASE("the limit of iterations ends longer runs, and runs of a fixed number of iterations") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  end_of_descent.tolerance = 1e-9;
-  end_of_descent.max_iterations = 100;
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  action.tolerance = 1e-9;
+  action.max_iterations = 100;
   for (const Norm norm : {Norm::l2_scaled, Norm::none}) {
-    end_of_descent.norm = norm;
+    action.norm = norm;
     for (const double factor : {0.99, 1.0, 1.01}) { // also for a norm that does not fall
-      const auto end = forecast(decaying(40, factor), end_of_descent);
+      const auto end = forecast(decaying(40, factor), action);
       REQUIRE(end);
       CHECK(!end->converges);
       CHECK(end->seconds == doctest::Approx(2 * 60));
@@ -96,27 +96,27 @@ TEST_CASE("the limit of iterations ends longer runs, and runs of a fixed number 
 }
 
 TEST_CASE("a last step that went beyond the limit of iterations leaves no time") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  end_of_descent.norm = Norm::none;
-  end_of_descent.max_iterations = 38;
-  CHECK(forecast(decaying(40, 0.9), end_of_descent)->seconds == 0);
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  action.norm = Norm::none;
+  action.max_iterations = 38;
+  CHECK(forecast(decaying(40, 0.9), action)->seconds == 0);
 }
 
 TEST_CASE("there is no prediction from few iterations, or from those of another level") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  CHECK(!forecast(decaying(9, 0.9), end_of_descent));
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  CHECK(!forecast(decaying(9, 0.9), action));
   Standing next = decaying(50, 0.9);
   next.iterations_of_descent = 9;
-  CHECK(!forecast(next, end_of_descent));
+  CHECK(!forecast(next, action));
   next.iterations_of_descent = 0;
-  CHECK(!forecast(next, end_of_descent));
+  CHECK(!forecast(next, action));
 }
 
 TEST_CASE("rejected trials count in the time but not in the norms") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  end_of_descent.norm = Norm::l2;
-  end_of_descent.tolerance = std::pow(0.9, 300.5);
-  end_of_descent.max_iterations = 1000;
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  action.norm = Norm::l2;
+  action.tolerance = std::pow(0.9, 300.5);
+  action.max_iterations = 1000;
   Standing state = decaying(101, 0.9);
   for (std::size_t k = 1; k < 101; k += 3) {
     state.report.iterations[k].accepted = false;
@@ -124,16 +124,16 @@ TEST_CASE("rejected trials count in the time but not in the norms") {
   }
   for (CvtIteration& iteration : state.report.iterations)
     iteration.seconds = 1.5, iteration.seconds_solver = 0.5;
-  const auto end = forecast(state, end_of_descent);
+  const auto end = forecast(state, action);
   REQUIRE(end);
   CHECK(end->converges);
   CHECK(end->seconds == doctest::Approx(2 * (301 - 100)));
 }
 
 TEST_CASE("a converged level takes no more time") {
-  DescentEnd end_of_descent{Norm::l2_scaled, 1e-6, 1000};
-  end_of_descent.tolerance = 0.5;
-  const auto end = forecast(decaying(50, 0.9), end_of_descent);
+  CvtAction action{.norm = Norm::l2_scaled, .tolerance = 1e-6, .max_iterations = 1000};
+  action.tolerance = 0.5;
+  const auto end = forecast(decaying(50, 0.9), action);
   REQUIRE(end);
   CHECK(end->seconds == 0);
 }

@@ -15,6 +15,7 @@
 #include "support/meshes.h"
 
 #include <doctest/doctest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,6 +118,24 @@ TEST_CASE("law: the cells of some sites are those of the whole, on the sphere an
                               }));
   CHECK(one.cells.cols() == 1);
   CHECK(one.cells_on_vertex.row(1).maxCoeff() == -1);
+}
+
+TEST_CASE("law: the cells of some sites have the same bits for any number of threads") {
+  const Mesh mesh = delaunay(random_sphere(20'000, 9));
+  const Ids mask = mask_where(mesh, [](const Eigen::Vector3d& x) { return x.y() > -0.3; });
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return voronoi(mesh, mask);
+  };
+  const Voronoi one = with(1), four = with(4);
+  CHECK(one.vertices == four.vertices);
+  CHECK(one.edges == four.edges);
+  CHECK(one.cells_on_cell.items == four.cells_on_cell.items);
+  CHECK(one.vertices_on_cell.items == four.vertices_on_cell.items);
+  CHECK(one.edges_on_vertex == four.edges_on_vertex);
+  for (const auto values : {&Voronoi::dc, &Voronoi::dv, &Voronoi::angle, &Voronoi::cell_area})
+    CHECK(one.*values == four.*values);
+  CHECK(one.kites == four.kites);
 }
 
 TEST_CASE("a limited area and an ocean in memory are those of files") {

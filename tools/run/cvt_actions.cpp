@@ -17,7 +17,7 @@ std::string described(const CvtAction& action) {
          std::to_string(action.max_iterations) + " iterations";
 }
 
-nlohmann::ordered_json json_of(const CvtAction& action) {
+nlohmann::ordered_json to_json(const CvtAction& action) {
   return {{"kind", word_of(action.kind)},  {"cells", action.cells},
           {"times", action.times},         {"norm", word_of(action.norm)},
           {"tolerance", action.tolerance}, {"max_iterations", action.max_iterations}};

@@ -13,6 +13,6 @@ namespace calotte::tools {
 /// "642 cells, up to 4 times; l2-scaled 0.001, at most 75 iterations".
 std::string described(const CvtAction& action);
 
-nlohmann::ordered_json json_of(const CvtAction& action);
+nlohmann::ordered_json to_json(const CvtAction& action);
 
 } // namespace calotte::tools

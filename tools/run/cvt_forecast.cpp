@@ -61,7 +61,7 @@ std::string duration(double seconds) {
 
 } // namespace
 
-std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& end) {
+std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& action) {
   const std::span<const CvtIteration> iterations = recent(progress);
   if (iterations.empty())
     return std::nullopt;
@@ -70,14 +70,14 @@ std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& 
     seconds +=
         (iteration.seconds + iteration.seconds_solver) / static_cast<double>(iterations.size());
   // The trials of the last step may exceed the limit.
-  const double to_limit = std::max(end.max_iterations - progress.iterations_of_descent, 0);
-  if (end.norm == Norm::none)
+  const double to_limit = std::max(action.max_iterations - progress.iterations_of_descent, 0);
+  if (action.norm == Norm::none)
     return Forecast{seconds * to_limit, false};
-  const Decay decay = fit(iterations, end.norm);
+  const Decay decay = fit(iterations, action.norm);
   if (!(decay.slope < 0))
     return Forecast{seconds * to_limit, false};
   const double to_tolerance =
-      std::ceil(std::max((std::log(end.tolerance) - decay.last) / decay.slope, 0.0));
+      std::ceil(std::max((std::log(action.tolerance) - decay.last) / decay.slope, 0.0));
   return Forecast{seconds * std::min(to_tolerance, to_limit), to_tolerance <= to_limit};
 }
 
@@ -125,8 +125,7 @@ std::vector<int> descents_of(const Schedule& schedule) {
 } // namespace
 
 std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule) {
-  const CvtAction& action = action_of(progress, schedule);
-  const auto descent = forecast(progress, {action.norm, action.tolerance, action.max_iterations});
+  const auto descent = forecast(progress, action_of(progress, schedule));
   if (!descent)
     return std::nullopt;
   const double scale = pace(progress);

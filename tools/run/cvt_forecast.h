@@ -15,18 +15,12 @@ struct Forecast {
       false; ///< the norm reaches the tolerance; otherwise the limit of iterations ends the level
 };
 
-/// Where a descent ends.
-struct DescentEnd {
-  Norm norm = Norm::l2_scaled;
-  double tolerance = 0;
-  int max_iterations = 0;
-};
-
 /// Extrapolates the decay of the norm over the last half of the level, 10 to 500 iterations: a
 /// straight line through the logarithms of the accepted norms, and the mean time of all
 /// evaluations, trials included. If the norm does not decrease, the prediction is the limit. No
 /// prediction before 10 iterations.
-std::optional<Forecast> forecast(const CvtProgress& progress, const DescentEnd& end);
+/// \param action whose descent runs.
+std::optional<Forecast> forecast(const CvtProgress& progress, const CvtAction& action);
 
 /// Seconds that the rest of a run takes.
 struct Remaining {

@@ -40,7 +40,7 @@ Json actions_of(const CvtReport& report) {
   Json array = Json::array();
   for (std::size_t k = 0; k < report.actions.size(); ++k) {
     const CvtDone done = k < report.done.size() ? report.done[k] : CvtDone{};
-    Json& action = array.emplace_back(json_of(report.actions[k]));
+    Json& action = array.emplace_back(tools::to_json(report.actions[k]));
     action["done"] = {
         {"times", done.times}, {"iterations", done.iterations}, {"cells", done.cells}};
   }

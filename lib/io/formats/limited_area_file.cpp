@@ -63,8 +63,7 @@ CutReport write_limited_area(const std::string& target, const Mesh& mesh, const 
   resolved.vertex_order = options.vertex_order.value_or(VertexOrder::before_edges);
   resolved.site_density = {};
   require_options(target, resolved);
-  Area area = area_of(mesh, region,
-                      options.numbering == Numbering::input ? Numbering::input : Numbering::curve);
+  Area area = area_of(mesh, region, numbering_of(resolved));
   const CutReport report = report_of(area, resolved);
   resolved.fields = {std::move(area.mask)};
   Points3 places = on_sphere(area.cells.cells, resolved.sphere_radius);

@@ -34,6 +34,12 @@ void require_options(const std::string& path, const WriteOptions& options) {
   evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
 }
 
+Numbering numbering_of(const WriteOptions& options) {
+  if (options.numbering != Numbering::by_format)
+    return options.numbering;
+  return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
+}
+
 ProgressCallback rest_of(const ProgressCallback& progress, double from) {
   if (!progress)
     return {};
@@ -68,12 +74,6 @@ void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
               "sphere; write its triangles (" +
                   triangle_formats(", ") +
                   "), cut a limited area out of a wider grid, or add sites all around the sphere");
-}
-
-Numbering numbering_of(const WriteOptions& options) {
-  if (options.numbering != Numbering::by_format)
-    return options.numbering;
-  return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
 }
 
 /// The mesh in a file's numbering, and the options' values with it.

@@ -15,6 +15,9 @@ namespace calotte::io_detail {
 /// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 
+/// The order of the cells in a file of the options' format, which is known.
+Numbering numbering_of(const WriteOptions& options);
+
 /// A file from front to back. \param sites their number, or that of the cells.
 template <class Put>
 void put_file(const std::string& path, const WriteOptions& options, std::int64_t sites,
