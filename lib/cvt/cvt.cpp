@@ -189,22 +189,27 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
   }
 }
 
-/// Throws, before any work, if the actions lead to fewer or more generators than a mesh can hold.
-void require_room(const Surface& surface, const State& state, const CvtOptions& options) {
+/// Throws, before any work, if a run leads to fewer or more generators than a mesh can hold.
+/// \param n the number of generators that it begins with, \param fixed of them.
+void require_room(const Surface& surface, std::int64_t n, std::int64_t fixed,
+                  const CvtOptions& options) {
   const bool inserts = options.insertion_rounds > 0;
   if (inserts && (options.cells < fewest_generators(surface) || options.cells > most_points))
     throw Error(ErrorCode::invalid_argument, "cells is " + std::to_string(options.cells) +
                                                  "; give at least " +
                                                  std::to_string(fewest_generators(surface)) +
                                                  " and at most " + std::to_string(most_points));
-  if (inserts && options.cells < state.fixed)
+  if (inserts && options.cells < fixed)
     throw Error(ErrorCode::invalid_argument,
                 "fixed generator " + std::to_string(options.cells) + " is beyond the " +
                     std::to_string(options.cells) +
                     " cells of the result; give more cells or fewer fixed generators",
                 options.cells);
-  const std::int64_t n = state.points.cols();
-  const int bisections = bisections_left(state);
+  const auto bisections =
+      options.actions.empty()
+          ? options.bisections
+          : static_cast<int>(std::ranges::count(options.actions, CvtAction::Kind::bisect,
+                                                &CvtAction::kind));
   int most = 0;
   for (std::int64_t cells = bisected(surface, n); cells <= most_points;
        cells = bisected(surface, cells))
@@ -223,8 +228,9 @@ void require_room(const Surface& surface, const State& state, const CvtOptions& 
                                                  "; give the method lbfgs or lloyd");
 }
 
-std::vector<CvtAction> actions_for(const Surface& surface, std::int64_t first,
+std::vector<CvtAction> actions_for(const Surface& surface, std::int64_t first, std::int64_t fixed,
                                    const CvtOptions& options) {
+  require_room(surface, first, fixed, options);
   return options.actions.empty() ? actions_of(surface, first, options) : options.actions;
 }
 
@@ -232,7 +238,7 @@ std::vector<CvtAction> actions_for(const Surface& surface, std::int64_t first,
 /// \throws Error invalid_argument for those of another run.
 void renew_actions(const Surface& surface, const CvtOptions& options, State& state) {
   std::vector<CvtAction>& theirs = state.report.actions;
-  std::vector<CvtAction> ours = actions_for(surface, theirs.front().cells, options);
+  std::vector<CvtAction> ours = actions_for(surface, theirs.front().cells, state.fixed, options);
   const bool counts = options.insertion_rounds > 0;
   const auto same = [&](const CvtAction& a, const CvtAction& b) {
     return a.kind == b.kind && a.times == b.times && (!counts || a.cells == b.cells);
@@ -259,7 +265,6 @@ Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions&
         const CvtCallback& callback) {
   State& state = State::of(whole);
   require_points(state, surface);
-  require_room(surface, state, options);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   const auto descend = [&](Level&& start) {
@@ -290,8 +295,9 @@ Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions&
 
 Cvt run(const Surface& surface, Begun&& begun, const CvtOptions& options,
         const CvtCallback& callback) {
+  const State& state = begun.state;
   CvtReport& report = begun.state.report;
-  report.actions = actions_for(surface, begun.state.points.cols(), options);
+  report.actions = actions_for(surface, state.points.cols(), state.fixed, options);
   report.done = {{.times = 1}};
   return run(surface, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
              callback);
