@@ -139,13 +139,10 @@ template <class Rule> class OfRadius;
 
 /// How a width changes with a number, such as a distance or a latitude.
 struct WidthProfile {
-  /// Between two nodes: along a line, or along a cubic that is level at both.
-  enum class Between { linear, smooth };
-
   /// The number and the width in km, > 0; one node or more, the numbers ascending. Before the first
   /// and beyond the last the width stays.
   std::vector<std::array<double, 2>> nodes;
-  Between between = Between::linear; ///< default: along a line
+  bool smooth = false; ///< between two nodes along a cubic that is level at both, not a line
 };
 
 /// How widths follow from the depth of the sea and its change. (Waves and slopes: Roberts, Pringle
@@ -253,8 +250,8 @@ public:
   /// \throws Error invalid_argument, naming ring and corner: one that is no direction, or opposite
   ///         to the one before; for a coast without shores; naming the node, a profile that is
   ///         none.
-  static Widths by_coast(const Coast& coast, const WidthProfile& profile,
-                         CoastSide side = CoastSide::both);
+  static Widths by_distance(const Coast& coast, const WidthProfile& profile,
+                            CoastSide side = CoastSide::both);
 
   /// By the depth at the nodes of a raster of the sphere, whose values are metres up; below 0 is
   /// sea. Of land, but for nodes next to the sea, the rule says
@@ -291,16 +288,15 @@ public:
   static Widths minimum(const std::vector<Widths>& of);
   static Widths maximum(const std::vector<Widths>& of); ///< the greatest
   static Widths sum(const std::vector<Widths>& of);     ///< all together
-  /// All of them times a number.
-  /// \param factor > 0 and finite.
-  /// \throws Error invalid_argument for a factor out of range.
-  static Widths product(const Widths& widths, double factor);
-  /// At least `least` and at most `most`. \throws Error invalid_argument for a least one above it.
-  static Widths clamp(const Widths& widths, double least, double most);
   /// One rule within a region, or where a share is 1/2 or more, another outside.
   static Widths where(const Share& share, const Widths& inside, const Widths& outside);
   /// (1 - t) a + t b with the share t.
   static Widths blend(const Widths& a, const Widths& b, const Share& t);
+
+  /// These times a number.
+  /// \param factor > 0 and finite.
+  /// \throws Error invalid_argument for a factor out of range.
+  Widths times(double factor) const;
 
   /// The largest widths below these that change by at most g km per km, over the poles and the date
   /// line, too. Rules of distances that grow, of latitudes, and minima of such are limited exactly.

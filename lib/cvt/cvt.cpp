@@ -205,11 +205,10 @@ void require_room(const Surface& surface, std::int64_t n, std::int64_t fixed,
                     std::to_string(options.cells) +
                     " cells of the result; give more cells or fewer fixed generators",
                 options.cells);
-  const auto bisections =
-      options.actions.empty()
-          ? options.bisections
-          : static_cast<int>(std::ranges::count(options.actions, CvtAction::Kind::bisect,
-                                                &CvtAction::kind));
+  const auto bisections = options.actions.empty()
+                              ? options.bisections
+                              : static_cast<int>(std::ranges::count(
+                                    options.actions, CvtAction::Kind::bisect, &CvtAction::kind));
   int most = 0;
   for (std::int64_t cells = bisected(surface, n); cells <= most_points;
        cells = bisected(surface, cells))

@@ -4,8 +4,8 @@
 #include "domain/room.h"
 
 /// Densities and cell widths: tanh bumps, rasters, polygons and callables, evaluated in batches,
-/// bounded from above, and sampled. Widths::by_coast() and by_channel(), members of a class of this
-/// room, are defined in the room oceans, which knows shores.
+/// bounded from above, and sampled. Widths::by_distance() and by_channel(), members of a class of
+/// this room, are defined in the room oceans, which knows shores.
 ///
 /// In: a density or cell widths. Out: values at points, and points distributed as a density.
 namespace calotte::density_detail {

@@ -62,7 +62,7 @@ ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double
   nodes_.push_back({given[0][0], given[0][1]});
   for (std::size_t k = 1; k < given.size(); ++k) {
     const auto &from = given[k - 1], &to = given[k];
-    const int pieces = profile.between == WidthProfile::Between::smooth ? pieces_of_cubic : 1;
+    const int pieces = profile.smooth ? pieces_of_cubic : 1;
     for (int piece = 1; piece < pieces; ++piece) {
       const double t = static_cast<double>(piece) / pieces;
       nodes_.push_back(

@@ -570,15 +570,10 @@ Widths Widths::minimum(const std::vector<Widths>& of) {
 }
 Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
 Widths Widths::sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
-Widths Widths::product(const Widths& widths, double factor) {
+Widths Widths::times(double factor) const {
   require(factor > 0 && std::isfinite(factor),
           "the factor " + shortly(factor) + " of widths is not a positive number; give one");
-  return combined({widths, factor}, product_of);
-}
-Widths Widths::clamp(const Widths& widths, double least, double most) {
-  require(least <= most, "the least width " + shortly(least) + " is above the largest, " +
-                             shortly(most) + "; exchange them");
-  return minimum({maximum({widths, least}), most});
+  return combined({*this, factor}, product_of);
 }
 Widths Widths::where(const Share& share, const Widths& inside, const Widths& outside) {
   return blended<rounded>(outside, inside, share);

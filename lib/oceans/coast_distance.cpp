@@ -24,7 +24,7 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
 
 } // namespace
 
-Widths Widths::by_coast(const Coast& coast, const WidthProfile& profile, CoastSide side) {
+Widths Widths::by_distance(const Coast& coast, const WidthProfile& profile, CoastSide side) {
   using namespace oceans_detail;
   const density_detail::ProfileCurve curve = curve_of(profile, side);
   const std::vector<ShoreArc> shore = shore_arcs(coast);

@@ -12,7 +12,7 @@
 /// fraction of each cell that is land, and which cells are the sea.
 ///
 /// Of the class Widths, which is of the room density, two members are defined here, since they know
-/// shores: by_coast(), by the distance from them, and by_channel(), by the width of straits. The
+/// shores: by_distance(), by the distance from them, and by_channel(), by the width of straits. The
 /// rules that they return are those of density.
 ///
 /// In: a coast or a raster of land, the cells of a tessellation. Out: fractions, masks, widths.

@@ -67,8 +67,8 @@ std::vector<Named> rules() {
       {"depth",
        Widths::minimum(
            {Widths::by_depth(sea_floor(), {.cells = 40, .period = 44714, .least = 60}), 250.0})},
-      {"sum", Widths::sum({zones, Widths::product(nested(), 2)})},
-      {"largest", Widths::clamp(Widths::maximum({zones, nested()}), 40, 100)},
+      {"sum", Widths::sum({zones, nested().times(2)})},
+      {"largest", Widths::minimum({Widths::maximum({zones, nested(), 40}), 100})},
       {"limited", Widths::minimum({Widths::where(region, 20, 120), zones}).limit_gradient(slope)}};
 }
 

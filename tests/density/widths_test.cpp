@@ -96,8 +96,7 @@ TEST_CASE("profiles follow their nodes, and stay beyond them") {
   const DoubleVector straight = evaluate(Widths::by_latitude(zones), places);
   const DoubleVector expected{{30, 30, 30 + 30 * 35.0 / 80, 60, 40, 20}};
   CHECK((straight - expected).cwiseAbs().maxCoeff() < 1e-12);
-  const DoubleVector smooth =
-      evaluate(Widths::by_latitude({zones.nodes, WidthProfile::Between::smooth}), places);
+  const DoubleVector smooth = evaluate(Widths::by_latitude({zones.nodes, true}), places);
   const double t = 35.0 / 80;
   CHECK(smooth[2] == doctest::Approx(30 + 30 * t * t * (3 - 2 * t)).epsilon(1e-6));
   CHECK(smooth[3] == 60);
@@ -110,10 +109,7 @@ TEST_CASE("rules are combined place by place") {
   CHECK(evaluate(Widths::minimum({zones, 50.0}), places) == z.cwiseMin(50));
   CHECK(evaluate(Widths::maximum({zones, 50.0}), places) == z.cwiseMax(50));
   CHECK(evaluate(Widths::sum({zones, 5.0}), places) == (z.array() + 5).matrix());
-  CHECK(evaluate(Widths::product(zones, 2), places) == 2 * z);
-  CHECK(evaluate(Widths::clamp(zones, 30, 60), places) == z.cwiseMax(30).cwiseMin(60));
-  CHECK(test::error_of([&] { Widths::clamp(zones, 60, 30); }).code() ==
-        ErrorCode::invalid_argument);
+  CHECK(evaluate(zones.times(2), places) == 2 * z);
   const Surface region = circle({1, 0, 0}, 0.5);
   const DoubleVector w = evaluate(Widths::where(region, 10.0, zones), places);
   for (Eigen::Index i = 0; i < places.cols(); ++i)
@@ -275,7 +271,7 @@ TEST_CASE("widths that are none are refused by name") {
         }) == "node 0 of a profile of a distance has the width 0, which is not positive and "
               "finite; correct it");
   CHECK(message([] {
-          Widths::by_distance({}, {{{0, 1}}});
+          Widths::by_distance(std::vector<Points3>(), {{{0, 1}}});
         }) == "there is no line to be distant from; give one or more points");
   CHECK(message([] {
           Widths::by_distance({directions({{0, 0}, {180, 0}})}, {{{0, 1}}});

@@ -69,8 +69,8 @@ def write_inputs(scratch):
         '{"type": "LineString", "coordinates": [[10, -20], [40, 30]]}')
     (scratch / "rules.toml").write_text("""[cell-width]
 gradient = 0.1
-min = [{latitude = [[-90, 900], [0, 700], [90, 900]]},
-       {distance-to = "line.geojson", near = 300, far = 900, over = 4000}]
+minimum = [{by-latitude = [[-90, 900], [0, 700], [90, 900]]},
+           {by-distance = "line.geojson", near = 300, far = 900, over = 4000}]
 """)
     for name, ring in (("region", REGION), ("small", SMALL)):
         (scratch / f"{name}.geojson").write_text(

@@ -89,35 +89,34 @@ TEST_CASE("each rule of a file is that of the library") {
   const Points3 line = read_lines(rules.beside("line.geojson")).front();
   const WidthProfile grows{{{0, 10}, {600, 60}}};
   CHECK(rules.widths("width = 60") == DoubleVector::Constant(5, 60));
-  CHECK(rules.widths("latitude = [[-90, 35], [0, 60], [90, 20]]") ==
+  CHECK(rules.widths("by-latitude = [[-90, 35], [0, 60], [90, 20]]") ==
         evaluate(Widths::by_latitude({{{-90, 35}, {0, 60}, {90, 20}}}), sample_points()));
-  CHECK(rules.widths("distance-to = \"line.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
+  CHECK(rules.widths("by-distance = \"line.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance({line}, grows), sample_points()));
-  CHECK(rules.widths("distance-to = \"line.geojson\"\nprofile = [[0, 10], [600, 60]]\n"
-                     "between = \"smooth\"") ==
-        evaluate(Widths::by_distance({line}, {grows.nodes, WidthProfile::Between::smooth}),
-                 sample_points()));
-  CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
+  CHECK(rules.widths("by-distance = \"line.geojson\"\nprofile = [[0, 10], [600, 60]]\n"
+                     "smooth = true") ==
+        evaluate(Widths::by_distance({line}, {grows.nodes, true}), sample_points()));
+  CHECK(rules.widths("by-distance = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance(shores(read_coast(rules.beside("island.geojson"))), grows),
                  sample_points()));
-  CHECK(rules.widths("min = [50, {channels = \"islands.geojson\", cells = 4, least = 10}]") ==
+  CHECK(rules.widths("minimum = [50, {by-channel = \"islands.geojson\", cells = 4, least = 10}]") ==
         evaluate(
             Widths::minimum({50.0, Widths::by_channel(read_coast(rules.beside("islands.geojson")),
                                                       {.cells = 4, .least = 10})}),
             sample_points()));
   const Coast island = read_coast(rules.beside("island.geojson"));
   CHECK(rules.widths(
-            "distance-to = \"island.geojson\"\nprofile = [[-200, 60], [0, 10], [600, 60]]") ==
-        evaluate(Widths::by_coast(island, {{{-200, 60}, {0, 10}, {600, 60}}}), sample_points()));
-  CHECK(rules.widths("distance-to = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600\n"
+            "by-distance = \"island.geojson\"\nprofile = [[-200, 60], [0, 10], [600, 60]]") ==
+        evaluate(Widths::by_distance(island, {{{-200, 60}, {0, 10}, {600, 60}}}), sample_points()));
+  CHECK(rules.widths("by-distance = \"island.geojson\"\nnear = 10\nfar = 60\nover = 600\n"
                      "side = \"land\"") ==
-        evaluate(Widths::by_coast(island, grows, CoastSide::land), sample_points()));
+        evaluate(Widths::by_distance(island, grows, CoastSide::land), sample_points()));
   const Points3 points = read_points(rules.beside("points.txt"), Columns::lonlat);
-  CHECK(rules.widths("distance-to = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
+  CHECK(rules.widths("by-distance = \"points.txt\"\nnear = 10\nfar = 60\nover = 600") ==
         evaluate(Widths::by_distance({Points3(points.col(0)), Points3(points.col(1))}, grows),
                  sample_points()));
-  CHECK(rules.widths("gradient = 0.03\nmin = [50, {latitude = [[0, 60], [90, 20]]}, "
-                     "{distance-to = \"line.geojson\", near = 10, far = 60, over = 600}]") ==
+  CHECK(rules.widths("gradient = 0.03\nminimum = [50, {by-latitude = [[0, 60], [90, 20]]}, "
+                     "{by-distance = \"line.geojson\", near = 10, far = 60, over = 600}]") ==
         evaluate(Widths::minimum({50.0, Widths::by_latitude({{{0, 60}, {90, 20}}}),
                                   Widths::by_distance({line}, grows)})
                      .limit_gradient(0.03),
@@ -128,7 +127,7 @@ TEST_CASE("each rule of a file is that of the library") {
 TEST_CASE("a rule for a part says nothing elsewhere") {
   const Rules rules;
   const DoubleVector band =
-      rules.widths("min = [60, {lines = \"line.geojson\", width = 5, over = 200}]");
+      rules.widths("minimum = [60, {around = \"line.geojson\", width = 5, over = 200}]");
   CHECK(band == DoubleVector{{5, 60, 60, 60, 60}});
   const DoubleVector part = rules.widths("width = 5\nwithin = \"island.geojson\"");
   CHECK(part[2] >= Widths::no_demand);
@@ -150,7 +149,7 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
         " line 3: share is no text; give the name of a file in quotes");
   CHECK(rules.read("[cell-width]\nstep = 0.5\nwidth = 60").widths.step() == 0.5);
   test::write_text(rules.path(),
-                   "[cell-width]\nmin = [{distance-to = \"a.nc\"}, {within = \"b\"}]");
+                   "[cell-width]\nminimum = [{by-distance = \"a.nc\"}, {within = \"b\"}]");
   CHECK(files_of_rules(rules.path()) ==
         std::vector<std::string>{rules.beside("a.nc"), rules.beside("b")});
 }
@@ -158,19 +157,21 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
 TEST_CASE("the rules of a minimum have names") {
   const Rules rules;
   CHECK(rules
-            .read("[cell-width]\ngradient = 10\ntimes = 2\nmin = [100, {latitude = [[-90, 200]]}, "
-                  "{lines = \"line.geojson\", width = 5, over = 200}]")
-            .names == std::vector<std::string>{"width 100", "latitude", "lines line.geojson"});
+            .read("[cell-width]\ngradient = 10\ntimes = 2\nminimum = [100, {by-latitude = [[-90, "
+                  "200]]}, "
+                  "{around = \"line.geojson\", width = 5, over = 200}]")
+            .names == std::vector<std::string>{"width 100", "by-latitude", "around line.geojson"});
   CHECK(rules.read("[cell-width]\nwidth = 60").names == std::vector<std::string>{"width 60"});
 }
 
 TEST_CASE("distances and gradients of rules are those of the sphere that the widths are for") {
   const Rules rules;
   constexpr double radius = 3389.5;
-  test::write_text(rules.path(), "[cell-width]\nstep = 2\nmin = [{distance-to = \"points.txt\", "
-                                 "near = 10, far = 100, over = 4000}, {polygons = "
-                                 "\"island.geojson\", inside = 20, outside = 300, "
-                                 "transition = 1000, gradient = 0.05}]");
+  test::write_text(rules.path(),
+                   "[cell-width]\nstep = 2\nminimum = [{by-distance = \"points.txt\", "
+                   "near = 10, far = 100, over = 4000}, {polygons = "
+                   "\"island.geojson\", inside = 20, outside = 300, "
+                   "transition = 1000, gradient = 0.05}]");
   const Widths read = read_width_rules(rules.path(), {}, radius).widths;
   const Widths made = Widths::minimum(
       {Widths::by_distance({test::directions({{0, 90}}), test::directions({{180, 0}})},
@@ -191,14 +192,14 @@ TEST_CASE("heights of a file give the widths of waves") {
   const Rules rules;
   write_raster(rules.beside("sea.nc"), -4000);
   const DoubleVector widths =
-      rules.widths("heights = \"sea.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2");
+      rules.widths("by-depth = \"sea.nc\"\nperiod = \"12.42h\"\ncells = 60\nleast = 2");
   CHECK(widths[0] == doctest::Approx(std::sqrt(9.80665 * 4000) * 12.42 * 3600 / 60 / 1000));
   for (const std::string period : {"12.42", "-1h", "1 week"})
-    CHECK(rules.refused("[cell-width]\nheights = \"sea.nc\"\nperiod = \"" + period +
+    CHECK(rules.refused("[cell-width]\nby-depth = \"sea.nc\"\nperiod = \"" + period +
                         "\"\ncells = 60\nleast = 2") ==
           " line 3: period is \"" + period +
               "\"; give a time with its unit, s, min, h or d, such as 12.42h");
-  CHECK(rules.refused("[cell-width]\nheights = \"sea.nc\"\nslope = 5") ==
+  CHECK(rules.refused("[cell-width]\nby-depth = \"sea.nc\"\nslope = 5") ==
         " line 1: the rule needs least; give a number");
 }
 
@@ -208,8 +209,8 @@ TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the d
   test::write_text(rules.beside("pier.geojson"),
                    R"({"type": "LineString", "coordinates": [[100, 500], [100, 20]]})");
   test::write_text(rules.beside("bay.txt"), "0 0\n50 0\n50 50\n0 50\n");
-  test::write_text(rules.path(), "[cell-width]\ngradient = 0.2\nstep = 5\nmin = [\n"
-                                 "{distance-to = \"pier.geojson\", near = 1, far = 9, over = 80},\n"
+  test::write_text(rules.path(), "[cell-width]\ngradient = 0.2\nstep = 5\nminimum = [\n"
+                                 "{by-distance = \"pier.geojson\", near = 1, far = 9, over = 80},\n"
                                  "{width = 2, within = \"bay.txt\"}]");
   const WidthRules read = read_width_rules(rules.path(), plane);
   CHECK(read.gradient == 0.2);
@@ -226,10 +227,10 @@ TEST_CASE("rules of a plane: files of x and y, and a limit that is left to the d
         test::error_of([&] { read_width_rules(rules.path(), plane); }).what();
     return message.substr(rules.path().size());
   };
-  CHECK(refused("[cell-width]\n\nlatitude = [[0, 60]]") ==
-        " line 3: latitude applies to the sphere only; in a plane give distance-to, lines, raster "
-        "or width");
-  CHECK(refused("[cell-width]\ndistance-to = \"pier.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
+  CHECK(refused("[cell-width]\n\nby-latitude = [[0, 60]]") ==
+        " line 3: by-latitude applies to the sphere only; in a plane give by-distance, around, "
+        "raster or width");
+  CHECK(refused("[cell-width]\nby-distance = \"pier.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
                 "side = \"sea\"")
             .starts_with(" line 6: the rule does not take side"));
 }
@@ -239,33 +240,32 @@ TEST_CASE("files of rules that are none are refused with their line") {
   CHECK(rules.refused("width = 60") ==
         ": a file of widths has one table, [cell-width]; see calotte help widths");
   CHECK(rules.refused("[cell-width]\nwidths = 60") ==
-        " line 1: a rule has one of the keys min, max, sum, blend, latitude, distance-to, lines, "
-        "channels, "
-        "heights, raster, polygons, width");
+        " line 1: a rule has one of the keys minimum, maximum, sum, blend, by-latitude, "
+        "by-distance, around, by-channel, by-depth, raster, polygons, width");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
         " line 2: width is not a positive number; give one");
-  CHECK(rules.refused("[cell-width]\n\nmin = [60,\n {width = 5, over = 3}]") ==
+  CHECK(rules.refused("[cell-width]\n\nminimum = [60,\n {width = 5, over = 3}]") ==
         " line 4: the rule does not take over; it takes gradient, least, most, times, width, "
         "within; see calotte help widths");
-  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60], [10]]") ==
-        " line 2: latitude holds no pair at place 1; give [[number, width], ...]");
-  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60], [100, 10]]") ==
+  CHECK(rules.refused("[cell-width]\nby-latitude = [[0, 60], [10]]") ==
+        " line 2: by-latitude holds no pair at place 1; give [[number, width], ...]");
+  CHECK(rules.refused("[cell-width]\nby-latitude = [[0, 60], [100, 10]]") ==
         " line 1: node 1 of a profile of the latitude is at 100, outside -90 to 90; correct it");
-  CHECK(rules.refused("[cell-width]\ndistance-to = \"line.geojson\"\nnear = 10") ==
+  CHECK(rules.refused("[cell-width]\nby-distance = \"line.geojson\"\nnear = 10") ==
         " line 1: the rule needs far; give a number");
   CHECK(
-      rules.refused("[cell-width]\ndistance-to = \"island.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
+      rules.refused("[cell-width]\nby-distance = \"island.geojson\"\nnear = 1\nfar = 2\nover = 3\n"
                     "side = \"left\"") == " line 6: side is \"left\"; give sea or land");
-  CHECK(rules.refused("[cell-width]\nlatitude = [[0, 60]]\nmost = 20\nleast = 30") ==
+  CHECK(rules.refused("[cell-width]\nby-latitude = [[0, 60]]\nmost = 20\nleast = 30") ==
         " line 4: least is 30, above most, 20; exchange them");
   for (const std::string key : {"raster", "polygons"})
     CHECK(rules.refused("[cell-width]\n" + key + " = \"W.TOML\"") ==
           " line 2: " + key + " is a file of rules; write its rules in this file");
-  CHECK(rules.refused("[cell-width]\nmin = []") ==
-        " line 2: min holds no rules; give [{...}, {...}]");
-  CHECK(rules.refused("[cell-width]\nwidth = 5\nbetween = \"smooth\"")
-            .starts_with(" line 3: the rule does not take between"));
+  CHECK(rules.refused("[cell-width]\nminimum = []") ==
+        " line 2: minimum holds no rules; give [{...}, {...}]");
+  CHECK(rules.refused("[cell-width]\nwidth = 5\nsmooth = true")
+            .starts_with(" line 3: the rule does not take smooth"));
   CHECK(test::error_of([&] {
-          rules.read("[cell-width]\ndistance-to = \"none.nc\"\nnear = 1\nfar = 2\nover = 3");
+          rules.read("[cell-width]\nby-distance = \"none.nc\"\nnear = 1\nfar = 2\nover = 3");
         }).code() == ErrorCode::file);
 }

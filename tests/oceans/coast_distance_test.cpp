@@ -27,7 +27,7 @@ constexpr double half_round = pi * earth_radius_km;
 const WidthProfile tells{{{-half_round, 1e6 - half_round}, {half_round, 1e6 + half_round}}};
 
 DoubleVector distances(const Coast& coast, const Points3& places) {
-  return evaluate(Widths::by_coast(coast, tells), places).array() - 1e6;
+  return evaluate(Widths::by_distance(coast, tells), places).array() - 1e6;
 }
 
 } // namespace
@@ -62,19 +62,19 @@ TEST_CASE("one side of a coast says nothing of the other") {
   const Points3 places = random_sphere(20000, 2);
   const DoubleVector away = distances(coast, places),
                      either = evaluate(Widths::by_distance(shores(coast), grows), places),
-                     sea = evaluate(Widths::by_coast(coast, grows, CoastSide::sea), places),
-                     land = evaluate(Widths::by_coast(coast, grows, CoastSide::land), places);
+                     sea = evaluate(Widths::by_distance(coast, grows, CoastSide::sea), places),
+                     land = evaluate(Widths::by_distance(coast, grows, CoastSide::land), places);
   CHECK((sea.cwiseMin(land) - either).cwiseAbs().maxCoeff() < 1e-12);
   CHECK(((sea.array() < Widths::no_demand) == (away.array() >= 0)).all());
   CHECK(((land.array() < Widths::no_demand) == (away.array() < 0)).all());
   const std::vector<Points3> rings = shores(coast); // the shore is of both
   for (const CoastSide side : {CoastSide::sea, CoastSide::land})
-    CHECK(evaluate(Widths::by_coast(coast, grows, side), rings.front()).allFinite());
+    CHECK(evaluate(Widths::by_distance(coast, grows, side), rings.front()).allFinite());
   const double part = (away.array() < 0).cast<double>().mean();
   CHECK(part == doctest::Approx(coast.area / (4 * std::numbers::pi)).epsilon(0.03));
   // Limited, the width grows inland from that of the shore.
   const DoubleVector limited =
-      evaluate(Widths::by_coast(coast, grows, CoastSide::sea).limit_gradient(0.05), places);
+      evaluate(Widths::by_distance(coast, grows, CoastSide::sea).limit_gradient(0.05), places);
   for (Eigen::Index i = 0; i < places.cols(); ++i)
     CHECK(limited[i] ==
           doctest::Approx(away[i] < 0 ? 10 - 0.05 * away[i] : std::min(60.0, 10 + 0.05 * away[i])));
@@ -87,7 +87,7 @@ TEST_CASE("land that is there twice, or overlaps, has no sides") {
     return ring;
   };
   const auto message = [](const Coast& coast) {
-    return message_of([&] { Widths::by_coast(coast, tells); });
+    return message_of([&] { Widths::by_distance(coast, tells); });
   };
   CHECK(message({{square(0, 10), square(0, 10)}})
             .find("areas of land are there twice, one with a corner at longitude ") == 0);
@@ -112,7 +112,7 @@ TEST_CASE("shares of a raster are linear between its nodes") {
 
 TEST_CASE("profiles of a coast that are none are refused by name") {
   const auto message = [](const Coast& coast, const WidthProfile& profile, CoastSide side) {
-    return message_of([&] { Widths::by_coast(coast, profile, side); });
+    return message_of([&] { Widths::by_distance(coast, profile, side); });
   };
   CHECK(message({}, {{{0, 1}}}, CoastSide::both) ==
         "the coast has no shore to be distant from; give rings");

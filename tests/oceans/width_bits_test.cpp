@@ -77,23 +77,24 @@ std::vector<std::pair<std::string, Widths>> rules(double u = 1) {
                    heights(), {.kind = DepthRule::Kind::slope, .cells = 20, .least = u * 120}),
                channels =
                    Widths::by_channel(coast, {.cells = 2, .least = u * 120, .widest = u * 500});
-  return {{"number", u * 200.0},
-          {"raster", rough(u)},
-          {"lines", lines},
-          {"zones", zones},
-          {"around", Widths::around(walks(), u * 120, u * 300)},
-          {"coast",
-           Widths::by_coast(coast, {{{u * -500, u * 500}, {0, u * 120}, {u * 1000, u * 400}}})},
-          {"sea", Widths::by_coast(coast, {{{0, u * 120}, {u * 1000, u * 400}}}, CoastSide::sea)},
-          {"depths", depths},
-          {"slopes", slopes},
-          {"channels", channels},
-          {"minimum", Widths::minimum({u * 400.0, depths, lines})},
-          {"maximum", Widths::maximum({zones, lines})},
-          {"times", Widths::product(channels, 1.7)},
-          {"sum", Widths::sum({zones, lines})},
-          {"where", Widths::where(region, u * 115.0, zones)},
-          {"blend", Widths::blend(zones, lines, Share(region, {{{u * -300, 1}, {u * 300, 0}}}))}};
+  return {
+      {"number", u * 200.0},
+      {"raster", rough(u)},
+      {"lines", lines},
+      {"zones", zones},
+      {"around", Widths::around(walks(), u * 120, u * 300)},
+      {"coast",
+       Widths::by_distance(coast, {{{u * -500, u * 500}, {0, u * 120}, {u * 1000, u * 400}}})},
+      {"sea", Widths::by_distance(coast, {{{0, u * 120}, {u * 1000, u * 400}}}, CoastSide::sea)},
+      {"depths", depths},
+      {"slopes", slopes},
+      {"channels", channels},
+      {"minimum", Widths::minimum({u * 400.0, depths, lines})},
+      {"maximum", Widths::maximum({zones, lines})},
+      {"times", channels.times(1.7)},
+      {"sum", Widths::sum({zones, lines})},
+      {"where", Widths::where(region, u * 115.0, zones)},
+      {"blend", Widths::blend(zones, lines, Share(region, {{{u * -300, 1}, {u * 300, 0}}}))}};
 }
 
 DoubleVector in_arena(int threads, const Widths& widths, const Points3& places) {

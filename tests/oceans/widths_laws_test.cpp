@@ -61,7 +61,7 @@ TEST_CASE("rotated rules give rotated widths") {
   const WidthProfile grows{{{0, 10}, {2000, 90}}}, sides{{{-500, 80}, {0, 10}, {2000, 90}}};
   const auto lines_rule = [&](const Rotation& r) { return Widths::by_distance(lines(r), grows); };
   const auto coast_rule = [&](const Rotation& r) {
-    return Widths::by_coast(two_islands(r), sides);
+    return Widths::by_distance(two_islands(r), sides);
   };
   const auto channels = [&](const Rotation& r) {
     return Widths::by_channel(two_islands(r), {.cells = 4, .least = 20});

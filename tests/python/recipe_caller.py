@@ -41,7 +41,7 @@ REQUESTS = {
     "widths": {"cell_width": WIDTHS},
     "rules": {"cell_width": widths.minimum(
         widths.by_latitude([(-90, 900), (0, 700), (90, 900)]),
-        widths.distance_to([(10, -20), (40, 30)], near=300, far=900, over=4000)).limit_gradient(0.1)},
+        widths.by_distance([(10, -20), (40, 30)], near=300, far=900, over=4000)).limit_gradient(0.1)},
     "region": {"start": 500, "surface": calotte.polygon(REGION)},
     "limited-area": {"cell_width": 200, "surface": calotte.polygon(SMALL), "limited_area": True},
     "plane": {"start": 300, "surface": calotte.rectangle((0, 0), (2, 1))},

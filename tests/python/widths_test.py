@@ -22,7 +22,7 @@ ROUND = [np.arange(0, 360, 30), np.linspace(-75, 75, 12)]
 def test_rules_are_what_they_say():
     lon, lat = ROUND
     assert widths.by_latitude([(-90, 20), (90, 200)])(lon, lat) == pytest.approx(110 + lat, rel=1e-12)
-    pole = widths.distance_to([(0, 90)], near=10, far=1010, over=RADIUS * np.pi)
+    pole = widths.by_distance([(0, 90)], near=10, far=1010, over=RADIUS * np.pi)
     assert pole(lon, lat) == pytest.approx(10 + 1000 * (90 - lat) / 180, rel=1e-12)
     assert (widths.minimum(pole, 300)(lon, lat) == np.minimum(pole(lon, lat), 300)).all()
     assert (widths.maximum(pole, 300)(lon, lat) == np.maximum(pole(lon, lat), 300)).all()
@@ -30,8 +30,18 @@ def test_rules_are_what_they_say():
     assert ((2 * pole)(lon, lat) == 2 * pole(lon, lat)).all()
     part = widths.where("circle=0,90,60deg", 10, 20)
     assert (part(lon, lat) == np.where(lat > 30, 10, 20)).all()
-    limited = widths.distance_to([[(0, 0)], [(180, 0)]], profile=[(0, 10), (100, 300)]).limit_gradient(0.03)
+    limited = widths.by_distance([[(0, 0)], [(180, 0)]], profile=[(0, 10), (100, 300)]).limit_gradient(0.03)
     assert limited(45, 0) == pytest.approx(10 + 0.03 * RADIUS * np.pi / 4, rel=1e-12)
+
+
+def test_files_name_rules_as_functions_do(tmp_path):
+    path = written(tmp_path, "w.toml", "[cell-width]\nnone = 1")
+    with pytest.raises(calotte.Error) as caught:
+        widths.rule(path)
+    keys = re.search("one of the keys (.*)", str(caught.value))[1].replace("-", "_").split(", ")
+    values = {"width", "raster", "polygons"}  # a rule is one of them, or a function
+    of_shares = {"where", "share"}  # "within" and "share" of a file
+    assert set(keys) - values == set(widths.__all__) - {"Widths", "rule"} - of_shares
 
 
 def test_functions_and_rasters_are_rules():
@@ -48,13 +58,13 @@ def test_the_command_makes_the_same_grid(tmp_path):
     (tmp_path / "w.toml").write_text("""
 [cell-width]
 gradient = 0.05
-min = [900, {latitude = [[0, 900], [90, 600]]},
-       {distance-to = "line.geojson", near = 300, far = 900, over = 2000}]
+minimum = [900, {by-latitude = [[0, 900], [90, 600]]},
+           {by-distance = "line.geojson", near = 300, far = 900, over = 2000}]
 """)
     subprocess.run([COMMAND, "cvt", "--cell-width", str(tmp_path / "w.toml"), "-o", str(tmp_path / "a.vtp")],
                    check=True, capture_output=True)
     rule = widths.minimum(900, widths.by_latitude([(0, 900), (90, 600)]),
-                          widths.distance_to(line, near=300, far=900, over=2000)).limit_gradient(0.05)
+                          widths.by_distance(line, near=300, far=900, over=2000)).limit_gradient(0.05)
     grid = calotte.cvt(cell_width=rule)
     assert (calotte.read(tmp_path / "a.vtp").points == grid.mesh.points).all()
     assert calotte.quality(grid.mesh, cell_width=rule).obtuse == 0
@@ -68,12 +78,12 @@ def written(tmp_path, name, text):
 def test_rules_by_a_coast(tmp_path):
     square = [[[-10, -10], [10, -10], [10, 10], [-10, 10], [-10, -10]]]
     coast = written(tmp_path, "c.geojson", json.dumps({"type": "Polygon", "coordinates": square}))
-    sides = widths.distance_to(coast, profile=[(-20015, 20115), (0, 100), (20015, 20115)])
+    sides = widths.by_distance(coast, profile=[(-20015, 20115), (0, 100), (20015, 20115)])
     km = RADIUS * np.pi / 180
     assert sides([15, 7], [0, 0]) == pytest.approx([100 + 5 * km, 100 + 3 * km], rel=1e-9)
-    sea = widths.distance_to(coast, near=10, far=60, over=600, side="sea")
+    sea = widths.by_distance(coast, near=10, far=60, over=600, side="sea")
     assert np.isnan(sea(0, 0)) and sea(10, 0) == pytest.approx(10, abs=1e-3) and sea(50, 0) == 60
-    land = widths.distance_to(coast, near=10, far=60, over=600, side="land")
+    land = widths.by_distance(coast, near=10, far=60, over=600, side="land")
     assert land(0, 0) == 60 and np.isnan(land(50, 0))
     assert np.isnan(widths.by_channel(coast, 5, cells=4)(0, 0))
     band = widths.around([(-10, 0), (10, 0)], 5, 200)
@@ -113,15 +123,16 @@ def test_the_manual_has_one_ocean_in_toml_and_in_python(tmp_path, monkeypatch):
     same = rule.sampled(0.25)
     assert np.array(raster.widths) == pytest.approx(np.array(same.widths), rel=1e-12)
     rules = json.loads((tmp_path / "plan.json").read_text())["rules"]
-    assert [one["name"].split()[0] for one in rules] == ["latitude", "distance-to", "channels", "lines", "heights"]
+    names = [one["name"].split()[0] for one in rules]
+    assert names == ["by-latitude", "by-distance", "by-channel", "around", "by-depth"]
     assert all(one["area"] > 0 for one in rules[:4]) and np.sum([one["cells"] for one in rules]) == pytest.approx(1)
 
 
 def test_files_of_rules_are_rules(tmp_path):
     written(tmp_path, "l.geojson", '{"type":"LineString","coordinates":[[0,0],[10,0]]}')
-    path = written(tmp_path, "w.toml", "[cell-width]\nstep = 1\ngradient = 0.2\nmin = [900, "
-                   '{distance-to = "l.geojson", near = 300, far = 800, over = 2000}]')
-    made = widths.minimum(900, widths.distance_to([(0, 0), (10, 0)], 300, 800, 2000)).limit_gradient(0.2)
+    path = written(tmp_path, "w.toml", "[cell-width]\nstep = 1\ngradient = 0.2\nminimum = [900, "
+                   '{by-distance = "l.geojson", near = 300, far = 800, over = 2000}]')
+    made = widths.minimum(900, widths.by_distance([(0, 0), (10, 0)], 300, 800, 2000)).limit_gradient(0.2)
     lon, lat = np.meshgrid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
     assert (widths.rule(path)(lon, lat) == made(lon, lat)).all()
     assert (np.array(widths.rule(path).sampled().widths) == np.array(made.sampled(1).widths)).all()
@@ -133,11 +144,11 @@ def test_files_of_rules_are_rules(tmp_path):
         assert calotte.plan(made.on_sphere(radius).sampled(1), earth_radius=radius).cells == \
             calotte.plan(path, earth_radius=radius).cells
     distance = np.radians(17) * 3389.5
-    rule = widths.distance_to([(0, 0), (10, 0)], 50, 400, 2000)
+    rule = widths.by_distance([(0, 0), (10, 0)], 50, 400, 2000)
     assert rule.on_sphere(3389.5)(5, 17) == pytest.approx(50 + 350 * distance / 2000, rel=1e-3)
     plane = calotte.rectangle((0, 0), (40, 30))
-    path = written(tmp_path, "p.toml", "[cell-width]\ngradient = 0.1\nmin = [3, "
-                   '{distance-to = "l.geojson", near = 1, far = 3, over = 5}]')
+    path = written(tmp_path, "p.toml", "[cell-width]\ngradient = 0.1\nminimum = [3, "
+                   '{by-distance = "l.geojson", near = 1, far = 3, over = 5}]')
     assert calotte.plan(path, surface=plane).widths == pytest.approx((1, 3))
     with pytest.raises(calotte.Error, match="plane|domain"):
         widths.rule(path).sampled(surface=plane)
@@ -146,12 +157,12 @@ def test_files_of_rules_are_rules(tmp_path):
 @pytest.mark.parametrize("make, words", [
     (lambda: widths.by_latitude([1, 2]), "pairs"),
     (lambda: widths.by_latitude([(0, 10), (100, 20)]), "outside -90 to 90"),
-    (lambda: widths.distance_to([(0, 0)], near=1), "near, far and over"),
-    (lambda: widths.distance_to([(0, 0)], 1, 2, 3, profile=[(0, 1)]), "not both"),
+    (lambda: widths.by_distance([(0, 0)], near=1), "near, far and over"),
+    (lambda: widths.by_distance([(0, 0)], 1, 2, 3, profile=[(0, 1)]), "not both"),
     (lambda: widths.rule(-5), "-5 is not a positive number"),
     (lambda: widths.minimum(), "no widths"),
-    (lambda: widths.distance_to([(0, 0)], 1, 2, 3, side="sea"), "lines have no side"),
-    (lambda: widths.distance_to("a.nc", 1, 2, 3, side="left"), "neither sea nor land"),
+    (lambda: widths.by_distance([(0, 0)], 1, 2, 3, side="sea"), "lines have no side"),
+    (lambda: widths.by_distance("a.nc", 1, 2, 3, side="left"), "neither sea nor land"),
     (lambda: widths.share("circle=0,90,60deg", 5, profile=[(0, 1)]), "not both"),
     (lambda: widths.share("circle=0,90,60deg", profile=[(0, 2)]), "share 2, which is not a fraction from 0 to 1"),
     (lambda: widths.rule(5).limit_gradient(0), "gradient"),
@@ -163,7 +174,7 @@ def test_what_is_no_rule(make, words):
 
 def test_rules_of_a_plane():
     lake = calotte.rectangle((0, 0), (4, 3))
-    shore = widths.distance_to([[(0, 0), (4, 0)], [(0, 3), (4, 3)]], 0.1, 0.4, 1, surface=lake)
+    shore = widths.by_distance([[(0, 0), (4, 0)], [(0, 3), (4, 3)]], 0.1, 0.4, 1, surface=lake)
     rule = widths.minimum(shore, widths.around([[(2, 1.5)]], 0.12, 0.3, surface=lake))
     assert rule.of_plane and not widths.rule(60).of_plane
     x, y = np.meshgrid(np.linspace(0, 4, 41), np.linspace(0, 3, 31))

@@ -68,11 +68,11 @@ TEST_CASE("widths in km: the cells that they imply, or a factor on them") {
 TEST_CASE("of rules the plan tells where each gives the width") {
   const Bench bench;
   bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[0, 90], [0, 89]]})");
-  bench.file("w.toml", "[cell-width]\nmin = [400, {latitude = [[-0.001, 800], [0, 200]]}, "
-                       "{lines = \"line.geojson\", width = 100, over = 1000}]");
+  bench.file("w.toml", "[cell-width]\nminimum = [400, {by-latitude = [[-0.001, 800], [0, 200]]}, "
+                       "{around = \"line.geojson\", width = 100, over = 1000}]");
   const nlohmann::json json = plan_report(bench, "--cell-width w.toml");
   REQUIRE(json["rules"].size() == 3);
-  CHECK(json["rules"][2]["name"] == "lines line.geojson");
+  CHECK(json["rules"][2]["name"] == "around line.geojson");
   CHECK(json["rules"][0]["area"].get<double>() == doctest::Approx(0.5).epsilon(0.02));
   const double around = json["rules"][2]["area"].get<double>();
   CHECK(json["rules"][2]["cells"].get<double>() ==
@@ -80,7 +80,7 @@ TEST_CASE("of rules the plan tells where each gives the width") {
   CHECK(json["width_seconds"].get<double>() > 0);
   const std::string table = bench.run("plan --cell-width w.toml").out;
   CHECK(has(table, "time of the widths"));
-  CHECK(has(table, "  latitude "));
+  CHECK(has(table, "  by-latitude "));
   CHECK(has(table, "% of the area, "));
 }
 
@@ -170,7 +170,7 @@ TEST_CASE("bad input ends in one line, and nothing is written") {
   const Bench bench;
   bench.file("metres.msh", raster([](double) { return 30000; }));
   bench.file("place.geojson", R"({"type": "LineString", "coordinates": [[10, 20], [11, 20]]})");
-  bench.file("alone.toml", "[cell-width]\nlines = \"place.geojson\"\nwidth = 60\nover = 500\n");
+  bench.file("alone.toml", "[cell-width]\naround = \"place.geojson\"\nwidth = 60\nover = 500\n");
   check_refusals(bench, "plan", R"(
 -o widths.png --density uniform | 2 | a density has no unit, and implies no number of cells; give --cells N, or widths in km
 -o widths.png --cells auto | 2 | a density has no unit, and implies no number of cells

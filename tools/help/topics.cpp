@@ -51,36 +51,36 @@ constexpr const char* widths =
 
   [cell-width]
   gradient = 0.03
-  min = [
-    { latitude = [[-90, 35], [-30, 60], [0, 30], [30, 60], [90, 35]] },
-    { distance-to = "coast.geojson", near = 10, far = 60, over = 600 },
-    { lines = "straits.geojson", width = 5, over = 200 },
+  minimum = [
+    { by-latitude = [[-90, 35], [-30, 60], [0, 30], [30, 60], [90, 35]] },
+    { by-distance = "coast.geojson", near = 10, far = 60, over = 600 },
+    { around = "straits.geojson", width = 5, over = 200 },
   ]
 
 A rule has one of these keys, which says what it is, and the keys after it:
 
   width = KM              one width
-  latitude = [[DEGREES, KM], ...]   by latitude; between
-  distance-to = FILE      by the distance from the nearest line, side or point of a file: near and
+  by-latitude = [[DEGREES, KM], ...]   by latitude; smooth
+  by-distance = FILE      by the distance from the nearest line, side or point of a file: near and
                           far, the widths at 0 and from the distance `over` on; or
-                          profile = [[KM, WIDTH], ...]; between. Of polygons or a coast also
+                          profile = [[KM, WIDTH], ...]; smooth. Of polygons or a coast also
                           side = "sea" or "land": on the other side the rule says nothing. In a
                           profile with negative distances, these are on land
-  lines = FILE            `width` up to the distance `over`; beyond it the rule says nothing
-  channels = FILE         at least `cells` cells across the channels and straits of a coast, up to
+  around = FILE           `width` up to the distance `over`; beyond it the rule says nothing
+  by-channel = FILE       at least `cells` cells across the channels and straits of a coast, up to
                           `widest`, default 500 km, but no cell below `least`; elsewhere the rule
                           says nothing
-  heights = FILE          by the depth of the sea, from NetCDF heights(lat, lon) in metres, of
+  by-depth = FILE         by the depth of the sea, from NetCDF heights(lat, lon) in metres, of
                           `variable`, if it has several: period = "12.42h" and cells, the number
                           of cells in the length of a wave; or rossby = CELLS in a Rossby radius; or
                           slope = CELLS in 2 pi depth / slope; and `least`, the width at the shore
   raster = FILE           widths of a NetCDF raster, or of JIGSAW's .msh
   polygons = FILE         of GeoJSON: inside, outside, transition, as the options of that name
-  min = [RULES]           the least of several; a number is a rule, too; max, sum likewise
+  minimum = [RULES]       the least of several; a number is a rule, too; maximum, sum likewise
   blend = [A, B]          (1 - t) A + t B, with the share t of B from 0 to 1 in share = FILE: NetCDF
                           t(lat, lon), of `variable`, if it has several; or a region, in which t is
                           1. Outside, t falls to 0 at the distance `over`; or profile = [[KM, T],
-                          ...] from its boundary, negative inside; between
+                          ...] from its boundary, negative inside; smooth
 
 Any rule takes also, in this order:
 
@@ -91,7 +91,7 @@ Any rule takes also, in this order:
   gradient = G            the largest widths that are nowhere above the rule's and change by at most
                           G km per km, such as 0.03: grids of steep widths have bad cells
 
-  between = "smooth"      between two numbers along a cubic that is level at both, not along a line
+  smooth = true           between two numbers along a cubic that is level at both, not along a line
   step = DEGREES          of the raster of calotte plan --raster, in the table [cell-width]; default:
                           the least width, within 0.05 to 1
 
@@ -100,8 +100,8 @@ longitude and latitude a line. Names are relative to the folder of the TOML file
 great circles.
 
 In a plane lengths are in its unit, files are of x and y, and distances straight. The rules width,
-distance-to, lines, raster, min, max, sum and blend apply; a region is a file of --domain, and step
-is a length. The gradient of all rules is limited in the domain, round its islands.
+by-distance, around, raster, minimum, maximum, sum and blend apply; a region is a file of --domain,
+and step is a length. The gradient of all rules is limited in the domain, round its islands.
 )";
 
 constexpr const char* region =

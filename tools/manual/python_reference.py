@@ -25,7 +25,7 @@ GROUPS = [
                   "planar_polygon"]),
     ("Files", ["read", "read_fields", "read_points", "write", "cut", "cull", "partition"]),
 ]
-WIDTHS = ["by_latitude", "distance_to", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
+WIDTHS = ["by_latitude", "by_distance", "around", "by_channel", "by_depth", "minimum", "maximum", "sum", "where", "blend", "share", "rule"]
 KINDS = ["Mesh", "Surface", "Polygons", "PolygonShapes", "Raster", "Weights", "Voronoi", "Locations", "Cvt", "Action", "Plan", "ChangedMesh", "ChangedPatch", "Quality",
          "Range", "Percentiles", "Check", "OperatorErrors", "ErrorNorms", "Density", "CellWidth", "Widths", "Error"]
 

@@ -79,13 +79,14 @@ public:
     return *value;
   }
 
-  WidthProfile::Between between() {
-    if (!has("between"))
-      return WidthProfile::Between::linear;
-    const std::string word = text("between", "linear or smooth");
-    if (word != "linear" && word != "smooth")
-      refuse("between", "is \"" + word + "\"; give linear or smooth");
-    return word == "smooth" ? WidthProfile::Between::smooth : WidthProfile::Between::linear;
+  /// Whether a profile is.
+  bool smooth() {
+    if (!has("smooth"))
+      return false;
+    const std::optional<bool> value = take("smooth")->value_exact<bool>();
+    if (!value)
+      refuse("smooth", "is neither true nor false; give one of them");
+    return *value;
   }
 
   /// Pairs of numbers.
@@ -105,7 +106,7 @@ public:
       }
     if (profile.nodes.empty())
       refuse(key, "holds no pairs; give [[number, width], ...]");
-    profile.between = between();
+    profile.smooth = smooth();
     return profile;
   }
 
@@ -184,15 +185,15 @@ private:
 
   /// A rule has one of these keys, which says what it is; the first that is there.
   static const std::vector<Key>& sources() {
-    static const std::vector<Key> all{{"min", nullptr, true, false}, // see rule_of()
-                                      {"max", &RuleReader::greatest, true, false},
+    static const std::vector<Key> all{{"minimum", nullptr, true, false}, // see rule_of()
+                                      {"maximum", &RuleReader::greatest, true, false},
                                       {"sum", &RuleReader::sum, true, false},
                                       {"blend", &RuleReader::blend, true, false},
-                                      {"latitude", &RuleReader::latitude, false, false},
-                                      {"distance-to", &RuleReader::distance, true, true},
-                                      {"lines", &RuleReader::lines, true, true},
-                                      {"channels", &RuleReader::channels, false, true},
-                                      {"heights", &RuleReader::heights, false, true},
+                                      {"by-latitude", &RuleReader::latitude, false, false},
+                                      {"by-distance", &RuleReader::distance, true, true},
+                                      {"around", &RuleReader::around, true, true},
+                                      {"by-channel", &RuleReader::channel, false, true},
+                                      {"by-depth", &RuleReader::depth, false, true},
                                       {"raster", &RuleReader::raster, true, true},
                                       {"polygons", &RuleReader::polygons, false, true},
                                       {"width", &RuleReader::constant, true, false}};
@@ -210,10 +211,10 @@ private:
     const bool in_domain = all != nullptr && !surface_.is_sphere() && all->gradient;
     const auto& [key, source, in_plane, names_file] = source_of(given);
     if (!in_plane && !surface_.is_sphere())
-      table.refuse(key, "applies to the sphere only; in a plane give distance-to, lines, raster or "
-                        "width");
+      table.refuse(key, "applies to the sphere only; in a plane give by-distance, around, raster "
+                        "or width");
     // What changes a minimum changes its rules, so that active_rules() tells them apart.
-    const bool least = key == "min";
+    const bool least = key == "minimum";
     std::vector<Widths> rules =
         least ? parts(table, key) : std::vector{table.made([&, source = source] {
           Widths made = (this->*source)(table).on_sphere(radius_km_);
@@ -240,10 +241,10 @@ private:
     fail_at(path_, rule.source().begin.line, "a rule has one of the keys " + listed(keys));
   }
 
-  /// Of the rules of a minimum, or of the one rule: "distance-to coast.geojson".
+  /// Of the rules of a minimum, or of the one rule: "by-distance coast.geojson".
   std::vector<std::string> names_of(const toml::table& rule) const {
     const std::string key = source_of(rule).name;
-    if (key != "min") {
+    if (key != "minimum") {
       const std::optional<std::string> file = rule[key].value_exact<std::string>();
       const std::optional<double> number = rule[key].value<double>();
       return {key + (file ? " " + *file : number ? " " + shortly(*number) : "")};
@@ -263,9 +264,7 @@ private:
     };
     table.require_least_below_most();
     if (table.takes("times"))
-      each([factor = table.number("times")](const Widths& rule) {
-        return Widths::product(rule, factor);
-      });
+      each([factor = table.number("times")](const Widths& rule) { return rule.times(factor); });
     if (table.takes("least")) // else the rule itself has it
       each([least = table.number("least")](const Widths& rule) {
         return Widths::maximum({rule, least});
@@ -307,7 +306,7 @@ private:
     return parts;
   }
 
-  Widths greatest(RuleTable& table) { return Widths::maximum(parts(table, "max")); }
+  Widths greatest(RuleTable& table) { return Widths::maximum(parts(table, "maximum")); }
   Widths sum(RuleTable& table) { return Widths::sum(parts(table, "sum")); }
 
   Widths blend(RuleTable& table) {
@@ -338,28 +337,28 @@ private:
       return Share(part_in(path), table.pairs("profile"));
     if (table.take("over") != nullptr) {
       const double over = table.number("over");
-      return Share(part_in(path), {{{0, 1}, {over, 0}}, table.between()});
+      return Share(part_in(path), {{{0, 1}, {over, 0}}, table.smooth()});
     }
     return share_in(path);
   }
 
   Widths constant(RuleTable& table) { return table.number("width"); }
-  Widths latitude(RuleTable& table) { return Widths::by_latitude(table.pairs("latitude")); }
+  Widths latitude(RuleTable& table) { return Widths::by_latitude(table.pairs("by-latitude")); }
 
   Widths distance(RuleTable& table) {
-    const std::string path = file(table, "distance-to");
+    const std::string path = file(table, "by-distance");
     const WidthProfile profile = table.has("profile") ? table.pairs("profile") : growing(table);
     if (surface_.is_sphere() && table.has("side"))
-      return Widths::by_coast(read_coast(path), profile, side(table));
+      return Widths::by_distance(read_coast(path), profile, side(table));
     return surface_.is_sphere() && profile.nodes.front()[0] < 0
-               ? Widths::by_coast(read_coast(path), profile)
+               ? Widths::by_distance(read_coast(path), profile)
                : Widths::by_distance(read_shapes(path, surface_), profile, surface_);
   }
 
   static WidthProfile growing(RuleTable& table) {
     const double near = table.number("near"), far = table.number("far"),
                  over = table.number("over");
-    return {{{0, near}, {over, far}}, table.between()};
+    return {{{0, near}, {over, far}}, table.smooth()};
   }
 
   static CoastSide side(RuleTable& table) {
@@ -369,22 +368,22 @@ private:
     return word == "sea" ? CoastSide::sea : CoastSide::land;
   }
 
-  Widths lines(RuleTable& table) {
-    const std::string path = file(table, "lines");
+  Widths around(RuleTable& table) {
+    const std::string path = file(table, "around");
     const double width = table.number("width"), over = table.number("over");
     return Widths::around(read_shapes(path, surface_), width, over, surface_);
   }
 
-  Widths channels(RuleTable& table) {
-    const std::string path = file(table, "channels");
+  Widths channel(RuleTable& table) {
+    const std::string path = file(table, "by-channel");
     ChannelRule rule{.cells = table.number("cells"), .least = table.number("least")};
     if (table.take("widest") != nullptr)
       rule.widest = table.number("widest");
     return Widths::by_channel(read_coast(path), rule);
   }
 
-  Widths heights(RuleTable& table) {
-    const std::string path = file(table, "heights");
+  Widths depth(RuleTable& table) {
+    const std::string path = file(table, "by-depth");
     const Raster raster = read_raster(
         path, {.variable = table.has("variable") ? table.text("variable", "its name") : "",
                .quantity = RasterQuantity::height});

@@ -16,13 +16,13 @@ TEST_CASE("the rules of a minimum have shares of the area and of the cells") {
   const WidthRules rules{
       .widths = Widths::minimum({200.0, Widths::by_latitude({{{-90, 400}, {0, 400}, {0.001, 50}}}),
                                  Widths::around({line}, 10, 200)}),
-      .names = {"width", "latitude", "lines"}};
+      .names = {"width", "by-latitude", "around"}};
   const auto shares_of = [](const WidthRules& of, const Surface& surface) {
     return rule_shares(of, surface, density_of(sampled(of.widths)));
   };
   const std::vector<RuleShare> shares = shares_of(rules, Surface::sphere());
   REQUIRE(shares.size() == 3);
-  CHECK(shares[1].name == "latitude");
+  CHECK(shares[1].name == "by-latitude");
   CHECK(shares[1].area == doctest::Approx(0.5).epsilon(0.02));
   CHECK(shares[0].area + shares[1].area + shares[2].area == doctest::Approx(1));
   CHECK(shares[0].cells + shares[1].cells + shares[2].cells == doctest::Approx(1));

@@ -6,7 +6,7 @@ a rule goes in wherever cell widths do. Distances are along great circles, and k
 surface, a rule has the plane's unit, and places are x and y.
 
 >>> from calotte import widths
->>> coast = widths.distance_to([(-10, 0), (10, 0)], near=10, far=60, over=600)
+>>> coast = widths.by_distance([(-10, 0), (10, 0)], near=10, far=60, over=600)
 >>> zones = widths.by_latitude([(-90, 35), (0, 60), (90, 35)])
 >>> rule = widths.minimum(zones, coast, 50).limit_gradient(0.03)
 >>> rule([0, 90], [0, 0]).tolist()
@@ -17,7 +17,7 @@ import numpy as np
 from . import _arguments, _calotte
 from ._calotte import Share, Widths
 
-__all__ = ["Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "distance_to", "maximum", "minimum",
+__all__ = ["Widths", "around", "blend", "by_channel", "by_depth", "by_latitude", "by_distance", "maximum", "minimum",
            "rule", "share", "sum", "where"]
 
 
@@ -51,7 +51,7 @@ def by_latitude(nodes, *, smooth=False):
     return _calotte.widths_by_latitude(_nodes(nodes, "latitudes and widths"), smooth)
 
 
-def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None,
+def by_distance(lines, near=None, far=None, over=None, *, profile=None, smooth=False, side=None,
                 surface=None):
     """Widths by the distance from the nearest of some lines.
 
@@ -74,7 +74,7 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
     if side or nodes.min(axis=0, initial=0)[0] < 0:
         if not (is_file and surface.is_sphere):
             raise _calotte.Error("lines have no side of sea or land; give a file of polygons or a coast")
-        return _calotte.widths_by_coast(str(lines), nodes, smooth, side or "both")
+        return _calotte.widths_by_distance_from_coast(str(lines), nodes, smooth, side or "both")
     if is_file:
         return _calotte.widths_by_distance_from_file(str(lines), nodes, smooth, surface)
     return _calotte.widths_by_distance(_lines(lines, surface), nodes, smooth, surface)
@@ -83,7 +83,7 @@ def distance_to(lines, near=None, far=None, over=None, *, profile=None, smooth=F
 def around(lines, width, over, *, surface=None):
     """One width up to a distance from the nearest of some lines; beyond it the rule says nothing.
 
-    lines, surface: as for distance_to(). width, over: the distance, km.
+    lines, surface: as for by_distance(). width, over: the distance, km.
     """
     surface = _arguments.surface(surface)
     if _is_file(lines):

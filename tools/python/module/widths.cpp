@@ -18,7 +18,7 @@ WidthProfile profile(const Doubles& nodes, bool smooth) {
   WidthProfile profile;
   for (py::ssize_t k = 0; k < nodes.shape(0); ++k)
     profile.nodes.push_back({nodes.at(k, 0), nodes.at(k, 1)});
-  profile.between = smooth ? WidthProfile::Between::smooth : WidthProfile::Between::linear;
+  profile.smooth = smooth;
   return profile;
 }
 
@@ -42,13 +42,13 @@ Widths by_distance_from_file(const std::string& path, const Doubles& nodes, bool
 }
 
 /// \param side both, sea or land.
-Widths by_coast(const std::string& path, const Doubles& nodes, bool smooth,
-                const std::string& side) {
+Widths by_distance_from_coast(const std::string& path, const Doubles& nodes, bool smooth,
+                              const std::string& side) {
   return call([&, of = profile(nodes, smooth)] {
-    return Widths::by_coast(read_coast(path), of,
-                            side == "sea"    ? CoastSide::sea
-                            : side == "land" ? CoastSide::land
-                                             : CoastSide::both);
+    return Widths::by_distance(read_coast(path), of,
+                               side == "sea"    ? CoastSide::sea
+                               : side == "land" ? CoastSide::land
+                                                : CoastSide::both);
   });
 }
 
@@ -143,12 +143,12 @@ void add_widths(py::module_& module) {
                                       const Surface& surface) {
     return call([&] { return Widths::around(read_shapes(path, surface), width, over, surface); });
   });
-  module.def("widths_by_coast", &by_coast);
+  module.def("widths_by_distance_from_coast", &by_distance_from_coast);
   module.def("widths_by_depth", &by_depth);
   module.def("widths_by_channel", &by_channel);
   module.def("combined_widths", &combined);
   module.def("widths_times", [](const Widths& widths, double factor) {
-    return call([&] { return Widths::product(widths, factor); });
+    return call([&] { return widths.times(factor); });
   });
   py::class_<Share>(module, "Share", "A share from 0 to 1 for every place, of one of two rules.");
   module.def("share_of_region",
