@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
+
 #include <calotte/error.h>
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 namespace calotte::base_detail {
 
@@ -22,11 +25,18 @@ inline void require(bool holds, const std::string& message) {
     refuse(message);
 }
 
+/// \throws Error invalid_argument with the pattern's message, which is made then only.
+template <class Value, class... Values>
+void require(bool holds, std::type_identity_t<Pattern<Value, Values...>> pattern,
+             const Value& value, const Values&... values) {
+  if (!holds)
+    refuse(filled(pattern.text, {shown(value), shown(values)...}));
+}
+
 /// \throws Error invalid_argument, when the count is below the least or above most_points.
 inline void require_count(std::int64_t count, std::int64_t least, const std::string& name) {
-  require(count >= least && count <= most_points,
-          name + " is " + std::to_string(count) + "; give a number from " + std::to_string(least) +
-              " to " + std::to_string(most_points));
+  require(count >= least && count <= most_points, "{} is {}; give a number from {} to {}", name,
+          count, least, most_points);
 }
 
 } // namespace calotte::base_detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/elementary.h"
 #include "base/lonlat.h"
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "density/raster_field.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_profile.h"
 
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/require.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "base/elementary.h"
 #include "base/lonlat.h"
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/generators.h>
 
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "curve/box_tree.h"

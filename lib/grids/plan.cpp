@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/require.h"
 #include "cvt/levels.h"
 #include "cvt/options.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/refine.h>
 
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"

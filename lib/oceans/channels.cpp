@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/elementary.h"
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"

@@ -2,7 +2,7 @@
 #include "oceans/shores.h"
 
 #include "base/lonlat.h"
-#include "base/number_text.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/rings.h"

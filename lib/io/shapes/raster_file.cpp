@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/raster_file.h"
 
-#include "base/number_text.h"
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"

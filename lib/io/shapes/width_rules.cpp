@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_rules.h"
-#include "base/number_text.h"
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/bytes/text.h"

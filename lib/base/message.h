@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/room.h"
+
+#include <concepts>
+#include <cstddef>
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+/// The text of messages.
+namespace calotte::base_detail {
+
+/// A number with six digits at most.
+inline std::string shortly(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+/// A value as messages show it: numbers that are not whole with six digits at most.
+template <class Value> std::string shown(const Value& value) {
+  if constexpr (std::integral<Value>) {
+    static_assert(!std::same_as<Value, bool> && !std::same_as<Value, char>, "say it in words");
+    return std::to_string(value);
+  } else if constexpr (std::floating_point<Value>) {
+    return shortly(value);
+  } else {
+    return std::string(value);
+  }
+}
+
+/// A text with one {} for each of some values; another number of them does not compile.
+template <class... Values> struct Pattern {
+  template <std::size_t size>
+  consteval Pattern(const char (&literal)[size]) // NOLINT(google-explicit-constructor): its purpose
+      : text(literal, size - 1) {
+    std::size_t places = 0;
+    for (std::size_t at = text.find("{}"); at != text.npos; at = text.find("{}", at + 2))
+      ++places;
+    if (places != sizeof...(Values))
+      throw "a message has one {} for each value"; // what the compiler then shows
+  }
+
+  std::string_view text;
+};
+
+/// The pattern with the texts in place of its {}.
+std::string filled(std::string_view pattern, std::initializer_list<std::string> texts);
+
+/// The pattern with the values in place of its {}: message("site {} is {} km away", i, distance).
+template <class... Values>
+std::string message(std::type_identity_t<Pattern<Values...>> pattern, const Values&... values) {
+  return filled(pattern.text, {shown(values)...});
+}
+
+} // namespace calotte::base_detail

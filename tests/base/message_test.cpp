@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
+#include "base/require.h"
+#include "support/errors.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include <doctest/doctest.h>
+
+namespace calotte::base_detail {
+namespace {
+
+TEST_CASE("a message has its values in place") {
+  CHECK(message("no value") == "no value");
+  CHECK(message("{}", 1) == "1");
+  CHECK(message("site {} of {}", std::int64_t{1} << 40, 7U) == "site 1099511627776 of 7");
+  CHECK(message("{}{} km", -1.5, std::string("!")) == "-1.5! km");
+  CHECK(message("{}, {}", 1.0 / 3, std::numeric_limits<double>::infinity()) == "0.333333, inf");
+  CHECK(message("give [{...}, {}]", "{}") == "give [{...}, {}]"); // no value is a pattern
+  CHECK(message("{} {}", std::string_view("{}"), "b") == "{} b");
+}
+
+TEST_CASE("a condition says what it required, and no word if it holds") {
+  require(true, "{} is not", 1);
+  const Error error = test::error_of([] { require(false, "cells is {}; give {}", 3, "more"); });
+  CHECK(error.code() == ErrorCode::invalid_argument);
+  CHECK(std::string(error.what()) == "cells is 3; give more");
+}
+
+} // namespace
+} // namespace calotte::base_detail
