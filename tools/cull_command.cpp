@@ -172,19 +172,14 @@ void add_raster(CLI::App& command, CullRequest& request) {
       command
           .add_option("--raster", request.raster,
                       "NetCDF raster of latitudes and longitudes that tells the sea from the land. "
-                      "The fraction of land of a cell is the mean of the raster's rectangles that "
-                      "have their middle in it, weighted by their areas. Rectangles that are not "
-                      "small against the cell are first cut into parts narrower than a quarter of "
-                      "it. With --land, the greater fraction counts.")
+                      "The fraction of land of a cell is that of the areas that it shares with the "
+                      "raster's boxes. With --land, the greater fraction counts.")
           ->type_name("FILE");
-  CLI::Option* const variable =
-      command
-          .add_option("--raster-variable", request.raster_variable,
-                      "Its variable(lat, lon). The coordinate variables are lat and lon, or "
-                      "latitude and longitude, in degrees.")
-          ->type_name("NAME")
-          ->needs(file);
-  file->needs(variable);
+  command
+      .add_option("--raster-variable", request.raster_variable,
+                  "Its variable(lat, lon), of a file with several")
+      ->type_name("NAME")
+      ->needs(file);
   add_choice<RasterQuantity>(
       command, "--raster-values", request.raster_values,
       {{"height", RasterQuantity::height},

@@ -199,7 +199,7 @@ def test_culls_by_every_kind_of_land(tmp_path):
         {"type": "LineString", "coordinates": [[-60, 60], [60, 60]]}))
     for options, words in (
             (["--raster", tmp_path / "raster.nc", "--raster-variable", "z"],
-             {"raster": tmp_path / "raster.nc", "raster_variable": "z"}),
+             {"raster": tmp_path / "raster.nc"}),
             (["--field", "latCell", "--sea-below", "0.5"], {"field": "latCell", "sea_below": 0.5}),
             (["--field", "latCell", "--sea-from", "0.5", "--barrier",
               tmp_path / "barrier.geojson"],

@@ -1287,8 +1287,8 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     """Leaves the cells of land out of an MPAS file; all fields go along. Returns a dict of counts.
 
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
-    raster: a NetCDF raster raster_variable(lat, lon), whose raster_values are "height" (below 0 is
-        sea), "sea-fraction" or "land-fraction".
+    raster: a NetCDF raster of latitudes and longitudes, whose raster_values are "height" (below 0 is
+        sea), "sea-fraction" or "land-fraction"; raster_variable: its variable, of a file with several.
     land_fraction: cells with a larger fraction of land are land.
     field: a variable with a number for each cell; from sea_from to below sea_below is sea (default
         below 0). field_file: its NetCDF file; default the source.
@@ -1298,8 +1298,6 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
     mask: NetCDF file for masks by cell of the source. cell_map: folder for maps of cell numbers.
     sphere_radius: of the new file, metres; default that of the source. model: as for write().
     """
-    if raster is not None and not raster_variable:
-        raise Error(f"{raster}: give the name of its variable as raster_variable")
     if raster_values not in ("height", "sea-fraction", "land-fraction"):
         raise Error(f"raster_values is {raster_values!r}; give height, sea-fraction or "
                     "land-fraction")
