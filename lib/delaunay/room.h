@@ -6,7 +6,7 @@
 
 /// The triangulation by regions (Jacobsen et al., 2013): points -> sites -> regions -> [ gather,
 /// project, triangulate, cull ] for each region -> unite -> mesh. Each arrow is a stage, a function
-/// from values to values in a file of its name. The stages are templates over a Chart, SphereChart
+/// from values to values. The stages are templates over a Chart, SphereChart
 /// or PlaneChart.
 ///
 /// In: points of a caller. Out: the Delaunay triangulation in canonical order, the same bits for
