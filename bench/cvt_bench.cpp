@@ -9,10 +9,9 @@
 
 #include "base/clock.h"
 #include "base/points.h"
-#include "cvt/cvt.h"
 #include "integrals/moments.h"
 
-#include <calotte/cvt.h>
+#include <calotte/grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,14 +48,12 @@ struct Workload {
   Points3 before, after; ///< the library's generators around the first iteration that is timed
 };
 
-CvtOptions fixed_iterations(const Density& density, int iterations) {
-  CvtOptions options;
-  options.density = density;
-  options.method = Method::lloyd;
-  options.norm = Norm::none;
-  options.max_iterations = iterations;
-  options.rule = options.final_rule = rule;
-  return options;
+/// Lloyd's iterations, with the usual rule.
+Recipe fixed_iterations(const Density& density, const Points3& start, int iterations) {
+  return {.resolution = density,
+          .start = {.points = start},
+          .stop = {.iterations = iterations},
+          .method = Method::lloyd};
 }
 
 const Points3& start_of(Workload& work, const Options& options) {
@@ -89,14 +86,14 @@ Sample run_library(Workload& work, const Options& options, int threads) {
   const Points3& start = start_of(work, options);
   const Stopwatch watch;
   std::vector<double> cpu;
-  const CvtCallback note_cpu = [&](const CvtProgress&) {
+  const auto note_cpu = [&](const Progress&) {
     cpu.push_back(watch.stop().cpu_seconds);
-    return false;
+    return Next::proceed;
   };
   Cvt result;
   on_threads(threads, [&] {
-    result =
-        cvt(start, Surface::sphere(), fixed_iterations(work.density, library_iterations), note_cpu);
+    result = make_grid(fixed_iterations(work.density, start, library_iterations),
+                       {.progress = note_cpu});
   });
   if (std::ssize(result.report.iterations) != library_iterations)
     throw std::runtime_error("the run ended after " +
@@ -170,10 +167,11 @@ void check(const Points3& found, const Points3& expected) {
 /// points, with all arrays allocated and touched before.
 Sample run_serial(Workload& work, const Options& options) {
   if (work.before.cols() == 0) {
-    work.before =
-        cvt(start_of(work, options), Surface::sphere(), fixed_iterations(work.density, warm_up))
-            .mesh.points;
-    work.after = cvt(work.before, Surface::sphere(), fixed_iterations(work.density, 1)).mesh.points;
+    const auto after = [&](const Points3& points, int iterations) {
+      return make_grid(fixed_iterations(work.density, points, iterations)).mesh.points;
+    };
+    work.before = after(start_of(work, options), warm_up);
+    work.after = after(work.before, 1);
   }
   const integrals_detail::Integrand integrand =
       integrals_detail::make_integrand(work.density, rule, 1);

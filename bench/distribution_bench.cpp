@@ -6,15 +6,14 @@
 
 #include "clouds.h"
 #include "program.h"
-#include "support/starts.h"
 
 #include "cvt/functional.h"
 #include "delaunay/centres.h"
 #include "delaunay/divide.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <algorithm>
 #include <memory>
@@ -52,30 +51,28 @@ std::string name_of(const Cut& cut) {
 /// Cells of a nearly converged CVT: a coarse one, bisected.
 Points3 generators(const Density& density, std::int64_t n) {
   const std::int64_t coarse = std::min<std::int64_t>(n, 10242);
-  const test::FirstGenerators from = test::continuation(coarse, density);
-  CvtOptions options;
-  options.density = density;
-  options.bisections = from.bisections;
-  options.tolerance = 1e-3;
-  options.max_iterations = 300;
-  Points3 points = cvt(from.start, Surface::sphere(), options).mesh.points;
+  Points3 points = make_grid({.cells = coarse,
+                              .resolution = density,
+                              .start = {.kind = Start::Kind::continuation},
+                              .stop = {.tolerance = 1e-3, .max_iterations = 300}})
+                       .mesh.points;
   while (points.cols() < n)
     points = bisect(delaunay(points));
-  options.bisections = 0;
-  options.norm = Norm::none;
-  options.method = Method::lloyd;
-  options.max_iterations = 3;
-  return cvt(points, Surface::sphere(), options).mesh.points;
+  return make_grid({.resolution = density,
+                    .start = {.points = std::move(points)},
+                    .stop = {.iterations = 3},
+                    .method = Method::lloyd})
+      .mesh.points;
 }
 
 /// Centres of the paper's decompositions: bisected icosahedra, and a coarse CVT of the x8 density.
 Points3 centres_of(const std::string& decomposition, int regions) {
   if (decomposition == "uniform")
     return bisected_icosahedron(bisection_level(regions));
-  CvtOptions options;
-  options.density = named_density("x8");
-  options.tolerance = 1e-3;
-  return cvt(random_sphere(regions, site_density(options.density)), Surface::sphere(), options)
+  return make_grid({.cells = regions,
+                    .resolution = named_density("x8"),
+                    .start = {.kind = Start::Kind::density},
+                    .stop = {.tolerance = 1e-3}})
       .mesh.points;
 }
 
@@ -120,11 +117,8 @@ Sample sample_of(const std::vector<double>& seconds,
 
 /// Iterations of Lloyd's method.
 Sample run_iterations(Points3 points, const Density& density, const Partition& partition) {
-  CvtOptions options;
-  options.density = density;
-  options.partition = partition;
   const std::unique_ptr<cvt_detail::RunFunctional> functional =
-      cvt_detail::make_functional(points, Surface::sphere(), options);
+      cvt_detail::make_functional(points, Surface::sphere(), density, {.partition = partition});
   cvt_detail::Evaluation evaluation;
   std::vector<CvtRegion> regions = functional->regions();
   std::vector<double> seconds;

@@ -3,11 +3,10 @@
 // generators from their centroids of 1e-6 on the unit sphere.
 
 #include "clouds.h"
-#include "cvt/cvt.h"
 #include "program.h"
 
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <map>
 
@@ -50,20 +49,14 @@ Sample sample_of(const CvtReport& report, std::int64_t n, int threads) {
 }
 
 Sample run(std::int64_t n, const std::string& method, bool bisected, const Options& options) {
-  CvtOptions cvt_options;
-  cvt_options.method = method == "lloyd" ? Method::lloyd : Method::automatic;
-  cvt_options.norm = Norm::l2;
-  cvt_options.tolerance = 1e-6;
-  cvt_options.max_iterations = max_evaluations;
-  Points3 start;
-  if (bisected) {
-    start = bisected_icosahedron(1);
-    cvt_options.bisections = bisection_level(n) - 1;
-  } else {
-    start = random_sphere(n, site_density(cvt_options.density));
-  }
+  Recipe recipe{.stop = {.norm = Norm::l2, .tolerance = 1e-6, .max_iterations = max_evaluations},
+                .method = method == "lloyd" ? Method::lloyd : Method::automatic};
+  if (bisected)
+    recipe.start = {.points = bisected_icosahedron(1), .bisections = bisection_level(n) - 1};
+  else
+    recipe.start = {.points = random_sphere(n, site_density(Density()))};
   CvtReport report;
-  on_threads(options.threads, [&] { report = cvt(start, Surface::sphere(), cvt_options).report; });
+  on_threads(options.threads, [&] { report = make_grid(recipe).report; });
   return sample_of(report, n, options.threads);
 }
 

@@ -27,28 +27,6 @@
 namespace calotte {
 namespace cvt_detail {
 
-void require_options(const CvtOptions& options) {
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorCode::invalid_argument, what);
-  };
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance))
-    refuse("the tolerance is " + std::to_string(options.tolerance) +
-           "; give a positive number such as 1e-6");
-  if (options.max_iterations < 0)
-    refuse("the number of iterations is " + std::to_string(options.max_iterations) +
-           "; give 0 or more");
-  if (options.bisections < 0)
-    refuse("the number of bisections is " + std::to_string(options.bisections) +
-           "; give 0 or more");
-  if (options.insertion_rounds < 0 || options.cells < 0)
-    refuse("insertion_rounds or cells is negative; give 0 or more");
-  if ((options.insertion_rounds > 0) != (options.cells > 0))
-    refuse("insertion needs both insertion_rounds and cells; give both or neither");
-  if (!(options.least_spacing >= 0 && options.least_spacing <= 0.95))
-    refuse("least_spacing is " + std::to_string(options.least_spacing) +
-           "; give a share of the demanded spacing, 0 to 0.95");
-}
-
 namespace {
 
 bool is_in_actions(const State& state) {
@@ -86,9 +64,10 @@ void require_state(const State& state) {
 }
 
 /// Updates the state with the evaluation at its points: the norm, convergence and the rule.
-void conclude(State& state, const CvtOptions& options, const CvtIteration& iteration) {
+void conclude(State& state, const DescentOptions& options, const CvtIteration& iteration) {
   CvtReport& report = state.report;
-  const bool by_final_rule = options.density.uniform() || rule_of(iteration) == options.final_rule;
+  const int rule = rule_of(iteration);
+  const bool by_final_rule = rule == 0 || rule == options.quadrature.final_rule;
   report.residual = norm_of(iteration, options.norm);
   if (state.in_polish()) {
     const bool raised = state.action().kind == CvtAction::Kind::raise;
@@ -100,13 +79,13 @@ void conclude(State& state, const CvtOptions& options, const CvtIteration& itera
     // unless it creeps.
     const bool crept = creeps(state, options);
     report.converged = (by_final_rule && report.residual <= options.tolerance) || crept;
-    const double margin = options.rule == rule_at_sites ? 1 : 10;
+    const double margin = options.quadrature.rule == rule_at_sites ? 1 : 10;
     state.memory.final_rule =
         state.memory.final_rule || report.residual <= margin * options.tolerance;
   }
 }
 
-bool level_ended(const State& state, const CvtOptions& options) {
+bool level_ended(const State& state, const DescentOptions& options) {
   return state.report.converged || state.memory.iterations >= options.max_iterations ||
          state.memory.stuck || has_stalled(state);
 }
@@ -126,7 +105,7 @@ void end_descent(State& state, Descent& descent) {
 }
 
 /// Moves dislocations, and polishes shapes, where they are.
-void work_locally(State& state, const CvtOptions& options, RunFunctional& functional,
+void work_locally(State& state, const DescentOptions& options, RunFunctional& functional,
                   Descent& descent) {
   while (may_glide(state)) {
     if (functional.glide(state.points, limits_of_glide(state)) > 0)
@@ -148,10 +127,18 @@ struct Ending {
   std::optional<Connectivity> mesh; ///< of the state's points; none if they must be triangulated
 };
 
-/// The descent of one level.
-Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const CvtOptions& options,
-               const CvtCallback& callback) {
+/// What the descents of a run read.
+struct Run {
+  const Schedule& schedule;
+  const Execution& execution;
+  Density density; ///< as the functional takes it
+};
+
+/// The descent of the action at the cursor.
+Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback& callback) {
   State& state = State::of(whole);
+  const Recipe& recipe = run.schedule.recipe;
+  const DescentOptions options = descent_of(state, recipe, run.density, run.execution.quadrature);
   if (!state.in_polish() && options.norm != Norm::none) // the tolerance may be another now
     state.report.converged = state.report.converged &&
                              (state.report.residual <= options.tolerance || creeps(state, options));
@@ -161,13 +148,14 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
   }
   const double before = state.report.seconds;
   const Clock::time_point start = Clock::now();
-  const std::unique_ptr<RunFunctional> functional =
-      make_functional(state.points, surface, options, std::move(level));
+  const std::unique_ptr<RunFunctional> functional = make_functional(
+      state.points, recipe.surface, run.density, {run.execution.partition, options.quadrature},
+      recipe.boundary, std::move(level));
   ShapeLimits limits = shape_limits;
-  limits.least_spacing = options.least_spacing;
+  limits.least_spacing = recipe.stop.least_spacing;
   functional->penalise({state.polish.penalty, state.polish.demanded_spacing, limits});
   functional->hold(fixed_generators(state));
-  Descent descent(state, options, *functional);
+  Descent descent(state, options, run.density, *functional);
   const bool resumed = state.memory.iterations > 0;
   descent.begin();
   if (resumed)
@@ -189,117 +177,58 @@ Ending iterate(const Surface& surface, CvtState& whole, Level&& level, const Cvt
   }
 }
 
-/// Throws, before any work, if a run leads to fewer or more generators than a mesh can hold.
-/// \param n the number of generators that it begins with, \param fixed of them.
-void require_room(const Surface& surface, std::int64_t n, std::int64_t fixed,
-                  const CvtOptions& options) {
-  const bool inserts = options.insertion_rounds > 0;
-  if (inserts && (options.cells < fewest_generators(surface) || options.cells > most_points))
-    throw Error(ErrorCode::invalid_argument, "cells is " + std::to_string(options.cells) +
-                                                 "; give at least " +
-                                                 std::to_string(fewest_generators(surface)) +
-                                                 " and at most " + std::to_string(most_points));
-  if (inserts && options.cells < fixed)
-    throw Error(ErrorCode::invalid_argument,
-                "fixed generator " + std::to_string(options.cells) + " is beyond the " +
-                    std::to_string(options.cells) +
-                    " cells of the result; give more cells or fewer fixed generators",
-                options.cells);
-  const auto bisections = options.actions.empty()
-                              ? options.bisections
-                              : static_cast<int>(std::ranges::count(
-                                    options.actions, CvtAction::Kind::bisect, &CvtAction::kind));
-  int most = 0;
-  for (std::int64_t cells = bisected(surface, n); cells <= most_points;
-       cells = bisected(surface, cells))
-    ++most;
-  if (bisections > most)
-    throw Error(ErrorCode::invalid_argument,
-                std::to_string(bisections) + " bisections of " + std::to_string(n) +
-                    " generators are too many; give at most " + std::to_string(most));
-  const std::int64_t cells =
-      bisected(surface, std::max(n, inserts ? options.cells : 0), bisections);
-  if (options.method == Method::lbfgs_laplacian && cells > most_laplacian_rows)
-    throw Error(ErrorCode::invalid_argument, std::to_string(cells) +
-                                                 " generators are too many for the method "
-                                                 "lbfgs_laplacian, which takes at most " +
-                                                 std::to_string(most_laplacian_rows) +
-                                                 "; give the method lbfgs or lloyd");
-}
-
-std::vector<CvtAction> actions_for(const Surface& surface, std::int64_t first, std::int64_t fixed,
-                                   const CvtOptions& options) {
-  require_room(surface, first, fixed, options);
-  return options.actions.empty() ? actions_of(surface, first, options) : options.actions;
-}
-
 /// The actions of a state's run, whose ends may be others now.
 /// \throws Error invalid_argument for those of another run.
-void renew_actions(const Surface& surface, const CvtOptions& options, State& state) {
-  std::vector<CvtAction>& theirs = state.report.actions;
-  std::vector<CvtAction> ours = actions_for(surface, theirs.front().cells, state.fixed, options);
-  const bool counts = options.insertion_rounds > 0;
+void renew_actions(const Schedule& schedule, State& state) {
+  const bool counts =
+      std::ranges::count(schedule.actions, CvtAction::Kind::insert, &CvtAction::kind) > 0;
   const auto same = [&](const CvtAction& a, const CvtAction& b) {
     return a.kind == b.kind && a.times == b.times && (!counts || a.cells == b.cells);
   };
-  require(std::ranges::equal(theirs, ours, same),
+  require(std::ranges::equal(state.report.actions, schedule.actions, same),
           "the state is of a run with other actions; give the recipe that it was made with, or no "
           "state");
-  theirs = std::move(ours);
+  state.report.actions = schedule.actions;
 }
 
-/// Throws, before any work, for a surface or options that a run refuses.
-/// \returns the options with the density in the form that the functional takes.
-CvtOptions options_of_run(const Surface& surface, const CvtOptions& options) {
-  require_options(options);
+/// Throws, before any work, for a surface or a density that a run refuses.
+Run run_of(const Schedule& schedule, const Execution& execution) {
+  const Surface& surface = schedule.recipe.surface;
   if (!surface.is_sphere())
     require_finite_plane(surface);
-  CvtOptions of_run = options;
-  of_run.density = checked_surface_density(options.density, surface);
-  return of_run;
+  return {schedule, execution, checked_surface_density(schedule.density, surface)};
 }
 
-/// \param options as options_of_run() gives them, here and below.
-Cvt run(const Surface& surface, CvtState whole, Level&& level, const CvtOptions& options,
-        const CvtCallback& callback) {
+Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& callback) {
   State& state = State::of(whole);
-  require_points(state, surface);
+  const Recipe& recipe = run.schedule.recipe;
+  require_points(state, recipe.surface);
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
-  const auto descend = [&](Level&& start) {
-    return iterate(surface, whole, std::move(start), options_of_descent(state, surface, options),
-                   callback);
-  };
-  Ending ending = descend(std::move(level));
+  Ending ending = iterate(run, whole, std::move(level), callback);
   std::optional<Cursor> next = next_of(state);
   for (; !ending.stopped && next; next = next_of(state)) {
     add_done(state);
-    ending = descend(begin_action(state, *next, surface, options, std::move(ending.mesh)));
+    Level begun = begin_action(state, *next, recipe.surface, run.density, std::move(ending.mesh));
+    ending = iterate(run, whole, std::move(begun), callback);
   }
   add_done(state);
   state.memory = {};
   Cvt result;
-  result.mesh = inner_mesh(mesh_of_run(state, surface, std::move(ending.mesh)), options.boundary);
+  result.mesh =
+      inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)), recipe.boundary);
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
   result.report = std::move(state.report);
+  CvtReport& report = result.report;
   if (!next) // the others were left out
-    result.report.done.resize(result.report.actions.size());
-  result.report.well_centred = !next && state.in_polish() && result.report.converged;
-  result.report.converged =
-      !next && (options.well_centred ? state.polish.descended : result.report.converged);
-  result.report.seconds = before + lap(mark);
+    report.done.resize(report.actions.size());
+  const bool polishes =
+      std::ranges::count(report.actions, CvtAction::Kind::polish, &CvtAction::kind) > 0;
+  report.well_centred = !next && state.in_polish() && report.converged;
+  report.converged = !next && (polishes ? state.polish.descended : report.converged);
+  report.seconds = before + lap(mark);
   return result;
-}
-
-Cvt run(const Surface& surface, Begun&& begun, const CvtOptions& options,
-        const CvtCallback& callback) {
-  const State& state = begun.state;
-  CvtReport& report = begun.state.report;
-  report.actions = actions_for(surface, state.points.cols(), state.fixed, options);
-  report.done = {{.times = 1}};
-  return run(surface, State::wrapped(std::move(begun.state)), std::move(begun.level), options,
-             callback);
 }
 
 } // namespace
@@ -320,28 +249,23 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
   }
 }
 
-Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options,
-        const CvtCallback& callback) {
-  const CvtOptions of_run = cvt_detail::options_of_run(surface, options);
-  return cvt_detail::run(surface, cvt_detail::begin(start, surface, of_run), of_run, callback);
-}
-
-template <>
-Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
-        const CvtCallback& callback) {
-  if (!surface.is_whole_sphere())
-    return cvt(PointsRef(start), surface, options, callback);
-  const CvtOptions of_run = cvt_detail::options_of_run(surface, options);
-  return cvt_detail::run(surface, cvt_detail::begin(std::move(start), of_run), of_run, callback);
-}
-
-Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
+Cvt cvt(Points3 start, const Schedule& schedule, const Execution& execution,
         const CvtCallback& callback) {
   using namespace cvt_detail;
-  const CvtOptions of_run = options_of_run(surface, options);
+  const auto run = run_of(schedule, execution);
+  Begun begun = begin(std::move(start), schedule.recipe);
+  begun.state.report.actions = schedule.actions;
+  begun.state.report.done = {{.times = 1}};
+  return executed(run, State::wrapped(std::move(begun.state)), std::move(begun.level), callback);
+}
+
+Cvt cvt(CvtState state, const Schedule& schedule, const Execution& execution,
+        const CvtCallback& callback) {
+  using namespace cvt_detail;
+  const auto run = run_of(schedule, execution);
   require_state(State::of(state));
-  renew_actions(surface, of_run, State::of(state));
-  return run(surface, std::move(state), {}, of_run, callback);
+  renew_actions(schedule, State::of(state));
+  return executed(run, std::move(state), {}, callback);
 }
 
 } // namespace calotte

@@ -5,28 +5,23 @@
 #include "cvt/room.h"
 
 #include <calotte/cvt.h>
-#include <calotte/delaunay.h>
-#include <calotte/density.h>
-#include <calotte/surface.h>
 
-#include <concepts>
-#include <cstdint>
 #include <functional>
 
-/// Runs of descents from given generators; make_grid() calls them.
+/// The run of a schedule from given generators; make_grid() calls it.
 namespace calotte {
 
 /// Called after each accepted iteration; true ends the run there.
 using CvtCallback = std::function<bool(const CvtProgress&)>;
 
-/// Computes a centroidal Voronoi tessellation of a surface. It moves the generators until they are,
-/// up to the tolerance, the constrained centroids M/|M| of their cells, with M the integral of rho
-/// x (Jacobsen et al., 2013, Sect. 3.3), or the centroids in the plane, and then moves them to
-/// these centroids. It minimises the energy E, the sum over cells of the integral of rho |x -
-/// x_i|^2. Each region's task integrates over the cells that the region owns.
+/// Executes the actions of a schedule. Its descents move the generators until they are, up to the
+/// tolerance, the constrained centroids M/|M| of their cells, with M the integral of rho x
+/// (Jacobsen et al., 2013, Sect. 3.3), or the centroids in the plane, and then move them to these
+/// centroids. They minimise the energy E, the sum over cells of the integral of rho |x - x_i|^2.
+/// Each region's task integrates over the cells that the region owns.
 ///
 /// The same start gives the same bits for any number of threads and regions. A run that does not
-/// converge within max_iterations is no error; the report says so. Lengths in the report are in
+/// converge within its iterations is no error; the report says so. Lengths in the report are in
 /// radians, or in the plane's unit.
 ///
 /// The boundary of a bounded surface clips the cells. Generators stay inside: where the centroid of
@@ -38,36 +33,23 @@ using CvtCallback = std::function<bool(const CvtProgress&)>;
 /// in no triangle. With Boundary::generators the mesh ends at the generators on the boundary. A
 /// bisection then adds no midpoint between two of them along the boundary.
 ///
-/// \param start 3 x n directions of any norm, 12 distinct at least, not within a hemisphere; 4 in a
-///        part of the sphere. In the plane as triangulate() takes them, not on one line. All inside
-///        the surface; by default equal ones merge.
-/// \param surface the sphere or a part of it, a bounded plane, or a periodic box.
-/// \param callback called after each accepted iteration, see CvtCallback; default none.
+/// \param start the fixed generators of the recipe, then the free ones: 3 x n directions of any
+///        norm, 12 distinct at least, not within a hemisphere; 4 in a part of the sphere. In the
+///        plane as triangulate() takes them, not on one line. All inside the surface; by default
+///        equal ones merge.
+/// \param schedule as plan() gives it.
 /// \return the mesh in the order of the start; after bisections, the midpoints follow.
-///
 /// \throws Error as triangulate() and Surface::within(); too_few_sites for fewer generators on the
 ///         sphere, or when they leave a hemisphere empty or meet; degenerate for fewer in the
-///         plane; invalid_argument for an option out of range, with the index of a generator
-///         outside the surface, or for a density that is ill-formed, negative or NaN somewhere, or
-///         zero over a whole cell.
-Cvt cvt(const PointsRef& start, const Surface& surface, const CvtOptions& options = {},
+///         plane; invalid_argument with the index of a generator outside the surface, or for a
+///         density that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
+Cvt cvt(Points3 start, const Schedule& schedule, const Execution& execution = {},
         const CvtCallback& callback = {});
 
-/// The same for a start handed over: an rvalue Points3, which is not kept beside the run's own
-/// points.
-template <std::same_as<Points3> Points>
-Cvt cvt(Points&& start, const Surface& surface, const CvtOptions& options = {},
-        const CvtCallback& callback = {});
-/// Its one specialisation.
-template <>
-Cvt cvt(Points3&& start, const Surface& surface, const CvtOptions& options,
-        const CvtCallback& callback);
-
-/// Continues from a state of a run on the same surface, whose actions the options give again; the
-/// ends of their descents may be others. With the same options the result has the bits of an
-/// uninterrupted run. CvtOptions::duplicates, merge_within and fixed have no effect.
+/// Continues from a state of a run of the same actions; the ends of their descents may be others.
+/// With the same schedule the result has the bits of an uninterrupted run.
 /// \throws Error as above; invalid_argument for an incomplete state, and for other actions.
-Cvt cvt(CvtState state, const Surface& surface, const CvtOptions& options,
+Cvt cvt(CvtState state, const Schedule& schedule, const Execution& execution = {},
         const CvtCallback& callback = {});
 
 } // namespace calotte

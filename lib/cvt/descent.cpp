@@ -39,8 +39,10 @@ double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteratio
 
 } // namespace
 
-Descent::Descent(State& state, const CvtOptions& options, Functional& functional)
-    : state_(state), options_(options), functional_(functional), density_(options.density) {}
+Descent::Descent(State& state, const DescentOptions& options, const Density& density,
+                 Functional& functional)
+    : state_(state), options_(options), functional_(functional), density_(density),
+      uniform_(density.uniform()) {}
 
 /// Far from an optimum edges flip in every step, and no Laplacian stays valid.
 Method Descent::method() const {
@@ -69,7 +71,8 @@ void Descent::begin() {
     evaluate(state_.points, here_);
     return;
   }
-  const bool final_rule = rule_of(state_.report.iterations.back()) == options_.final_rule;
+  const bool final_rule =
+      rule_of(state_.report.iterations.back()) == options_.quadrature.final_rule;
   functional_.evaluate(state_.points, final_rule, uses_gradients(), here_);
   const Memory& memory = state_.memory;
   for (std::size_t k = 0; k < memory.steps.size(); ++k)
@@ -82,8 +85,8 @@ void Descent::begin() {
 }
 
 void Descent::step() {
-  const bool other_rule = !options_.density.uniform() && state_.memory.final_rule &&
-                          rule_of(here_.iteration) != options_.final_rule;
+  const bool other_rule = !uniform_ && state_.memory.final_rule &&
+                          rule_of(here_.iteration) != options_.quadrature.final_rule;
   if (options_.method == Method::lloyd)
     lloyd_step();
   else if (other_rule) // another functional, whose energies do not compare
@@ -255,8 +258,8 @@ bool Descent::search(const Line& line) {
     const double rise = there_.value() / here_.value() - 1;
     const bool lower =
         rise <= rounding && (slope_there <= -0.9 * slope || trial + 1 == most_trials);
-    const bool below_rule = !options_.density.uniform() && std::abs(rise) <= rule_error &&
-                            std::abs(slope_there) <= -0.5 * slope;
+    const bool below_rule =
+        !uniform_ && std::abs(rise) <= rule_error && std::abs(slope_there) <= -0.5 * slope;
     if (lower || below_rule) {
       memory.stride = std::min(1.0, trial == 0 ? growth * memory.stride : step);
       return true;
@@ -332,7 +335,8 @@ void Descent::quasi_newton_step() {
     const bool rose = there_.iteration.energy > (1 + rule_error) * here_.iteration.energy;
     if (here_.iteration.linear_density && rose) {
       state_.report.iterations.back().accepted = false;
-      state_.memory.stuck = options_.final_rule == rule_at_sites || options_.norm == Norm::none;
+      state_.memory.stuck =
+          options_.quadrature.final_rule == rule_at_sites || options_.norm == Norm::none;
       return;
     }
   }

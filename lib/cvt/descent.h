@@ -15,12 +15,14 @@
 
 namespace calotte::cvt_detail {
 
-/// The methods of CvtOptions over the functional. Each step goes from evaluated generators to
+/// The methods over the functional. Each step goes from evaluated generators to
 /// others whose energy is not higher, except for rounding. The state's report records every
 /// evaluation, and the state holds the memory of the method.
 class Descent {
 public:
-  Descent(State& state, const CvtOptions& options, Functional& functional);
+  /// \param density as surface_density() gives it.
+  Descent(State& state, const DescentOptions& options, const Density& density,
+          Functional& functional);
 
   /// Evaluates the state's points. The report records it unless the state has been evaluated there
   /// before.
@@ -62,9 +64,10 @@ private:
   bool search(const Line& line);
 
   State& state_;
-  const CvtOptions& options_;
+  const DescentOptions& options_;
   Functional& functional_;
   DensityEvaluator density_;
+  bool uniform_;                              ///< the density
   Evaluation here_, there_;                   ///< at the state's points, and at a trial's
   Points3 trial_, direction_;                 ///< kept for their memory
   std::vector<std::vector<double>> products_; ///< of each change with the steps before it

@@ -180,13 +180,15 @@ void count_off_centroid(const Array<SiteTerms>& terms, const DoubleVector& inver
 
 template <Space S> class FunctionalOver final : public RunFunctional {
 public:
-  FunctionalOver(Cells<S> cells, const Points3& points, const CvtOptions& options, Level&& level)
-      : tessellation_(std::move(cells), points, options.partition, std::move(level)),
-        density_(options.density),
-        coarse_(make_integrand(options.density, options.rule, options.divisions)),
-        fine_(make_integrand(options.density, options.final_rule, options.divisions)),
-        rule_(options.density.uniform() ? 0 : options.rule),
-        final_rule_(options.density.uniform() ? 0 : options.final_rule) {}
+  FunctionalOver(Cells<S> cells, const Points3& points, const Density& density,
+                 const Execution& execution, Level&& level)
+      : tessellation_(std::move(cells), points, execution.partition, std::move(level)),
+        density_(density),
+        coarse_(make_integrand(density, execution.quadrature.rule, execution.quadrature.divisions)),
+        fine_(make_integrand(density, execution.quadrature.final_rule,
+                             execution.quadrature.divisions)),
+        rule_(density.uniform() ? 0 : execution.quadrature.rule),
+        final_rule_(density.uniform() ? 0 : execution.quadrature.final_rule) {}
 
   void evaluate(const Points3& points, bool final_rule, bool with_gradient,
                 Evaluation& out) override;
@@ -361,11 +363,11 @@ template <Space S> std::optional<Connectivity> FunctionalOver<S>::take_mesh(cons
 } // namespace
 
 std::unique_ptr<RunFunctional> make_functional(const Points3& points, const Surface& surface,
-                                               const CvtOptions& options, Level&& level) {
+                                               const Density& density, const Execution& execution,
+                                               Boundary boundary, Level&& level) {
   return in_space_of(surface, [&]<class S>(const S&) -> std::unique_ptr<RunFunctional> {
-    return std::make_unique<FunctionalOver<S>>(
-        Cells<S>(surface, options.boundary, options.density, points), points, options,
-        std::move(level));
+    return std::make_unique<FunctionalOver<S>>(Cells<S>(surface, boundary, density, points), points,
+                                               density, execution, std::move(level));
   });
 }
 

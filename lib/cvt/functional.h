@@ -20,7 +20,7 @@
 
 namespace calotte::cvt_detail {
 
-/// The rule of an evaluation, as CvtOptions have it.
+/// The rule of an evaluation, as Quadrature has it.
 inline int rule_of(const CvtIteration& iteration) {
   return iteration.linear_density ? integrals_detail::rule_at_sites : iteration.rule;
 }
@@ -93,9 +93,11 @@ public:
 };
 
 /// The functional of a surface, see Cells.
-/// \pre the density of the options is that of surface_density().
+/// \param density as surface_density() gives it.
 /// \throws Error as Tessellation.
 std::unique_ptr<RunFunctional> make_functional(const Points3& points, const Surface& surface,
-                                               const CvtOptions& options, Level&& level = {});
+                                               const Density& density, const Execution& execution,
+                                               Boundary boundary = Boundary::clip,
+                                               Level&& level = {});
 
 } // namespace calotte::cvt_detail

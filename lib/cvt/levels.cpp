@@ -60,10 +60,10 @@ template <class At> bool have_equal(std::int64_t n, const At& at) {
 
 /// The sites of a start, distinct as unit columns: directions that differ by less than rounding are
 /// duplicates, too. \throws Error as make_sites().
-Sites distinct_units(Sites&& sites, const CvtOptions& options) {
+Sites distinct_units(Sites&& sites, const Recipe& recipe) {
   const auto unit = [&](std::int64_t rank) {
     const std::int32_t id = sites.id[rank];
-    return id < options.fixed ? as_unit(sites.given(id)) : sites.unit[rank];
+    return id < recipe.fixed.cols() ? as_unit(sites.given(id)) : sites.unit[rank];
   };
   if (!have_equal(sites.size(), unit))
     return std::move(sites);
@@ -71,7 +71,7 @@ Sites distinct_units(Sites&& sites, const CvtOptions& options) {
   for (std::int64_t r = 0; r < sites.size(); ++r)
     set_column(units, sites.id[r], unit(r));
   std::vector<std::int32_t> before = std::move(sites.site_of_input);
-  Sites merged = make_sites(std::move(units), options.duplicates, options.merge_within);
+  Sites merged = make_sites(std::move(units), recipe.duplicates, recipe.merge_within);
   for (std::int32_t& site : before)
     site = merged.site_of_input[static_cast<std::size_t>(site)];
   merged.site_of_input = std::move(before);
@@ -85,10 +85,6 @@ Sites distinct_units(Sites&& sites, const CvtOptions& options) {
 /// See begin().
 void require_fixed(const Sites& sites, std::int64_t fixed) {
   const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
-  if (fixed < 0 || fixed > std::ssize(site_of_input))
-    throw Error(ErrorCode::invalid_argument, "fixed is " + std::to_string(fixed) + "; give 0 to " +
-                                                 std::to_string(site_of_input.size()) +
-                                                 ", the number of generators of the start");
   for (std::int64_t i = 0; i < fixed; ++i)
     if (const std::int32_t site = site_of_input[static_cast<std::size_t>(i)]; site != i)
       throw Error(ErrorCode::duplicate,
@@ -135,10 +131,10 @@ void set_points(State& state, const Sites& sites) {
   });
 }
 
-State state_of(Sites& sites, const CvtOptions& options) {
-  require_fixed(sites, options.fixed);
+State state_of(Sites& sites, const Recipe& recipe) {
+  require_fixed(sites, recipe.fixed.cols());
   State state;
-  state.fixed = options.fixed;
+  state.fixed = recipe.fixed.cols();
   set_points(state, sites);
   state.site_of_input = std::move(sites.site_of_input);
   return state;
@@ -165,9 +161,9 @@ Connectivity bisected_mesh(const Triangles& triangles, const Triangles& neighbou
 }
 
 /// A run on the whole sphere, whose sort of the sites serves the first level.
-Begun begun_at(Sites&& sites, const CvtOptions& options) {
+Begun begun_at(Sites&& sites, const Recipe& recipe) {
   require_enough(sites, Surface::sphere());
-  State state = state_of(sites, options);
+  State state = state_of(sites, recipe);
   sites.points = state.points;
   return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
@@ -242,34 +238,26 @@ std::int64_t halved(const Surface& surface, std::int64_t n) {
   return surface.is_whole_sphere() ? (n + 8) / 4 : (n + 2) / 4;
 }
 
-Begun begin(const PointsRef& start, const Surface& surface, const CvtOptions& options) {
-  if (surface.is_whole_sphere())
-    return begun_at(
-        distinct_units(make_sites(base_detail::directions_of(start, "a surface of the plane"),
-                                  options.duplicates, options.merge_within),
-                       options),
-        options);
-  Sites sites;
-  if (surface.is_sphere()) {
-    sites = distinct_units(make_sites(base_detail::directions_of(start, "a surface of the plane"),
-                                      options.duplicates, options.merge_within),
-                           options);
-    require_inside(start, surface, options.fixed);
-    require_enough(sites, surface);
-  } else {
+Begun begin(Points3&& start, const Recipe& recipe) {
+  const Surface& surface = recipe.surface;
+  if (!surface.is_sphere()) {
     const Points2Ref points = base_detail::plane_points_of(start);
     require_inside(base_detail::with_z(points), surface);
-    sites = make_planar_sites(points, options.duplicates, options.merge_within);
+    Sites sites = make_planar_sites(points, recipe.duplicates, recipe.merge_within);
     require_triangle(sites);
+    return {state_of(sites, recipe), {}};
   }
-  return {state_of(sites, options), {}};
-}
-
-Begun begin(Points3&& start, const CvtOptions& options) {
-  return begun_at(
-      distinct_units(make_sites(std::move(start), options.duplicates, options.merge_within),
-                     options),
-      options);
+  const auto sites_of_start = [&](auto&& points) {
+    return distinct_units(
+        make_sites(std::forward<decltype(points)>(points), recipe.duplicates, recipe.merge_within),
+        recipe);
+  };
+  if (!surface.is_bounded())
+    return begun_at(sites_of_start(std::move(start)), recipe);
+  Sites sites = sites_of_start(start);
+  require_inside(start, surface, recipe.fixed.cols());
+  require_enough(sites, surface);
+  return {state_of(sites, recipe), {}};
 }
 
 void refuse_state() {

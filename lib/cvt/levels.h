@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cvt/insertion.h"
-#include "cvt/options.h"
 #include "cvt/room.h"
 #include "cvt/state.h"
 #include "cvt/tessellation.h"
@@ -33,13 +32,11 @@ struct Begun {
   Level level;
 };
 
+/// \param start the fixed generators of the recipe, then the free ones.
 /// \throws Error as make_sites(); too_few_sites; degenerate for points of the plane on one line;
-///         invalid_argument with the index of the first point outside the surface, or for a number
-///         of fixed generators out of range; duplicate, with the index of a fixed generator that
-///         merges with an earlier one.
-Begun begin(const PointsRef& start, const Surface& surface, const CvtOptions& options);
-/// The same for directions handed over. \pre the whole sphere.
-Begun begin(Points3&& start, const CvtOptions& options);
+///         invalid_argument with the index of the first point outside the surface; duplicate, with
+///         the index of a fixed generator that merges with an earlier one.
+Begun begin(Points3&& start, const Recipe& recipe);
 
 /// \throws Error invalid_argument: the state is not one that a run has left.
 [[noreturn]] void refuse_state();

@@ -70,31 +70,12 @@ bool is_due(const State& state, const Cursor& cursor) {
          last_accepted(state).shape_excess < reachable_excess;
 }
 
-bool inserts(const State& state) {
-  return std::ranges::any_of(state.report.actions,
-                             [](const CvtAction& action) { return action.kind == Kind::insert; });
+bool has(const State& state, Kind kind) {
+  return std::ranges::find(state.report.actions, kind, &CvtAction::kind) !=
+         state.report.actions.end();
 }
 
-int rounds_of_level(int bisections_left, const CvtOptions& options) {
-  return std::min(options.insertion_rounds * (bisections_left + 1),
-                  std::max(options.insertion_rounds, course::most_rounds));
-}
-
-/// The number of generators at the end of a level of a run with insertion.
-std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bisections_left) {
-  for (int k = 0; k < bisections_left; ++k)
-    cells = halved(surface, cells);
-  return cells;
-}
-
-/// The end of all descents of a run with insertion but the last.
-void set_early(CvtAction& action) {
-  action.tolerance = action.norm == Norm::l2_scaled
-                         ? std::max(course::early_tolerance, action.tolerance)
-                         : course::early_tolerance;
-  action.norm = Norm::l2_scaled;
-  action.max_iterations = std::min(action.max_iterations, course::early_iterations);
-}
+bool inserts(const State& state) { return has(state, Kind::insert); }
 
 /// One time more of the action at the cursor.
 void count_action(State& state) {
@@ -108,19 +89,19 @@ void begin_descent(State& state) {
   state.report.converged = false;
 }
 
-Level begin_level(State& state, const CvtOptions& options, const Mesh& mesh) {
+Level begin_level(State& state, const Density& density, const Mesh& mesh) {
   const std::int64_t cells =
       inserts(state) ? state.action().cells : bisected(mesh.surface, mesh.points.cols());
-  return set_bisected(state, mesh, options.density, cells);
+  return set_bisected(state, mesh, density, cells);
 }
 
 /// The descent of the last round of a run's last level is that of Kind::converge.
-Level begin_round(State& state, const CvtOptions& options, const Mesh& mesh, int count) {
+Level begin_round(State& state, const Density& density, const Mesh& mesh, int count) {
   Cursor& cursor = state.cursor;
   const std::int64_t before = missing_cells(state);
   const bool counts = !is_far(state) || !may_come_nearer(cursor);
-  Level level = set_split_and_collapsed(state, mesh, options.density,
-                                        edge_changes_of(state, mesh, options.density));
+  Level level =
+      set_split_and_collapsed(state, mesh, density, edge_changes_of(state, mesh, density));
   if (before > 0 && missing_cells(state) >= before && may_come_nearer(cursor))
     ++cursor.idle;
   if (counts)
@@ -171,9 +152,9 @@ const CvtIteration& last_accepted(const State& state) {
                        [](const CvtIteration& iteration) { return iteration.accepted; });
 }
 
-bool creeps(const State& state, const CvtOptions& options) {
+bool creeps(const State& state, const DescentOptions& options) {
   const int window = inserts(state) ? course::creeping_after_insertion : course::creeping;
-  if (!options.well_centred || options.norm == Norm::none || state.in_polish())
+  if (!options.may_creep || options.norm == Norm::none || state.in_polish())
     return false;
   if (state.cursor.glides > course::glides_with_descent)
     return true;
@@ -203,42 +184,6 @@ bool has_stalled(const State& state) {
     if (i->accepted)
       before = std::min(before, i->shape_excess);
   return last_accepted(state).shape_excess > course::stall_progress * before;
-}
-
-std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
-                                  const CvtOptions& options) {
-  const bool inserts = options.insertion_rounds > 0, counted = options.norm == Norm::none;
-  const CvtAction last{.norm = options.norm,
-                       .tolerance = counted ? 0 : options.tolerance,
-                       .max_iterations = options.max_iterations};
-  CvtAction early = last;
-  if (inserts && !counted)
-    set_early(early);
-  std::vector<CvtAction> actions;
-  const auto add = [&](Kind kind, CvtAction action, std::int64_t cells, int times = 1) {
-    action.kind = kind;
-    action.cells = cells;
-    action.times = times;
-    actions.push_back(action);
-  };
-  for (int left = options.bisections; left >= 0; --left) {
-    const std::int64_t cells = inserts ? cells_of_level(surface, options.cells, left) : first;
-    add(left == options.bisections ? Kind::start : Kind::bisect, early, cells);
-    if (inserts)
-      add(Kind::insert, early, cells, rounds_of_level(left, options));
-    if (left > 0)
-      first = bisected(surface, first);
-  }
-  const std::int64_t cells = actions.back().cells;
-  if (inserts)
-    add(Kind::converge, last, cells);
-  if (options.well_centred) {
-    const CvtAction polish{
-        .norm = options.norm, .tolerance = 0, .max_iterations = course::polish_iterations};
-    add(Kind::polish, polish, cells);
-    add(Kind::raise, polish, cells, course::most_raised);
-  }
-  return actions;
 }
 
 std::optional<Cursor> next_of(const State& state) {
@@ -277,31 +222,35 @@ ShapeLimits limits_of_glide(const State& state) {
   return state.cursor.glides < course::early_glides ? early_glide_limits() : shape_limits;
 }
 
-CvtOptions options_of_descent(const State& state, const Surface& surface,
-                              const CvtOptions& options) {
+DescentOptions descent_of(const State& state, const Recipe& recipe, const Density& density,
+                          const Quadrature& quadrature) {
   const CvtAction& action = state.action();
-  CvtOptions here = options;
-  here.norm = action.norm;
-  here.tolerance = action.tolerance;
-  here.max_iterations = action.max_iterations;
+  const bool last = action.kind == Kind::converge, polishes = has(state, Kind::polish);
+  DescentOptions here{.method = recipe.method,
+                      .norm = action.norm,
+                      .tolerance = action.tolerance,
+                      .max_iterations = action.max_iterations,
+                      .quadrature = quadrature,
+                      .may_creep = polishes};
   if (!state.in_polish() && (!inserts(state) || action.norm == Norm::none))
     return here;
-  if (is_resolved(state, surface, options.density))
-    here.rule = rule_at_sites;
+  int& rule = here.quadrature.rule;
+  if (is_resolved(state, recipe.surface, density))
+    rule = rule_at_sites;
   if (state.in_polish()) {
     here.method = Method::lbfgs;
     return here;
   }
-  const bool last = action.kind == Kind::converge,
-             fine_level = state.points.cols() >= course::flat_from;
-  if (here.method == Method::automatic && fine_level && (!last || options.well_centred))
+  const bool fine_level = state.points.cols() >= course::flat_from;
+  if (here.method == Method::automatic && fine_level && (!last || polishes))
     here.method = Method::lbfgs;
   if (last) {
-    here.final_rule = action.tolerance < course::fine_tolerance ? options.final_rule : options.rule;
+    if (action.tolerance >= course::fine_tolerance)
+      here.quadrature.final_rule = quadrature.rule;
     return here;
   }
-  here.well_centred = false; // its end by creeping is for the last descent
-  here.final_rule = here.rule;
+  here.may_creep = false;
+  here.quadrature.final_rule = rule;
   const bool further = action.kind != Kind::insert || is_due(state, state.cursor);
   if (further && is_far(state))
     here.max_iterations = std::min(here.max_iterations, course::evaluations_while_far);
@@ -315,7 +264,7 @@ void add_done(State& state) {
 }
 
 Level begin_action(State& state, const Cursor& cursor, const Surface& surface,
-                   const CvtOptions& options, std::optional<Connectivity>&& known) {
+                   const Density& density, std::optional<Connectivity>&& known) {
   const int count = count_of_round(state);
   state.cursor = cursor;
   count_action(state);
@@ -327,8 +276,8 @@ Level begin_action(State& state, const Cursor& cursor, const Surface& surface,
   }
   begin_descent(state);
   const Mesh mesh = mesh_of_run(state, surface, std::move(known));
-  Level level = kind == Kind::bisect ? begin_level(state, options, mesh)
-                                     : begin_round(state, options, mesh, count);
+  Level level = kind == Kind::bisect ? begin_level(state, density, mesh)
+                                     : begin_round(state, density, mesh, count);
   state.site_of_input.clear();
   return level;
 }

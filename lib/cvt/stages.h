@@ -9,6 +9,7 @@
 #include "mesh/connectivity.h"
 
 #include <calotte/cvt.h>
+#include <calotte/density.h>
 #include <calotte/mesh.h>
 #include <calotte/surface.h>
 
@@ -25,19 +26,12 @@
 /// polish.h.
 namespace calotte::cvt_detail {
 
-/// \throws Error invalid_argument for a value out of range.
-void require_options(const CvtOptions& options);
-
-/// The actions of a run. \param first number of generators of the start.
-std::vector<CvtAction> actions_of(const Surface& surface, std::int64_t first,
-                                  const CvtOptions& options);
-
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 
 /// Whether the last evaluations of a descent before a polish have hardly lowered the norm, see
 /// course::creeping. After glides which no descent follows, always.
-bool creeps(const State& state, const CvtOptions& options);
+bool creeps(const State& state, const DescentOptions& options);
 
 /// Whether the last evaluations of a polish have hardly improved the worst shape.
 bool has_stalled(const State& state);
@@ -56,14 +50,18 @@ bool may_glide(const State& state);
 /// near these, then shape_limits, so that few are left to the penalty.
 ShapeLimits limits_of_glide(const State& state);
 
-/// The options of the current descent.
-CvtOptions options_of_descent(const State& state, const Surface& surface,
-                              const CvtOptions& options);
+/// The current descent.
+/// \param density of the run, here and below as surface_density() gives it.
+/// \param quadrature of the run, see Execution. Descents with others after them end with its first
+///        rule; where the density is nearly linear between generators, that at the sites replaces
+///        it.
+DescentOptions descent_of(const State& state, const Recipe& recipe, const Density& density,
+                          const Quadrature& quadrature);
 
 /// Begins the action at a cursor: changes the generators.
 /// \param mesh of them, if it is known.
 Level begin_action(State& state, const Cursor& cursor, const Surface& surface,
-                   const CvtOptions& options, std::optional<Connectivity>&& mesh);
+                   const Density& density, std::optional<Connectivity>&& mesh);
 
 /// Adds a descent that has ended to what was done of its action.
 void add_done(State& state);

@@ -198,15 +198,12 @@ template <Space S>
 Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& input,
                    const ShapePenalty& penalty,
                    const std::function<bool(const Evaluation&, int)>& ended) {
-  CvtOptions options;
-  options.density = input.density;
-  options.method = Method::lbfgs;
-  options.norm = Norm::none;
+  const DescentOptions options{.method = Method::lbfgs};
   State state;
   state.points = start;
   state.polish.penalty = penalty.factor;
   part.penalise(penalty);
-  Descent descent(state, options, part);
+  Descent descent(state, options, input.density, part);
   descent.begin();
   while (descent.here().iteration.energy < infinite && !state.memory.stuck &&
          !ended(descent.here(), state.memory.iterations))

@@ -4,11 +4,11 @@
 #include "base/require.h"
 #include "cvt/cvt.h"
 #include "domain/surface.h"
-#include "grids/schedule.h"
 #include "grids/start.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -78,6 +78,20 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   return std::max(away, std::abs(outer - schedule.on_boundary));
 }
 
+/// Throws, before any work, for actions that plan() has not made.
+void require_actions(const Schedule& schedule) {
+  const auto good = [](const CvtAction& action) {
+    const bool ends = action.norm == Norm::none || action.kind >= CvtAction::Kind::polish ||
+                      (action.tolerance > 0 && std::isfinite(action.tolerance));
+    return ends && action.cells >= 1 && action.cells <= base_detail::most_points &&
+           action.times >= 0 && action.max_iterations >= 0;
+  };
+  const std::vector<CvtAction>& actions = schedule.actions;
+  base_detail::require(!actions.empty() && actions.front().kind == CvtAction::Kind::start &&
+                           std::ranges::all_of(actions, good),
+                       "the schedule lacks choices; give one of plan()");
+}
+
 CvtCallback callback_of(const ProgressCallback& progress) {
   if (!progress)
     return {};
@@ -92,17 +106,11 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 } // namespace
 
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
-  const Recipe& recipe = schedule.recipe;
-  base_detail::require(
-      !schedule.actions.empty() && schedule.actions.front().kind == CvtAction::Kind::start &&
-          recipe.stop.tolerance && recipe.stop.well_centred &&
-          (recipe.start.kind != Start::Kind::multilevel || recipe.start.insertion_rounds),
-      "the schedule lacks choices; give one of plan()");
-  CvtOptions options = options_of(schedule);
-  options.partition = run.partition;
+  require_actions(schedule);
+  const Execution execution{.partition = run.partition};
   const CvtCallback callback = callback_of(run.progress);
-  Cvt grid = run.state ? cvt(std::move(*run.state), recipe.surface, options, callback)
-                       : cvt(generators(schedule), recipe.surface, options, callback);
+  Cvt grid = run.state ? cvt(std::move(*run.state), schedule, execution, callback)
+                       : cvt(generators(schedule), schedule, execution, callback);
   grid.report.off_boundary = off_boundary(grid.mesh, schedule);
   return grid;
 }

@@ -203,7 +203,7 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
   recipe.stop.tolerance = tolerance;
   recipe.stop.well_centred = true;
   schedule.first = recipe.start.kind;
-  schedule.actions = actions_of(surface, points.cols(), options_of(schedule));
+  schedule.actions = actions_of(recipe, {.kind = recipe.start.kind, .cells = points.cols()});
   return schedule;
 }
 

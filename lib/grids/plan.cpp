@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/message.h"
 #include "base/require.h"
+#include "cvt/laplacian.h"
 #include "cvt/levels.h"
-#include "cvt/options.h"
-#include "cvt/stages.h"
 #include "domain/surface.h"
 #include "generators/boundary.h"
 #include "grids/schedule.h"
@@ -57,8 +56,17 @@ void require_values(const Recipe& recipe) {
   require(recipe.stop.iterations.value_or(1) >= 1,
           "the number of iterations is " + std::to_string(recipe.stop.iterations.value_or(1)) +
               "; give 1 or more");
-  require(recipe.stop.norm != Norm::none,
+  const Stop& stop = recipe.stop;
+  require(stop.norm != Norm::none,
           "the norm none tests nothing; give a number of iterations instead");
+  const double tolerance = stop.tolerance.value_or(1);
+  require(tolerance > 0 && std::isfinite(tolerance),
+          "the tolerance is {}; give a positive number such as 1e-6", tolerance);
+  require(stop.max_iterations >= 0, "the number of iterations is {}; give 0 or more",
+          stop.max_iterations);
+  require(stop.least_spacing >= 0 && stop.least_spacing <= 0.95,
+          "least_spacing is {}; give a share of the demanded spacing, 0 to 0.95",
+          stop.least_spacing);
 }
 
 /// \throws Error with the index of a fixed generator that is no point of the surface's kind.
@@ -315,32 +323,24 @@ FirstLevel first_level(const Schedule& schedule) {
                        fixed);
 }
 
-} // namespace
-
-CvtOptions options_of(const Schedule& schedule, int bisections) {
-  const Recipe& recipe = schedule.recipe;
-  CvtOptions options;
-  options.density = schedule.density;
-  options.method = recipe.method;
-  options.norm = recipe.stop.iterations ? Norm::none : recipe.stop.norm;
-  options.tolerance = *recipe.stop.tolerance;
-  options.max_iterations = recipe.stop.iterations.value_or(recipe.stop.max_iterations);
-  options.bisections = bisections;
-  if (recipe.start.insertion_rounds) {
-    options.insertion_rounds = *recipe.start.insertion_rounds;
-    options.cells = recipe.cells;
-  }
-  options.well_centred = *recipe.stop.well_centred;
-  static_assert(Stop().least_spacing == CvtOptions::usual_least_spacing);
-  options.least_spacing = recipe.stop.least_spacing;
-  options.duplicates = recipe.duplicates;
-  options.merge_within = recipe.merge_within;
-  options.fixed = recipe.fixed.cols();
-  options.boundary = recipe.boundary;
-  options.actions = schedule.actions;
-  return options;
+/// Throws, before any work, for more generators than a mesh or the method can hold.
+void require_room(const Recipe& recipe, const FirstLevel& first) {
+  const auto cells_after = [&](int bisections) {
+    return bisected(recipe.surface, first.cells, bisections);
+  };
+  int most = 0;
+  while (most < most_bisections && cells_after(most + 1) <= most_points)
+    ++most;
+  require(first.bisections <= most, "{} bisections of {} generators are too many; give at most {}",
+          first.bisections, first.cells, most);
+  const std::int64_t cells = std::max(recipe.cells, cells_after(first.bisections));
+  require(recipe.method != Method::lbfgs_laplacian || cells <= cvt_detail::most_laplacian_rows,
+          "{} generators are too many for the method lbfgs_laplacian, which takes at most {}; give "
+          "the method lbfgs or lloyd",
+          cells, cvt_detail::most_laplacian_rows);
 }
 
+} // namespace
 } // namespace grids_detail
 
 Schedule plan(Recipe recipe) {
@@ -367,9 +367,8 @@ Schedule plan(Recipe recipe) {
   all.resolution = schedule.density;
   const FirstLevel first = first_level(schedule);
   schedule.first = first.kind;
-  const CvtOptions options = options_of(schedule, first.bisections);
-  cvt_detail::require_options(options);
-  schedule.actions = actions_of(all.surface, first.cells, options);
+  require_room(all, first);
+  schedule.actions = actions_of(all, first);
   return schedule;
 }
 

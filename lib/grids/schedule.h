@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cvt/options.h"
 #include "grids/room.h"
+#include "grids/start.h"
 
 #include <calotte/grid.h>
 
+#include <vector>
+
 namespace calotte::grids_detail {
 
-/// The options of the descents of a schedule; without the partition.
-/// \param bisections that its actions hold. \pre the recipe has its choices made.
-CvtOptions options_of(const Schedule& schedule, int bisections = 0);
+/// The actions of a run, see cvt/stages.h.
+/// \param recipe whose choices are made, but for the number of bisections.
+std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first);
 
 } // namespace calotte::grids_detail

@@ -553,7 +553,7 @@ static void rules(void) {
   calotte_schedule schedule;
   calotte_schedule_init(&schedule);
   recipe.widths_file = "c_example.toml";
-  put("c_example.toml", "[cell-width]\nlatitude = [[-90, 600], [0, 300], [90, 600]]\n");
+  put("c_example.toml", "[cell-width]\nby-latitude = [[-90, 600], [0, 300], [90, 600]]\n");
   succeeds(calotte_plan(&recipe, &schedule, &error), "rules");
   expect(schedule.cells > 2000 && schedule.cells < 6545, "cells of 300 to 600 km");
   put("c_example_part.geojson", "{\"type\": \"Polygon\", \"coordinates\": "

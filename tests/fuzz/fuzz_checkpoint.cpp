@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
-#include "cvt/cvt.h"
 #include "io/command.h"
 #include "scratch_file.h"
 
 #include <calotte/checkpoint.h>
-#include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -17,13 +16,15 @@ using namespace calotte;
 
 namespace {
 
+Recipe recipe() { return {.start = {.points = random_sphere(30)}, .stop = {.max_iterations = 4}}; }
+
 /// A checkpoint of a run, whose bytes the input changes: its checksum makes others dull.
 std::string sample() {
   const std::string path = fuzz::scratch_file("sample", nullptr, 0);
-  cvt(random_sphere(30), {}, {.max_iterations = 4}, [&](const CvtProgress& now) {
-    write_checkpoint(path, now.state, "run");
-    return true;
-  });
+  make_grid(recipe(), {.progress = [&](const Progress& now) {
+              write_checkpoint(path, now.run->state, "run");
+              return Next::stop;
+            }});
   return read_file(path);
 }
 
@@ -44,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       "checkpoint", reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   try {
     read_checkpoint_command(path);
-    cvt(read_checkpoint(path, "run"), {}, {.max_iterations = 4});
+    make_grid(recipe(), {.state = read_checkpoint(path, "run")});
   } catch (const Error& error) {
     fuzz::require(error.code() != ErrorCode::internal);
   }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bytes.h"
-#include "cvt/cvt.h"
 #include "mutation.h"
 
 #include <calotte/check.h>
-#include <calotte/cvt.h>
 #include <calotte/error.h>
+#include <calotte/grid.h>
 
 using namespace calotte;
 using calotte::fuzz::require;
@@ -14,19 +13,17 @@ using calotte::fuzz::require;
 /// those of any other number of regions.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes bytes(data, size);
-  CvtOptions options;
-  options.max_iterations = 3;
-  options.method = static_cast<Method>(bytes.integer(0, 3));
+  Recipe recipe;
+  recipe.stop.max_iterations = 3;
+  recipe.method = static_cast<Method>(bytes.integer(0, 3));
   if (bytes.integer(0, 1) == 1)
-    options.density = tanh_bump({bytes.number(), bytes.number(), bytes.number()}, bytes.number(),
-                                bytes.number(), bytes.number());
-  const Points3 points = bytes.columns(3, 200);
+    recipe.resolution = tanh_bump({bytes.number(), bytes.number(), bytes.number()}, bytes.number(),
+                                  bytes.number(), bytes.number());
+  recipe.start.points = bytes.columns(3, 200);
   try {
-    const Cvt result = cvt(points, {}, options);
+    const Cvt result = make_grid(recipe);
     require(check(result.mesh).passed());
-    CvtOptions other = options;
-    other.partition.regions = 5;
-    const Cvt again = cvt(points, {}, other);
+    const Cvt again = make_grid(recipe, {.partition = {.regions = 5}});
     require(again.mesh.points == result.mesh.points &&
             again.mesh.triangles == result.mesh.triangles);
     const CvtIteration* before = nullptr;

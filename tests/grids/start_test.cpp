@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/densities.h"
 #include "support/errors.h"
@@ -7,10 +6,10 @@
 #include "support/starts.h"
 #include "support/text.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <doctest/doctest.h>
 
@@ -104,13 +103,10 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
 
 TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
   for (const std::int64_t cells : {643, 2000, 2571}) {
-    CvtOptions options;
-    options.density = test::x8();
-    options.tolerance = 1e-3;
-    const test::FirstGenerators from = test::continuation(cells, test::x8());
-    options.bisections = from.bisections;
-    const Cvt grid = cvt(from.start, {}, options);
-    CHECK(!from.icosahedral);
+    Recipe recipe = test::recipe_of(Start::Kind::continuation, cells, test::x8(), 1);
+    recipe.stop.tolerance = 1e-3;
+    const Cvt grid = make_grid(recipe);
+    CHECK(plan(recipe).first != Start::Kind::icosahedron);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
   }
@@ -122,10 +118,7 @@ TEST_CASE("continuation: uniform grids of any number of cells have 12 defects af
     numbers.push_back(cells);
   for (const std::int64_t cells : numbers) {
     CAPTURE(cells);
-    CvtOptions options;
-    const test::FirstGenerators from = test::continuation(cells, {});
-    options.bisections = from.bisections;
-    const Cvt grid = cvt(from.start, {}, options);
+    const Cvt grid = make_grid(test::recipe_of(Start::Kind::continuation, cells, {}, 1));
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() <= 40);
     REQUIRE(grid.mesh.points.cols() == cells);
@@ -162,13 +155,9 @@ TEST_CASE(
       const test::FirstGenerators from = test::multilevel(3000, {}, steep(ratio), seed);
       CHECK(from.start.cols() >= 160);
       CHECK(delaunay(from.start).closed());
-      CvtOptions options;
-      options.density = steep(ratio);
-      options.bisections = from.bisections;
-      options.insertion_rounds = 1;
-      options.cells = 3000;
-      options.tolerance = 1e-2;
-      const Cvt grid = cvt(from.start, {}, options);
+      Recipe recipe = test::recipe_of(Start::Kind::multilevel, 3000, steep(ratio), seed);
+      recipe.stop = {.tolerance = 1e-2, .well_centred = false};
+      const Cvt grid = make_grid(recipe);
       CHECK(grid.mesh.closed());
       CHECK(grid.mesh.points.cols() == 3000);
     }

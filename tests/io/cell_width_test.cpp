@@ -4,7 +4,6 @@
 
 #include "base/lonlat.h"
 #include "base/spherical_angles.h"
-#include "cvt/cvt.h"
 #include "exact/predicates.h"
 #include "io/geojson_text.h"
 #include "io/netcdf/netcdf_writer.h"
@@ -12,9 +11,9 @@
 #include "support/files.h"
 #include "support/random.h"
 
-#include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -981,8 +980,9 @@ TEST_CASE("the spacings of a CVT follow the widths of a raster") {
   REQUIRE(cells > 1500);
   REQUIRE(cells < 6000);
   const Density density = density_of(width);
-  const Cvt grid = cvt(random_sphere(cells, site_density(density)), {},
-                       {.density = density, .tolerance = 1e-3, .rule = 3, .final_rule = 3});
+  const Cvt grid = make_grid({.resolution = density,
+                              .start = {.points = random_sphere(cells, site_density(density))},
+                              .stop = {.tolerance = 1e-3}});
   std::vector<double> ratios;
   const Eigen::VectorXd asked = evaluate(width, grid.mesh.points);
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "support/files.h"
 
 #include <calotte/checkpoint.h>
-#include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -205,22 +204,20 @@ TEST_CASE("a state comes back with every field, bit for bit") {
 
 TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") {
   const CheckpointFile scratch;
-  const Points3 start = random_sphere(200, 3);
-  CvtOptions options;
-  options.method = Method::lloyd; // whose steps are one iteration each
-  options.norm = Norm::none;
-  options.max_iterations = 12;
-  options.bisections = 1;
-  const Cvt whole = cvt(start, {}, options);
+  const Recipe recipe{.start = {.points = random_sphere(200, 3), .bisections = 1},
+                      .stop = {.iterations = 12},
+                      .method = Method::lloyd}; // whose steps are one iteration each
+  const Cvt whole = make_grid(recipe);
   for (const std::size_t last : {1, 11, 12, 13, 24}) { // 12 end the coarse level, 24 the fine one
     CAPTURE(last);
-    cvt(start, {}, options, [&](const CvtProgress& now) {
-      const bool stop = now.report.iterations.size() == last;
-      if (stop)
-        write_checkpoint(scratch.path, now.state, configuration);
-      return stop;
-    });
-    const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), {}, options);
+    const auto saved = [&](const Progress& now) {
+      if (now.run->report.iterations.size() != last)
+        return Next::proceed;
+      write_checkpoint(scratch.path, now.run->state, configuration);
+      return Next::stop;
+    };
+    make_grid(recipe, {.progress = saved});
+    const Cvt resumed = make_grid(recipe, {.state = read_checkpoint(scratch.path, configuration)});
     CHECK((resumed.mesh.points == whole.mesh.points));
     CHECK((resumed.mesh.triangles == whole.mesh.triangles));
     CHECK(resumed.mesh.site_of_input == whole.mesh.site_of_input);
@@ -231,21 +228,21 @@ TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") 
 
 TEST_CASE("with every method a run resumes from its checkpoint to the same bits") {
   const CheckpointFile scratch;
-  CvtOptions options;
-  options.density = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 4096);
-  options.tolerance = 2e-3; // so that the final rule takes over on the way
-  options.max_iterations = 90;
   const Density milder = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 81); // some fall far away, too
-  const Points3 start = random_sphere(150, milder, 3);
+  Recipe recipe{.resolution = tanh_bump({0.6, 0, 0.8}, 0.5, 0.2, 1.0 / 4096),
+                .start = {.points = random_sphere(150, milder, 3)},
+                .stop = {.tolerance = 2e-3, // so that the final rule takes over on the way
+                         .max_iterations = 90}};
   for (const Method method :
        {Method::automatic, Method::lloyd, Method::lbfgs, Method::lbfgs_laplacian}) {
     CAPTURE(method);
-    options.method = method;
+    recipe.method = method;
     std::vector<CvtState> states; // after each step
-    const Cvt whole = cvt(start, {}, options, [&](const CvtProgress& now) {
-      states.push_back(now.state);
-      return false;
-    });
+    const auto kept = [&](const Progress& now) {
+      states.push_back(now.run->state);
+      return Next::proceed;
+    };
+    const Cvt whole = make_grid(recipe, {.progress = kept});
     REQUIRE(states.size() > 10);
     const auto ruled = std::find_if(states.begin(), states.end(), [](const CvtState& state) {
       return State::of(state).memory.final_rule;
@@ -259,7 +256,8 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
       if (place < 0 || place >= std::ssize(states))
         continue;
       write_checkpoint(scratch.path, states[static_cast<std::size_t>(place)], configuration);
-      const Cvt resumed = cvt(read_checkpoint(scratch.path, configuration), {}, options);
+      const Cvt resumed =
+          make_grid(recipe, {.state = read_checkpoint(scratch.path, configuration)});
       CHECK(equal(resumed.mesh.points, whole.mesh.points));
       CHECK((resumed.mesh.triangles == whole.mesh.triangles));
       CHECK(resumed.report.converged == whole.report.converged);

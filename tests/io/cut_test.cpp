@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/cut_laws.h"
 #include "support/files.h"
@@ -7,9 +6,9 @@
 #include "support/text.h"
 
 #include <calotte/cut.h>
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/mesh_file.h>
 #include <calotte/write.h>
 
@@ -354,9 +353,10 @@ TEST_CASE("a cancelled run leaves no file") {
 TEST_CASE("a grid made in a region keeps all rules, and is that cut from a global mesh") {
   const Scratch scratch;
   const Surface region = circle(centre_of_cut, 0.14), meshed = widened(region, 11 * 0.012);
-  CvtOptions options;
-  options.max_iterations = 60;
-  const Mesh mesh = cvt(random_points(1900, meshed), meshed, options).mesh;
+  const Mesh mesh = make_grid({.surface = meshed,
+                               .start = {.points = random_points(1900, meshed)},
+                               .stop = {.max_iterations = 60}})
+                        .mesh;
   const Points3& generators = mesh.points;
   const std::string made = scratch / "made.nc", global = scratch / "global.nc",
                     cut_out = scratch / "cut.nc";

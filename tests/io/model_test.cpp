@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/spoilt_files.h"
 
 #include <calotte/cut.h>
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/mesh_file.h>
 #include <calotte/write.h>
 
@@ -157,7 +156,9 @@ TEST_CASE("the nominal spacing of a limited area is that of its cells, not of th
   for (Eigen::Index i = 0; i < generators.cols() && inside.size() < 3000; ++i)
     if (generators(2, i) > std::cos(0.5))
       inside.push_back(i);
-  Cvt grid = cvt(generators(Eigen::all, inside), meshed, {.tolerance = 1e-3});
+  Cvt grid = make_grid({.surface = meshed,
+                        .start = {.points = generators(Eigen::all, inside)},
+                        .stop = {.tolerance = 1e-3}});
   grid.mesh.surface = meshed;
   for (const double radius : {1.0, 6371229.0}) {
     WriteOptions options;
@@ -198,7 +199,9 @@ TEST_CASE("check finds a density of 1 on a mesh that is not uniform, closed or o
   const Scratch scratch;
   const std::string whole = scratch / "whole.nc", part = scratch / "part.nc";
   const Density density = tanh_bump({0, 0, 1}, 0.6, 0.3, 1.0 / 4096);
-  const Cvt grid = cvt(fibonacci_sphere(2500), {}, {.density = density, .tolerance = 1e-3});
+  const Cvt grid = make_grid({.resolution = density,
+                              .start = {.points = fibonacci_sphere(2500)},
+                              .stop = {.tolerance = 1e-3}});
   const auto near = [](const Eigen::Vector3d& p) { return p.z() > 0.2; };
   CutOptions cutting;
   cutting.rings = 1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/vec3.h"
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "io/formats/formats.h"
 #include "io/netcdf/netcdf_reader.h"
@@ -11,10 +10,10 @@
 #include "support/full_disk.h"
 #include "support/text.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -567,11 +566,11 @@ void check_file(const std::string& path, const WriteOptions& options) {
 Density oblique_x8() { return tanh_bump({0.3, -0.5, 0.8}, pi / 6, 0.2, 1.0 / 4096); }
 
 Mesh x8_mesh(std::int64_t cells, int bisections, int iterations) {
-  CvtOptions options;
-  options.density = oblique_x8();
-  options.max_iterations = iterations;
-  options.bisections = bisections;
-  return cvt(random_sphere(cells, site_density(oblique_x8()), 5), {}, options).mesh;
+  return make_grid({.resolution = oblique_x8(),
+                    .start = {.points = random_sphere(cells, site_density(oblique_x8()), 5),
+                              .bisections = bisections},
+                    .stop = {.max_iterations = iterations}})
+      .mesh;
 }
 
 struct Case {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/files.h"
 #include "support/open_mpas.h"
 #include "support/spoilt_files.h"
 #include "support/text.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/mesh_file.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>
@@ -49,9 +48,10 @@ Eigen::MatrixXd ring_matrix(const std::vector<Eigen::Vector2d>& corners) {
 }
 
 Mesh relaxed(std::int64_t n, const Surface& domain) {
-  CvtOptions options;
-  options.max_iterations = 30;
-  return cvt(random_points(n, domain, {}, 5), domain, options).mesh;
+  return make_grid({.surface = domain,
+                    .start = {.points = random_points(n, domain, {}, 5)},
+                    .stop = {.max_iterations = 30}})
+      .mesh;
 }
 
 std::vector<Plane> planes() {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Points come in from a caller's matrix of any kind; the number of rows is checked at run time.
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/errors.h"
 #include "support/files.h"
 #include "support/laws.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/density.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/widths.h>
 #include <calotte/write.h>
 
@@ -35,12 +34,6 @@ struct Call {
   std::function<void(const PointsRef&)> call;
 };
 
-CvtOptions one_step() {
-  CvtOptions options;
-  options.max_iterations = 1;
-  return options;
-}
-
 Raster wide_cells() {
   Eigen::VectorXd longitudes(4), latitudes(3);
   longitudes << -180, -90, 0, 90;
@@ -50,7 +43,6 @@ Raster wide_cells() {
 
 std::vector<Call> calls_on_sphere() {
   return {{"delaunay", [](const PointsRef& x) { delaunay(x); }},
-          {"cvt", [](const PointsRef& x) { cvt(x, {}, one_step()); }},
           {"evaluate a density",
            [](const PointsRef& x) {
              evaluate(tanh_bump({0, 0, 1}, 0.5, 0.2, 0.1), x);
@@ -71,11 +63,6 @@ std::vector<Call> calls_in_plane() {
           {"delaunay in a box",
            [](const PointsRef& x) {
              delaunay(x, Surface::periodic({1, 1}));
-           }},
-          {"cvt in a rectangle", [](const PointsRef& x) { cvt(x, unit_square(), one_step()); }},
-          {"cvt in a box",
-           [](const PointsRef& x) {
-             cvt(x, Surface::periodic({1, 1}), one_step());
            }},
           {"a domain's rings", [](const PointsRef& x) { Surface::plane().within({x}); }}};
 }
@@ -144,12 +131,10 @@ TEST_CASE("a matrix of another number of rows that is handed over is refused, to
   const auto code = [](const auto& act) { return code_of(act); };
   CHECK(code([] { delaunay(Eigen::MatrixXd(2, 1000)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Points2(2, 1000)); }) == ErrorCode::invalid_argument);
-  CHECK(code([] { cvt(Eigen::MatrixXd(2, 1000), {}); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Eigen::MatrixXd::Ones(3, 1000), Surface::plane()); }) ==
         ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Points3::Ones(3, 1000), Surface::plane()); }) ==
         ErrorCode::invalid_argument);
-  CHECK(code([] { cvt(Points3::Ones(3, 1000), unit_square()); }) == ErrorCode::invalid_argument);
 }
 
 TEST_CASE("the message names the rows and the remedy") {
@@ -158,11 +143,9 @@ TEST_CASE("the message names the rows and the remedy") {
         "the points have 2 rows; give 3 x n columns x y z, or call triangulate() with a surface of "
         "the plane");
   CHECK(message_of([&] { delaunay(none); }) == "the points have 0 rows; give 3 x n columns x y z");
-  CHECK(message_of([&] { cvt(two, {}); }) ==
-        "the points have 2 rows; give 3 x n columns x y z, or a surface of the plane");
   CHECK(message_of([&] { delaunay(three, Surface::plane()); }) ==
         "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
-  CHECK(message_of([&] { cvt(three, unit_square()); }) ==
+  CHECK(message_of([&] { make_grid({.surface = unit_square(), .start = {.points = three}}); }) ==
         "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
 }
 
@@ -172,10 +155,8 @@ TEST_CASE("empty matrices are refused, or give nothing") {
   CHECK(code([] { delaunay(Eigen::MatrixXd(0, 9)); }) == ErrorCode::invalid_argument);
   CHECK(code([] { delaunay(Eigen::MatrixXd(3, 0)); }) == ErrorCode::too_few_sites);
   CHECK(code([] { delaunay(Points3()); }) == ErrorCode::too_few_sites);
-  CHECK(code([] { cvt(Eigen::MatrixXd(3, 0), {}); }) == ErrorCode::too_few_sites);
   CHECK(code([] { delaunay(Eigen::MatrixXd(2, 0), Surface::plane()); }) ==
         ErrorCode::too_few_sites);
-  CHECK(code([] { cvt(Points2(), unit_square()); }) == ErrorCode::too_few_sites);
   CHECK(evaluate(Density(), Eigen::MatrixXd(3, 0)).size() == 0);
   CHECK(evaluate(Density(), Eigen::MatrixXd(2, 0), unit_square()).size() == 0);
   CHECK(evaluate(wide_cells(), Eigen::MatrixXd(3, 0)).size() == 0);
@@ -239,22 +220,6 @@ TEST_CASE("any kind of matrix gives the same mesh of the plane") {
     CHECK(identical_planes(delaunay(other, Surface::plane()), mesh));
     CHECK(identical_planes(delaunay(other, box), periodic));
     CHECK(evaluate(bump, other, box) == rho);
-  });
-}
-
-TEST_CASE("any kind of matrix starts the same CVT") {
-  const Points3 points = random_sphere(300, 3);
-  const Cvt grid = cvt(points, {}, one_step());
-  for_each_kind(points, [&](const char* kind, const auto& other) {
-    CAPTURE(kind);
-    CHECK(identical(cvt(other, {}, one_step()).mesh, grid.mesh));
-  });
-  CHECK(identical(cvt(Points3(points), {}, one_step()).mesh, grid.mesh));
-  const Points2 places = random_points(300, unit_square(), {}, 3).topRows<2>();
-  const Cvt plane = cvt(places, unit_square(), one_step());
-  for_each_kind(places, [&](const char* kind, const auto& other) {
-    CAPTURE(kind);
-    CHECK(identical_planes(cvt(other, unit_square(), one_step()).mesh, plane.mesh));
   });
 }
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/quality.h>
 
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/clouds.h"
 #include "support/constants.h"
 #include "support/densities.h"
 #include "support/meshes.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -260,7 +259,8 @@ TEST_CASE("any number of threads gives the same bits") {
 TEST_CASE("orders of convergence on icosahedral CVTs") {
   std::vector<OperatorErrors> errors;
   for (const int level : {3, 4})
-    errors.push_back(operator_errors(cvt(bisected_icosahedron(level), {}).mesh));
+    errors.push_back(
+        operator_errors(make_grid({.start = {.points = bisected_icosahedron(level)}}).mesh));
   const auto order = [&](ErrorNorms OperatorErrors::*norms) {
     return std::log2((errors[0].*norms).l2 / (errors[1].*norms).l2);
   };

@@ -10,10 +10,10 @@
 #include "support/laws.h"
 #include "support/text.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/voronoi.h>
 
 #include <Eigen/Geometry>
@@ -325,13 +325,11 @@ TEST_CASE("rotation, permutation and the norms of the directions do not affect t
 
 TEST_CASE("the residual and the energy are those of the next step of the iteration") {
   for (const Density& density : {Density{}, bump({1, 0, 1})}) {
-    CvtOptions options;
-    options.density = density;
-    options.max_iterations = 1;
-    options.rule = 6;
     const Points3 start = random_sphere(500, 3);
     const Quality q = quality(delaunay(start), density);
-    const Cvt next = cvt(start, {}, options);
+    const Schedule schedule =
+        plan({.resolution = density, .start = {.points = start}, .stop = {.max_iterations = 1}});
+    const Cvt next = cvt(start, schedule, {.quadrature = {.rule = 6}});
     CHECK(q.residual == doctest::Approx(next.report.residual).epsilon(1e-10));
     CHECK(q.energy == doctest::Approx(next.report.iterations[0].energy).epsilon(1e-12));
   }
@@ -339,17 +337,17 @@ TEST_CASE("the residual and the energy are those of the next step of the iterati
 
 TEST_CASE("the residual vanishes for centroidal meshes of the same density alone") {
   const Points3 start = bisected_icosahedron(2);
-  CvtOptions options;
-  options.tolerance = 1e-12;
   CHECK(quality(delaunay(start)).residual > 1e-3);
-  CHECK(quality(cvt(start, {}, options).mesh).residual < 1e-12);
+  Recipe recipe{.start = {.points = start}, .stop = {.tolerance = 1e-12}};
+  CHECK(quality(make_grid(recipe).mesh).residual < 1e-12);
   // Slow: only the discreteness of the triangles prevents the grid from rotating about the bump's
   // axis.
-  options.tolerance = 1e-4;
-  options.density = bump({1, 0, 1});
-  CHECK(quality(delaunay(start), options.density).residual > 1e-2);
-  const Mesh grid = cvt(start, {}, options).mesh;
-  CHECK(quality(grid, options.density).residual < 1e-4);
+  recipe.stop.tolerance = 1e-4;
+  const Density density = bump({1, 0, 1});
+  recipe.resolution = density;
+  CHECK(quality(delaunay(start), density).residual > 1e-2);
+  const Mesh grid = make_grid(recipe).mesh;
+  CHECK(quality(grid, density).residual < 1e-4);
   CHECK(quality(grid).residual > 1e-2);
 }
 
@@ -456,14 +454,12 @@ TEST_CASE("uniform grids by continuation from the icosahedron have the known qua
     CAPTURE(known);
     CHECK(std::abs(value - known) <= 0.5000001 * std::pow(10, -decimals));
   };
-  CvtOptions options;
-  options.tolerance = 1e-8;
-  options.max_iterations = 5000;
-  Points3 start = bisected_icosahedron(3);
+  Recipe recipe{.start = {.points = bisected_icosahedron(3)},
+                .stop = {.tolerance = 1e-8, .max_iterations = 5000}};
   for (int level = 3; level <= 6; ++level) {
-    const Cvt grid = cvt(start, {}, options);
+    const Cvt grid = make_grid(recipe);
     REQUIRE(grid.report.converged);
-    start = bisect(grid.mesh);
+    recipe.start.points = bisect(grid.mesh);
     if (level == 3)
       continue;
     const Quality q = quality(grid.mesh);
@@ -479,7 +475,7 @@ TEST_CASE("uniform grids by continuation from the icosahedron have the known qua
     check_digits(q.angles.max, known.angle_max, 2);
     check_digits(q.cell_area.max / q.cell_area.min, known.area_ratio, 3);
     check_digits(q.energy * static_cast<double>(q.cells), known.energy, 5);
-    CHECK(q.residual <= options.tolerance);
+    CHECK(q.residual <= *recipe.stop.tolerance);
     CHECK(q.obtuse == 0);
     CHECK(q.degrees == std::vector<std::int64_t>{0, 0, 0, 0, 0, 12, q.cells - 12});
     for (const CvtIteration& iteration : grid.report.iterations)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/errors.h"
 #include "support/text.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/voronoi.h>
 
@@ -247,9 +246,10 @@ TEST_CASE("random sites in a rectangle, few and many") {
 
 /// Evenly spread, so that the boundary cuts no cell into parts.
 Points3 relaxed(std::int64_t n, const Surface& domain, std::uint64_t seed) {
-  CvtOptions options;
-  options.max_iterations = 40;
-  return cvt(random_points(n, domain, {}, seed), domain, options).mesh.points;
+  return make_grid({.surface = domain,
+                    .start = {.points = random_points(n, domain, {}, seed)},
+                    .stop = {.max_iterations = 40}})
+      .mesh.points;
 }
 
 /// Where a cell is no polygon, that is said of the right one.
