@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "support/constants.h"
 #include "support/directions.h"
 #include "support/errors.h"
-#include "support/starts.h"
 
 #include <calotte/check.h>
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
 #include <calotte/grid.h>
 
@@ -103,27 +100,13 @@ double least_angle(const Mesh& mesh) {
   return least;
 }
 
-struct BoundaryRun {
-  Points3 start;
-  CvtOptions options;
-};
-
-BoundaryRun run_of(const Case& here, std::int64_t cells) {
-  const Points3 boundary = boundary_points(here.region, cells, here.density);
-  BoundaryRun run;
-  run.options.density = here.density;
-  run.options.fixed = boundary.cols();
-  run.options.boundary = Boundary::generators;
-  run.options.cells = cells;
-  run.options.insertion_rounds = 2;
-  run.options.tolerance = 3e-4;
-  run.options.well_centred = true;
-  const test::FirstGenerators from =
-      test::multilevel(cells, here.region, here.density, 1, boundary);
-  run.options.bisections = from.bisections;
-  run.start.resize(3, boundary.cols() + from.start.cols());
-  run.start << boundary, from.start;
-  return run;
+Recipe ending_at_generators(const Case& here, std::int64_t cells) {
+  return {.cells = cells,
+          .resolution = here.density,
+          .surface = here.region,
+          .boundary = Boundary::generators,
+          .start = {.insertion_rounds = 2},
+          .stop = {.tolerance = 3e-4}};
 }
 
 } // namespace
@@ -151,13 +134,13 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
   for (const Case& here : cases()) {
     CAPTURE(here.name);
     const std::int64_t cells = 1500;
-    const BoundaryRun run = run_of(here, cells);
-    const Cvt grid = cvt(run.start, here.region, run.options);
+    const Points3 boundary = boundary_points(here.region, cells, here.density);
+    const Cvt grid = make_grid(ending_at_generators(here, cells));
     const Mesh& mesh = grid.mesh;
-    const auto f = static_cast<std::int32_t>(run.options.fixed);
+    const auto f = static_cast<std::int32_t>(boundary.cols());
     CHECK(grid.report.converged);
     CHECK(mesh.points.cols() == cells);
-    CHECK(mesh.points.leftCols(f) == run.start.leftCols(f));
+    CHECK(mesh.points.leftCols(f) == boundary);
     CHECK(check_surface(mesh).failure == "");
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
       CHECK(here.region.contains(mesh.points.col(i)));
@@ -189,13 +172,10 @@ TEST_CASE("boundary: the mesh ends at its generators, without slivers [slow]") {
 
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
-  const Case here = cases().back();
-  const BoundaryRun run = run_of(here, 900);
+  const Recipe recipe = ending_at_generators(cases().back(), 900);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    CvtOptions options = run.options;
-    options.partition.regions = regions;
-    return cvt(run.start, here.region, options).mesh;
+    return make_grid(recipe, {.partition = {.regions = regions}}).mesh;
   };
   const Mesh one = with(1, 1), many = with(4, 12);
   CHECK(one.points == many.points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <calotte/cvt.h>
+#include <calotte/grid.h>
 
 #include "base/points.h"
 #include "cvt/cvt.h"
@@ -24,6 +24,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 using namespace calotte;
@@ -40,15 +42,13 @@ constexpr std::array<Method, 4> methods{Method::lloyd, Method::lbfgs, Method::lb
 void check_random_start(const Density& density, Method method) {
   CAPTURE(static_cast<int>(method));
   constexpr int iterations = test::sanitized ? 15 : 40;
-  CvtOptions options;
-  options.density = density;
-  options.method = method;
-  options.max_iterations = iterations;
+  const Recipe recipe{.resolution = density,
+                      .start = {.points = random_sphere(1700, 4)},
+                      .stop = {.max_iterations = iterations},
+                      .method = method};
   const auto with = [&](std::size_t threads, int regions, Overlap overlap) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    options.partition.regions = regions;
-    options.partition.overlap = overlap;
-    return cvt(random_sphere(1700, 4), {}, options);
+    return make_grid(recipe, {.partition = {.regions = regions, .overlap = overlap}});
   };
   const Cvt one = with(1, 1, Overlap::halo);
   CHECK(!one.report.converged);
@@ -71,16 +71,15 @@ void check_random_start(const Density& density, Method method) {
 } // namespace
 
 TEST_CASE("every method takes uniform bisected grids to the known optimum without a flip") {
-  CvtOptions options;
-  options.tolerance = 1e-8;
-  options.max_iterations = 3000;
+  Recipe recipe{.stop = {.tolerance = 1e-8, .max_iterations = 3000}};
   const std::array<double, 2> energies{25.44900, 25.44443}; // E n for n = 2562 and 10 242
   for (int level = 4; level <= (test::sanitized ? 4 : 5); ++level) {
     double lowest = 0;
+    recipe.start.points = bisected_icosahedron(level);
     for (const Method method : methods) {
       CAPTURE(static_cast<int>(method));
-      options.method = method;
-      const Cvt grid = cvt(bisected_icosahedron(level), {}, options);
+      recipe.method = method;
+      const Cvt grid = make_grid(recipe);
       const double energy =
           grid.report.iterations.back().energy * static_cast<double>(grid.mesh.points.cols());
       CHECK(grid.report.converged);
@@ -108,22 +107,22 @@ TEST_CASE("random starts: the energy falls, and threads, regions and sorts have 
 TEST_CASE("a run continues from any of its states to the same bits") {
   for (const Method method : methods) {
     CAPTURE(static_cast<int>(method));
-    CvtOptions options;
-    options.density = x8();
-    options.method = method;
-    options.max_iterations = 100; // the Laplacian is computed again
-    options.bisections = 1;
-    options.tolerance = 1e-3; // the final rule takes over
+    // The final rule takes over, and the Laplacian is computed again.
+    const Recipe recipe{.resolution = x8(),
+                        .start = {.points = random_sphere(300, 4), .bisections = 1},
+                        .stop = {.tolerance = 1e-3, .max_iterations = 100},
+                        .method = method};
     std::vector<CvtState> states;
-    const Cvt whole = cvt(random_sphere(300, 4), {}, options, [&](const CvtProgress& now) {
-      states.push_back(now.state);
-      return false;
-    });
+    const auto keep = [&](const Progress& now) {
+      states.push_back(now.run->state);
+      return Next::proceed;
+    };
+    const Cvt whole = make_grid(recipe, {.progress = keep});
     CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
     if (method != Method::lloyd) // smaller than before
-      CHECK(whole.report.iterations.back().rule == options.final_rule);
+      CHECK(whole.report.iterations.back().rule == Quadrature().final_rule);
     for (std::size_t k = 0; k < states.size(); k += test::sanitized ? 27 : 9) {
-      const Cvt rest = cvt(states[k], {}, options);
+      const Cvt rest = make_grid(recipe, {.state = states[k]});
       CAPTURE(k);
       CHECK((rest.mesh.points == whole.mesh.points));
       CHECK((rest.mesh.triangles == whole.mesh.triangles));
@@ -143,25 +142,25 @@ TEST_CASE("every machine, compiler option and vector width gives the same bits")
         h = (h ^ (std::bit_cast<std::uint64_t>(value) >> (8 * byte) & 0xff)) * 0x100000001b3U;
     return h;
   };
-  CvtOptions options;
-  options.method = Method::lloyd;
-  options.max_iterations = 30;
-  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 9742159583379483476U);
-  options.density = x8();
-  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 4403101448020715688U);
-  options.method = Method::lbfgs_laplacian;
-  CHECK(hash(cvt(random_sphere(1500, 6), {}, options).mesh.points) == 11222898154665023123U);
+  Recipe recipe{.start = {.points = random_sphere(1500, 6)},
+                .stop = {.max_iterations = 30},
+                .method = Method::lloyd};
+  CHECK(hash(make_grid(recipe).mesh.points) == 9742159583379483476U);
+  recipe.resolution = x8();
+  CHECK(hash(make_grid(recipe).mesh.points) == 4403101448020715688U);
+  recipe.method = Method::lbfgs_laplacian;
+  CHECK(hash(make_grid(recipe).mesh.points) == 11222898154665023123U);
 }
 
 TEST_CASE("a state that no run has left is refused") {
-  CvtOptions options;
-  options.max_iterations = 1;
+  const Recipe recipe{.start = {.points = random_sphere(50)}, .stop = {.max_iterations = 1}};
   CvtState good;
-  cvt(random_sphere(50), {}, options, [&](const CvtProgress& now) {
-    good = now.state;
-    return true;
-  });
-  CHECK_NOTHROW(cvt(good, {}, options));
+  const auto keep = [&](const Progress& now) {
+    good = now.run->state;
+    return Next::stop;
+  };
+  make_grid(recipe, {.progress = keep});
+  CHECK_NOTHROW(make_grid(recipe, {.state = good}));
   std::vector<CvtState> bad(9, good);
   State::of(bad[0]).id[3] = State::of(bad[0]).id[4];
   State::of(bad[1]).id.pop_back();
@@ -173,27 +172,24 @@ TEST_CASE("a state that no run has left is refused") {
   State::of(bad[7]).report.actions.clear();
   State::of(bad[8]).memory.iterations = -1;
   for (const CvtState& state : bad)
-    CHECK_THROWS_AS(cvt(state, {}, options), Error);
+    CHECK_THROWS_AS(make_grid(recipe, {.state = state}), Error);
   CvtState few = good;
   State::of(few).points = good.points().leftCols(11);
   State::of(few).id = base_detail::themselves(11);
   State::of(few).site_of_input.clear();
   State::of(few).memory = {};
   CHECK_THROWS_WITH_AS(
-      cvt(few, {}, options),
+      make_grid(recipe, {.state = few}),
       "the state has 11 generators, and a run on the surface has at least 12; give "
       "the surface of the run that left it",
       Error);
 }
 
 TEST_CASE("each norm stops the run at its tolerance") {
-  CvtOptions options;
-  options.max_iterations = 2000;
   const double h = std::sqrt(4 * pi / 642);
   for (const Norm norm : {Norm::l2, Norm::linf, Norm::l2_scaled, Norm::linf_scaled}) {
-    options.norm = norm;
-    options.tolerance = 1e-5;
-    const Cvt grid = cvt(bisected_icosahedron(3), {}, options);
+    const Cvt grid = make_grid({.start = {.points = bisected_icosahedron(3)},
+                                .stop = {.norm = norm, .tolerance = 1e-5, .max_iterations = 2000}});
     CHECK(grid.report.converged);
     const auto value = [&](const CvtIteration& it) {
       return norm == Norm::l2          ? it.l2
@@ -211,47 +207,39 @@ TEST_CASE("each norm stops the run at its tolerance") {
 TEST_CASE("the gradient is the energy's slope") {
   // Along the steepest descent from x the energy falls by |g|^2 for a unit of it.
   const Points3 x = random_sphere(300, 9);
-  CvtOptions options;
-  options.density = x8();
-  options.rule = options.final_rule = 6;
-  options.divisions = 4; // otherwise the error of the rule appears in the energy
-  options.method = Method::lloyd;
-  options.norm = Norm::none;
-  options.max_iterations = 1;
-  const auto energy = [&](const Points3& points) {
-    return cvt(points, {}, options).report.iterations.back().energy;
+  const Schedule once = plan({.resolution = x8(),
+                              .start = {.points = x},
+                              .stop = {.iterations = 1},
+                              .method = Method::lloyd});
+  const auto at = [&](const Points3& points) { // otherwise the rule's error appears in the energy
+    return cvt(points, once, {.quadrature = {6, 6, 4}}).report.iterations.back();
   };
-  const Moments moments = mesh_moments(delaunay(x), options.density, 6, 4);
+  const Moments moments = mesh_moments(delaunay(x), x8(), 6, 4);
   Points3 gradient(3, x.cols());
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     const Vec3 first = moments.first[i];
     const Eigen::Vector3d m(first.x, first.y, first.z);
     gradient.col(i) = -2 * (m - m.dot(x.col(i)) * x.col(i));
   }
-  CHECK(cvt(x, {}, options).report.iterations.back().gradient ==
-        doctest::Approx(gradient.norm()).epsilon(1e-12));
+  CHECK(at(x).gradient == doctest::Approx(gradient.norm()).epsilon(1e-12));
   const double step = 1e-4;
   const Points3 there = (x - step * gradient).colwise().normalized();
   const Points3 back = (x + step * gradient).colwise().normalized();
-  const double slope = (energy(back) - energy(there)) / (2 * step);
+  const double slope = (at(back).energy - at(there).energy) / (2 * step);
   CHECK(slope == doctest::Approx(gradient.squaredNorm()).epsilon(2e-3));
 }
 
 TEST_CASE("the report counts the regions' sites and their seconds") {
-  CvtOptions options;
-  options.max_iterations = 3;
-  options.norm = Norm::none;
-  const Points3 start = bisected_icosahedron(5);
+  const Recipe recipe{.start = {.points = bisected_icosahedron(5)}, .stop = {.iterations = 3}};
   for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
-    options.partition.overlap = overlap;
-    const CvtReport report = cvt(start, {}, options).report;
+    const CvtReport report = make_grid(recipe, {.partition = {.overlap = overlap}}).report;
     std::int64_t sites = 0;
     for (const CvtRegion& region : report.regions) {
       sites += region.sites;
       CHECK(region.seconds > 0);
     }
     CHECK(report.converged);
-    CHECK(sites == start.cols());
+    CHECK(sites == recipe.start.points.cols());
     for (const CvtIteration& iteration : report.iterations)
       CHECK(iteration.seconds_exchange + iteration.seconds_moments > 0);
   }
@@ -259,19 +247,15 @@ TEST_CASE("the report counts the regions' sites and their seconds") {
 
 TEST_CASE("generators stay in the order of the start") {
   const Points3 start = bisected_icosahedron(3);
-  CvtOptions options;
-  options.max_iterations = 20;
-  const Cvt grid = cvt(start, {}, options);
+  const Cvt grid = make_grid({.start = {.points = start}, .stop = {.max_iterations = 20}});
   CHECK((grid.mesh.points - start).colwise().norm().maxCoeff() < 0.05);
 }
 
 // Slow: up to 1 500 iterations for 2 562 generators.
 TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [slow]") {
-  CvtOptions options;
-  options.density = x8();
-  options.max_iterations = 1500;
-  options.tolerance = 1e-5;
-  const Cvt grid = cvt(bisected_icosahedron(4), {}, options);
+  const Cvt grid = make_grid({.resolution = x8(),
+                              .start = {.points = bisected_icosahedron(4)},
+                              .stop = {.tolerance = 1e-5, .max_iterations = 1500}});
   check_descent(grid.report, 2e-13);
   double shortest = 4, longest = 0;
   for (Eigen::Index t = 0; t < grid.mesh.triangles.cols(); ++t)
@@ -289,19 +273,18 @@ TEST_CASE("the tanh bump spreads spacings by the fourth root of its contrast [sl
 // Slow: five descents to a tolerance of 1e-10.
 TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]") {
   // Smooth and without any symmetry, so that the generators cannot rotate.
-  CvtOptions options;
-  options.density.kind = Density::Kind::callable;
-  options.density.callable = [](const Eigen::Ref<const Points3>& x,
-                                Eigen::Ref<Eigen::VectorXd> rho) {
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     const auto px = x.row(0).array(), py = x.row(1).array(), pz = x.row(2).array();
     rho = (pz + 0.7 * px + 2 * py * py - px * pz).exp().matrix().transpose();
   };
-  options.tolerance = 1e-10;
-  options.max_iterations = 20000;
+  const Schedule schedule = plan({.resolution = density,
+                                  .start = {.points = bisected_icosahedron(1)},
+                                  .stop = {.tolerance = 1e-10, .max_iterations = 20000}});
   const auto fixed_point = [&](int rule, int divisions) {
-    options.rule = options.final_rule = rule;
-    options.divisions = divisions;
-    const Cvt grid = cvt(bisected_icosahedron(1), {}, options);
+    const Cvt grid =
+        cvt(bisected_icosahedron(1), schedule, {.quadrature = {rule, rule, divisions}});
     CHECK(grid.report.converged);
     return grid.mesh.points;
   };
@@ -318,16 +301,14 @@ TEST_CASE("the fixed point depends on the rule by the rule's order only [slow]")
 
 // Slow: a descent to 10 242 generators, then moments with 64 times the triangles.
 TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [slow]") {
-  CvtOptions options;
-  options.density = x8();
-  options.tolerance = 1e-3;
-  options.bisections = 2;
-  const Cvt grid = cvt(bisected_icosahedron(3), {}, options);
+  const Cvt grid = make_grid({.resolution = x8(),
+                              .start = {.points = bisected_icosahedron(3), .bisections = 2},
+                              .stop = {.tolerance = 1e-3}});
   const double h = std::sqrt(4 * pi / 10242);
   CHECK(grid.mesh.points.cols() == 10242);
   CHECK(grid.report.converged);
-  const Moments rule = mesh_moments(grid.mesh, options.density, CvtOptions{}.final_rule);
-  const Moments exact = mesh_moments(grid.mesh, options.density, 6, 8);
+  const Moments rule = mesh_moments(grid.mesh, x8(), Quadrature().final_rule);
+  const Moments exact = mesh_moments(grid.mesh, x8(), 6, 8);
   double squares = 0;
   for (std::int64_t i = 0; i < 10242; ++i) {
     const Vec3 apart =
@@ -341,19 +322,19 @@ TEST_CASE("directions that differ by less than rounding are one generator") {
   Points3 start = random_sphere(40, 3);
   start.col(20) = Eigen::Vector3d(5e-324, 1, 0);
   start.col(30) = Eigen::Vector3d(5e-324, 1 - 0x1p-53, 0); // exactly, another direction
-  const Cvt result = cvt(start, {}, {.max_iterations = 3});
+  Recipe recipe{.start = {.points = start}, .stop = {.max_iterations = 3}};
+  const Cvt result = make_grid(recipe);
   CHECK(result.mesh.points.cols() == 39);
   CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
-  CvtOptions refusing;
-  refusing.duplicates = Duplicates::refuse;
-  CHECK_THROWS_AS(cvt(start, {}, refusing), const Error&);
+  recipe.duplicates = Duplicates::refuse;
+  CHECK(code_of([&] { make_grid(recipe); }) == ErrorCode::duplicate);
 }
 
 TEST_CASE("directions that are equal after normalisation are one generator, in whatever bits") {
   Points3 start = random_sphere(40, 3);
   start.col(20) = Eigen::Vector3d(0, 1, 0);
   start.col(30) = Eigen::Vector3d(1e-320, 3e150, 0); // normalised, (0, 1 - 2^-53, 0)
-  const Cvt result = cvt(start, {}, {.max_iterations = 3});
+  const Cvt result = make_grid({.start = {.points = start}, .stop = {.max_iterations = 3}});
   CHECK(result.mesh.points.cols() == 39);
   CHECK(result.mesh.site_of_input[20] == result.mesh.site_of_input[30]);
 }
@@ -383,49 +364,71 @@ TEST_CASE("directions that are equal only when they are normalised twice are two
   for (std::size_t i = 0; i < given.size(); ++i)
     for (std::size_t row = 0; row < 3; ++row)
       points(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = given[i][row];
-  CvtOptions options;
-  options.max_iterations = 1;
-  const Cvt result = cvt(points, {}, options); // once it did not end
+  const Recipe recipe{.start = {.points = points}, .stop = {.max_iterations = 1}};
+  const Cvt result = make_grid(recipe); // once it did not end
   CHECK(check(result.mesh).passed());
-  options.partition.regions = 5; // some cells are smaller than rounding: slivers of other regions
-  CHECK(cvt(points, {}, options).mesh.points == result.mesh.points);
+  // Some cells are smaller than rounding: slivers of other regions.
+  CHECK(make_grid(recipe, {.partition = {.regions = 5}}).mesh.points == result.mesh.points);
 }
 
 TEST_CASE("bad input is refused in one line") {
   const Points3 start = random_sphere(100);
-  const auto code = [&](const Points3& points, const CvtOptions& options) {
-    return code_of([&] { cvt(points, {}, options); });
-  };
-  CvtOptions options;
-  CHECK(code(random_sphere(11), options) == ErrorCode::too_few_sites);
+  const auto code = [](const Recipe& recipe) { return code_of([&] { make_grid(recipe); }); };
+  for (const int few : {1, 2, 11})
+    CHECK(code({.start = {.points = random_sphere(few)}}) == ErrorCode::too_few_sites);
   Points3 half = start;
   half.row(2) = half.row(2).cwiseAbs();
-  CHECK(code(half, options) == ErrorCode::too_few_sites);
-  options.tolerance = 0;
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
-  for (const int bisections : {-1, 12, 100}) {
-    options = {};
-    options.bisections = bisections;
-    CHECK(code(start, options) == ErrorCode::invalid_argument);
+  CHECK(code({.start = {.points = half}}) == ErrorCode::too_few_sites);
+  const auto refusal = [&](int bisections, const Stop& stop, Method method = Method::automatic) {
+    return refusal_of([&] {
+      plan({.start = {.points = start, .bisections = bisections}, .stop = stop, .method = method});
+    });
+  };
+  CHECK(refusal(0, {.tolerance = 0}) == "the tolerance is 0; give a positive number such as 1e-6");
+  CHECK(refusal(0, {.max_iterations = -1}) == "the number of iterations is -1; give 0 or more");
+  for (const int bisections : {-1, 100})
+    CHECK(refusal(bisections, {}) ==
+          "the number of bisections is " + std::to_string(bisections) + "; give 0 to 13");
+  CHECK(refusal(12, {}) == "12 bisections of 100 generators are too many; give at most 11");
+  CHECK(refusal(11, {}, Method::lbfgs_laplacian) ==
+        "411041794 generators are too many for the method lbfgs_laplacian, which takes at most "
+        "306783378; give the method lbfgs or lloyd");
+  const auto of_density = [&](const Density& density) {
+    return code({.resolution = density, .start = {.points = start}});
+  };
+  CHECK(of_density(tanh_bump({0, 0, 1}, 0.5, 0.2, 0)) == ErrorCode::invalid_argument);
+  for (const double value : {0.0, -1.0, std::nan("")}) {
+    Density density;
+    density.kind = Density::Kind::callable;
+    density.callable = [value](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+      rho.setConstant(value);
+    };
+    CHECK(of_density(density) == ErrorCode::invalid_argument);
   }
-  options = {};
-  options.bisections = 11; // 411 million generators
-  options.method = Method::lbfgs_laplacian;
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
-  options = {};
-  options.density = tanh_bump({0, 0, 1}, 0.5, 0.2, 0);
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
-  options.density.kind = Density::Kind::callable;
-  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
-    rho.setZero();
+}
+
+TEST_CASE("a schedule that plan() has not made is refused") {
+  const Recipe recipe{.cells = 50};
+  std::vector<Schedule> bad(9, plan(recipe));
+  bad[0].actions = {};
+  bad[1].actions[0].tolerance = -1;
+  bad[2].actions[0].tolerance = 0;
+  bad[3].actions[0].tolerance = std::nan("");
+  bad[4].actions[0].kind = CvtAction::Kind::converge;
+  bad[5].actions[0].cells = 0;
+  bad[6].actions[0].times = -1;
+  bad[7].actions[0].max_iterations = -1;
+  bad[8] = {};
+  CvtState state;
+  const auto keep = [&](const Progress& now) {
+    state = now.run->state;
+    return Next::stop;
   };
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
-  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
-    rho.setConstant(-1);
-  };
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
-  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
-    rho.setConstant(std::nan(""));
-  };
-  CHECK(code(start, options) == ErrorCode::invalid_argument);
+  make_grid(recipe, {.progress = keep});
+  for (const Schedule& schedule : bad) {
+    CAPTURE(&schedule - bad.data());
+    for (const std::optional<CvtState>& from : {std::optional<CvtState>(), std::optional(state)})
+      CHECK(refusal_of([&] { make_grid(schedule, {.state = from}); }) ==
+            "the schedule lacks choices; give one of plan()");
+  }
 }

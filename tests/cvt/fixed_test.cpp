@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/check.h>
 #include <calotte/checkpoint.h>
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
 #include "cvt/cvt.h"
+#include "grids/start.h"
 #include "support/constants.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/joined.h"
 #include "support/laws.h"
-#include "support/starts.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -25,6 +26,8 @@
 
 using namespace calotte;
 using namespace calotte::test;
+using grids_detail::cells_beside;
+using grids_detail::free_generators;
 
 namespace {
 
@@ -39,54 +42,35 @@ Points3 stations(std::int64_t cells) {
   return points;
 }
 
-CvtOptions fixing(std::int64_t fixed) {
-  CvtOptions options;
-  options.fixed = fixed;
-  return options;
-}
-
-/// Lloyd's map of generators, none of which is held.
-Points3 centroids(const Points3& points, const Surface& region, CvtOptions options) {
-  options.fixed = options.insertion_rounds = 0;
-  options.cells = options.bisections = 0;
-  options.well_centred = false;
-  options.method = Method::lloyd;
-  options.norm = Norm::none;
-  options.max_iterations = 1;
-  options.rule = options.final_rule;
-  return cvt(points, region, options).mesh.points;
+/// Lloyd's map of generators, none of which is held, by the rule at the end of a run.
+Points3 centroids(const Points3& points, const Recipe& recipe) {
+  const Schedule once = plan({.resolution = recipe.resolution,
+                              .surface = recipe.surface,
+                              .start = {.points = points},
+                              .stop = {.iterations = 1},
+                              .method = Method::lloyd});
+  return cvt(points, once, {.quadrature = {.rule = Quadrature().final_rule}}).mesh.points;
 }
 
 /// The fixed generators keep their bits; the others are centroids within the tolerance of the run.
-void check_fixed_and_centroids(const Cvt& grid, const Points3& fixed, const Surface& region,
-                               const CvtOptions& options) {
-  const Eigen::Index f = fixed.cols(), n = grid.mesh.points.cols();
+void check_fixed_and_centroids(const Cvt& grid, const Recipe& recipe) {
+  const Eigen::Index f = recipe.fixed.cols(), n = grid.mesh.points.cols();
   CHECK(grid.report.converged);
-  CHECK(grid.mesh.points.leftCols(f) == fixed);
-  const Points3 moved = centroids(grid.mesh.points, region, options);
-  const double h = std::sqrt(region.area() / static_cast<double>(n));
+  CHECK(grid.mesh.points.leftCols(f) == recipe.fixed);
+  const Points3 moved = centroids(grid.mesh.points, recipe);
+  const double h = std::sqrt(recipe.surface.area() / static_cast<double>(n));
   const double rms =
       std::sqrt((moved - grid.mesh.points).rightCols(n - f).squaredNorm() / static_cast<double>(n));
-  CHECK(rms <= 1.5 * options.tolerance * h); // the last step goes to the centroids
+  CHECK(rms <= 1.5 * *recipe.stop.tolerance * h); // the last step goes to the centroids
 }
 
-CvtOptions graded_with_fixed(std::int64_t cells, std::int64_t fixed, int bisections) {
-  CvtOptions options = fixing(fixed);
-  options.density = tanh_bump(centre, 20 * degree, 10 * degree, 1.0 / 81);
-  options.cells = cells;
-  options.insertion_rounds = 1;
-  options.bisections = bisections;
-  options.tolerance = 1e-5;
-  return options;
-}
-
-std::string message_of(const Points3& start, const Surface& region, const CvtOptions& options) {
-  try {
-    cvt(start, region, options);
-    return "";
-  } catch (const Error& error) {
-    return error.what() + (" @" + std::to_string(error.index()));
-  }
+Recipe graded_with_fixed(std::int64_t cells, const Surface& region, double tolerance) {
+  return {.cells = cells,
+          .resolution = tanh_bump(centre, 20 * degree, 10 * degree, 1.0 / 81),
+          .surface = region,
+          .fixed = stations(cells),
+          .start = {.insertion_rounds = 1},
+          .stop = {.tolerance = tolerance}};
 }
 
 } // namespace
@@ -94,15 +78,15 @@ std::string message_of(const Points3& start, const Surface& region, const CvtOpt
 TEST_CASE("fixed generators keep their bits, and all others are centroids") {
   const Points3 fixed = stations(400);
   for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
-    const Points3 start = joined(fixed, random_points(388, region));
     for (const Method method : {Method::automatic, Method::lloyd}) {
-      CvtOptions options = fixing(12);
-      options.method = method;
-      options.tolerance = 1e-4;
-      options.max_iterations = 20000;
-      const Cvt grid = cvt(start, region, options);
+      const Recipe recipe{.surface = region,
+                          .fixed = fixed,
+                          .start = {.points = random_points(388, region)},
+                          .stop = {.tolerance = 1e-4, .max_iterations = 20000},
+                          .method = method};
+      const Cvt grid = make_grid(recipe);
       CHECK(grid.mesh.points.cols() == 400);
-      check_fixed_and_centroids(grid, fixed, region, options);
+      check_fixed_and_centroids(grid, recipe);
       if (region.is_whole_sphere())
         CHECK(check(grid.mesh).failure == "");
     }
@@ -110,17 +94,18 @@ TEST_CASE("fixed generators keep their bits, and all others are centroids") {
 }
 
 TEST_CASE("fixed generators of any norm are normalised once") {
-  Points3 fixed = 7.3 * stations(400);
-  const Cvt once = cvt(joined(fixed, random_sphere(100)), {}, fixing(12));
-  CHECK((once.mesh.points.leftCols(12) - fixed / 7.3).cwiseAbs().maxCoeff() < 1e-15);
-  fixed = once.mesh.points.leftCols(12);
-  const Cvt again = cvt(once.mesh.points, {}, fixing(12));
-  CHECK(again.mesh.points.leftCols(12) == fixed);
+  const Points3 fixed = 7.3 * stations(400);
+  const Points3 once =
+      make_grid({.fixed = fixed, .start = {.points = random_sphere(100)}}).mesh.points;
+  CHECK((once.leftCols(12) - fixed / 7.3).cwiseAbs().maxCoeff() < 1e-15);
+  const Cvt again =
+      make_grid({.fixed = once.leftCols(12), .start = {.points = once.rightCols(100)}});
+  CHECK(again.mesh.points.leftCols(12) == once.leftCols(12));
 }
 
 TEST_CASE("fixed generators only: nothing moves") {
   const Points3 all = random_sphere(50);
-  const Cvt grid = cvt(all, {}, fixing(50));
+  const Cvt grid = make_grid({.fixed = all, .start = {.points = all.leftCols(1)}}); // which merges
   CHECK(grid.report.converged);
   CHECK(grid.mesh.points == all);
 }
@@ -128,54 +113,42 @@ TEST_CASE("fixed generators only: nothing moves") {
 // Slow: all stages of a run, on the sphere and in a region.
 TEST_CASE("fixed generators through bisections, insertion and a finish [slow]") {
   const std::int64_t cells = 3000;
-  const Points3 fixed = stations(cells);
   for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
-    CvtOptions options = graded_with_fixed(cells, 12, 0);
-    const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
-    CHECK(from.bisections > 0);
-    options.bisections = from.bisections;
-    const Points3 start = joined(fixed, from.start);
-    const Cvt grid = cvt(start, region, options);
+    Recipe recipe = graded_with_fixed(cells, region, 1e-5);
+    recipe.stop.well_centred = false;
+    const Schedule schedule = plan(recipe);
+    CHECK(std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind) > 0);
+    const Cvt grid = make_grid(schedule);
     CHECK(grid.mesh.points.cols() == cells);
-    check_fixed_and_centroids(grid, fixed, region, options);
-    options.well_centred = true;
-    options.tolerance = 3e-4;
-    const Cvt finished = cvt(start, region, options);
-    CHECK(finished.mesh.points.leftCols(12) == fixed);
+    check_fixed_and_centroids(grid, recipe);
+    const Cvt finished = make_grid(graded_with_fixed(cells, region, 3e-4));
+    CHECK(finished.mesh.points.leftCols(12) == recipe.fixed);
     CHECK(finished.mesh.points.cols() == cells);
   }
 }
 
 // Slow: a run for each number of threads and of regions, and for each interruption.
 TEST_CASE("fixed generators: the same bits for all threads and regions, and resumed [slow]") {
-  const std::int64_t cells = 1200;
-  const Points3 fixed = stations(cells);
   const Scratch scratch;
   for (const Surface& region : {Surface(), circle(centre, 35 * degree)}) {
-    CvtOptions options = graded_with_fixed(cells, 12, 0);
-    options.well_centred = true;
-    options.tolerance = 3e-4;
-    const test::FirstGenerators from = test::multilevel(cells, region, options.density, 1, fixed);
-    options.bisections = from.bisections;
-    const Points3 start = joined(fixed, from.start);
+    const Recipe recipe = graded_with_fixed(1200, region, 3e-4);
     const auto with = [&](std::size_t threads, int regions) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      CvtOptions here = options;
-      here.partition.regions = regions;
-      return cvt(start, region, here);
+      return make_grid(recipe, {.partition = {.regions = regions}});
     };
     const Cvt one = with(1, 1);
     CHECK(identical(one.mesh, with(2, 12).mesh));
     CHECK(identical(one.mesh, with(4, 42).mesh));
     std::vector<CvtState> states;
-    cvt(start, region, options, [&](const CvtProgress& now) {
-      states.push_back(now.state);
-      return false;
-    });
+    const auto keep = [&](const Progress& now) {
+      states.push_back(now.run->state);
+      return Next::proceed;
+    };
+    make_grid(recipe, {.progress = keep});
     for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
       write_checkpoint(scratch / "run.ckpt", states[k], "same");
       const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
-      CHECK(identical(cvt(state, region, options).mesh, one.mesh));
+      CHECK(identical(make_grid(recipe, {.state = state}).mesh, one.mesh));
     }
   }
 }
@@ -183,47 +156,45 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
 TEST_CASE("fixed generators in the plane") {
   for (const Surface& domain : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})}) {
     const Points3 fixed = random_points(9, domain, {}, 3);
-    const test::FirstGenerators from = test::multilevel(900, domain, {}, 1, fixed);
-    CvtOptions options = fixing(9);
-    options.insertion_rounds = 1;
-    options.cells = 900;
-    options.bisections = from.bisections;
-    options.tolerance = 1e-4;
-    const Cvt grid = cvt(joined(fixed, from.start), domain, options);
+    const Cvt grid = make_grid({.cells = 900,
+                                .surface = domain,
+                                .fixed = fixed,
+                                .start = {.insertion_rounds = 1},
+                                .stop = {.tolerance = 1e-4, .well_centred = false}});
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == 900);
     CHECK(grid.mesh.points.leftCols(9) == fixed);
-    CvtOptions once;
-    once.method = Method::lloyd;
-    once.norm = Norm::none;
-    once.max_iterations = 1;
-    Points3 apart = cvt(grid.mesh.points, domain, once).mesh.points - grid.mesh.points;
+    Points3 apart = centroids(grid.mesh.points, {.surface = domain}) - grid.mesh.points;
     for (int k = 0; k < 2 && domain.is_box(); ++k)
       apart.row(k) = apart.row(k).unaryExpr(
           [&](double d) { return d - domain.period()[k] * std::round(d / domain.period()[k]); });
-    CHECK(apart.rightCols(891).norm() <= 1.5 * options.tolerance * std::sqrt(12.0));
+    CHECK(apart.rightCols(891).norm() <= 1.5 * 1e-4 * std::sqrt(12.0));
   }
 }
 
 TEST_CASE("fixed generators: bad input is one clear line with the index") {
   const Surface region = circle(centre, 35 * degree);
-  Points3 start = random_points(60, region);
-  CHECK(message_of(start, region, fixing(61)) ==
-        "fixed is 61; give 0 to 60, the number of generators of the start @-1");
-  CHECK(message_of(start, region, fixing(-1)).find("fixed is -1; give 0 to 60") == 0);
-  CvtOptions few = fixing(20);
-  few.insertion_rounds = 1;
-  few.cells = 15;
-  CHECK(message_of(start, region, few).find("fixed generator 15 is beyond the 15 cells") == 0);
-  start.col(7) = 2 * start.col(3);
-  for (const Surface& place : {region, Surface{}})
-    CHECK(message_of(start, place, fixing(10)) ==
+  Points3 all = random_points(60, region);
+  const auto fixing = [&](std::int64_t fixed, const Surface& surface) -> Recipe {
+    return {.surface = surface,
+            .fixed = all.leftCols(fixed),
+            .start = {.points = all.rightCols(60 - fixed)}};
+  };
+  const auto message = [](const Recipe& recipe) {
+    const Error error = error_of([&] { make_grid(recipe); });
+    return error.what() + (" @" + std::to_string(error.index()));
+  };
+  CHECK(message({.cells = 15, .surface = region, .fixed = all.leftCols(20)}) ==
+        "fixed point 14 leaves no free one of the 15 cells; give more cells or fewer fixed points "
+        "@14");
+  all.col(7) = 2 * all.col(3);
+  for (const Surface& surface : {region, Surface{}})
+    CHECK(message(fixing(10, surface)) ==
           "fixed generator 7 merges with fixed generator 3: give it once @7");
-  CHECK(message_of(start, region, fixing(7)) == ""); // a free one merges with a fixed one
-  start.col(4) = -centre;
-  CHECK(message_of(start, region, fixing(10)).find("fixed generator 4 is outside the region") == 0);
-  CHECK(message_of(start, region, fixing(2)).find("generator 4 is outside the region") == 0);
-  CHECK_THROWS_AS(test::multilevel(100, {}, Density{}, 1, random_sphere(100)), Error);
+  CHECK_NOTHROW(make_grid(fixing(7, region))); // a free one merges with a fixed one
+  all.col(4) = -centre;
+  CHECK(message(fixing(10, region)).starts_with("fixed generator 4 is outside the region"));
+  CHECK(message(fixing(2, region)).starts_with("generator 4 is outside the region"));
 }
 
 namespace {
@@ -233,7 +204,7 @@ Density quarter_widths() { return tanh_bump(centre, 12 * degree, 3 * degree, 1.0
 
 /// The cells of a uniform grid that are not near the centre.
 Points3 kept_cells(std::int64_t cells) {
-  const Points3 grid = cvt(geodesic_sphere(cells), {}).mesh.points;
+  const Points3 grid = make_grid({.start = {.points = geodesic_sphere(cells)}}).mesh.points;
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < grid.cols(); ++i)
     if (grid.col(i).dot(centre) < std::cos(24 * degree))
@@ -271,39 +242,37 @@ TEST_CASE("fixed generators: free ones start where these leave the density unmet
   const Points3 fixed = kept_cells(around);
   const Density density = quarter_widths();
   const Demand demand = demand_of(density, around);
-  const std::int64_t cells = grids_detail::cells_beside(fixed, demand.all, density, {});
+  const std::int64_t cells = cells_beside(fixed, demand.all, density, {});
   CHECK(std::abs(static_cast<double>(cells - fixed.cols()) - demand.near) < 0.05 * demand.near);
 
-  const test::FirstGenerators from = test::multilevel(cells, {}, density, 1, fixed);
-  CHECK(from.start.cols() == cells - fixed.cols());
-  for (const auto& p : from.start.colwise())
+  const auto start = [&](std::uint64_t seed) {
+    return free_generators(
+        plan({.cells = cells, .resolution = density, .fixed = fixed, .seed = seed}));
+  };
+  const Points3 free = start(1);
+  CHECK(free.cols() == cells - fixed.cols());
+  for (const auto& p : free.colwise())
     CHECK(p.dot(centre) > std::cos(25 * degree)); // a cell is 4 degrees wide
-  CHECK(test::multilevel(cells, {}, density, 1, fixed).start == from.start);
-  CHECK(test::multilevel(cells, {}, density, 2, fixed).start != from.start);
+  CHECK(start(1) == free);
+  CHECK(start(2) != free);
 }
 
 TEST_CASE("fixed generators: all free ones find a place where no gap is left") {
-  const Points3 fixed = cvt(geodesic_sphere(642), {}).mesh.points;
-  const test::FirstGenerators from = test::multilevel(700, {}, Density{}, 1, fixed);
-  CHECK(from.start.cols() == 58);
-  CHECK(nearest(from.start, fixed) > 0); // the farthest places, which are distinct from them
-  CHECK(grids_detail::cells_beside(fixed, 642, Density{}, {}) == 642);
+  const Points3 fixed = make_grid({.start = {.points = geodesic_sphere(642)}}).mesh.points;
+  const Points3 free = free_generators(plan({.cells = 700, .fixed = fixed}));
+  CHECK(free.cols() == 58);
+  CHECK(nearest(free, fixed) > 0); // the farthest places, which are distinct from them
+  CHECK(cells_beside(fixed, 642, Density{}, {}) == 642);
 }
 
 // Slow: 10 242 generators, with a finish.
 TEST_CASE("fixed generators: a refined part of a grid is well-centred [slow]") {
   const Points3 fixed = kept_cells(10242);
-  CvtOptions options;
-  options.density = quarter_widths();
-  options.fixed = fixed.cols();
-  options.cells =
-      grids_detail::cells_beside(fixed, demand_of(options.density, 10242).all, options.density, {});
-  options.insertion_rounds = 3;
-  options.well_centred = true;
-  options.tolerance = 1e-4;
-  const test::FirstGenerators from = test::multilevel(options.cells, {}, options.density, 1, fixed);
-  options.bisections = from.bisections;
-  const Cvt grid = cvt(joined(fixed, from.start), {}, options);
+  const Density density = quarter_widths();
+  const Cvt grid =
+      make_grid({.cells = cells_beside(fixed, demand_of(density, 10242).all, density, {}),
+                 .resolution = density,
+                 .fixed = fixed});
   CHECK(grid.report.converged);
   CHECK(grid.mesh.points.leftCols(fixed.cols()) == fixed);
   CHECK(check(grid.mesh).passed());
@@ -316,50 +285,51 @@ TEST_CASE("fixed generators: rounds end where a hole has room for fewer than it 
   constexpr int side = 5; // a lattice without its middle, in whose place there are four
   const double height = std::sqrt(0.75);
   const Eigen::Vector2d middle(2.25, 2.5 * height);
-  Points3 start = Points3::Zero(3, side * side - 1 + 4);
+  Points3 fixed = Points3::Zero(3, side * side - 1), free = Points3::Zero(3, 4);
   Eigen::Index next = 0;
   for (int r = 0; r < side; ++r)
     for (int c = 0; c < side; ++c)
       if (r != 2 || c != 2)
-        start.col(next++).head<2>() << c + 0.25 + 0.5 * (r % 2), (r + 0.5) * height;
-  CvtOptions options;
-  options.fixed = next;
-  options.cells = next + 1;
-  options.boundary = Boundary::generators;
-  options.well_centred = true;
-  options.tolerance = 1e-4;
-  options.density.kind = Density::Kind::callable;
-  options.density.callable = [](const Eigen::Ref<const Points3>& x,
-                                Eigen::Ref<Eigen::VectorXd> rho) {
+        fixed.col(next++).head<2>() << c + 0.25 + 0.5 * (r % 2), (r + 0.5) * height;
+  next = 0;
+  for (const auto& [x, y] : {std::array{-0.3, 0.0}, {0.3, 0.0}, {0.0, 0.3}, {0.0, -0.3}})
+    free.col(next++).head<2>() = middle + Eigen::Vector2d(x, y);
+  Density density;
+  density.kind = Density::Kind::callable;
+  density.callable = [](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     rho = (-0.4 * x.row(0).transpose()).array().exp();
   };
-  for (const auto& [x, y] : {std::array{-0.3, 0.0}, {0.3, 0.0}, {0.0, 0.3}, {0.0, -0.3}})
-    start.col(next++).head<2>() = middle + Eigen::Vector2d(x, y);
   for (const int rounds : {1, 3}) {
-    options.insertion_rounds = rounds;
-    const Cvt grid = cvt(start, rectangle({0, 0}, {side + 0.5, side * height}), options,
+    Schedule schedule = plan({.cells = fixed.cols() + 1,
+                              .resolution = density,
+                              .surface = rectangle({0, 0}, {side + 0.5, side * height}),
+                              .fixed = fixed,
+                              .start = {.insertion_rounds = rounds}});
+    schedule.recipe.boundary = Boundary::generators; // as in a patch, without more fixed ones
+    const Cvt grid = cvt(joined(fixed, free), schedule, {},
                          [](const CvtProgress& now) { return now.report.iterations.size() > 500; });
     CHECK(grid.report.iterations.size() < 300);
-    CHECK(grid.mesh.points.cols() == options.cells);
+    CHECK(grid.mesh.points.cols() == fixed.cols() + 1);
   }
 }
 
 TEST_CASE("fixed generators in the plane: free ones start where these leave room") {
   for (const Surface& domain : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})}) {
-    CvtOptions once;
-    once.tolerance = 1e-3;
-    const Points3 grid = cvt(random_points(600, domain), domain, once).mesh.points;
+    const Points3 grid = make_grid({.cells = 600,
+                                    .surface = domain,
+                                    .start = {.kind = Start::Kind::random},
+                                    .stop = {.tolerance = 1e-3}})
+                             .mesh.points;
     std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < grid.cols(); ++i)
       if (grid(0, i) < 3)
         kept.push_back(i);
     const Points3 fixed = grid(Eigen::all, kept);
-    const test::FirstGenerators from = test::multilevel(600, domain, {}, 1, fixed);
-    CHECK(from.start.cols() == 600 - fixed.cols());
-    const double inside = (from.start.row(0).array() > 2.9).cast<double>().sum();
-    CHECK(inside > 0.9 * static_cast<double>(from.start.cols()));
+    const Points3 free = free_generators(plan({.cells = 600, .surface = domain, .fixed = fixed}));
+    CHECK(free.cols() == 600 - fixed.cols());
+    const double inside = (free.row(0).array() > 2.9).cast<double>().sum();
+    CHECK(inside > 0.9 * static_cast<double>(free.cols()));
     // The gap is a quarter of the domain; the fixed cells at its edge lie half outside of it.
-    CHECK(std::abs(static_cast<double>(grids_detail::cells_beside(fixed, 600, {}, domain)) - 600) <
-          20);
+    CHECK(std::abs(static_cast<double>(cells_beside(fixed, 600, {}, domain)) - 600) < 20);
   }
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "cvt/glide.h"
 #include "delaunay/delaunay.h"
 
@@ -8,12 +7,11 @@
 #include "mesh/canonical_order.h"
 #include "support/densities.h"
 #include "support/sanitizer.h"
-#include "support/starts.h"
 
 #include <calotte/check.h>
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/quality.h>
 #include <calotte/voronoi.h>
 
@@ -32,22 +30,22 @@ namespace {
 
 /// A pure CVT with many dislocations, some of them on the brink of a step.
 Points3 with_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
-  CvtOptions options;
-  options.density = density;
-  options.tolerance = 1e-4;
-  return cvt(random_sphere(n, site_density(density), seed), {}, options).mesh.points;
+  return make_grid({.cells = n,
+                    .resolution = density,
+                    .start = {.kind = Start::Kind::density},
+                    .stop = {.tolerance = 1e-4},
+                    .seed = seed})
+      .mesh.points;
 }
 
 /// The same with few dislocations.
 Points3 with_few_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
-  const test::FirstGenerators start = test::multilevel(n, {}, density, seed);
-  CvtOptions options;
-  options.density = density;
-  options.tolerance = 1e-4;
-  options.bisections = start.bisections;
-  options.insertion_rounds = 1;
-  options.cells = n;
-  return cvt(start.start, {}, options).mesh.points;
+  return make_grid({.cells = n,
+                    .resolution = density,
+                    .start = {.kind = Start::Kind::multilevel},
+                    .stop = {.tolerance = 1e-4, .well_centred = false},
+                    .seed = seed})
+      .mesh.points;
 }
 
 /// The number of Voronoi edges that are too short for their Delaunay edges, from flat triangles.
@@ -83,10 +81,11 @@ struct Glided {
   std::optional<cvt_detail::Connectivity> mesh;
 };
 
-Glided glided(const Points3& points, const CvtOptions& options,
-              const std::vector<std::uint8_t>& fixed = {}) {
+Glided glided(const Points3& points, const Density& density,
+              const std::vector<std::uint8_t>& fixed = {}, const Partition& partition = {}) {
   Glided result{points, 0, std::nullopt};
-  const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), options);
+  const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), density,
+                                                      {.partition = partition});
   functional->hold(fixed);
   result.steps = functional->glide(result.points, cvt_detail::shape_limits);
   result.mesh = functional->take_mesh(result.points);
@@ -100,9 +99,7 @@ TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is
     for (std::uint64_t seed = 1; seed <= (test::sanitized ? 1 : 2); ++seed) {
       CAPTURE(seed);
       const Points3 before = with_few_dislocations(10000, density, seed);
-      CvtOptions options;
-      options.density = density;
-      const Glided after = glided(before, options);
+      const Glided after = glided(before, density);
       REQUIRE(short_edges(before) > 1);
       CHECK(short_edges(after.points) < short_edges(before));
       CHECK(after.steps > 0);
@@ -114,7 +111,7 @@ TEST_CASE("glide: short Voronoi edges go, few generators move, and the energy is
 }
 
 TEST_CASE("glide: the mesh that it leaves is the triangulation of the points") {
-  Glided after = glided(with_dislocations(1500, x8(), 3), {.density = x8()});
+  Glided after = glided(with_dislocations(1500, x8(), 3), x8());
   REQUIRE(after.mesh);
   REQUIRE(after.steps > 0);
   mesh_detail::make_canonical(after.mesh->triangles, after.mesh->neighbours);
@@ -134,10 +131,8 @@ TEST_CASE("glide: fixed generators keep their bits") {
 }
 
 TEST_CASE("glide: a mesh without short edges stays") {
-  CvtOptions options;
-  options.tolerance = 1e-6;
-  const Points3 points = cvt(bisected_icosahedron(4), {}, options).mesh.points;
-  const Glided after = glided(points, options);
+  const Points3 points = make_grid({.start = {.points = bisected_icosahedron(4)}}).mesh.points;
+  const Glided after = glided(points, {});
   CHECK(after.steps == 0);
   CHECK((after.points == points));
 }
@@ -146,10 +141,7 @@ TEST_CASE("glide: threads and regions have no effect") {
   const Points3 before = with_dislocations(3000, x8(), 4);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    CvtOptions options;
-    options.density = x8();
-    options.partition.regions = regions;
-    return glided(before, options);
+    return glided(before, x8(), {}, {.regions = regions});
   };
   const Glided one = with(1, 1);
   CHECK(one.steps > 0);
@@ -160,11 +152,13 @@ TEST_CASE("glide: threads and regions have no effect") {
 TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
   for (const Surface& domain : {rectangle({0, 0}, {2, 1}), Surface::periodic({2, 1})}) {
     CAPTURE(domain.is_box());
-    CvtOptions options;
-    options.tolerance = 1e-4;
-    const Cvt pure = cvt(random_points(900, domain, {}, 5), domain, options);
-    options.well_centred = true;
-    const Cvt grid = cvt(pure.mesh.points, domain, options);
+    Recipe recipe{.surface = domain,
+                  .start = {.points = random_points(900, domain, {}, 5)},
+                  .stop = {.tolerance = 1e-4}};
+    const Cvt pure = make_grid(recipe);
+    recipe.start.points = pure.mesh.points;
+    recipe.stop.well_centred = true;
+    const Cvt grid = make_grid(recipe);
     CHECK(check(grid.mesh).failure == "");
     CHECK(grid.report.well_centred);
     const double energy = quality(pure.mesh).energy;
@@ -172,11 +166,9 @@ TEST_CASE("glide: in a periodic box, a rectangle and a region of the sphere") {
     CHECK(quality(grid.mesh).obtuse <= quality(pure.mesh).obtuse);
   }
   const Surface region = circle({0, 0, 1}, 0.6);
-  CvtOptions options;
-  options.tolerance = 1e-4;
-  const Points3 start = random_points(900, region, Density{}, 5);
-  options.well_centred = true;
-  const Cvt grid = cvt(start, region, options);
+  const Cvt grid = make_grid({.surface = region,
+                              .start = {.points = random_points(900, region, Density{}, 5)},
+                              .stop = {.tolerance = 1e-4, .well_centred = true}});
   CHECK(grid.report.well_centred);
   CHECK(grid.report.iterations.back().shape_excess <= 0.03);
 }

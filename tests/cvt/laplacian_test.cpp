@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cells.h"
-#include "cvt/cvt.h"
 #include "cvt/functional.h"
 #include "cvt/laplacian.h"
 #include "cvt/multigrid.h"
 #include "cvt/state.h"
 #include "support/constants.h"
 #include "support/densities.h"
-#include "support/starts.h"
 
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
@@ -29,16 +27,16 @@ namespace {
 
 /// Generators along a space-filling curve, near an optimum of the energy.
 Points3 near_optimum(const Density& density, std::int64_t cells) {
-  const test::FirstGenerators from = test::continuation(cells, density);
-  CvtOptions options;
-  options.density = density;
-  options.bisections = from.bisections;
-  options.tolerance = 1e-2;
   Points3 points;
-  cvt(from.start, {}, options, [&](const CvtProgress& now) {
-    points = State::of(now.state).points;
-    return false;
-  });
+  const auto keep = [&](const Progress& now) {
+    points = State::of(now.run->state).points;
+    return Next::proceed;
+  };
+  make_grid({.cells = cells,
+             .resolution = density,
+             .start = {.kind = Start::Kind::continuation},
+             .stop = {.tolerance = 1e-2}},
+            {.progress = keep});
   return points;
 }
 
@@ -139,9 +137,7 @@ TEST_CASE("the graph Laplacian's elements are those of its formula, for triangle
 TEST_CASE("the graph Laplacian is near the energy's second derivative") {
   for (const Density& density : {Density{}, x8()}) {
     const Points3 x = near_optimum(density, 2562);
-    CvtOptions options;
-    options.density = density;
-    const auto functional = make_functional(x, Surface::sphere(), options);
+    const auto functional = make_functional(x, Surface::sphere(), density, {});
     const SparseMatrix matrix = eigen_matrix(laplacian_of(x, density));
     for (int kind = 0; kind < 12; kind += 3) {
       const Points3 v = field(x, kind);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cvt/cvt.h"
 #include "delaunay/delaunay.h"
 #include "support/densities.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 
 #include <doctest/doctest.h>
+
+#include <vector>
 
 using namespace calotte;
 using test::x8;
@@ -31,30 +32,25 @@ void check_triangulated(const Cvt& grid) { check_same(grid.mesh, delaunay(grid.m
 TEST_CASE("the mesh of a continuation is the triangulation of its generators") {
   for (const Density& density : {Density{}, x8()})
     for (const Points3& start : {bisected_icosahedron(1), fibonacci_sphere(150),
-                                 random_sphere(642, site_density(x8()), 5)}) {
-      CvtOptions options;
-      options.density = density;
-      options.tolerance = 1e-3;
-      options.bisections = 2;
-      options.max_iterations = 60;
-      check_triangulated(cvt(start, {}, options));
-    }
+                                 random_sphere(642, site_density(x8()), 5)})
+      check_triangulated(make_grid({.resolution = density,
+                                    .start = {.points = start, .bisections = 2},
+                                    .stop = {.tolerance = 1e-3, .max_iterations = 60}}));
 }
 
 TEST_CASE("the same if edges flip at every step, and if a run stops at any iteration") {
-  CvtOptions options;
-  options.density = x8();
-  options.method = Method::lloyd;
-  options.norm = Norm::none;
-  options.max_iterations = 6;
-  options.bisections = 2;
+  const Recipe recipe{.resolution = x8(),
+                      .start = {.points = random_sphere(500, 9), .bisections = 2},
+                      .stop = {.iterations = 6},
+                      .method = Method::lloyd};
   for (std::size_t last = 1; last <= 18; ++last) {
     bool changed = false;
-    const Cvt grid = cvt(random_sphere(500, 9), {}, options, [&](const CvtProgress& now) {
-      const CvtIteration& iteration = now.report.iterations.back();
-      changed = changed || iteration.flips > 0 || iteration.rebuilt;
-      return now.report.iterations.size() == last;
-    });
+    const auto until_last = [&](const Progress& now) {
+      const std::vector<CvtIteration>& iterations = now.run->report.iterations;
+      changed = changed || iterations.back().flips > 0 || iterations.back().rebuilt;
+      return iterations.size() == last ? Next::stop : Next::proceed;
+    };
+    const Cvt grid = make_grid(recipe, {.progress = until_last});
     CAPTURE(last);
     CHECK(grid.report.iterations.size() == last);
     CHECK((changed || last == 1));
@@ -63,20 +59,15 @@ TEST_CASE("the same if edges flip at every step, and if a run stops at any itera
 }
 
 TEST_CASE("a run without iterations is the bisected start's triangulation") {
-  CvtOptions options;
-  options.max_iterations = 0;
-  options.bisections = 2;
-  check_triangulated(cvt(random_sphere(300, 2), {}, options));
+  check_triangulated(make_grid({.start = {.points = random_sphere(300, 2), .bisections = 2},
+                                .stop = {.max_iterations = 0}}));
 }
 
 TEST_CASE("in a periodic box, and in a bounded plane") {
-  CvtOptions options;
-  options.tolerance = 1e-3;
-  options.bisections = 1;
-  const Surface box = Surface::periodic({2, 1});
-  const Cvt periodic = cvt(random_points(500, box), box, options);
-  check_same(periodic.mesh, delaunay(periodic.mesh.points, box));
-  const Surface basin = rectangle({0, 0}, {2, 1});
-  const Cvt bounded = cvt(random_points(300, basin), basin, options);
-  check_same(bounded.mesh, delaunay(bounded.mesh.points, basin));
+  for (const Surface& surface : {Surface::periodic({2, 1}), rectangle({0, 0}, {2, 1})}) {
+    const Cvt grid = make_grid({.surface = surface,
+                                .start = {.points = random_points(500, surface), .bisections = 1},
+                                .stop = {.tolerance = 1e-3}});
+    check_same(grid.mesh, delaunay(grid.mesh.points, surface));
+  }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/cells.h"
-#include "cvt/cvt.h"
 #include "cvt/state.h"
 #include "delaunay/delaunay.h"
 #include "density/surface_density.h"
@@ -9,7 +8,6 @@
 #include "support/errors.h"
 #include "support/random.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
@@ -35,6 +33,7 @@ namespace {
 using namespace calotte;
 using namespace calotte::test;
 using namespace calotte::cvt_detail;
+using base_detail::with_z;
 
 /// E n / area^2 of regular hexagons.
 const double hexagons = 5 * std::sqrt(3.0) / 54;
@@ -105,7 +104,7 @@ struct AllMoments {
 
 AllMoments planar_moments(const Points2& points, const Surface& domain, const Density& density,
                           int regions = 1, int rule = 6) {
-  const Points3 x = base_detail::with_z(points);
+  const Points3 x = with_z(points);
   Cells<Plane> cells(domain);
   cells.move(x);
   const Connectivity mesh = cells.triangulate();
@@ -138,13 +137,6 @@ AllMoments planar_moments(const Points2& points, const Surface& domain, const De
 double scaled_energy(const CvtReport& report, double domain_area) {
   const CvtIteration& last = report.iterations.back();
   return last.energy * static_cast<double>(last.cells) / (domain_area * domain_area);
-}
-
-CvtOptions with_method(Method method, int regions = 4) {
-  CvtOptions options;
-  options.method = method;
-  options.partition.regions = regions;
-  return options;
 }
 
 constexpr std::array all_methods{Method::lloyd, Method::lbfgs, Method::lbfgs_laplacian,
@@ -263,7 +255,9 @@ TEST_CASE("a periodic lattice of regular hexagons is a fixed point, with the hex
   const Mesh lattice = hexagonal_box(24, 28, 0.37);
   const Surface& box = lattice.surface;
   for (const Method method : all_methods) {
-    const Cvt grid = cvt(lattice.points, box, with_method(method));
+    const Cvt grid =
+        make_grid({.surface = box, .start = {.points = lattice.points}, .method = method},
+                  {.partition = {.regions = 4}});
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() == 1);
     CHECK(grid.report.iterations.back().flips == 0);
@@ -279,11 +273,13 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
     for (const bool refined : {false, true})
       for (const Method method : all_methods) {
         CAPTURE(static_cast<int>(method));
-        CvtOptions options = with_method(method);
-        options.max_iterations = 25;
-        if (refined)
-          options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 81);
-        const Cvt grid = cvt(random_start(domain, 300, 11), domain, options);
+        const Cvt grid = make_grid(
+            {.resolution = refined ? tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 81) : Density{},
+             .surface = domain,
+             .start = {.points = with_z(random_start(domain, 300, 11))},
+             .stop = {.max_iterations = 25},
+             .method = method},
+            {.partition = {.regions = 4}});
         check_descent(grid.report, 1e-12);
         CHECK(grid.report.iterations.back().energy < 0.85 * grid.report.iterations.front().energy);
         REQUIRE(grid.mesh.points.cols() == 300);
@@ -298,43 +294,49 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
 TEST_CASE("the same bits for any threads and regions, and after any interruption [slow]") {
   for (const Surface& domain : {lake(), Surface::periodic({1, 1})})
     for (const Method method : {Method::lloyd, Method::automatic}) {
-      const Points2 start = random_start(domain, 800, 21);
-      CvtOptions options = with_method(method, 1);
-      options.max_iterations = 16;
-      options.density = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16);
+      const Recipe recipe{.resolution = tanh_bump({0.4, 0.3, 0}, 0.3, 0.15, 1.0 / 16),
+                          .surface = domain,
+                          .start = {.points = with_z(random_start(domain, 800, 21))},
+                          .stop = {.max_iterations = 16},
+                          .method = method};
       std::vector<CvtState> states;
-      const Cvt reference = cvt(start, domain, options, [&](const CvtProgress& now) {
-        if (now.report.iterations.size() % 7 == 3)
-          states.push_back(now.state);
-        return false;
-      });
+      const auto keep = [&](const Progress& now) {
+        if (now.run->report.iterations.size() % 7 == 3)
+          states.push_back(now.run->state);
+        return Next::proceed;
+      };
+      const Cvt reference = make_grid(recipe, {.partition = {.regions = 1}, .progress = keep});
       for (const int regions : {2, 9, 50})
         for (const int threads : {1, 4}) {
-          options.partition.regions = regions;
           tbb::task_arena arena(threads);
-          const Cvt other = arena.execute([&] { return cvt(start, domain, options); });
+          const Cvt other =
+              arena.execute([&] { return make_grid(recipe, {.partition = {.regions = regions}}); });
           REQUIRE(other.mesh.points == reference.mesh.points);
           REQUIRE(other.mesh.triangles == reference.mesh.triangles);
         }
       REQUIRE(!states.empty());
       for (const CvtState& state : states)
-        REQUIRE(cvt(state, domain, options).mesh.points == reference.mesh.points);
+        REQUIRE(make_grid(recipe, {.partition = {.regions = 50}, .state = state}).mesh.points ==
+                reference.mesh.points);
     }
 }
 
 TEST_CASE("a state may have generators outside of a periodic box, but not 2^30 periods away") {
   const Surface box = Surface::periodic({1, 1});
-  CvtOptions options = with_method(Method::lloyd, 1);
-  options.max_iterations = 1;
+  const Recipe recipe{.surface = box,
+                      .start = {.points = with_z(random_start(box, 50, 3))},
+                      .stop = {.max_iterations = 1},
+                      .method = Method::lloyd};
   CvtState state;
-  cvt(random_start(box, 50, 3), box, options, [&](const CvtProgress& now) {
-    state = now.state;
-    return true;
-  });
+  const auto keep = [&](const Progress& now) {
+    state = now.run->state;
+    return Next::stop;
+  };
+  make_grid(recipe, {.progress = keep});
   State::of(state).points(0, 7) += 1;
-  CHECK_NOTHROW(cvt(state, box, options));
+  CHECK_NOTHROW(make_grid(recipe, {.state = state}));
   State::of(state).points(0, 7) = 1e12;
-  CHECK_THROWS_AS(cvt(state, box, options), Error);
+  CHECK_THROWS_AS(make_grid(recipe, {.state = state}), Error);
 }
 
 TEST_CASE("a generator of a piece around a corner stays inside, and the run converges there") {
@@ -343,9 +345,10 @@ TEST_CASE("a generator of a piece around a corner stays inside, and the run conv
       {ring_of({{0, 0}, {4, 0}, {4, 4}, {3.8, 4}, {3.8, 0.2}, {0.2, 0.2}, {0.2, 4}, {0, 4}})});
   for (const std::int64_t n : {3, 4, 9})
     for (const Method method : {Method::lloyd, Method::lbfgs}) {
-      CvtOptions options = with_method(method, 1);
-      options.tolerance = 1e-4;
-      const Cvt grid = cvt(random_start(horseshoe, n, 2), horseshoe, options);
+      const Cvt grid = make_grid({.surface = horseshoe,
+                                  .start = {.points = with_z(random_start(horseshoe, n, 2))},
+                                  .stop = {.tolerance = 1e-4},
+                                  .method = method});
       CAPTURE(n);
       CHECK(grid.report.converged);
       check_descent(grid.report, 1e-12);
@@ -395,14 +398,16 @@ TEST_CASE("in a box a triangle whose nearest copies do not close is invalid") {
 }
 
 TEST_CASE("bisection: periodic boxes have four times the cells, other domains the edges inside") {
-  CvtOptions options;
-  options.bisections = 2;
-  options.tolerance = 1e-2;
-  const Surface box = Surface::periodic({1, 1});
-  const Cvt periodic = cvt(random_start(box, 100, 4), box, options);
+  const auto bisected_twice = [](const Surface& domain) {
+    const Points3 start = with_z(random_start(domain, 100, 4));
+    return make_grid({.surface = domain,
+                      .start = {.points = start, .bisections = 2},
+                      .stop = {.tolerance = 1e-2}});
+  };
+  const Cvt periodic = bisected_twice(Surface::periodic({1, 1}));
   CHECK(periodic.mesh.points.cols() == 1600);
   CHECK(periodic.report.converged);
-  const Cvt open = cvt(random_start(lake(), 100, 4), lake(), options);
+  const Cvt open = bisected_twice(lake());
   CHECK(open.mesh.points.cols() > 1000);
   for (const auto& x : open.mesh.points.colwise())
     REQUIRE(open.mesh.surface.contains(x));
@@ -424,9 +429,11 @@ TEST_CASE(
                 0.1 / columns * random.real(-1, 1);
       base_detail::set_column(start, i, plane.wrapped({at.x(), at.y(), 0}));
     }
-    CvtOptions options = with_method(Method::lbfgs_laplacian);
-    options.tolerance = 1e-7;
-    const Cvt grid = cvt(start, box, options);
+    const Cvt grid = make_grid({.surface = box,
+                                .start = {.points = start},
+                                .stop = {.tolerance = 1e-7},
+                                .method = Method::lbfgs_laplacian},
+                               {.partition = {.regions = 4}});
     CHECK(grid.report.converged);
     CHECK(scaled_energy(grid.report, box.area()) == doctest::Approx(hexagons).epsilon(1e-9));
     evaluations.push_back(grid.report.iterations.size());
@@ -444,12 +451,13 @@ TEST_CASE("the graph Laplacian works if the boundary faces away from generators"
   Points2 lattice(2, 48);
   for (int i = 0; i < 48; ++i)
     lattice.col(i) << i % 8 * 0.5 + 0.25, i / 8 * 0.5 + 0.25;
-  CvtOptions options = with_method(Method::lloyd, 1);
-  options.norm = Norm::none;
-  options.max_iterations = 20;
-  const Cvt by_lloyd = cvt(lattice, domain, options);
-  options.method = Method::lbfgs_laplacian;
-  const Cvt by_laplacian = cvt(lattice, domain, options);
+  Recipe recipe{.surface = domain,
+                .start = {.points = with_z(lattice)},
+                .stop = {.iterations = 20},
+                .method = Method::lloyd};
+  const Cvt by_lloyd = make_grid(recipe);
+  recipe.method = Method::lbfgs_laplacian;
+  const Cvt by_laplacian = make_grid(recipe);
   CHECK(by_laplacian.mesh.points != by_lloyd.mesh.points); // the method that it falls back to
 }
 
@@ -464,9 +472,9 @@ TEST_CASE("clusters, and domains far from the origin or of any size") {
       const Surface domain = rectangle(low, low + Eigen::Vector2d(scale, scale));
       const Points2 start =
           (scale * (offset == 0 ? cluster : random_start(unit_square(), 200, 6))).colwise() + low;
-      CvtOptions options = with_method(Method::automatic);
-      options.tolerance = 1e-4;
-      const Cvt grid = cvt(start, domain, options);
+      const Cvt grid = make_grid(
+          {.surface = domain, .start = {.points = with_z(start)}, .stop = {.tolerance = 1e-4}},
+          {.partition = {.regions = 4}});
       CHECK(grid.report.converged);
       CHECK(scaled_energy(grid.report, domain.area()) == doctest::Approx(hexagons).epsilon(0.08));
     }
@@ -485,7 +493,8 @@ TEST_CASE("quality of hexagons in a box, and of clipped cells") {
   CHECK(hexagonal.cells_area == doctest::Approx(1).epsilon(1e-12));
   CHECK(hexagonal.residual < 1e-12);
 
-  const Cvt grid = cvt(random_start(lake(), 500, 3), lake(), with_method(Method::automatic));
+  const Cvt grid =
+      make_grid({.surface = lake(), .start = {.points = with_z(random_start(lake(), 500, 3))}});
   const Quality clipped = quality(grid.mesh);
   CHECK(clipped.cells == 500);
   CHECK(clipped.cells_area == doctest::Approx(1).epsilon(1e-10));
@@ -516,37 +525,36 @@ TEST_CASE("a raster is bilinear, and constant beyond its rim") {
 }
 
 TEST_CASE("bad input ends in one clear error") {
-  const auto refusal = [](const Points2& start, const Surface& domain,
-                          const CvtOptions& options = {}) -> std::pair<ErrorCode, std::string> {
-    const Error error = test::error_of([&] { cvt(start, domain, options); });
-    return {error.code(), error.what()};
+  const auto error = [](const Points2& start, const Surface& domain, const Density& density = {}) {
+    return error_of([&] {
+      make_grid({.resolution = density, .surface = domain, .start = {.points = with_z(start)}});
+    });
   };
   Points2 start = random_start(unit_square(), 20, 1);
   start.col(7) << 1.5, 0.5;
-  CHECK(refusal(start, unit_square()).second.find("point 7 is outside of the domain") == 0);
+  CHECK(std::string(error(start, unit_square()).what()).find("point 7 is outside of the domain") ==
+        0);
   start.col(7) << NAN, 0.5;
-  CHECK(refusal(start, unit_square()).first == ErrorCode::not_finite);
-  CHECK(refusal(start, Surface::plane()).first == ErrorCode::invalid_argument);
+  CHECK(error(start, unit_square()).code() == ErrorCode::not_finite);
+  CHECK(error(start, Surface::plane()).code() == ErrorCode::invalid_argument);
   const Points2 line = ring_of({{0.1, 0.5}, {0.5, 0.5}, {0.9, 0.5}});
-  CHECK(refusal(line, unit_square()).first == ErrorCode::degenerate);
-  CHECK(refusal(line.leftCols(2), unit_square()).first == ErrorCode::too_few_sites);
+  CHECK(error(line, unit_square()).code() == ErrorCode::degenerate);
+  CHECK(error(line.leftCols(2), unit_square()).code() == ErrorCode::too_few_sites);
   Density nothing;
   nothing.kind = Density::Kind::callable;
   nothing.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setZero();
   };
-  CvtOptions options;
-  options.density = nothing;
-  CHECK(refusal(random_start(unit_square(), 20, 1), unit_square(), options).first ==
+  CHECK(error(random_start(unit_square(), 20, 1), unit_square(), nothing).code() ==
         ErrorCode::invalid_argument);
 }
 
 // Slow: up to 3 000 iterations for 10 000 generators.
 TEST_CASE("10 000 generators of the unit square come near the hexagons' energy [slow]") {
-  CvtOptions options;
-  options.tolerance = 1e-4;
-  options.max_iterations = 3000;
-  const Cvt grid = cvt(random_start(unit_square(), 10'000, 1), unit_square(), options);
+  const Points3 start = with_z(random_start(unit_square(), 10'000, 1));
+  const Cvt grid = make_grid({.surface = unit_square(),
+                              .start = {.points = start},
+                              .stop = {.tolerance = 1e-4, .max_iterations = 3000}});
   const double energy = scaled_energy(grid.report, 1);
   MESSAGE("E n / area^2 over the hexagons': " << energy / hexagons << ", "
                                               << grid.report.iterations.size() << " evaluations");

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/check.h>
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/ocean.h>
 
-#include "cvt/cvt.h"
 #include "support/constants.h"
 #include "support/descent.h"
 #include "support/directions.h"
@@ -12,7 +11,6 @@
 #include "support/gshhg.h"
 #include "support/laws.h"
 #include "support/region_laws.h"
-#include "support/starts.h"
 #include "support/text.h"
 
 #include <doctest/doctest.h>
@@ -105,12 +103,11 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
   const double whole = australia.area();
   const Points3 start = random_points(500, australia);
   CHECK(std::abs(sum_of_cells(australia, start) / whole - 1) < 1e-12);
-  CvtOptions options;
-  options.max_iterations = 25;
+  const Recipe recipe{
+      .surface = australia, .start = {.points = start}, .stop = {.max_iterations = 25}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    options.partition.regions = regions;
-    return cvt(start, australia, options);
+    return make_grid(recipe, {.partition = {.regions = regions}});
   };
   const Cvt grid = with(1, 1);
   CHECK(std::abs(sum_of_cells(australia, grid.mesh.points) / whole - 1) < 1e-12);
@@ -126,23 +123,16 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
 // Slow: a run for each number of threads and of regions.
 TEST_CASE("Australia: a graded grid has the same bits for all threads and regions [slow]") {
   const Surface australia = land_around(gshhg('l'), direction(134, -25));
-  CvtOptions options;
-  options.density = tanh_bump(direction(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
-  const test::FirstGenerators from = test::multilevel(1500, australia, options.density);
-  options.insertion_rounds = 1;
-  options.cells = 1500;
-  options.bisections = from.bisections;
-  options.well_centred = true;
-  options.tolerance = 3e-4;
+  const Density density = tanh_bump(direction(146, -38), 6 * degree, 4 * degree, 1.0 / 81);
+  const Recipe recipe{
+      .cells = 1500, .resolution = density, .surface = australia, .stop = {.tolerance = 3e-4}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    options.partition.regions = regions;
-    return cvt(from.start, australia, options);
+    return make_grid(recipe, {.partition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
-  CHECK(std::abs(sum_of_cells(australia, one.mesh.points, options.density) / australia.area() - 1) <
-        1e-12);
+  CHECK(std::abs(sum_of_cells(australia, one.mesh.points, density) / australia.area() - 1) < 1e-12);
   CHECK(identical(one.mesh, with(2, 12).mesh));
 }

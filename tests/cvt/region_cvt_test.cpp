@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/check.h>
 #include <calotte/checkpoint.h>
-#include <calotte/cvt.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -13,7 +13,6 @@
 #include "support/files.h"
 #include "support/laws.h"
 #include "support/region_laws.h"
-#include "support/starts.h"
 #include "support/text.h"
 
 #include <Eigen/Geometry>
@@ -80,19 +79,8 @@ std::vector<std::pair<std::string, Surface>> regions() {
           {"archipelago", archipelago()}};
 }
 
-CvtOptions well_centred(std::int64_t cells, int bisections) {
-  CvtOptions options;
-  options.density = tanh_bump(direction(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
-  options.insertion_rounds = 1;
-  options.cells = cells;
-  options.bisections = bisections;
-  options.well_centred = true;
-  options.tolerance = 3e-4;
-  return options;
-}
-
 std::string message_of(const Points3& start, const Surface& region) {
-  return test::message_of([&] { cvt(start, region); });
+  return test::message_of([&] { make_grid({.surface = region, .start = {.points = start}}); });
 }
 
 } // namespace
@@ -103,9 +91,8 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
     const Points3 start = random_points(300, region);
     const double whole = region.area();
     CHECK(std::abs(sum_of_cells(region, start) / whole - 1) < 1e-12);
-    CvtOptions options;
-    options.max_iterations = 25;
-    const Cvt grid = cvt(start, region, options);
+    const Cvt grid =
+        make_grid({.surface = region, .start = {.points = start}, .stop = {.max_iterations = 25}});
     CHECK(grid.mesh.points.cols() == 300);
     CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / whole - 1) < 1e-12);
     CHECK(check_surface(grid.mesh).failure == "");
@@ -118,18 +105,16 @@ TEST_CASE("region: the cells' areas sum to the region's, and generators stay ins
 TEST_CASE("region: generators that start in a corner spread over all of it") {
   const Surface region = circle(direction(10, 20), 30 * degree);
   const Points3 corner = random_points(150, circle(direction(30, 20), degree));
-  CvtOptions options;
-  options.tolerance = 1e-3;
-  const Cvt grid = cvt(corner, region, options);
+  const Cvt grid =
+      make_grid({.surface = region, .start = {.points = corner}, .stop = {.tolerance = 1e-3}});
   CHECK(grid.report.converged);
   CHECK(std::abs(sum_of_cells(region, grid.mesh.points) / region.area() - 1) < 1e-12);
 }
 
 TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
   const Surface region = circle(direction(10, 20), 30 * degree);
-  CvtOptions options;
-  options.tolerance = 1e-6;
-  const Cvt grid = cvt(random_points(300, region), region, options);
+  const Cvt grid =
+      make_grid({.cells = 300, .surface = region, .start = {.kind = Start::Kind::random}});
   CHECK(grid.report.converged);
   const double whole = region.area(), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
                energy = grid.report.iterations.back().energy;
@@ -140,18 +125,18 @@ TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
 TEST_CASE("region: uniform density by closed forms and by quadrature") {
   const Surface region = circle(direction(200, -70), 5 * degree);
   const Points3 start = random_points(200, region);
-  CvtOptions options;
-  options.norm = Norm::none;
-  options.max_iterations = 1;
-  options.method = Method::lloyd;
-  const Cvt exact = cvt(start, region, options);
-  options.density.kind = Density::Kind::callable;
-  options.density.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
+  Recipe recipe{.surface = region,
+                .start = {.points = start},
+                .stop = {.iterations = 1},
+                .method = Method::lloyd};
+  const Cvt exact = make_grid(recipe);
+  Density ones;
+  ones.kind = Density::Kind::callable;
+  ones.callable = [](const Eigen::Ref<const Points3>&, Eigen::Ref<Eigen::VectorXd> rho) {
     rho.setOnes();
   };
-  options.rule = options.final_rule = 6;
-  options.divisions = 2;
-  const Cvt ruled = cvt(start, region, options);
+  recipe.resolution = ones;
+  const Cvt ruled = cvt(start, plan(recipe), {.quadrature = {6, 6, 2}});
   CHECK((exact.mesh.points - ruled.mesh.points).cwiseAbs().maxCoeff() < 1e-11);
 }
 
@@ -159,33 +144,31 @@ TEST_CASE("region: uniform density by closed forms and by quadrature") {
 TEST_CASE(
     "region: a graded grid has the same bits for all threads and regions, and resumes [slow]") {
   const Surface region = circle(direction(20, 40), 14 * degree);
-  const test::FirstGenerators from = test::multilevel(1500, region, well_centred(1500, 0).density);
+  const Density density = tanh_bump(direction(20, 40), 6 * degree, 4 * degree, 1.0 / 81);
+  const Recipe recipe{
+      .cells = 1500, .resolution = density, .surface = region, .stop = {.tolerance = 3e-4}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    CvtOptions options = well_centred(1500, from.bisections);
-    options.partition.regions = regions;
-    return cvt(from.start, region, options);
+    return make_grid(recipe, {.partition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);
   CHECK(one.report.converged);
   CHECK(one.report.well_centred);
-  CHECK(std::abs(sum_of_cells(region, one.mesh.points, well_centred(1500, 0).density) /
-                     region.area() -
-                 1) < 1e-12);
+  CHECK(std::abs(sum_of_cells(region, one.mesh.points, density) / region.area() - 1) < 1e-12);
   CHECK(identical(one.mesh, with(2, 12).mesh));
   CHECK(identical(one.mesh, with(4, 42).mesh));
   const Scratch scratch;
   std::vector<CvtState> states;
-  const CvtOptions options = well_centred(1500, from.bisections);
-  cvt(from.start, region, options, [&](const CvtProgress& now) {
-    states.push_back(now.state);
-    return false;
-  });
+  const auto keep = [&](const Progress& now) {
+    states.push_back(now.run->state);
+    return Next::proceed;
+  };
+  make_grid(recipe, {.progress = keep});
   for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
     const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
-    CHECK(identical(cvt(state, region, options).mesh, one.mesh));
+    CHECK(identical(make_grid(recipe, {.state = state}).mesh, one.mesh));
   }
 }
 

@@ -4,15 +4,15 @@
 #include "support/laws.h"
 
 #include "support/densities.h"
+#include "support/errors.h"
 #include "support/files.h"
 #include "support/sanitizer.h"
-#include "support/text.h"
 
 #include <calotte/check.h>
 #include <calotte/checkpoint.h>
-#include <calotte/cvt.h>
 #include <calotte/error.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/quality.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
@@ -33,15 +33,8 @@ using namespace calotte::test;
 namespace {
 
 /// A graded run that a model could use.
-CvtOptions graded(std::int64_t cells, int bisections, const Density& density) {
-  CvtOptions options;
-  options.density = density;
-  options.tolerance = 1e-4;
-  options.bisections = bisections;
-  options.insertion_rounds = 1;
-  options.cells = cells;
-  options.well_centred = true;
-  return options;
+Recipe graded(std::int64_t cells, const Density& density) {
+  return {.cells = cells, .resolution = density, .start = {.kind = Start::Kind::multilevel}};
 }
 
 Points3 random_start(std::int64_t n, const Density& density, std::uint64_t seed = 1) {
@@ -86,40 +79,42 @@ bool same_run(const Cvt& a, const Cvt& b) {
          a.report.iterations.size() == b.report.iterations.size();
 }
 
-std::string message_of(const CvtOptions& options) {
-  return test::message_of([&] { cvt(fibonacci_sphere(20), {}, options); });
-}
-
 } // namespace
 
 TEST_CASE("stages: insertion reaches any number of cells, from any start") {
   for (const auto& [start, bisections, cells] : {std::tuple{12, 0, 12},
                                                  {12, 0, 13},
                                                  {30, 0, 20},
-                                                 {40, 1, 160},
-                                                 {50, 1, 221},
-                                                 {100, 2, 1500}}) {
+                                                 {40, 0, 160},
+                                                 {50, 1, 700},
+                                                 {300, 1, 700},
+                                                 {100, 2, 2600}}) {
     CAPTURE(start);
     CAPTURE(cells);
-    CvtOptions options = graded(cells, bisections, two_bumps());
-    options.well_centred = false;
-    const Cvt grid = cvt(random_start(start, Density{}), {}, options);
+    Recipe recipe = graded(cells, two_bumps());
+    recipe.stop.tolerance = 1e-4;
+    recipe.stop.well_centred = false;
+    const Schedule schedule = plan(recipe);
+    CHECK(std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind) ==
+          bisections);
+    const Cvt grid = cvt(random_sphere(start), schedule);
     CHECK(grid.mesh.points.cols() == cells);
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
-    CHECK(grid.report.residual <= options.tolerance);
+    CHECK(grid.report.residual <= 1e-4);
   }
 }
 
 // Slow: two descents to 4 000 cells.
 TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]") {
-  CvtOptions options = graded(4000, 2, x8());
-  options.well_centred = false;
-  const Points3 start = random_start(252, x8());
-  const double with = excess(cvt(start, {}, options), x8());
-  options.insertion_rounds = 0;
-  options.cells = 0;
-  const Cvt plain = cvt(start, {}, options);
+  const Stop stop{.tolerance = 1e-4, .well_centred = false};
+  Recipe recipe = graded(4000, x8());
+  recipe.stop = stop;
+  const double with = excess(make_grid(recipe), x8());
+  const Cvt plain = make_grid({.cells = 4002,
+                               .resolution = x8(),
+                               .start = {.kind = Start::Kind::density, .bisections = 2},
+                               .stop = stop});
   CHECK(with < 0.85 * excess(plain, x8()));
   CHECK(with > 0);
 }
@@ -129,7 +124,9 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
   for (const Density& density : {x8(), stretched_bump(), two_bumps(), Density{}})
     for (const std::uint64_t seed : {1, 2}) {
       CAPTURE(seed);
-      const Cvt grid = cvt(random_start(190, density, seed), {}, graded(3001, 2, density));
+      Recipe recipe = graded(3001, density);
+      recipe.seed = seed;
+      const Cvt grid = make_grid(recipe);
       CHECK(grid.mesh.points.cols() == 3001);
       CHECK(grid.report.converged);
       CHECK(grid.report.well_centred);
@@ -141,12 +138,11 @@ TEST_CASE("stages: a finish gives the shapes that models require [slow]") {
 }
 
 TEST_CASE("stages: in each descent every accepted step lowers the energy") {
-  CvtOptions options = graded(2500, 2, x8());
-  options.divisions = 2;
   int descents = 0, steps = 0;
   double before = 0;
   std::tuple<int, int, int, int> rule_and_stage;
-  cvt(random_start(160, x8()), {}, options, [&](const CvtProgress& now) {
+  const Execution execution{.quadrature = {.divisions = 2}};
+  cvt(random_start(190, x8()), plan(graded(3000, x8())), execution, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
     const cvt_detail::State& state = cvt_detail::State::of(now.state);
     if (state.in_polish() || !here.accepted) // a polish minimises another function
@@ -165,17 +161,16 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
 }
 
 TEST_CASE("stages: a density of 0 on a part of the sphere leaves its edges without a demand") {
-  const Cvt grid = cvt(fibonacci_sphere(600), {}, graded(900, 0, rising(0.999)));
-  CHECK(grid.mesh.points.cols() == 900);
+  const Cvt grid = cvt(fibonacci_sphere(400), plan(graded(600, rising(0.999))));
+  CHECK(grid.mesh.points.cols() == 600);
   CHECK(grid.mesh.points.allFinite());
   CHECK(check(grid.mesh).failure == "");
 }
 
 TEST_CASE("stages: a density is evaluated at the sites only where cells are small everywhere") {
   const auto at_sites = [](const Points3& start, const Density& density) {
-    CvtOptions options = graded(2600, 0, density);
-    options.max_iterations = 4;
-    const Cvt grid = cvt(start, {}, options);
+    const Cvt grid =
+        cvt(start, plan(graded(2600, density)), {}, [](const CvtProgress&) { return true; });
     return grid.report.iterations.front().linear_density;
   };
   CHECK(at_sites(random_start(2500, x8()), x8()));
@@ -185,12 +180,9 @@ TEST_CASE("stages: a density is evaluated at the sites only where cells are smal
 }
 
 TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
-  const Points3 start = random_start(160, x8());
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    CvtOptions options = graded(2500, 2, x8());
-    options.partition.regions = regions;
-    return cvt(start, {}, options);
+    return make_grid(graded(2800, x8()), {.partition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);
@@ -202,28 +194,30 @@ TEST_CASE("stages: threads and regions have no effect on insertion and finish") 
 
 TEST_CASE("stages: a run resumes to the same bits within each stage") {
   const Scratch scratch;
-  const CvtOptions options = graded(700, 1, two_bumps());
-  const Points3 start = random_start(177, two_bumps(), 4);
+  Recipe recipe = graded(700, two_bumps());
+  recipe.seed = 4;
   std::vector<CvtState> states;
-  const Cvt whole = cvt(start, {}, options, [&](const CvtProgress& now) {
-    states.push_back(now.state);
-    return false;
-  });
+  const auto keep = [&](const Progress& now) {
+    states.push_back(now.run->state);
+    return Next::proceed;
+  };
+  const Cvt whole = make_grid(recipe, {.progress = keep});
   REQUIRE(cvt_detail::State::of(states.back()).in_polish());
   REQUIRE(states.size() > 40);
   constexpr std::size_t stride = test::sanitized ? 38 : 19;
   for (std::size_t k = 0; k < states.size(); k += k + 6 < states.size() ? stride : 1) {
     CAPTURE(k);
     write_checkpoint(scratch / "run.ckpt", states[k], "same");
-    CHECK(same_run(cvt(read_checkpoint(scratch / "run.ckpt", "same"), {}, options), whole));
+    const CvtState state = read_checkpoint(scratch / "run.ckpt", "same");
+    CHECK(same_run(make_grid(recipe, {.state = state}), whole));
   }
 }
 
 TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
-  CvtOptions options;
-  const Cvt pure = cvt(bisected_icosahedron(3), {}, options);
-  options.well_centred = true;
-  const Cvt finished = cvt(bisected_icosahedron(3), {}, options);
+  Recipe recipe{.start = {.points = bisected_icosahedron(3)}, .stop = {.tolerance = 1e-6}};
+  const Cvt pure = make_grid(recipe);
+  recipe.stop.well_centred = true;
+  const Cvt finished = make_grid(recipe);
   CHECK((pure.mesh.points == finished.mesh.points));
   CHECK(finished.report.converged);
   CHECK(finished.report.well_centred);
@@ -233,18 +227,18 @@ TEST_CASE("stages: a finish leaves a mesh of good shapes as it is") {
 
 TEST_CASE("stages: a least spacing is kept, or the report says that it is not") {
   const auto least = [](const Cvt& grid) { return quality(grid.mesh, x8()).dc_over_h.min; };
-  CvtOptions options = graded(3001, 2, x8());
-  const Points3 start = random_start(190, x8());
-  const Cvt usual = cvt(start, {}, options);
-  options.least_spacing = 0.9;
-  const Cvt wider = cvt(start, {}, options);
+  Recipe recipe = graded(3001, x8());
+  const Cvt usual = make_grid(recipe);
+  recipe.stop.least_spacing = 0.9;
+  const Cvt wider = make_grid(recipe);
   CHECK(least(usual) < 0.86);
   if (wider.report.well_centred)
     CHECK(least(wider) > 0.9 - 0.03 - 0.01); // the demanded spacing follows from the energy
   else
     CHECK(wider.report.iterations.back().shape_excess > 0.03);
-  options.least_spacing = 0.97;
-  CHECK_THROWS_AS(cvt(start, {}, options), Error);
+  recipe.stop.least_spacing = 0.97;
+  CHECK(refusal_of([&] { make_grid(recipe); }) ==
+        "least_spacing is 0.97; give a share of the demanded spacing, 0 to 0.95");
 }
 
 // Slow: descents with a finish in two domains.
@@ -252,9 +246,11 @@ TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   const Density fine = tanh_bump({0.7, 0.5, 0}, 0.2, 0.2, 1.0 / 256);
   for (const Surface& domain : {rectangle({0, 0}, {2, 1}), Surface::periodic({2, 1})}) {
     CAPTURE(domain.is_box());
-    const Points3 start = random_points(120, domain, site_density(fine, domain), 3);
-    const Cvt grid = cvt(start, domain, graded(1900, 2, fine));
-    CHECK(grid.mesh.points.cols() == 1900);
+    Recipe recipe = graded(2600, fine);
+    recipe.surface = domain;
+    recipe.seed = 3;
+    const Cvt grid = make_grid(recipe);
+    CHECK(grid.mesh.points.cols() == 2600);
     CHECK(grid.report.converged);
     CHECK(check(grid.mesh).failure == "");
     const Quality q = quality(grid.mesh, fine);
@@ -263,36 +259,23 @@ TEST_CASE("stages: in the plane, with a boundary and in a box [slow]") {
   }
 }
 
-TEST_CASE("stages: bad options are errors") {
-  CvtOptions options;
-  options.insertion_rounds = 1;
-  CHECK(has(message_of(options), "give both or neither"));
-  options = {};
-  options.cells = 100;
-  CHECK(has(message_of(options), "give both or neither"));
-  options.insertion_rounds = -1;
-  CHECK(has(message_of(options), "give 0 or more"));
-  options = {};
-  options.insertion_rounds = 1;
-  options.cells = 5;
-  CHECK(has(message_of(options), "give at least 12"));
-}
-
 TEST_CASE("stages: a round after a descent of more than 25 evaluations counts for two") {
   const auto rounds_of = [](const Density& density) {
-    CvtOptions options = graded(3000, 0, density);
-    options.insertion_rounds = 6;
-    options.well_centred = false;
+    Recipe recipe = graded(600, density);
+    recipe.start.insertion_rounds = 6;
+    recipe.stop.well_centred = false;
     int left = 6, evaluations = 0, count = 0;
-    cvt(random_start(3000, density), {}, options, [&](const CvtProgress& now) {
+    const auto follow = [&](const Progress& progress) {
+      const CvtProgress& now = *progress.run;
       if (now.rounds_left != left) {
         CHECK(now.rounds_left == std::max(left - (evaluations > 25 ? 2 : 1), 0));
         left = now.rounds_left;
         ++count;
       }
       evaluations = now.iterations_of_descent;
-      return false;
-    });
+      return Next::proceed;
+    };
+    make_grid(recipe, {.progress = follow});
     CHECK(left == 0);
     return count;
   };

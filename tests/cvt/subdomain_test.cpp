@@ -5,11 +5,10 @@
 #include "density/hexagons.h"
 #include "mesh/canonical_order.h"
 #include "support/densities.h"
-#include "support/starts.h"
 
-#include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 #include <calotte/generators.h>
+#include <calotte/grid.h>
 #include <calotte/quality.h>
 
 #include <doctest/doctest.h>
@@ -197,10 +196,12 @@ TEST_CASE("subdomains: the numbers of triangles have no effect") {
 }
 
 TEST_CASE("subdomains: a polish leaves fewer shapes beyond the limits") {
-  CvtOptions options;
-  options.density = x8();
-  options.tolerance = 1e-3;
-  const Points3 pure = cvt(random_sphere(4000, site_density(x8()), 3), {}, options).mesh.points;
+  const Points3 pure = make_grid({.cells = 4000,
+                                  .resolution = x8(),
+                                  .start = {.kind = Start::Kind::density},
+                                  .stop = {.tolerance = 1e-3},
+                                  .seed = 3})
+                           .mesh.points;
   Moving run(pure, x8());
   const Quality before = quality(delaunay(pure), x8());
   const double cell = before.energy / 4000;
