@@ -180,10 +180,8 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
 /// The actions of a state's run, whose ends may be others now.
 /// \throws Error invalid_argument for those of another run.
 void renew_actions(const Schedule& schedule, State& state) {
-  const bool counts =
-      std::ranges::count(schedule.actions, CvtAction::Kind::insert, &CvtAction::kind) > 0;
-  const auto same = [&](const CvtAction& a, const CvtAction& b) {
-    return a.kind == b.kind && a.times == b.times && (!counts || a.cells == b.cells);
+  const auto same = [](const CvtAction& a, const CvtAction& b) {
+    return a.kind == b.kind && a.times == b.times && a.cells == b.cells;
   };
   require(std::ranges::equal(state.report.actions, schedule.actions, same),
           "the state is of a run with other actions; give the recipe that it was made with, or no "

@@ -78,8 +78,8 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   return std::max(away, std::abs(outer - schedule.on_boundary));
 }
 
-/// Throws, before any work, for actions that plan() has not made.
-void require_actions(const Schedule& schedule) {
+/// Throws, before any work, for what plan() has not made.
+void require_schedule(const Schedule& schedule) {
   const auto good = [](const CvtAction& action) {
     const bool ends = action.norm == Norm::none || action.kind >= CvtAction::Kind::polish ||
                       (action.tolerance > 0 && std::isfinite(action.tolerance));
@@ -88,7 +88,8 @@ void require_actions(const Schedule& schedule) {
   };
   const std::vector<CvtAction>& actions = schedule.actions;
   base_detail::require(!actions.empty() && actions.front().kind == CvtAction::Kind::start &&
-                           std::ranges::all_of(actions, good),
+                           std::ranges::all_of(actions, good) &&
+                           schedule.recipe.stop.least_spacing >= 0,
                        "the schedule lacks choices; give one of plan()");
 }
 
@@ -106,7 +107,7 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 } // namespace
 
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
-  require_actions(schedule);
+  require_schedule(schedule);
   const Execution execution{.partition = run.partition};
   const CvtCallback callback = callback_of(run.progress);
   Cvt grid = run.state ? cvt(std::move(*run.state), schedule, execution, callback)

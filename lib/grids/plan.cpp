@@ -323,8 +323,13 @@ FirstLevel first_level(const Schedule& schedule) {
                        fixed);
 }
 
-/// Throws, before any work, for more generators than a mesh or the method can hold.
+/// Throws, before any work, for fewer generators than a mesh has, or more than it or the method can
+/// hold.
 void require_room(const Recipe& recipe, const FirstLevel& first) {
+  if (const std::int64_t fewest = fewest_generators(recipe.surface); first.cells < fewest)
+    throw Error(
+        ErrorCode::too_few_sites,
+        base_detail::message("there are {} generators: give at least {}", first.cells, fewest));
   const auto cells_after = [&](int bisections) {
     return bisected(recipe.surface, first.cells, bisections);
   };
