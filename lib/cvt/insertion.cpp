@@ -98,9 +98,8 @@ private:
 
 void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t contracted) {
   require(inserted >= 0 && contracted >= 0 && sites <= most_points - inserted,
-          "the numbers of edges are " + std::to_string(inserted) + " and " +
-              std::to_string(contracted) + "; give 0 or more, with at most " +
-              std::to_string(most_points) + " points in all");
+          "the numbers of edges are {} and {}; give 0 or more, with at most {} points in all",
+          inserted, contracted, most_points);
 }
 
 /// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others and for

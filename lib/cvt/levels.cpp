@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cvt/levels.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/split_mix.h"
@@ -87,10 +88,9 @@ void require_fixed(const Sites& sites, std::int64_t fixed) {
   const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
   for (std::int64_t i = 0; i < fixed; ++i)
     if (const std::int32_t site = site_of_input[static_cast<std::size_t>(i)]; site != i)
-      throw Error(ErrorCode::duplicate,
-                  "fixed generator " + std::to_string(i) + " merges with fixed generator " +
-                      std::to_string(site) + ": give it once",
-                  i);
+      throw Error(
+          ErrorCode::duplicate,
+          message("fixed generator {} merges with fixed generator {}: give it once", i, site), i);
 }
 
 /// Cells of generators on one line exist, but a mesh of them does not.
@@ -106,9 +106,9 @@ void require_triangle(const Sites& sites) {
 void require_enough(const Sites& sites, const Surface& surface) {
   const std::int64_t fewest = fewest_generators(surface);
   if (sites.size() < fewest)
-    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(sites.size()) +
-                                              " distinct generators: give at least " +
-                                              std::to_string(fewest));
+    throw Error(
+        ErrorCode::too_few_sites,
+        message("there are {} distinct generators: give at least {}", sites.size(), fewest));
 }
 
 // ---- The state of sites
@@ -271,10 +271,9 @@ void require_points(const State& state, const Surface& surface) {
   const Points3& points = state.points;
   if (points.cols() < fewest_generators(surface))
     throw Error(ErrorCode::invalid_argument,
-                "the state has " + std::to_string(points.cols()) +
-                    " generators, and a run on the surface has at least " +
-                    std::to_string(fewest_generators(surface)) +
-                    "; give the surface of the run that left it");
+                message("the state has {} generators, and a run on the surface has at least {}; "
+                        "give the surface of the run that left it",
+                        points.cols(), fewest_generators(surface)));
   const auto good = [&] {
     if (!points.allFinite())
       return false;

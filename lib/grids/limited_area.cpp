@@ -2,6 +2,7 @@
 #include <calotte/limited_area.h>
 
 #include "base/lists.h"
+#include "base/message.h"
 #include "base/require.h"
 #include "density/width_rules.h"
 #include "domain/surface.h"
@@ -46,8 +47,7 @@ void remove_loose(const IdLists& cells_on_cell, Ids& mask) {
 Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8_t>& inside,
                       int rings) {
   require(rings >= 0 && rings <= limited_area_rings,
-          "the number of rings is " + std::to_string(rings) + "; give one from 0 to " +
-              std::to_string(limited_area_rings));
+          "the number of rings is {}; give one from 0 to {}", rings, limited_area_rings);
   const std::int64_t cells = cells_on_cell.size();
   Ids mask = Ids::Constant(cells, none);
   std::vector<std::int32_t> ring;
@@ -56,9 +56,10 @@ Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8
       mask[i] = 0;
       ring.push_back(i);
     }
-  require(!ring.empty(), "none of the " + std::to_string(cells) +
-                             " cells has its generator in the region; give a larger region or a "
-                             "finer mesh");
+  require(
+      !ring.empty(),
+      "none of the {} cells has its generator in the region; give a larger region or a finer mesh",
+      cells);
   for (int k = 1; k <= rings; ++k)
     ring = mesh_detail::next_row(
         ring, [&](std::int32_t cell) { return cells_on_cell[cell]; },
@@ -71,10 +72,9 @@ Ids limited_area_mask(const IdLists& cells_on_cell, const std::vector<std::uint8
   const bool open = std::any_of(cells_on_cell.items.begin(), cells_on_cell.items.end(),
                                 [](std::int32_t cell) { return cell < 0; });
   require(open || mask.minCoeff() == none,
-          "the region and its " + std::to_string(rings) + " rings hold all " +
-              std::to_string(cells) +
-              " cells, so that there is no boundary; give a smaller "
-              "region, fewer rings or a finer mesh");
+          "the region and its {} rings hold all {} cells, so that there is no boundary; give a "
+          "smaller region, fewer rings or a finer mesh",
+          rings, cells);
   remove_loose(cells_on_cell, mask);
   require(mask.maxCoeff() >= 0, "no cell of the region has two neighbours in it; give a larger "
                                 "region or a finer mesh");

@@ -151,8 +151,9 @@ std::vector<std::vector<std::int32_t>> rings_of(const Submesh& part) {
     if (std::exchange(after(edge.from), edge.to) >= 0) {
       const std::int32_t site = part.sites[static_cast<std::size_t>(edge.from)];
       throw Error(ErrorCode::invalid_argument,
-                  "a patch would reach both sides of site " + std::to_string(site) +
-                      ", where the mesh's boundary meets itself; give a part without it",
+                  base_detail::message("a patch would reach both sides of site {}, where the "
+                                       "mesh's boundary meets itself; give a part without it",
+                                       site),
                   site);
     }
   std::vector<std::vector<std::int32_t>> rings;

@@ -47,15 +47,12 @@ void require_values(const Recipe& recipe) {
           "a grid does not fill a plane that has no end; give rings, or two periods");
   const std::optional<int>& bisections = recipe.start.bisections;
   require(!bisections || (*bisections >= 0 && *bisections <= most_bisections),
-          "the number of bisections is " + std::to_string(bisections.value_or(0)) +
-              "; give 0 to 13");
+          "the number of bisections is {}; give 0 to 13", bisections.value_or(0));
   const int rounds = recipe.start.insertion_rounds.value_or(1);
-  require(rounds >= 1 && rounds <= most_rounds, "the number of rounds of insertion is " +
-                                                    std::to_string(rounds) + "; give 1 to " +
-                                                    std::to_string(most_rounds));
-  require(recipe.stop.iterations.value_or(1) >= 1,
-          "the number of iterations is " + std::to_string(recipe.stop.iterations.value_or(1)) +
-              "; give 1 or more");
+  require(rounds >= 1 && rounds <= most_rounds,
+          "the number of rounds of insertion is {}; give 1 to {}", rounds, most_rounds);
+  require(recipe.stop.iterations.value_or(1) >= 1, "the number of iterations is {}; give 1 or more",
+          recipe.stop.iterations.value_or(1));
   const Stop& stop = recipe.stop;
   require(stop.norm != Norm::none,
           "the norm none tests nothing; give a number of iterations instead");
@@ -72,7 +69,7 @@ void require_values(const Recipe& recipe) {
 /// \throws Error with the index of a fixed generator that is no point of the surface's kind.
 void require_fixed_points(const Recipe& recipe) {
   for (Eigen::Index i = 0; i < recipe.fixed.cols(); ++i) {
-    const std::string name = "fixed generator " + std::to_string(i);
+    const std::string name = base_detail::message("fixed generator {}", i);
     if (!recipe.fixed.col(i).allFinite())
       throw Error(ErrorCode::not_finite, name + " is not finite; give finite coordinates", i);
     if (recipe.surface.is_sphere() && recipe.fixed.col(i).isZero(0))
@@ -157,10 +154,8 @@ void choose_start(Recipe& recipe, bool uniform) {
 double within_range(double implied, double least, const std::string& where = "") {
   const double cells = std::round(implied);
   require(cells >= least && cells <= double(most_points),
-          "the widths require " + base_detail::shortly(implied) + " cells" + where +
-              ", but a grid has " + base_detail::shortly(least) + " to " +
-              std::to_string(most_points) + "; give other widths" +
-              (where.empty() ? "" : " or a larger region"));
+          "the widths require {} cells{}, but a grid has {} to {}; give other widths{}", implied,
+          where, least, most_points, where.empty() ? "" : " or a larger region");
   return cells;
 }
 
@@ -198,9 +193,10 @@ double cells_in_part(const Schedule& schedule, const Surface& asked, double impl
   implied = within_range(implied, fewest, " in the region");
   if (recipe.limited_area) { // whose rings lie around the cells inside
     const double inside = implied_cells(*schedule.widths, asked, recipe.radius_km);
-    require(inside >= 1, "the region has room for " + base_detail::shortly(inside) +
-                             " cells only, without those of the rings; give smaller widths or a "
-                             "larger region");
+    require(inside >= 1,
+            "the region has room for {} cells only, without those of the rings; give smaller "
+            "widths or a larger region",
+            inside);
   }
   return with_boundary(schedule, implied);
 }
@@ -292,8 +288,9 @@ void require_free(const Recipe& recipe) {
     return;
   if (recipe.cells >= 1 && recipe.fixed.cols() >= recipe.cells)
     throw Error(ErrorCode::invalid_argument,
-                "fixed point " + std::to_string(recipe.cells - 1) + " leaves no free one of the " +
-                    std::to_string(recipe.cells) + " cells; give more cells or fewer fixed points",
+                base_detail::message("fixed point {} leaves no free one of the {} cells; give more "
+                                     "cells or fewer fixed points",
+                                     recipe.cells - 1, recipe.cells),
                 recipe.cells - 1);
   base_detail::require_count(recipe.cells, fewest_generators(recipe.surface),
                              "the number of cells");

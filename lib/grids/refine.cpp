@@ -33,8 +33,7 @@ using base_detail::require;
 using base_detail::shortly;
 
 void require_range(double value, double least, double most, const std::string& name) {
-  require(value >= least && value <= most, "the " + name + " is " + shortly(value) + "; give " +
-                                               shortly(least) + " to " + shortly(most));
+  require(value >= least && value <= most, "the {} is {}; give {} to {}", name, value, least, most);
 }
 
 void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
@@ -48,17 +47,17 @@ void require_demand(const Mesh& mesh, const WidthDemand& demand, Way way,
   require(!demand.widths || !demand.widths->is_of_plane() || !mesh.surface.is_sphere(),
           "the widths are those of a plane, and the mesh is one of the sphere; give widths in km");
   if (demand.region) {
-    require(demand.factor > 1, "the factor is " + shortly(demand.factor) + "; give more than 1");
+    require(demand.factor > 1, "the factor is {}; give more than 1", demand.factor);
     require_range(demand.factor, 1, 100, "factor");
   }
   require(demand.radius_km > 0 && std::isfinite(demand.radius_km),
-          "the radius is " + shortly(demand.radius_km) + "; give a positive number of km");
+          "the radius is {}; give a positive number of km", demand.radius_km);
   require_range(options.tolerance, 0.01, 0.5, "tolerance");
   const double met = way == Way::finer ? 1 / (1 - options.tolerance) : 1 + options.tolerance;
   require(!demand.region || demand.factor > met,
-          "the factor " + shortly(demand.factor) + " is met by all cells within the tolerance " +
-              shortly(options.tolerance) + "; give a factor above " + shortly(met) +
-              ", or a smaller tolerance");
+          "the factor {} is met by all cells within the tolerance {}; give a factor above {}, or a "
+          "smaller tolerance",
+          demand.factor, options.tolerance, met);
   require_range(options.gradient, 0.001, 1, "gradient");
   require(mesh.triangles.cols() > 0 && mesh.neighbours.cols() == mesh.triangles.cols(),
           "the mesh lacks triangles or neighbours; give one of delaunay() or read_mesh()");
@@ -129,9 +128,9 @@ void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
     for (const std::int32_t site : sites.added[p])
       if (!mesh.surface.contains(sites.points.col(site)))
         throw Error(ErrorCode::invalid_argument,
-                    "the patch around site " + std::to_string(patches[p].free_sites().front()) +
-                        " would reach across the boundary of the surface; give a part that is "
-                        "farther from it",
+                    base_detail::message("the patch around site {} would reach across the boundary "
+                                         "of the surface; give a part that is farther from it",
+                                         patches[p].free_sites().front()),
                     patches[p].free_sites().front());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grids/start.h"
 
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "cvt/levels.h"
@@ -77,18 +78,17 @@ std::int64_t spreading_in_plane(const Density& density, const Surface& surface) 
 
 /// "the nearest numbers are ...": those of `below` and `above` that a run can have.
 std::string nearest(std::int64_t below, std::int64_t above, std::int64_t least) {
-  return below < least
-             ? "the nearest number is " + std::to_string(std::max(above, least))
-             : "the nearest numbers are " + std::to_string(below) + " and " + std::to_string(above);
+  return below < least ? base_detail::message("the nearest number is {}", std::max(above, least))
+                       : base_detail::message("the nearest numbers are {} and {}", below, above);
 }
 
 std::string words_of(int bisections) {
-  return std::to_string(bisections) + (bisections == 1 ? " bisection" : " bisections");
+  return base_detail::message("{} bisection{}", bisections, bisections == 1 ? "" : "s");
 }
 
 std::string not_leading(int bisections, std::int64_t cells) {
-  return words_of(bisections) + (bisections == 1 ? " does" : " do") + " not lead to " +
-         std::to_string(cells) + " cells; ";
+  return base_detail::message("{} {} not lead to {} cells; ", words_of(bisections),
+                              bisections == 1 ? "does" : "do", cells);
 }
 
 void require_icosahedral(std::int64_t cells, int bisections) {
@@ -97,10 +97,9 @@ void require_icosahedral(std::int64_t cells, int bisections) {
   if (is_icosahedral(cells) && icosahedral_level(cells) >= bisections)
     return;
   const int level = std::max(icosahedral_level(cells), bisections);
-  require(false, "the start icosahedron makes 10 x 4^k + 2 cells, not " + std::to_string(cells) +
-                     "; " +
-                     nearest(level == bisections ? 0 : bisected(sphere, fewest, level - 1),
-                             bisected(sphere, fewest, level), fewest));
+  require(false, "the start icosahedron makes 10 x 4^k + 2 cells, not {}; {}", cells,
+          nearest(level == bisections ? 0 : bisected(sphere, fewest, level - 1),
+                  bisected(sphere, fewest, level), fewest));
 }
 
 /// The number of generators from which bisections lead to a number of cells of the whole sphere.
@@ -118,9 +117,8 @@ std::int64_t start_on_sphere(std::int64_t cells, int bisections) {
 std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
   const std::int64_t divisor = std::int64_t{1} << (2 * bisections), n = cells / divisor;
   require(n >= fewest_generators(Surface::plane()),
-          words_of(bisections) + " to " + std::to_string(cells) +
-              " cells need a start of fewer than 3 cells; give more "
-              "cells or fewer bisections");
+          "{} to {} cells need a start of fewer than 3 cells; give more cells or fewer bisections",
+          words_of(bisections), cells);
   require(!box || cells % divisor == 0,
           not_leading(bisections, cells) + nearest(n * divisor, (n + 1) * divisor, 3 * divisor));
   return n;
@@ -169,10 +167,10 @@ FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
     require_icosahedral(cells, bisections);
   if (surface.is_whole_sphere())
     first.cells = start_on_sphere(cells, bisections);
-  require(first.cells > fixed, words_of(bisections) + " to " + std::to_string(cells) +
-                                   " cells leave no free point in the start beside " +
-                                   std::to_string(fixed) +
-                                   " fixed ones; give more cells or fewer bisections");
+  require(first.cells > fixed,
+          "{} to {} cells leave no free point in the start beside {} fixed ones; give more cells "
+          "or fewer bisections",
+          words_of(bisections), cells, fixed);
   return first;
 }
 
