@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -55,6 +56,15 @@ std::string filled(std::string_view pattern, std::initializer_list<std::string> 
 template <class... Values>
 std::string message(std::type_identity_t<Pattern<Values...>> pattern, const Values&... values) {
   return filled(pattern.text, {shown(values)...});
+}
+
+/// Words with commas between them. \param last stands before the last one.
+template <class Words> std::string listed(const Words& words, std::string_view last = ", ") {
+  std::string list;
+  std::size_t left = std::size(words);
+  for (const auto& word : words)
+    list.append(list.empty() ? "" : left == 1 ? last : ", ").append(word), --left;
+  return list;
 }
 
 } // namespace calotte::base_detail

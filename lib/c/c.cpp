@@ -121,8 +121,7 @@ calotte_status calotte_interpolate(const calotte_mesh* mesh, const double* value
     const Mesh& made = mesh_of(mesh);
     require(values != nullptr && (out != nullptr || n == 0),
             "the values, or the array that receives others, are a null pointer; give both");
-    require(natural == 0 || natural == 1,
-            "natural is " + std::to_string(natural) + "; give 0 or 1");
+    require(natural == 0 || natural == 1, "natural is {}; give 0 or 1", natural);
     const auto points = points_of(positions, n, rows_of(made.surface), "the positions");
     const Interpolation kind =
         natural == 1 ? Interpolation::natural_neighbours : Interpolation::linear;

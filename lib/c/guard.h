@@ -11,9 +11,11 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace calotte::c_detail {
 
+using base_detail::message;
 using base_detail::require;
 
 /// The threads of later work of the calling thread; 0 for all cores.
@@ -26,8 +28,8 @@ calotte_status guarded(calotte_error* error, const std::function<void()>& work);
 
 /// The remedy for a caller's struct that has not been initialised. \param name of its type.
 inline std::string initialise(const std::string& name) {
-  return "initialise the " + name.substr(std::string("calotte_").size()) + " with " + name +
-         "_init()";
+  return message("initialise the {} with {}_init()",
+                 std::string_view(name).substr(std::string_view("calotte_").size()), name);
 }
 
 /// The size of a caller's struct. \param name of its type.
@@ -35,10 +37,9 @@ inline std::string initialise(const std::string& name) {
 /// has.
 template <class Struct> std::size_t size_of(const Struct* given, const std::string& name) {
   constexpr std::size_t most = 1 << 16; // a member that was never set
-  require(given != nullptr, "the pointer to a " + name + " is null; give the address of one");
-  require(given->size >= sizeof given->size && given->size <= most,
-          "the size of the " + name + " is " + std::to_string(given->size) + "; " +
-              initialise(name));
+  require(given != nullptr, "the pointer to a {} is null; give the address of one", name);
+  require(given->size >= sizeof given->size && given->size <= most, "the size of the {} is {}; {}",
+          name, given->size, initialise(name));
   return given->size;
 }
 
@@ -53,9 +54,9 @@ Struct known_part(const Struct* given, const std::string& name, const Struct& us
   const auto* bytes = reinterpret_cast<const unsigned char*>(given);
   require(std::all_of(bytes + std::min(size, sizeof known), bytes + size,
                       [](unsigned char byte) { return byte == 0; }),
-          "the " + name + " has members beyond the " + std::to_string(sizeof known) +
-              " bytes that this library knows, and they are not 0; leave them 0, or use a newer "
-              "library");
+          "the {} has members beyond the {} bytes that this library knows, and they are not 0; "
+          "leave them 0, or use a newer library",
+          name, sizeof known);
   return known;
 }
 

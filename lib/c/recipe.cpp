@@ -19,8 +19,7 @@ namespace {
 
 int integer_of(std::int64_t value, const std::string& name) {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  require(value >= -most && value <= most,
-          name + " is " + std::to_string(value) + "; give at most " + std::to_string(most));
+  require(value >= -most && value <= most, "{} is {}; give at most {}", name, value, most);
   return static_cast<int>(value);
 }
 
@@ -30,7 +29,7 @@ std::optional<int> choice_of(std::int64_t value, const std::string& name) {
 }
 
 bool flag_of(std::int64_t value, const std::string& name) {
-  require(value == 0 || value == 1, name + " is " + std::to_string(value) + "; give 0 or 1");
+  require(value == 0 || value == 1, "{} is {}; give 0 or 1", name, value);
   return value == 1;
 }
 
@@ -43,11 +42,11 @@ Value value_of(const char* word, std::span<const Word<Value>> words, Value usual
   const auto found = std::ranges::find(words, std::string_view(word), &Word<Value>::word);
   if (found != words.end())
     return found->value;
-  std::string all;
+  std::vector<std::string_view> all;
   for (const Word<Value>& known : words)
-    all += (all.empty() ? "" : ", ") + std::string(known.word);
-  throw Error(ErrorCode::invalid_argument,
-              "the " + name + " is '" + word + "'; give one of " + all);
+    all.push_back(known.word);
+  base_detail::refuse(
+      message("the {} is '{}'; give one of {}", name, word, base_detail::listed(all)));
 }
 
 Surface::Rings rings_of(const calotte_surface& surface) {
@@ -59,8 +58,8 @@ Surface::Rings rings_of(const calotte_surface& surface) {
   for (std::int64_t i = 0; i < surface.rings; ++i) {
     const std::int64_t begin = surface.begin[i], end = surface.begin[i + 1];
     require(begin >= 0 && end >= begin,
-            "ring " + std::to_string(i) + " begins at corner " + std::to_string(begin) +
-                " and ends before " + std::to_string(end) + "; give ascending numbers from 0 on");
+            "ring {} begins at corner {} and ends before {}; give ascending numbers from 0 on", i,
+            begin, end);
     rings.emplace_back(points_of(surface.corners + begin * rows, end - begin, rows, "the corners"));
   }
   return rings;
@@ -113,8 +112,8 @@ void take_resolution(const calotte_recipe& given, Recipe& recipe) {
           "widths_x and widths_y");
   require(std::min(given.widths_nx, given.widths_ny) >= 2 &&
               std::max(given.widths_nx, given.widths_ny) <= most,
-          "the widths have " + std::to_string(given.widths_nx) + " x " +
-              std::to_string(given.widths_ny) + " nodes; give 2 to 1048576 in either direction");
+          "the widths have {} x {} nodes; give 2 to 1048576 in either direction", given.widths_nx,
+          given.widths_ny);
   DoubleVector x = Eigen::Map<const DoubleVector>(given.widths_x, given.widths_nx),
                y = Eigen::Map<const DoubleVector>(given.widths_y, given.widths_ny);
   DoubleMatrix widths =
@@ -175,8 +174,8 @@ calotte_recipe usual_recipe() {
 calotte_recipe initialised(const calotte_recipe* pointer) {
   const std::string name = "calotte_recipe";
   const calotte_recipe given = known_part(pointer, name, usual_recipe());
-  require(given.initialised == 1,
-          "the size of the recipe is set, but not its defaults; " + initialise(name));
+  require(given.initialised == 1, "the size of the recipe is set, but not its defaults; {}",
+          initialise(name));
   return given;
 }
 
@@ -185,7 +184,7 @@ calotte_recipe initialised(const calotte_recipe* pointer) {
 Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows,
                                          const std::string& name) {
   base_detail::require_count(n, 0, "the number of points");
-  require(values != nullptr || n == 0, name + " are a null pointer; give an array");
+  require(values != nullptr || n == 0, "{} are a null pointer; give an array", name);
   return {values, rows, n};
 }
 
@@ -194,8 +193,7 @@ Surface surface_of(const calotte_surface* given) {
     return {};
   const calotte_surface surface = known_part(given, "calotte_surface");
   require(surface.kind == CALOTTE_SPHERE || surface.kind == CALOTTE_PLANE,
-          "the kind of the surface is " + std::to_string(surface.kind) +
-              "; give CALOTTE_SPHERE or CALOTTE_PLANE");
+          "the kind of the surface is {}; give CALOTTE_SPHERE or CALOTTE_PLANE", surface.kind);
   const Eigen::Vector2d period(surface.period[0], surface.period[1]);
   const bool repeats = !period.isZero(0), sphere = surface.kind == CALOTTE_SPHERE;
   require(!sphere || !repeats, "a period is that of a plane; give the kind CALOTTE_PLANE");

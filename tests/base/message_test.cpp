@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -21,6 +23,14 @@ TEST_CASE("a message has its values in place") {
   CHECK(message("{}, {}", 1.0 / 3, std::numeric_limits<double>::infinity()) == "0.333333, inf");
   CHECK(message("give [{...}, {}]", "{}") == "give [{...}, {}]"); // no value is a pattern
   CHECK(message("{} {}", std::string_view("{}"), "b") == "{} b");
+}
+
+TEST_CASE("words are listed with commas, and another mark before the last") {
+  using Words = std::vector<std::string>;
+  CHECK(listed(Words{}).empty());
+  CHECK(listed(Words{"a"}, " or ") == "a");
+  CHECK(listed(Words{"a", "b"}) == "a, b");
+  CHECK(listed(std::set<std::string>{"c", "a", "b"}, " or ") == "a, b or c");
 }
 
 TEST_CASE("a condition says what it required, and no word if it holds") {
