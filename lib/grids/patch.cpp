@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grids/patch.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "density/hexagons.h"

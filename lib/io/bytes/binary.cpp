@@ -21,7 +21,7 @@ void Bytes::take(std::string_view expected, const std::string& problem) {
 
 void Bytes::finish() const {
   if (!rest_.empty())
-    fail(std::to_string(rest_.size()) + " bytes too many; it is damaged, make it again");
+    fail_file(name_, "{} bytes too many; it is damaged, make it again", rest_.size());
 }
 
 void Bytes::fail(const std::string& problem) const { fail_file(name_, problem); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "io/bytes/room.h"
 
@@ -21,7 +22,7 @@ struct Broken {
   /// Most items keep the law, so that it is one of this grid.
   bool is_law() const { return 2 * (tested - count) >= tested; }
   /// "3 of 120".
-  std::string of_all() const { return std::to_string(count) + " of " + std::to_string(tested); }
+  std::string of_all() const { return message("{} of {}", count, tested); }
 };
 
 /// \param verdict_at(i) runs in parallel.

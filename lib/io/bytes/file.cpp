@@ -7,7 +7,6 @@
 #include "io/bytes/temporary_file.h"
 #include "io/command.h"
 
-#include <calotte/error.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -219,16 +218,12 @@ void OutputFile::require(int error) const {
     fail(error);
 }
 
-void OutputFile::fail(int error) const {
-  throw Error(ErrorCode::file, "cannot write " + name_ + ": " + describe_error(error));
-}
+void OutputFile::fail(int error) const { fail_write(name_, describe_error(error)); }
 
 void require_regular_output(const std::string& path) {
   if (!renameable(path) && !fs::is_directory(path))
-    throw Error(ErrorCode::file,
-                "cannot write " + path +
-                    ": it is not a regular file, and the format is not written from "
-                    "front to back; give the name of a file");
+    fail_write(path, "it is not a regular file, and the format is not written from front to back; "
+                     "give the name of a file");
 }
 
 void require_no_folder(const std::string& path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/file_names.h"
 
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 
 #include <algorithm>
@@ -47,14 +48,12 @@ void refuse_foreign(const std::string& path) {
   if (kind == kinds.end())
     return;
   const auto quoted = [](const std::string& name) {
-    return name.find(' ') == std::string::npos ? name : "'" + name + "'";
+    return name.find(' ') == std::string::npos ? name : message("'{}'", name);
   };
   const std::string stem = std::filesystem::path(path).replace_extension(), given = quoted(path);
-  fail_file(path,
-            "this is " + std::string(kind->name) +
-                ", which Calotte does not read; convert it with GDAL: " +
-                (kind->shapes ? "ogr2ogr " + quoted(stem + ".geojson") + " " + given
-                              : "gdal_translate -of netCDF " + given + " " + quoted(stem + ".nc")));
+  fail_file(path, "this is {}, which Calotte does not read; convert it with GDAL: {}", kind->name,
+            kind->shapes ? message("ogr2ogr {} {}", quoted(stem + ".geojson"), given)
+                         : message("gdal_translate -of netCDF {} {}", given, quoted(stem + ".nc")));
 }
 
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,

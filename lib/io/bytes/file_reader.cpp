@@ -6,7 +6,6 @@
 #include "io/bytes/file_names.h"
 
 #include <cerrno>
-#include <system_error>
 
 namespace calotte::io_detail {
 
@@ -26,7 +25,7 @@ FileReader::FileReader(const std::string& path) : path_(path) {
 void FileReader::read(std::int64_t offset, std::int64_t bytes, char* out) const {
   std::int64_t count = 0;
   if (const int error = file_.read(offset, bytes, out, count); error != 0)
-    fail_read(path_, std::generic_category().message(error) + "; check the disk");
+    fail_disk(path_, error);
   io_detail::require_whole(static_cast<std::size_t>(count), static_cast<std::size_t>(bytes), path_);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/bytes/json_stream.h"
 
+#include "base/message.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 
@@ -19,7 +20,7 @@ JsonBuffer::int_type JsonBuffer::underflow() {
 
 void JsonBuffer::check(char c) {
   if (++length_ > longest)
-    fail("a number or a text longer than " + std::to_string(longest) + " bytes");
+    fail(message("a number or a text longer than {} bytes", longest));
   if (in_text_) {
     in_text_ = escaped_ || c != '"';
     escaped_ = !escaped_ && c == '\\';
@@ -34,7 +35,7 @@ void JsonBuffer::check(char c) {
   case '{':
     length_ = 0;
     if (++depth_ > deepest)
-      fail("values nested deeper than " + std::to_string(deepest));
+      fail(message("values nested deeper than {}", deepest));
     break;
   case ']':
   case '}':
@@ -55,7 +56,7 @@ void JsonBuffer::check(char c) {
 }
 
 void JsonBuffer::fail(const std::string& problem) const {
-  fail_file(name_, problem + " at byte " + std::to_string(position_ + 1) + "; give plain GeoJSON");
+  fail_file(name_, "{} at byte {}; give plain GeoJSON", problem, position_ + 1);
 }
 
 } // namespace calotte::io_detail

@@ -133,7 +133,7 @@ bool LineReader::next_content(std::string_view& line) {
 }
 
 void fail_at(const std::string& path, std::int64_t line, const std::string& problem) {
-  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
+  throw Error(ErrorCode::parse, message("{} line {}: {}", path, line, problem), line);
 }
 
 void LineReader::fail(const std::string& problem) const { fail_at(name_, number_, problem); }
@@ -178,8 +178,7 @@ void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t p
                std::vector<std::int32_t>& faces, std::int64_t first, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i) {
     if (ids[i] < first || ids[i] - first >= points)
-      reader.fail("id " + std::to_string(ids[i]) + " is not one of the " + std::to_string(points) +
-                  " points; ids count from " + std::to_string(first));
+      reader.fail("id {} is not one of the {} points; ids count from {}", ids[i], points, first);
     faces.push_back(static_cast<std::int32_t>(ids[i] - first));
   }
 }
@@ -202,10 +201,12 @@ std::string in_quotes(std::string_view text) {
   std::string shown(text.substr(0, longest));
   std::replace_if(
       shown.begin(), shown.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  return "\"" + shown + (text.size() > longest ? "..." : "") + "\"";
+  return message("\"{}{}\"", shown, text.size() > longest ? "..." : "");
 }
 
 std::string describe(const Columned& read) {
+  if (read.outcome == Outcome::too_few)
+    return "too few columns";
   if (read.outcome == Outcome::out_of_range)
     return in_quotes(read.text) + " is out of range";
   return read.text.empty() ? "a column is empty" : in_quotes(read.text) + " is not a number";
@@ -214,28 +215,20 @@ std::string describe(const Columned& read) {
 std::string_view line_with(LineReader& reader, const std::string& awaited) {
   std::string_view line;
   if (!reader.next_content(line))
-    reader.fail("the file ends before " + awaited + "; it is incomplete; make it again");
+    reader.fail("the file ends before {}; it is incomplete; make it again", awaited);
   return line;
 }
 
-namespace {
+void require_columns(const LineReader& reader, const Columned& read, int count) {
+  if (read.outcome == Outcome::too_few)
+    reader.fail("fewer than {} columns", count);
+  if (read.outcome != Outcome::ok)
+    reader.fail(describe(read));
+}
 
 void require_columns(const LineReader& reader, const Columned& read, const std::string& awaited) {
   if (read.outcome != Outcome::ok)
-    reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                " where " + awaited + " belongs");
-}
-
-} // namespace
-
-void take_columns(const LineReader& reader, std::string_view line, int count, double* values,
-                  const std::string& awaited) {
-  require_columns(reader, parse(line, count, values), awaited);
-}
-
-void take_columns(const LineReader& reader, std::string_view line, int count, std::int64_t* values,
-                  const std::string& awaited) {
-  require_columns(reader, parse(line, count, values), awaited);
+    reader.fail("{} where {} belongs", describe(read), awaited);
 }
 
 Writer::Writer(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(buffer_bytes + 64); }

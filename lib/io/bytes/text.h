@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "io/bytes/room.h"
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace calotte::io_detail {
@@ -35,8 +37,13 @@ public:
   std::int64_t number() const { return number_; } ///< 1-based, of the line that `next` returned
   const std::string& name() const { return name_; }
 
-  /// \throws Error parse that names the current line.
+  /// \throws Error parse that names the current line. \param problem or a pattern, as in message()
   [[noreturn]] void fail(const std::string& problem) const;
+  template <class Value, class... Values>
+  [[noreturn]] void fail(std::type_identity_t<Pattern<Value, Values...>> pattern,
+                         const Value& value, const Values&... values) const {
+    fail(message(pattern, value, values...));
+  }
 
 private:
   bool refill();
@@ -86,19 +93,29 @@ bool holds_number(std::string_view line);
 std::string in_quotes(std::string_view text);
 
 /// A description such as "`abc` is not a number", without the remedy.
-/// \pre the outcome is not ok or too_few.
+/// \pre the outcome is not ok.
 std::string describe(const Columned& read);
 
 /// The next line that has content. \param awaited names what it holds.
 /// \throws Error parse, where the stream ends.
 std::string_view line_with(LineReader& reader, const std::string& awaited);
 
+/// \throws Error parse, where that many columns were not read.
+void require_columns(const LineReader& reader, const Columned& read, int count);
+/// The same. \param awaited names what they hold.
+void require_columns(const LineReader& reader, const Columned& read, const std::string& awaited);
+
 /// The first `count` columns of the current line, all of them numbers.
 /// \throws Error parse.
-void take_columns(const LineReader& reader, std::string_view line, int count, double* values,
-                  const std::string& awaited);
-void take_columns(const LineReader& reader, std::string_view line, int count, std::int64_t* values,
-                  const std::string& awaited);
+template <class T>
+void take_columns(const LineReader& reader, std::string_view line, int count, T* values) {
+  require_columns(reader, parse_columns(line, count, values), count);
+}
+template <class T>
+void take_columns(const LineReader& reader, std::string_view line, int count, T* values,
+                  const std::string& awaited) {
+  require_columns(reader, parse_columns(line, count, values), awaited);
+}
 
 /// The same of the next line that has content.
 template <class T>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 #include "io/command.h"
@@ -74,13 +75,13 @@ std::string read_text(const std::string& path) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 20;
   std::error_code error;
   if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error && size > most)
-    io_detail::fail_file(path, std::to_string(size) +
-                                   " bytes are too many for a file of options; give a TOML file "
-                                   "of at most 1 MiB");
+    io_detail::fail_file(path,
+                         "{} bytes are too many for a file of options; give a TOML file of at most "
+                         "1 MiB",
+                         size);
   std::string text = read_file(path);
   if (KeyParts::exceeded(text))
-    io_detail::fail_file(path, "a key of more than " + std::to_string(KeyParts::most) +
-                                   " parts; write key = value");
+    io_detail::fail_file(path, "a key of more than {} parts; write key = value", KeyParts::most);
   return text;
 }
 
@@ -90,9 +91,9 @@ toml::table read_toml(const std::string& path) {
   try {
     return toml::parse(read_text(path), path);
   } catch (const toml::parse_error& error) {
-    io_detail::fail_at(path, error.source().begin.line,
-                       std::string(error.description()) +
-                           "; write key = value, with text in quotes");
+    io_detail::fail_at(
+        path, error.source().begin.line,
+        base_detail::message("{}; write key = value, with text in quotes", error.description()));
   }
 }
 

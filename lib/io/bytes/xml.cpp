@@ -80,12 +80,10 @@ void set_callbacks(Collector& collector) {
 [[noreturn]] void fail(const Collector& collector, const std::string& name) {
   if (collector.thrown)
     std::rethrow_exception(collector.thrown);
-  const std::string problem = collector.refused != nullptr
-                                  ? std::string(collector.refused)
-                                  : XML_ErrorString(XML_GetErrorCode(collector.parser));
-  fail_file(name, "the XML is not well-formed at line " +
-                      std::to_string(XML_GetCurrentLineNumber(collector.parser)) + " (" + problem +
-                      ")" + damaged);
+  fail_damaged(name, "the XML is not well-formed at line {} ({})",
+               XML_GetCurrentLineNumber(collector.parser),
+               collector.refused != nullptr ? collector.refused
+                                            : XML_ErrorString(XML_GetErrorCode(collector.parser)));
 }
 
 } // namespace

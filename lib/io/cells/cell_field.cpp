@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/netcdf/cf_values.h"
 
@@ -18,20 +19,13 @@ bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
          std::all_of(shape.begin(), shape.end() - 1, [](std::int64_t size) { return size == 1; });
 }
 
-std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64_t cells) {
-  std::string names;
-  for (const std::string& name : file.variable_names())
-    if (is_cell_field(file, name, cells))
-      names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
-
 [[noreturn]] void refuse_field(const io_detail::NetcdfReader& file, const std::string& problem,
                                std::int64_t cells) {
-  const std::string names = names_of_cell_fields(file, cells);
-  io_detail::refuse_path(
-      file.path(),
-      problem + "; " + (names.empty() ? "the file has none: give another" : "there are " + names));
+  std::vector<std::string> names = file.variable_names();
+  std::erase_if(names, [&](const std::string& name) { return !is_cell_field(file, name, cells); });
+  io_detail::refuse_path(file.path(), "{}; {}", problem,
+                         names.empty() ? "the file has none: give another"
+                                       : "there are " + base_detail::listed(names));
 }
 
 } // namespace
@@ -39,9 +33,10 @@ std::string names_of_cell_fields(const io_detail::NetcdfReader& file, std::int64
 CellField read_cell_field(const std::string& path, const std::string& name, std::int64_t cells) {
   const io_detail::NetcdfReader file(path);
   if (!file.has_variable(name))
-    refuse_field(file, "no variable " + name, cells);
+    refuse_field(file, base_detail::message("no variable {}", name), cells);
   if (!is_cell_field(file, name, cells))
-    refuse_field(file, name + " has not one value for each of " + std::to_string(cells) + " cells",
+    refuse_field(file,
+                 base_detail::message("{} has not one value for each of {} cells", name, cells),
                  cells);
   const std::vector<double> values = io_detail::cf_values(file, name, file.shape_of(name));
   CellField field;

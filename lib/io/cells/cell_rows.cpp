@@ -55,8 +55,8 @@ std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& 
     else
       known = std::min(known, i);
   if (known == count)
-    file.fail(rows.corner_longitude + " and " + rows.corner_latitude +
-              " hold fill values only; make the file again");
+    file.fail("{} and {} hold fill values only; make the file again", rows.corner_longitude,
+              rows.corner_latitude);
   for (const std::size_t i : missing) {
     places.longitudes[i] = places.longitudes[known];
     places.latitudes[i] = places.latitudes[known];
@@ -138,11 +138,9 @@ std::optional<CellRows> oasis_cells(const NetcdfReader& file) {
     return {};
   const std::string& grid = grids.front();
   if (grids.size() > 1)
-    file.fail("grids of OASIS for several models (" + grid + ", " + grids[1] +
-              (grids.size() > 2 ? ", ..." : "") +
-              "); write one of them to a file of its own, such "
-              "as with ncks -v " +
-              grid + ".lon," + grid + ".lat," + grid + ".clo," + grid + ".cla");
+    file.fail("grids of OASIS for several models ({}, {}{}); write one of them to a file of its "
+              "own, such as with ncks -v {}.lon,{}.lat,{}.clo,{}.cla",
+              grid, grids[1], grids.size() > 2 ? ", ..." : "", grid, grid, grid, grid);
   const bool centres = file.has_variable(grid + ".lon") && file.has_variable(grid + ".lat");
   return CellRows{grid + ".clo", grid + ".cla", centres ? grid + ".lon" : "",
                   centres ? grid + ".lat" : "", true};
@@ -169,17 +167,17 @@ std::string two_bounds(const NetcdfReader& file) {
 Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Points3& centres) {
   const std::vector<std::int64_t> shape = file.shape_of(rows.corner_longitude);
   if (shape.size() < 2)
-    file.fail(rows.corner_longitude + " has no dimension of corners; make the file again");
+    file.fail("{} has no dimension of corners; make the file again", rows.corner_longitude);
   const std::int64_t most = rows.corners_first ? shape.front() : shape.back();
   if (most < 3)
-    file.fail(rows.corner_longitude + " has " + std::to_string(most) +
-              " corners a cell; make the file again with three or more");
+    file.fail("{} has {} corners a cell; make the file again with three or more",
+              rows.corner_longitude, most);
   LonLats places{cf_values(file, rows.corner_longitude, shape),
                  cf_values(file, rows.corner_latitude, shape)};
   const std::int64_t cells = std::ssize(places.longitudes) / most;
   if (centres.cols() > 0 && cells != centres.cols())
-    file.fail(rows.corner_longitude + " holds " + std::to_string(cells) + " cells, but there are " +
-              std::to_string(centres.cols()) + " centres; make the file again");
+    file.fail("{} holds {} cells, but there are {} centres; make the file again",
+              rows.corner_longitude, cells, centres.cols());
   if (rows.corners_first)
     for (std::vector<double>* values : {&places.longitudes, &places.latitudes})
       turn_rows(*values, most);
@@ -221,9 +219,9 @@ void refuse_netcdf(const NetcdfReader& file) {
     return file.text(name, "cf_role") == "face_node_connectivity";
   });
   if (!connectivity.empty())
-    file.fail("the connectivity " + connectivity +
-              " of UGRID, but no variable of cf_role \"mesh_topology\" and topology_dimension 2, "
-              "which names it and the coordinates of the nodes; add one");
+    file.fail("the connectivity {} of UGRID, but no variable of cf_role \"mesh_topology\" and "
+              "topology_dimension 2, which names it and the coordinates of the nodes; add one",
+              connectivity);
   if (file.has_variable("elements") && file.has_variable("edge_cross_dxdy"))
     file.fail("the mesh information of an older FESOM, without the topology of UGRID; give the "
               "model's nod2d.out, or the fesom.mesh.diag.nc of FESOM 2.1 or later");
@@ -233,9 +231,9 @@ void refuse_netcdf(const NetcdfReader& file) {
         "\"mesh_topology\" and topology_dimension 2, whose face_node_connectivity is nv and "
         "whose node_coordinates are lon lat, and to nv the attribute start_index 1");
   if (const std::string longitude = two_bounds(file); !longitude.empty())
-    file.fail(
-        "a grid of rows and columns, as " + longitude +
-        " has two bounds; cells need their corners, which cdo setgridtype,curvilinear writes");
+    file.fail("a grid of rows and columns, as {} has two bounds; cells need their corners, which "
+              "cdo setgridtype,curvilinear writes",
+              longitude);
   if (file.dimension("nCells") >= 0 && !file.has_variable("xCell"))
     file.fail("fields of MPAS without the mesh (xCell, yCell and zCell are missing); give the mesh "
               "file, or add its variables with ncks -A");
@@ -243,9 +241,9 @@ void refuse_netcdf(const NetcdfReader& file) {
     return is_longitude(file, name) && file.dimensions_of(name).size() == 1;
   });
   if (!points.empty())
-    file.fail("longitudes (" + points +
-              ") without bounds of three corners or more, so that its cells have no shape; give a "
-              "file with bounds, or the points as text to calotte delaunay --lonlat");
+    file.fail("longitudes ({}) without bounds of three corners or more, so that its cells have no "
+              "shape; give a file with bounds, or the points as text to calotte delaunay --lonlat",
+              points);
   file.fail("a NetCDF file, but no mesh of MPAS, UGRID, SCRIP, ESMF, Exodus or ICON, and no cells "
             "with bounds as in the CF conventions; convert it to one of them");
 }

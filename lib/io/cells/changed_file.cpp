@@ -296,11 +296,11 @@ void require_fields(const MeshFile& file, const FieldMethods& methods) {
                                   [&](const MeshField& field) {
                                     return field.name == name && field.location == Location::cells;
                                   }),
-              "the file has no field \"" + name + "\" at cells; give the name of one");
+              "the file has no field \"{}\" at cells; give the name of one", name);
   for (const std::string& name : methods.conservative)
     require(std::ranges::count(methods.nearest, name) == 0,
-            "the field \"" + name +
-                "\" is to be both nearest and conservative; give it one of the two");
+            "the field \"{}\" is to be both nearest and conservative; give it one of the two",
+            name);
 }
 
 ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMethods& methods) {

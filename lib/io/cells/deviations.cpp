@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/deviations.h"
 
+#include "base/message.h"
+
 #include <cmath>
 #include <limits>
 #include <sstream>
 
 namespace calotte::io_detail {
 namespace {
-
-std::string in_words(const std::vector<std::int64_t>& numbers) {
-  std::ostringstream words;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    words << (k == 0 ? "(" : ", ");
-    if (numbers[k] < 0)
-      words << "any";
-    else
-      words << numbers[k];
-  }
-  words << (numbers.empty() ? "()" : ")");
-  return words.str();
-}
 
 std::string place_in_words(std::int64_t index, const std::vector<std::int64_t>& shape) {
   return shape.size() < 2 || shape[1] == 0 ? in_words({index})
@@ -71,7 +60,8 @@ bool Deviations::has(const std::string& variable, const std::vector<std::int64_t
   if (std::equal(stored.begin(), stored.end(), shape.begin(), shape.end(),
                  [](std::int64_t size, std::int64_t want) { return want < 0 || size == want; }))
     return true;
-  add(variable, variable + " has the shape " + in_words(stored) + " instead of " + in_words(shape));
+  add(variable,
+      message("{} has the shape {} instead of {}", variable, in_words(stored), in_words(shape)));
   return false;
 }
 

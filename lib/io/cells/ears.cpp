@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/require.h"
 #include "io/cells/field_order.h"
 #include "mesh/submesh.h"
 
-#include <calotte/error.h>
 #include <calotte/mesh_file.h>
 
 #include <algorithm>
@@ -63,17 +63,16 @@ void select_fields(const Mesh& mesh, const Submesh& part, std::vector<MeshField>
 WithoutEars without_ears(MeshFile given) {
   WithoutEars result{std::move(given), {}};
   MeshFile& file = result.file;
-  if (!file.mesh)
-    throw Error(ErrorCode::invalid_argument,
-                "there is no mesh of the sphere that could have ears; give another file");
+  base_detail::require(file.mesh.has_value(),
+                       "there is no mesh of the sphere that could have ears; give another file");
   const Submesh part = mesh_detail::extract(file.mesh->triangles, file.mesh->neighbours,
                                             triangles_without_ears(*file.mesh));
   result.removed = {file.mesh->triangles.cols() - std::ssize(part.triangles),
                     file.mesh->points.cols() - std::ssize(part.sites)};
-  if (part.triangles.empty())
-    throw Error(ErrorCode::invalid_argument,
-                "no triangle has two neighbours that have two neighbours in "
-                "turn; give a mesh of finer cells");
+  base_detail::require(
+      !part.triangles.empty(),
+      "no triangle has two neighbours that have two neighbours in turn; give a mesh "
+      "of finer cells");
   if (result.removed.triangles == 0 && result.removed.sites == 0)
     return result;
   const Mesh before = std::move(*file.mesh);

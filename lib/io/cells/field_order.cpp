@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/field_order.h"
 
+#include "base/message.h"
 #include "io/cells/limited_area_masks.h"
 
 #include <algorithm>
@@ -24,22 +25,22 @@ void set_pair(Pairs& pairs, Eigen::Index column, std::uint64_t key) {
   pairs.col(column) << static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key);
 }
 
-std::string joined(const std::vector<MeshField>& fields, bool directed) {
-  std::string names;
+std::vector<std::string> edge_fields(const std::vector<MeshField>& fields, bool directed) {
+  std::vector<std::string> names;
   for (const MeshField& field : fields)
     if (field.location == Location::edges && field.directed == directed)
-      names += (names.empty() ? "" : ", ") + field.name;
+      names.push_back(field.name);
   return names;
 }
 
 std::string line_of(const EdgeOrder& order, const std::vector<MeshField>& fields) {
   const auto turned = std::count(order.turned.begin(), order.turned.end(), true);
-  const std::string directed = joined(fields, true), others = joined(fields, false);
-  std::string line = "edges run from their lower to their higher cell: turned " +
-                     std::to_string(turned) + " of " + std::to_string(order.turned.size());
-  line += directed.empty() ? "" : "; changes its sign there: " + directed;
-  line += others.empty() ? "" : "; keeps its sign: " + others;
-  return line;
+  const std::vector<std::string> directed = edge_fields(fields, true),
+                                 others = edge_fields(fields, false);
+  return message("edges run from their lower to their higher cell: turned {} of {}{}{}", turned,
+                 order.turned.size(),
+                 directed.empty() ? "" : "; changes its sign there: " + listed(directed),
+                 others.empty() ? "" : "; keeps its sign: " + listed(others));
 }
 
 void ignore_edge_fields(std::vector<MeshField>& fields, std::vector<std::string>& ignored) {

@@ -62,13 +62,10 @@ Lattice lattice_of(std::int64_t columns, std::int64_t rows, double spacing, cons
   constexpr std::int64_t most = std::int64_t{1} << 28;
   const std::int64_t few_columns = walls.x ? 2 : 3, few_rows = walls.y ? 2 : 4;
   require(columns >= few_columns && rows >= few_rows && (walls.y || rows % 2 == 0),
-          "hexagons of " + std::to_string(columns) + " columns and " + std::to_string(rows) +
-              " rows: give at least " + std::to_string(few_columns) + " columns and " +
-              std::to_string(few_rows) + " rows" +
-              (walls.y ? "" : ", an even number for the period in y"));
+          "hexagons of {} columns and {} rows: give at least {} columns and {} rows{}", columns,
+          rows, few_columns, few_rows, walls.y ? "" : ", an even number for the period in y");
   require(columns <= most && rows <= most / columns,
-          "hexagons of " + std::to_string(columns) + " columns and " + std::to_string(rows) +
-              " rows are more than 268435456; give fewer");
+          "hexagons of {} columns and {} rows are more than 268435456; give fewer", columns, rows);
   require(spacing > 1e-20 && spacing < 1e20,
           "the distance of the hexagons must be from 1e-20 to 1e20");
   return {columns, rows, spacing, walls, columns + (walls.x ? 2 : 0), rows + (walls.y ? 2 : 0)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/limited_area_masks.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -17,9 +18,8 @@ bool is_cell_mask(const MeshField& field) {
 } // namespace
 
 std::string cell_mask_meaning(int rings) {
-  return rings == 0
-             ? "0 in the region"
-             : "0 in the region, 1 to " + std::to_string(rings) + " in the rings of boundary cells";
+  return rings == 0 ? "0 in the region"
+                    : message("0 in the region, 1 to {} in the rings of boundary cells", rings);
 }
 
 std::vector<std::uint8_t> flags_of(const Points3& places,

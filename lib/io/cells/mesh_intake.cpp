@@ -2,6 +2,7 @@
 #include "io/cells/mesh_intake.h"
 
 #include "base/points.h"
+#include "base/require.h"
 #include "delaunay/delaunay.h"
 #include "io/bytes/file_error.h"
 #include "io/cells/field_order.h"
@@ -12,7 +13,6 @@
 #include "mesh/orientation.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -24,24 +24,17 @@
 namespace calotte::io_detail {
 namespace {
 
-[[noreturn]] void fail_mesh(const std::string& name, const std::string& problem,
-                            std::int64_t index) {
-  fail_file(name, problem + "; make the file again", index);
-}
-
 void require_ids(const std::string& name, const Triangles& triangles, std::int64_t points) {
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     for (int i = 0; i < 3; ++i)
       if (triangles(i, t) < 0 || triangles(i, t) >= points)
-        fail_mesh(name,
-                  "triangle " + std::to_string(t) + " has an id that is not one of the " +
-                      std::to_string(points) + " points",
-                  t);
+        fail_file(name, t,
+                  "triangle {} has an id that is not one of the {} points; make the file again", t,
+                  points);
 }
 
 std::string triangle_name(const Triangles& triangles, std::int64_t t) {
-  return "triangle " + std::to_string(t) + " (" + std::to_string(triangles(0, t)) + ", " +
-         std::to_string(triangles(1, t)) + ", " + std::to_string(triangles(2, t)) + ")";
+  return message("triangle {} ({}, {}, {})", t, triangles(0, t), triangles(1, t), triangles(2, t));
 }
 
 // ---- Canonical form
@@ -52,12 +45,11 @@ void require_one_orientation(const std::string& name, const Triangles& triangles
     return;
   const std::int64_t t = found.first_exception();
   const bool clockwise = t == found.first_clockwise;
-  fail_mesh(name,
-            triangle_name(triangles, t) + " runs " +
-                (clockwise ? "clockwise" : "counter-clockwise") + ", but " +
-                std::to_string(clockwise ? found.counter_clockwise : found.clockwise) +
-                " triangles run the other way, so the file contradicts itself",
-            t);
+  fail_file(name, t,
+            "{} runs {}, but {} triangles run the other way, so the file contradicts itself; make "
+            "the file again",
+            triangle_name(triangles, t), clockwise ? "clockwise" : "counter-clockwise",
+            clockwise ? found.counter_clockwise : found.clockwise);
 }
 
 /// Turns clockwise triangles.
@@ -67,7 +59,7 @@ void orient(const std::string& name, Triangles& triangles, const Orientations& f
   if (found.clockwise == 0)
     return;
   reverse(triangles);
-  changes.push_back("turned " + std::to_string(found.clockwise) + " clockwise triangles");
+  changes.push_back(message("turned {} clockwise triangles", found.clockwise));
 }
 
 /// The corners of polygons, of which one belongs to each triangle, follow their triangles.
@@ -90,26 +82,24 @@ void sort(Triangles& triangles, Polygons* polygons, MeshFile& file) {
   move_vertex_values(file.fields, {places.place.begin(), places.place.end()});
   if (polygons != nullptr)
     reorder_corners(*polygons, places);
-  file.changes.push_back("sorted " + std::to_string(triangles.cols()) + " triangles");
+  file.changes.push_back(message("sorted {} triangles", triangles.cols()));
 }
 
 void require_one_surface(const std::string& name, const Triangles& triangles,
                          const Triangles& neighbours) {
   const SharedEdge edge = first_shared_edge(triangles, neighbours);
   if (edge.triangle >= 0)
-    fail_mesh(name,
-              "the edge from " + std::to_string(edge.from) + " to " + std::to_string(edge.to) +
-                  " of " + triangle_name(triangles, edge.triangle) +
-                  " belongs to more than two triangles, or to two on the same side of it, so the "
-                  "triangles overlap",
-              edge.triangle);
+    fail_file(name, edge.triangle,
+              "the edge from {} to {} of {} belongs to more than two triangles, or to two on the "
+              "same side of it, so the triangles overlap; make the file again",
+              edge.from, edge.to, triangle_name(triangles, edge.triangle));
 }
 
 void require_distinct_vertices(const std::string& name, const Triangles& triangles) {
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     if (triangles(0, t) == triangles(1, t) || triangles(1, t) == triangles(2, t) ||
         triangles(2, t) == triangles(0, t))
-      fail_mesh(name, triangle_name(triangles, t) + " has a vertex twice", t);
+      fail_file(name, t, "{} has a vertex twice; make the file again", triangle_name(triangles, t));
 }
 
 /// Orientation, order and neighbours. \pre ids are in range.
@@ -151,18 +141,15 @@ void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
 void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile& file) {
   const std::int64_t turned = turn_counter_clockwise(polygons, name, each);
   if (turned > 0)
-    file.changes.push_back("turned " + std::to_string(turned) + " clockwise cells");
+    file.changes.push_back(message("turned {} clockwise cells", turned));
 }
 
 /// Each cell of a plane has a site. Its boundary is the file's alone, and corners are no triangles.
 void require_one_site_each(const std::string& name, const Mesh& mesh) {
   const auto& sites = mesh.site_of_input;
-  for (std::size_t i = 0; i < sites.size(); ++i)
-    if (sites[i] != static_cast<std::int32_t>(i))
-      fail_mesh(name,
-                "cell " + std::to_string(i) + " and cell " + std::to_string(sites[i]) +
-                    " have one centre",
-                static_cast<std::int64_t>(i));
+  for (std::int32_t i = 0; i < std::ssize(sites); ++i)
+    if (const std::int32_t site = sites[static_cast<std::size_t>(i)]; site != i)
+      fail_file(name, i, "cell {} and cell {} have one centre; make the file again", i, site);
 }
 
 void ignore_other_fields(MeshFile& file) {
@@ -222,12 +209,13 @@ MeshFile rest_of(const std::string& format, RawMesh& raw) {
 void require_places(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (!points.col(i).allFinite())
-      fail_mesh(name, "point " + std::to_string(i) + " has no place (NaN or infinite)", i);
+      fail_file(name, i, "point {} has no place (NaN or infinite); make the file again", i);
     if (points(2, i) != 0)
-      throw Error(ErrorCode::invalid_argument,
-                  name + ": z is not 0 at point " + std::to_string(i) +
-                      ", so it is not a planar mesh; read it as one of the sphere",
-                  i);
+      refuse(
+          message("{}: z is not 0 at point {}, so it is not a planar mesh; read it as one of the "
+                  "sphere",
+                  name, i),
+          i);
   }
 }
 
@@ -260,7 +248,7 @@ Mesh mesh_of_points(const std::string& name, const RawMesh& raw, MeshFile& file)
     require_one_site_each(name, mesh);
   } else if (raw.surface.is_sphere()) {
     merge_values(mesh, file);
-    file.changes.push_back("triangulated " + std::to_string(raw.points.cols()) + " points");
+    file.changes.push_back(message("triangulated {} points", raw.points.cols()));
   }
   return mesh;
 }
@@ -280,7 +268,7 @@ void require_sphere(const std::string& name, const Points3& points) {
 void require_directions(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!points.col(i).allFinite() || (points.col(i).array() == 0).all())
-      fail_mesh(name, "point " + std::to_string(i) + " has no direction (NaN, infinite or zero)",
+      fail_file(name, i, "point {} has no direction (NaN, infinite or zero); make the file again",
                 i);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/model_grid.h"
+#include "base/require.h"
 #include "io/netcdf/cf_values.h"
 
 #include "base/lonlat.h"
@@ -9,8 +10,6 @@
 #include "io/bytes/text.h"
 #include "io/cells/polygons.h"
 #include "voronoi/cell_fields.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +28,8 @@ template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const
 } // namespace
 
 Points3 on_sphere(Points3 points, double radius) {
-  if (!(radius > 0 && std::isfinite(radius)))
-    throw Error(ErrorCode::invalid_argument,
-                "the sphere's radius is " + std::to_string(radius) + "; it must be positive");
+  require(radius > 0 && std::isfinite(radius), "the sphere's radius is {}; it must be positive",
+          radius);
   constexpr double rounding = 0x1p-50; // of a norm, in which four operations round
   for_each_block(points.cols(), [&](std::int64_t /*block*/, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
@@ -178,9 +176,9 @@ LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats 
   for (std::size_t i = 0; i < places.longitudes.size(); ++i) {
     double& latitude = places.latitudes[i];
     if (!std::isfinite(places.longitudes[i]) || !(std::abs(latitude) <= pole))
-      file.fail(variables + " hold no place on the sphere at index " + std::to_string(i) +
-                " (0-based): longitude " + std::to_string(places.longitudes[i]) + ", latitude " +
-                std::to_string(latitude) + " degrees; make the file again");
+      file.fail("{} hold no place on the sphere at index {} (0-based): longitude {}, latitude {} "
+                "degrees; make the file again",
+                variables, i, std::to_string(places.longitudes[i]), std::to_string(latitude));
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
   return places;

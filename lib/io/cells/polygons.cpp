@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/polygons.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/spherical_triangle.h"
@@ -60,8 +61,6 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
   return polygons.surface.is_sphere() ? spherical_area(polygons, polygon)
                                       : planar_area(polygons, polygon);
 }
-
-std::string name_of(std::int64_t polygon) { return "cell " + std::to_string(polygon); }
 
 /// The turn of a polygon: 1 counter-clockwise, -1 clockwise, 0 of no area. The triangles of most
 /// fans all turn one way, and their areas need not be known.
@@ -172,12 +171,11 @@ std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name,
     const bool rarer_is_clockwise = clockwise <= counter_clockwise;
     const std::int64_t cell =
         std::find(turns.begin(), turns.end(), rarer_is_clockwise ? -1 : 1) - turns.begin();
-    fail_file(name,
-              name_of(cell) + " runs " + (rarer_is_clockwise ? "clockwise" : "counter-clockwise") +
-                  " seen from outside, but " +
-                  std::to_string(std::max(clockwise, counter_clockwise)) +
-                  " cells run the other way; the file contradicts itself, make it again",
-              cell);
+    fail_file(name, cell,
+              "cell {} runs {} seen from outside, but {} cells run the other way; the file "
+              "contradicts itself, make it again",
+              cell, rarer_is_clockwise ? "clockwise" : "counter-clockwise",
+              std::max(clockwise, counter_clockwise));
   }
   for (std::int64_t i = 0; i < polygons.size(); ++i)
     if (turns[i] < 0 || counter_clockwise == 0)
@@ -276,8 +274,8 @@ PolygonFault overlap_in(const Polygons& polygons) {
       if (side.to == next.to && !covers(next))
         continue;
       if (side.to == next.to && covers(side))
-        return {name_of(side.polygon) + " and " + name_of(next.polygon) +
-                    " overlap, as both lie to the left of one side",
+        return {message("cell {} and cell {} overlap, as both lie to the left of one side",
+                        side.polygon, next.polygon),
                 side.polygon};
       known = k;
     }
@@ -287,14 +285,14 @@ PolygonFault overlap_in(const Polygons& polygons) {
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
   const double area = areas_of(polygons).sum();
   if (area > whole * (1 + rounding))
-    return {"the cells overlap: their areas sum to " + std::to_string(area / whole) +
-            " times the sphere's"};
+    return {message("the cells overlap: their areas sum to {} times the sphere's",
+                    std::to_string(area / whole))};
   return {};
 }
 
 void require_no_overlap(const Polygons& polygons, const std::string& name) {
   if (const PolygonFault fault = overlap_in(polygons); !fault.text.empty())
-    fail_file(name, fault.text + "; make the file again", fault.polygon);
+    fail_file(name, fault.polygon, "{}; make the file again", fault.text);
 }
 
 double mean_width(std::int64_t cells) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/voronoi_cells.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "io/cells/dual.h"
@@ -119,7 +120,7 @@ ComparedCells compare_cells(Points3 centres, const Polygons& polygons, double ro
 namespace calotte {
 
 std::string NotVoronoi::text() const {
-  const std::string cell = "cell " + std::to_string(cells[0]);
+  using base_detail::message;
   switch (fault) {
   case CellFault::none:
     return {};
@@ -132,20 +133,21 @@ std::string NotVoronoi::text() const {
   case CellFault::no_centres:
     return "the cells have no centres";
   case CellFault::other_number:
-    return "there are " + std::to_string(polygons) + " cells, but " + std::to_string(centres) +
-           " distinct centres";
+    return message("there are {} cells, but {} distinct centres", polygons, centres);
   case CellFault::no_corners:
-    return cell + " has no corners";
+    return message("cell {} has no corners", cells[0]);
   case CellFault::other_corner:
-    return "a corner of " + cell + " is " + std::to_string(distance) +
-           " mean cell widths away from that of the Voronoi cell of its centre";
+    return message(
+        "a corner of cell {} is {} mean cell widths away from that of the Voronoi cell of "
+        "its centre",
+        cells[0], std::to_string(distance));
   case CellFault::not_circumcentres:
     return "they are a part of the sphere, and their corners are not the circumcentres of three "
            "centres each";
   case CellFault::common_corner:
-    return "the common corner of cells " + std::to_string(cells[0]) + ", " +
-           std::to_string(cells[1]) + " and " + std::to_string(cells[2]) + " is " +
-           std::to_string(distance) + " cell widths away from the circumcentre of their centres";
+    return message("the common corner of cells {}, {} and {} is {} cell widths away from the "
+                   "circumcentre of their centres",
+                   cells[0], cells[1], cells[2], std::to_string(distance));
   case CellFault::no_triangulation:
   case CellFault::no_tessellation:
     break;
@@ -175,7 +177,7 @@ Check check(const Polygons& polygons) {
   const auto clockwise =
       std::ranges::find_if(areas, [](double area) { return area < 0; }) - areas.begin();
   if (clockwise < areas.size())
-    found.failure = "cell " + std::to_string(clockwise) + " runs clockwise seen from outside";
+    found.failure = message("cell {} runs clockwise seen from outside", clockwise);
   else
     found.failure = overlap_in(polygons).text;
   if (!found.passed())

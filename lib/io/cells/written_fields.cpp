@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/cells/written_fields.h"
 
+#include "base/message.h"
 #include "io/bytes/big_endian.h"
 #include "io/bytes/utf8.h"
 
@@ -144,7 +145,7 @@ std::vector<std::array<std::string, 2>> replace_names(std::vector<MeshField>& fi
     std::string name = netcdf_name(field.name);
     const std::string stem = name;
     for (int k = 2; !used.insert(name).second; ++k)
-      name = stem + "_" + std::to_string(k);
+      name = message("{}_{}", stem, k);
     if (name == field.name)
       continue;
     renamed.push_back({field.name, name});

@@ -14,16 +14,15 @@ namespace {
 void require_size(const std::string& path, const std::string& what, std::int64_t size,
                   std::int64_t expected) {
   if (size != expected)
-    refuse_path(path, what + " has " + std::to_string(size) + " values; give one for each of " +
-                          std::to_string(expected));
+    refuse_path(path, "{} has {} values; give one for each of {}", what, size, expected);
 }
 
 void require_density(const std::string& path, const DoubleVector& density, std::int64_t sites) {
   require_size(path, "the density of the sites", density.size(), sites);
   for (Eigen::Index i = 0; i < density.size(); ++i)
     if (!(density[i] >= 0 && std::isfinite(density[i])))
-      refuse_path(path, "the density is " + std::to_string(density[i]) + " at site " +
-                            std::to_string(i) + "; give finite numbers that are not negative");
+      refuse_path(path, "the density is {} at site {}; give finite numbers that are not negative",
+                  density[i], i);
   if (density.maxCoeff() == 0)
     refuse_path(path, "the density is zero at every site; make it positive somewhere");
 }
@@ -41,28 +40,26 @@ void require_depths(const std::string& path, const WriteOptions& options, std::i
     if (!(levels[k] > levels[k - 1] && levels[k] <= deepest &&
           std::signbit(options.depth_levels[k]) == std::signbit(options.depth_levels[1])))
       refuse_path(path,
-                  "level " + std::to_string(k) + " of the depths is " +
-                      std::to_string(options.depth_levels[k]) +
-                      " m; each lies deeper than the one before, and none deeper than 11000 m");
+                  "level {} of the depths is {} m; each lies deeper than the one before, and none "
+                  "deeper than 11000 m",
+                  k, std::to_string(options.depth_levels[k]));
   require_size(path, "the depth of the bottom", options.site_depth.size(), sites);
   for (Eigen::Index i = 0; i < options.site_depth.size(); ++i)
     if (!(std::abs(options.site_depth[i]) <= deepest))
-      refuse_path(path, "the bottom is " + std::to_string(options.site_depth[i]) +
-                            " m deep at site " + std::to_string(i) +
-                            "; give metres, at most 11000");
+      refuse_path(path, "the bottom is {} m deep at site {}; give metres, at most 11000",
+                  std::to_string(options.site_depth[i]), i);
 }
 
 void require_dimensions(const std::string& path, const MeshField& field) {
   for (const FieldDimension& dimension : field.dimensions)
     if (dimension.size < 1)
-      refuse_path(path, "the dimension " + dimension.name + " of the field " + field.name +
-                            " has the size " + std::to_string(dimension.size) +
-                            "; give one from 1 on");
+      refuse_path(path, "the dimension {} of the field {} has the size {}; give one from 1 on",
+                  dimension.name, field.name, dimension.size);
   if (field.leading < 0 || field.leading > std::ssize(field.dimensions))
-    refuse_path(path, "the field " + field.name + " has " +
-                          std::to_string(field.dimensions.size()) + " dimensions, of which " +
-                          std::to_string(field.leading) +
-                          " cannot come before its location's; correct `leading`");
+    refuse_path(path,
+                "the field {} has {} dimensions, of which {} cannot come before its location's; "
+                "correct `leading`",
+                field.name, field.dimensions.size(), field.leading);
 }
 
 Pairs renamed(Pairs pairs, std::span<const std::int32_t> new_site) {
@@ -82,8 +79,8 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
     require_dimensions(path, field);
     const bool at_edges = field.location == Location::edges;
     if (at_edges && !mesh.closed)
-      refuse_path(path, "the field " + field.name +
-                            " is at edges, which only closed meshes number; leave it out");
+      refuse_path(path, "the field {} is at edges, which only closed meshes number; leave it out",
+                  field.name);
     const std::int64_t places = field.location == Location::cells ? mesh.sites
                                 : at_edges                        ? 3 * mesh.triangles / 2
                                                                   : mesh.triangles;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "cvt/state.h"
 #include "io/bytes/binary.h"
 #include "io/bytes/file.h"
@@ -222,7 +223,7 @@ std::string take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string line(text.substr(0, end));
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line.empty() ? "nothing more" : "\"" + line + "\"";
+  return line.empty() ? "nothing more" : message("\"{}\"", line);
 }
 
 void require_same(const std::string& path, std::string_view theirs, std::string_view ours) {
@@ -233,9 +234,10 @@ void require_same(const std::string& path, std::string_view theirs, std::string_
     their_line = take_line(theirs);
     our_line = take_line(ours);
   } while (their_line == our_line && !(theirs.empty() && ours.empty()));
-  refuse_path(path, "a checkpoint of another configuration: it has " + their_line +
-                        " where this run has " + our_line +
-                        "; give the same options or start anew");
+  refuse_path(path,
+              "a checkpoint of another configuration: it has {} where this run has {}; give the "
+              "same options or start anew",
+              their_line, our_line);
 }
 
 } // namespace

@@ -74,20 +74,17 @@ Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres)
       std::move(nodes), {Offsets(elements + 1), Ids(std::ssize(all))}, std::move(centres)};
   auto& [begin, ids] = polygons.ids;
   begin[0] = 0;
-  const auto fail = [&](std::int64_t element, const std::string& problem) {
-    file.fail("element " + std::to_string(element) + " (0-based) " + problem +
-              "; make the file again");
-  };
   for (std::int64_t i = 0; i < elements; ++i) {
     const std::int32_t count = counts[static_cast<std::size_t>(i)];
     if (count < 3 || count > most)
-      fail(i, "has " + std::to_string(count) + " nodes in numElementConn");
+      file.fail("element {} (0-based) has {} nodes in numElementConn; make the file again", i,
+                count);
     for (std::int64_t k = 0; k < count; ++k) {
       const std::int64_t id = all[static_cast<std::size_t>(i * most + k)] - start;
       if (id < 0 || id >= polygons.corners.cols())
-        fail(i, "has node " + std::to_string(id + start) + " in elementConn, which is not one of " +
-                    std::to_string(polygons.corners.cols()) + " from " + std::to_string(start) +
-                    " on");
+        file.fail("element {} (0-based) has node {} in elementConn, which is not one of {} from {} "
+                  "on; make the file again",
+                  i, id + start, polygons.corners.cols(), start);
       ids[begin[i] + k] = static_cast<std::int32_t>(id);
     }
     begin[i + 1] = begin[i] + count;

@@ -54,7 +54,7 @@ public:
     std::int64_t first = 0;
     for (const std::int32_t count : counts) {
       if (count < 0 || first + count > std::ssize(ids))
-        file_.fail(counts_name + " counts more nodes than " + name + " has; make the file again");
+        file_.fail("{} counts more nodes than {} has; make the file again", counts_name, name);
       add(name, ids.data() + first, count);
       first += count;
     }
@@ -72,8 +72,8 @@ private:
     const auto first = static_cast<std::ptrdiff_t>(ids_.size());
     for (std::int64_t k = 0; k < count; ++k) {
       if (ids[k] < 1 || ids[k] > nodes_)
-        file_.fail(name + " has node " + std::to_string(ids[k]) + " (1-based), but there are " +
-                   std::to_string(nodes_) + "; make the file again");
+        file_.fail("{} has node {} (1-based), but there are {}; make the file again", name, ids[k],
+                   nodes_);
       const std::int32_t id = ids[k] - 1;
       if (std::ssize(ids_) == first || ids_.back() != id)
         ids_.push_back(id);
@@ -81,8 +81,8 @@ private:
     while (std::ssize(ids_) > first + 1 && ids_.back() == ids_[static_cast<std::size_t>(first)])
       ids_.pop_back();
     if (std::ssize(ids_) < first + 3)
-      file_.fail("element " + std::to_string(begin_.size() - 1) +
-                 " (0-based) has fewer than three nodes; only faces are read");
+      file_.fail("element {} (0-based) has fewer than three nodes; only faces are read",
+                 begin_.size() - 1);
     begin_.push_back(std::ssize(ids_));
   }
 

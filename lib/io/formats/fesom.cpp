@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_names.h"
@@ -34,7 +35,7 @@ std::int64_t take_count(LineReader& reader, const std::string& of) {
   std::int64_t count = 0;
   take_columns(reader, 1, &count, "the number of " + of);
   if (count < 0 || count > (std::int64_t{1} << 30))
-    reader.fail(std::to_string(count) + " is not a number of " + of);
+    reader.fail("{} is not a number of {}", count, of);
   return count;
 }
 
@@ -47,10 +48,9 @@ RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
   std::vector<double> places, flags;
   for (std::int64_t i = 0; i < count; ++i) {
     std::array<double, 4> row{};
-    take_columns(reader, 4, row.data(),
-                 "node " + std::to_string(i + 1) + " of " + std::to_string(count));
+    take_columns(reader, 4, row.data(), message("node {} of {}", i + 1, count));
     if (row[0] != static_cast<double>(i + 1))
-      reader.fail("node " + std::to_string(i + 1) + " has another id; number the nodes from 1 on");
+      reader.fail("node {} has another id; number the nodes from 1 on", i + 1);
     if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
       reader.fail("longitude and latitude are no place on the sphere; make the file again");
     const Vec3 place = from_lonlat(row[1], row[2]);
@@ -72,8 +72,7 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
   std::vector<std::int32_t> ids;
   for (std::int64_t t = 0; t < count; ++t) {
     std::array<std::int64_t, 3> row{};
-    take_columns(reader, 3, row.data(),
-                 "element " + std::to_string(t + 1) + " of " + std::to_string(count));
+    take_columns(reader, 3, row.data(), message("element {} of {}", t + 1, count));
     parse_ids(reader, row.data(), nodes, ids, 1);
   }
   return Eigen::Map<const Triangles>(ids.data(), 3, count);

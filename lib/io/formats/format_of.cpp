@@ -52,9 +52,9 @@ void refuse_name(const std::string& path) {
       else if (by_suffix(name) == &row.info)
         suffixes.push_back(name + (row.info.word.empty() ? " (read only)" : ""));
   const std::string suffix = suffix_of(path);
-  refuse_path(path, (suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix)) +
-                        "; a mesh file ends in " + listed(suffixes) + ", or is named " +
-                        listed(names));
+  refuse_path(path, "{}; a mesh file ends in {}, or is named {}",
+              suffix.empty() ? "no suffix" : "unknown suffix " + in_quotes(suffix),
+              listed(suffixes, " or "), listed(names, " or "));
 }
 
 } // namespace io_detail
@@ -80,12 +80,11 @@ Format format_of(const std::string& path, Format option) {
     refuse_name(path);
   const FormatInfo& info = info_of(format);
   if (info.word.empty() || (named && info_of(*named).word.empty()))
-    refuse_path(path, info_of(info.word.empty() ? format : *named).title +
-                          " files are read, but not written; write .vtp, .vtu or .nc");
+    refuse_path(path, "{} files are read, but not written; write .vtp, .vtu or .nc",
+                info_of(info.word.empty() ? format : *named).title);
   if (const std::string name = whole_name(info); !name.empty() && named != format)
-    refuse_path(
-        path, "files of that format are named " + name +
-                  (format == Format::fesom ? "; give that name" : " and so on; give such a name"));
+    refuse_path(path, "files of that format are named {}{}", name,
+                format == Format::fesom ? "; give that name" : " and so on; give such a name");
   if (named && named != format &&
       (!whole_name(info_of(*named)).empty() || !has_suffix(info, suffix_of(path))))
     refuse_path(path,

@@ -294,13 +294,6 @@ bool holds_field(Format format, const MeshField& field) {
   return row.holds_field != nullptr && row.holds_field(field);
 }
 
-std::string listed(const std::vector<std::string>& names, const std::string& last) {
-  std::string list;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    list += (k == 0 ? "" : k + 1 < names.size() ? ", " : last) + names[k];
-  return list;
-}
-
 std::string triangle_formats(const std::string& last) {
   std::vector<std::string> names;
   for (const FormatRow& row : format_table())
@@ -314,7 +307,7 @@ std::string polygon_formats(bool on_sphere) {
   for (const FormatRow& row : format_table())
     if (row.info.cells && row.write_polygons != nullptr && (on_sphere || row.planes.clipped))
       words.push_back(row.info.word);
-  return listed(words);
+  return listed(words, " or ");
 }
 
 std::string clipped_formats() {
@@ -322,7 +315,7 @@ std::string clipped_formats() {
   for (const FormatRow& row : format_table())
     if (row.info.cells && row.planes.clipped)
       words.push_back(row.info.word);
-  return listed(words);
+  return listed(words, " or ");
 }
 
 } // namespace calotte::io_detail

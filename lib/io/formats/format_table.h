@@ -71,9 +71,6 @@ const FormatRow& row_of(Format format);
 const FormatRow* row_of(const NetcdfReader& file);
 bool holds_field(Format format, const MeshField& field);
 
-/// "a, b or c" \param last joins the last two.
-std::string listed(const std::vector<std::string>& names, const std::string& last = " or ");
-
 // For messages: formats of triangles with their points, by suffixes; \param last joins the last
 // two.
 std::string triangle_formats(const std::string& last = " or ");

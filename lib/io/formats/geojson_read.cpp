@@ -35,7 +35,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* no_collection = ": no GeoJSON FeatureCollection; give one of the cells";
+constexpr const char* no_collection = "no GeoJSON FeatureCollection; give one of the cells";
 
 constexpr std::array axes{"x", "y", "z"};
 
@@ -59,7 +59,7 @@ public:
 
   void take(const GeoFeature& feature) {
     if (feature.number < 0)
-      throw Error(ErrorCode::parse, name_ + no_collection);
+      fail_file(name_, no_collection);
     const json &properties = feature.properties, &geometry = feature.geometry;
     take_properties(properties);
     const std::optional<Vec3> site = site_of(properties);
@@ -68,7 +68,7 @@ public:
                is_voronoi = is_polygon && site && is_voronoi_cell(properties),
                is_cell = is_polygon && !is_voronoi;
     if (is_cell != (count_ > 0 ? !rings_.empty() && voronoi_ == 0 : is_cell))
-      fail("is " + std::string(is_cell ? "a cell" : "no polygon") + ", unlike those before it");
+      fail(is_cell ? "is a cell, unlike those before it" : "is no polygon, unlike those before it");
     if (is_cell)
       rings_.push_back(ring_of(geometry, type));
     else if (is_voronoi)
@@ -105,7 +105,7 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
-    fail_file(name_, "feature " + std::to_string(count_) + " " + problem, count_);
+    fail_file(name_, count_, "feature {} {}", count_, problem);
   }
 
   void take_properties(const json& properties) {

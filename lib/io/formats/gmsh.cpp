@@ -38,8 +38,9 @@ public:
     for (std::string_view line; reader_.next_content(line);)
       section(trimmed(line));
     if (corners_.empty())
-      fail_file(reader_.name(), "a file of Gmsh without triangles; mesh its surfaces (gmsh "
-                                "-2), and save all elements (Mesh.SaveAll=1)");
+      fail_file(reader_.name(),
+                "a file of Gmsh without triangles; mesh its surfaces (gmsh -2), and "
+                "save all elements (Mesh.SaveAll=1)");
     return raw();
   }
 
@@ -52,8 +53,9 @@ private:
 
   void section(const std::string& name) {
     if (!name.starts_with("$"))
-      reader_.fail(in_quotes(name) + " is not the name of a section, such as $Nodes; the section "
-                                     "before has more lines than it announces");
+      reader_.fail("{} is not the name of a section, such as $Nodes; the section before has more "
+                   "lines than it announces",
+                   in_quotes(name));
     if (name == "$NOD" || name == "$ELM")
       reader_.fail("version 1 of Gmsh's format is not read; save the mesh as version 2 or 4 "
                    "(Mesh.MshFileVersion)");
@@ -67,31 +69,27 @@ private:
     const bool known = name == "$Nodes" || name == "$Elements";
     for (std::string_view line = next(name); trimmed(line) != end; line = next(name))
       if (known)
-        reader_.fail(in_quotes(line) + " instead of " + end +
-                     "; the section has more lines than it announces");
+        reader_.fail("{} instead of {}; the section has more lines than it announces",
+                     in_quotes(line), end);
   }
 
   std::string_view next(const std::string& section) {
     std::string_view line;
     if (!reader_.next_content(line))
-      reader_.fail("the file ends within " + section + "; it was cut short");
+      reader_.fail("the file ends within {}; it was cut short", section);
     return line;
   }
 
   template <class T, std::size_t count>
   std::array<T, count> columns(std::string_view line, std::size_t used = count) const {
     std::array<T, count> values{};
-    const Columned read = parse_columns(line, static_cast<int>(used), values.data());
-    if (read.outcome == Outcome::too_few)
-      reader_.fail("fewer than " + std::to_string(used) + " columns");
-    if (read.outcome != Outcome::ok)
-      reader_.fail(describe(read));
+    take_columns(reader_, line, static_cast<int>(used), values.data());
     return values;
   }
 
   std::int64_t count_of(std::int64_t number) const {
     if (number < 0 || number > most_entries)
-      reader_.fail(std::to_string(number) + " is not a number of lines");
+      reader_.fail("{} is not a number of lines", number);
     return number;
   }
 
@@ -142,7 +140,7 @@ private:
 
   void number_node(std::int64_t node, std::size_t place) {
     if (!place_of_.emplace(node, place).second)
-      reader_.fail("the node " + std::to_string(node) + " comes twice; make the file again");
+      reader_.fail("the node {} comes twice; make the file again", node);
   }
 
   void add_place(const std::array<double, 3>& place) {
@@ -165,7 +163,7 @@ private:
       const std::string_view line = next("$Elements");
       const auto [number, type, tags] = columns<std::int64_t, 3>(line);
       if (tags < 0 || tags > std::int64_t{most_tags})
-        reader_.fail(std::to_string(tags) + " is not a number of tags");
+        reader_.fail("{} is not a number of tags", tags);
       element(line, type, 3 + static_cast<std::size_t>(tags));
     }
   }
@@ -174,9 +172,9 @@ private:
   void element(std::string_view line, std::int64_t type, std::size_t first) {
     const Shape shape = shape_of(type);
     if (shape == Shape::more)
-      reader_.fail("an element of type " + std::to_string(type) +
-                   (type == 3 ? ", a quadrangle" : "") +
-                   "; only triangles are read, so mesh the surfaces with triangles alone");
+      reader_.fail("an element of type {}{}; only triangles are read, so mesh the surfaces with "
+                   "triangles alone",
+                   type, type == 3 ? ", a quadrangle" : "");
     if (shape == Shape::less)
       return;
     const auto row = columns<std::int64_t, 3 + most_tags + 3>(line, first + 3);
@@ -191,8 +189,9 @@ private:
     const auto place_of = [&](std::int64_t node) {
       const auto found = place_of_.find(node);
       if (found == place_of_.end() || found->second >= site.size())
-        fail_file(reader_.name(), "a triangle has the node " + std::to_string(node) +
-                                      ", which $Nodes does not have; make the file again");
+        fail_file(reader_.name(),
+                  "a triangle has the node {}, which $Nodes does not have; make the file again",
+                  node);
       return found->second;
     };
     for (const std::int64_t node : corners_)

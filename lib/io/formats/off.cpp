@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/formats/formats.h"
 #include "io/formats/poly_data.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <span>
@@ -15,10 +14,6 @@
 
 namespace calotte::io_detail {
 namespace {
-
-std::string of(const char* thing, std::int64_t index, std::int64_t count) {
-  return std::string(thing) + " " + std::to_string(index) + " of " + std::to_string(count);
-}
 
 void put_head(Writer& out, const Points3& points, std::int64_t faces) {
   out.text("OFF\n").number(std::int64_t{points.cols()}).text(" ").number(faces).text(" 0\n");
@@ -45,7 +40,7 @@ void take_face(LineReader& reader, std::int64_t points, const std::string& await
   std::int64_t corners = 0;
   take_columns(reader, line, 1, &corners, awaited);
   if (corners < 3 || corners > std::max<std::int64_t>(points, 3))
-    reader.fail("a face of " + std::to_string(corners) + " corners; give 3 or more, each a point");
+    reader.fail("a face of {} corners; give 3 or more, each a point", corners);
   face.resize(static_cast<std::size_t>(corners) + 1);
   take_columns(reader, line, static_cast<int>(corners) + 1, face.data(), awaited);
   parse_ids(reader, face.data() + 1, points, ids, 0, corners);
@@ -73,21 +68,20 @@ RawMesh get_off(std::istream& in, const std::string& name) {
   LineReader reader(in, name);
   std::string_view line;
   if (!reader.next_content(line) || line.substr(0, line.find_last_not_of(" \t") + 1) != "OFF")
-    throw Error(ErrorCode::parse, name + " line 1: not an OFF file, which starts with the line OFF",
-                1);
+    fail_at(name, 1, "not an OFF file, which starts with the line OFF");
   std::int64_t counts[2];
   take_columns(reader, 2, counts, "the numbers of points and faces");
 
   std::vector<double> points;
   for (std::int64_t i = 0; i < counts[0]; ++i) {
     double p[3];
-    take_columns(reader, 3, p, of("point", i, counts[0]));
+    take_columns(reader, 3, p, message("point {} of {}", i, counts[0]));
     points.insert(points.end(), p, p + 3);
   }
   std::vector<std::int32_t> ids;
   std::vector<std::int64_t> begin{0}, face;
   for (std::int64_t i = 0; i < counts[1]; ++i) {
-    take_face(reader, counts[0], of("face", i, counts[1]), face, ids);
+    take_face(reader, counts[0], message("face {} of {}", i, counts[1]), face, ids);
     begin.push_back(std::ssize(ids));
   }
   if (reader.next_content(line))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/scalars.h"
@@ -59,7 +60,7 @@ Scalar type_of(std::string_view word, const std::string& name) {
   for (const auto& [text, type] : ply_types)
     if (text == word)
       return type;
-  fail_file(name, in_quotes(word) + " is not a type of .ply files" + damaged);
+  fail_damaged(name, "{} is not a type of .ply files", in_quotes(word));
 }
 
 void read_format(std::string_view words, const std::string& name, Head& head) {
@@ -68,8 +69,8 @@ void read_format(std::string_view words, const std::string& name, Head& head) {
   head.binary = big || format == "binary_little_endian";
   head.swapped = big == (std::endian::native == std::endian::little);
   if (!head.binary && format != "ascii")
-    fail_file(name, "its format " + in_quotes(format) +
-                        " is not ascii, binary_little_endian or binary_big_endian" + damaged);
+    fail_damaged(name, "its format {} is not ascii, binary_little_endian or binary_big_endian",
+                 in_quotes(format));
 }
 
 Element element_of(std::string_view words, const std::string& name) {
@@ -77,8 +78,8 @@ Element element_of(std::string_view words, const std::string& name) {
   const std::string_view count = take_word(words);
   std::int32_t number = -1;
   if (!parse_number(count, Scalar::int64, number) || number < 0)
-    fail_file(name, "the number of element " + in_quotes(element.name) + " is " + in_quotes(count) +
-                        ", not one from 0 to 2147483647" + damaged);
+    fail_damaged(name, "the number of element {} is {}, not one from 0 to 2147483647",
+                 in_quotes(element.name), in_quotes(count));
   element.count = number;
   return element;
 }
@@ -111,7 +112,7 @@ Head take_head(std::string_view& content, const std::string& name) {
     std::string_view line = content.substr(0, end);
     const std::string_view keyword = take_word(line);
     if (end == std::string_view::npos)
-      fail_file(name, "its head has no end_header" + damaged);
+      fail_damaged(name, "its head has no end_header");
     content.remove_prefix(end + 1);
     if (keyword == "end_header")
       return head;
@@ -122,10 +123,9 @@ Head take_head(std::string_view& content, const std::string& name) {
     else if (keyword == "property" && !head.elements.empty())
       head.elements.back().properties.push_back(property_of(line, name));
     else if (!first && keyword != "comment" && keyword != "obj_info" && !keyword.empty())
-      fail_file(name,
-                in_quotes(keyword) + " is not a keyword of the head of a .ply file" + damaged);
+      fail_damaged(name, "{} is not a keyword of the head of a .ply file", in_quotes(keyword));
   }
-  fail_file(name, "its head has more than " + std::to_string(most_lines) + " lines" + damaged);
+  fail_damaged(name, "its head has more than {} lines", most_lines);
 }
 
 // ---- The rows
@@ -142,7 +142,7 @@ public:
     for (const Property& property : element.properties)
       least += head_.binary ? size_of(property.count.value_or(property.type)) : 2;
     if (least > 0 && element.count > (size() + 1) / least)
-      fail_row(element, 0, "the file ends before its " + std::to_string(element.count) + " rows");
+      fail_row(element, 0, message("the file ends before its {} rows", element.count));
   }
 
   template <class T> T take(const Element& element, Scalar type, std::int64_t row) {
@@ -154,8 +154,8 @@ public:
       rest_.remove_prefix(static_cast<std::size_t>(width));
     } else if (const std::string_view word = take_word(rest_); !parse_number(word, type, number)) {
       fail_row(element, row,
-               word.empty() ? std::string("the file ends before")
-                            : in_quotes(word) + " is not a number of its type");
+               word.empty() ? "the file ends before"
+                            : message("{} is not a number of its type", in_quotes(word)));
     }
     return number;
   }
@@ -164,7 +164,8 @@ public:
   std::int64_t take_count(const Element& element, const Property& property, std::int64_t row) {
     const auto count = take<std::int64_t>(element, *property.count, row);
     if (count < 0 || count > size())
-      fail_row(element, row, "the number of items of " + in_quotes(property.name) + " is invalid");
+      fail_row(element, row,
+               message("the number of items of {} is invalid", in_quotes(property.name)));
     return count;
   }
 
@@ -183,15 +184,13 @@ public:
   void finish() const {
     std::string_view rest = rest_;
     if (!take_word(rest).empty())
-      fail_file(name_, std::to_string(size()) + " bytes follow after its last element" + damaged);
+      fail_damaged(name_, "{} bytes follow after its last element", size());
   }
 
   [[noreturn]] void fail_row(const Element& element, std::int64_t row,
                              const std::string& problem) const {
-    fail_file(name_,
-              "element " + in_quotes(element.name) + ", row " + std::to_string(row) +
-                  " (0-based): " + problem + damaged,
-              row);
+    fail_file(name_, row, "element {}, row {} (0-based): {}{}", in_quotes(element.name), row,
+              problem, damaged);
   }
 
 private:
@@ -222,7 +221,7 @@ template <class Wanted>
 void require_properties(const Element& element, const Wanted& wanted, std::ptrdiff_t count,
                         const std::string& what, const std::string& name) {
   if (std::count_if(element.properties.begin(), element.properties.end(), wanted) != count)
-    fail_file(name, "its element " + in_quotes(element.name) + " does not have " + what + damaged);
+    fail_damaged(name, "its element {} does not have {}", in_quotes(element.name), what);
 }
 
 void read_points(const Element& element, const std::string& name, Body& body, PolyData& poly_data) {

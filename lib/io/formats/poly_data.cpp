@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/poly_data.h"
 
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/scalars.h"
 #include "io/bytes/text.h"
@@ -56,11 +57,11 @@ Triangles triangles_of(const std::string& name, const DataArray& array, std::int
   for (Eigen::Index k = 0; k < array.values.size(); ++k) {
     const auto id = number_as<std::int32_t>(array.values[k]);
     if (id < 0 || id >= sites)
-      fail_array(name, triangle_name,
-                 "it has a site at point " + std::to_string(k / 3) + " that is not one of the " +
-                     std::to_string(sites) +
-                     " cells; make the file again, or remove the array to read the cells alone",
-                 k / 3);
+      fail_file(
+          in_array(name, triangle_name), k / 3,
+          "it has a site at point {} that is not one of the {} cells; make the file again, or "
+          "remove the array to read the cells alone",
+          k / 3, sites);
     triangles.data()[k] = id;
   }
   return triangles;
@@ -73,11 +74,11 @@ void require_triangles_of_cells(const std::string& name, const PolyData& poly_da
   for (std::int64_t i = 0; i < poly_data.size(); ++i)
     for (const std::int32_t corner : poly_data.ids[i])
       if (!(triangles.col(corner).array() == i).any())
-        fail_array(name, triangle_name,
-                   "cell " + std::to_string(i) + " has the corner " + std::to_string(corner) +
-                       ", whose triangle is not one of the cell; the cells were changed, so remove "
-                       "the array to read them alone",
-                   i);
+        fail_file(
+            in_array(name, triangle_name), i,
+            "cell {} has the corner {}, whose triangle is not one of the cell; the cells were "
+            "changed, so remove the array to read them alone",
+            i, corner);
 }
 
 // ---- Fields
@@ -129,7 +130,7 @@ RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* 
   raw.polygons = {directions(name, poly_data.points), std::move(poly_data.ids), Points3(3, 0)};
   if (centres != nullptr) {
     raw.points = points_of(*centres);
-    raw.polygons.centres = directions(name + ": array " + in_quotes(centres->name), raw.points);
+    raw.polygons.centres = directions(in_array(name, centres->name), raw.points);
   }
   raw.corner_rounding = poly_data.single ? single_rounding : 0;
   return raw;
@@ -137,9 +138,8 @@ RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* 
 
 } // namespace
 
-void fail_array(const std::string& name, const std::string& array, const std::string& problem,
-                std::int64_t index) {
-  fail_file(name, "array " + in_quotes(array) + ": " + problem, index);
+std::string in_array(const std::string& name, const std::string& array) {
+  return message("{}: array {}", name, in_quotes(array));
 }
 
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components) {
@@ -151,30 +151,27 @@ void require_polygons(const std::string& name, const PolyData& poly_data,
                       const PolyDataNames& names) {
   const std::int64_t count = poly_data.size();
   const auto& [begins, ids] = poly_data.ids;
-  const std::string again = "; make the file again";
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t begin = begins[i], end = begins[i + 1];
     if (end > ids.size())
-      fail_array(name, names.offsets,
-                 "polygon " + std::to_string(i) + " ends at " + std::to_string(end) +
-                     ", but there are " + std::to_string(ids.size()) + " corners" + again,
-                 i);
+      fail_file(in_array(name, names.offsets), i,
+                "polygon {} ends at {}, but there are {} corners; make the file again", i, end,
+                ids.size());
     if (end < begin || end - begin < 3)
-      fail_array(name, names.offsets,
-                 "polygon " + std::to_string(i) + " runs from " + std::to_string(begin) + " to " +
-                     std::to_string(end) + ", so it has fewer than 3 corners" + again,
-                 i);
+      fail_file(
+          in_array(name, names.offsets), i,
+          "polygon {} runs from {} to {}, so it has fewer than 3 corners; make the file again", i,
+          begin, end);
     for (std::int64_t k = begin; k < end; ++k)
       if (ids[k] < 0 || ids[k] >= poly_data.points.cols())
-        fail_array(name, names.ids,
-                   "polygon " + std::to_string(i) + " has a corner that is not one of the " +
-                       std::to_string(poly_data.points.cols()) + " points" + again,
-                   i);
+        fail_file(in_array(name, names.ids), i,
+                  "polygon {} has a corner that is not one of the {} points; make the file again",
+                  i, poly_data.points.cols());
   }
   if (const std::int64_t used = count > 0 ? begins[count] : 0; used != ids.size())
-    fail_array(name, names.ids,
-               "it has " + std::to_string(ids.size()) + " corners, but the " +
-                   std::to_string(count) + " polygons have " + std::to_string(used) + again);
+    fail_file(in_array(name, names.ids),
+              "it has {} corners, but the {} polygons have {}; make the file again", ids.size(),
+              count, used);
 }
 
 RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data) {

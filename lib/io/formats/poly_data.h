@@ -60,8 +60,7 @@ void require_polygons(const std::string& name, const PolyData& poly_data,
 /// \throws Error parse; invalid_argument for polygons in a plane without centres.
 RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data);
 
-/// \throws Error parse: what is wrong with an array.
-[[noreturn]] void fail_array(const std::string& name, const std::string& array,
-                             const std::string& problem, std::int64_t index = -1);
+/// The name of an array of a file, for messages.
+std::string in_array(const std::string& name, const std::string& array);
 
 } // namespace calotte::io_detail

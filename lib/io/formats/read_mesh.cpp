@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/require.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/cells/cell_rows.h"
@@ -34,8 +35,7 @@ bool holds_netcdf(const std::string& path) {
 }
 
 [[noreturn]] void refuse_triangles_alone(const std::string& path) {
-  throw Error(ErrorCode::invalid_argument,
-              path + " holds triangles only; give the points they refer to");
+  base_detail::refuse(message("{} holds triangles only; give the points they refer to", path));
 }
 
 // ---- Files of each kind
@@ -118,11 +118,10 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
 Mesh read_mesh(const std::string& path, const Points3* points) {
   MeshFile file = read_mesh_file(path, points, FieldChoice::none);
   if (file.other_cells() && !file.plane())
-    refuse_path(path, "the cells are not the Voronoi cells of their "
-                      "centres (" +
-                          file.not_voronoi.text() +
-                          "); read them with read_mesh_file(), or read their "
-                          "centres with read_sites() and triangulate these");
+    refuse_path(path,
+                "the cells are not the Voronoi cells of their centres ({}); read them with "
+                "read_mesh_file(), or read their centres with read_sites() and triangulate these",
+                file.not_voronoi.text());
   return std::move(*file.mesh);
 }
 

@@ -49,8 +49,7 @@ Triangles get_triangles_text(std::istream& in, const std::string& name, std::int
     std::int64_t ids[3];
     const Columned read = parse_columns(line, 3, ids);
     if (read.outcome != Outcome::ok)
-      reader.fail((read.outcome == Outcome::too_few ? "too few columns" : describe(read)) +
-                  "; write three ids i j k on each line, counted from 0");
+      reader.fail("{}; write three ids i j k on each line, counted from 0", describe(read));
     parse_ids(reader, ids, points, triangles);
   }
   if (triangles.empty())

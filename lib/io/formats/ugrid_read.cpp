@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace calotte::io_detail {
 namespace {
@@ -48,10 +47,11 @@ Topology topology_of(const NetcdfReader& file) {
       names_in(file.text(mesh, "node_coordinates")), names_in(file.text(mesh, site_coordinates)),
       names_in(file.text(mesh, "face_coordinates")), mesh};
   if (topology.face_nodes.empty())
-    file.fail("the mesh variable " + mesh + " names no face_node_connectivity; add the attribute");
+    file.fail("the mesh variable {} names no face_node_connectivity; add the attribute", mesh);
   if (topology.nodes.size() != 2)
-    file.fail("the node_coordinates of the mesh variable " + mesh +
-              " are not the names of two variables, longitude and latitude; correct the attribute");
+    file.fail("the node_coordinates of the mesh variable {} are not the names of two variables, "
+              "longitude and latitude; correct the attribute",
+              mesh);
   topology.planar = file.text(topology.nodes[0], "standard_name").starts_with("projection_");
   if (is_second(file, topology.nodes[0]))
     std::swap(topology.nodes[0], topology.nodes[1]);
@@ -60,8 +60,9 @@ Topology topology_of(const NetcdfReader& file) {
   else if (is_second(file, topology.faces[0]))
     std::swap(topology.faces[0], topology.faces[1]);
   if (!topology.sites.empty() && topology.sites.size() != 3)
-    file.fail(std::string("the ") + site_coordinates + " of the mesh variable " + mesh +
-              " are not the names of three variables; correct the attribute or remove it");
+    file.fail("the {} of the mesh variable {} are not the names of three variables; correct the "
+              "attribute or remove it",
+              site_coordinates, mesh);
   return topology;
 }
 
@@ -82,13 +83,10 @@ struct FaceNodesReader {
     if (value == fill || std::isnan(value))
       return -1;
     const double node = value - start;
-    if (!(node >= 0 && node < static_cast<double>(nodes)) || node != std::floor(node)) {
-      std::ostringstream text;
-      text << name << " of face " << face << " (0-based) has " << value
-           << ", which is not one of the " << nodes << " nodes from " << start
-           << " on; make the file again";
-      file.fail(text.str());
-    }
+    if (!(node >= 0 && node < static_cast<double>(nodes)) || node != std::floor(node))
+      file.fail("{} of face {} (0-based) has {}, which is not one of the {} nodes from {} on; make "
+                "the file again",
+                name, face, value, nodes, start);
     return static_cast<std::int32_t>(node);
   }
 
@@ -96,9 +94,10 @@ struct FaceNodesReader {
     const auto corners = faces.col(face).array() >= 0;
     const std::int64_t count = corners.count();
     if (count < 3 || !corners.head(count).all())
-      file.fail(name + " of face " + std::to_string(face) +
-                " (0-based) does not start with three or more nodes, then padding; make the file "
-                "again");
+      file.fail(
+          "{} of face {} (0-based) does not start with three or more nodes, then padding; make "
+          "the file again",
+          name, face);
   }
 };
 
@@ -145,8 +144,8 @@ Points3 read_pairs(const NetcdfReader& file, const Topology& topology,
   places.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), places.cols());
   places.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), places.cols());
   if (!places.allFinite())
-    file.fail(names[0] + " and " + names[1] +
-              " hold a number that is no place (NaN or infinite); make the file again");
+    file.fail("{} and {} hold a number that is no place (NaN or infinite); make the file again",
+              names[0], names[1]);
   return places;
 }
 
@@ -193,8 +192,9 @@ std::int64_t first_without_triangle(const Dual& dual) {
 Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
   Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
   if (dual.failed >= 0 || dual.triangles.cols() < nodes)
-    file.fail("the faces around node " + std::to_string(first_without_triangle(dual)) +
-              " (0-based) are not three that share edges; make the file again");
+    file.fail("the faces around node {} (0-based) are not three that share edges; make the file "
+              "again",
+              first_without_triangle(dual));
   return std::move(dual.triangles);
 }
 
@@ -241,7 +241,7 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const Topology topology = topology_of(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
-    file.fail(topology.nodes[0] + " is not a list of nodes; make the file again");
+    file.fail("{} is not a list of nodes; make the file again", topology.nodes[0]);
   const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
 
   RawMesh raw;
@@ -261,8 +261,9 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
     if (!topology.faces.empty())
       raw.points = read_pairs(file, topology, topology.faces);
     else if (topology.planar)
-      file.fail("the mesh variable " + topology.mesh +
-                " names no face_coordinates, which cells of a plane need; add the attribute");
+      file.fail("the mesh variable {} names no face_coordinates, which cells of a plane need; add "
+                "the attribute",
+                topology.mesh);
     raw.polygons =
         faces_of(faces, read_pairs(file, topology, topology.nodes), raw.points, topology.planar);
     raw.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;

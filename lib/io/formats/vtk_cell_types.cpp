@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/formats/vtk_cell_types.h"
 
+#include "base/message.h"
+#include "io/bytes/file_error.h"
+
 #include <array>
 #include <string_view>
 #include <utility>
@@ -30,7 +33,7 @@ std::string name_of(std::int32_t type) {
        {69, "Lagrange triangle"}}};
   for (const auto& [number, name] : names)
     if (number == type)
-      return " (" + std::string(name) + ")";
+      return message(" ({})", name);
   return {};
 }
 
@@ -40,19 +43,22 @@ void require_cell_types(const std::string& name, const PolyData& poly_data, cons
                         const std::string& array) {
   for (std::int64_t i = 0; i < poly_data.size(); ++i) {
     const std::int32_t type = types[i];
-    const std::string cell = "cell " + std::to_string(i);
     if (type != triangle_type && type != polygon_type && type != quad_type)
-      fail_array(name, array,
-                 cell + " has the type " + std::to_string(type) + name_of(type) +
-                     "; only 5 (triangle), 7 (polygon) and 9 (quad) are read, remove the others",
-                 i);
+      fail_file(in_array(name, array), i,
+                "cell {} has the type {}{}; only 5 (triangle), 7 (polygon) and 9 (quad) are read, "
+                "remove the others",
+                i, type, name_of(type));
     const std::int64_t corners = poly_data.ids.count(i);
     if ((type == triangle_type && corners != 3) || (type == quad_type && corners != 4))
-      fail_array(name, array,
-                 cell + " has the type " + std::to_string(type) + " but " +
-                     std::to_string(corners) + " corners; make the file again",
-                 i);
+      fail_file(in_array(name, array), i,
+                "cell {} has the type {} but {} corners; make the file again", i, type, corners);
   }
+}
+
+void refuse_strips(const std::string& name, std::int64_t strips) {
+  fail_file(name,
+            "it has {} triangle strips, which are not read; write triangles (vtkTriangleFilter)",
+            strips);
 }
 
 } // namespace calotte::io_detail

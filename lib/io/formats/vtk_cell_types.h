@@ -19,4 +19,7 @@ inline constexpr std::int32_t triangle_type = 5, polygon_type = 7, quad_type = 9
 void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
                         const std::string& array = "types");
 
+/// \throws Error parse, always: a file of triangle strips.
+[[noreturn]] void refuse_strips(const std::string& name, std::int64_t strips);
+
 } // namespace calotte::io_detail

@@ -51,8 +51,8 @@ std::optional<char> hex_value(std::string_view digits) {
 
 void require_legacy_vtk(std::string_view start, const std::string& name) {
   if (!start.starts_with("# vtk DataFile Version "))
-    fail_file(name, "it does not start with \"# vtk DataFile Version\", so it "
-                    "is no legacy VTK file");
+    fail_file(name,
+              "it does not start with \"# vtk DataFile Version\", so it is no legacy VTK file");
 }
 
 LegacyText::LegacyText(std::string_view content, std::string name)
@@ -62,7 +62,7 @@ LegacyText::LegacyText(std::string_view content, std::string name)
   const std::string_view encoding = word();
   binary_ = equal_but_case(encoding, "BINARY");
   if (!binary_ && !equal_but_case(encoding, "ASCII"))
-    fail("its third line is " + in_quotes(encoding) + ", not ASCII or BINARY" + damaged);
+    fail_damaged(name_, "its third line is {}, not ASCII or BINARY", in_quotes(encoding));
 }
 
 std::string_view LegacyText::word() { return take_word(rest_); }
@@ -92,7 +92,7 @@ std::int64_t LegacyText::count(const std::string& what) {
   const std::string_view text = word();
   std::int32_t count = -1;
   if (!parse_number(text, Scalar::int64, count) || count < 0)
-    fail(in_quotes(text) + " is not the number of " + what + ", from 0 to 2147483647" + damaged);
+    fail_damaged(name_, "{} is not the number of {}, from 0 to 2147483647", in_quotes(text), what);
   return count;
 }
 
@@ -116,7 +116,7 @@ LegacyText::Type LegacyText::type() {
     if (name == type.name)
       type.scalar = scalar;
   if (!type.scalar && type.name != "bit" && type.name != "string")
-    fail(in_quotes(type.name) + " is not a type of legacy VTK files" + damaged);
+    fail_damaged(name_, "{} is not a type of legacy VTK files", in_quotes(type.name));
   return type;
 }
 
@@ -131,8 +131,7 @@ Column<T> LegacyText::numbers(const std::string& array, Scalar type, std::int64_
   start_numbers();
   const auto size = static_cast<std::int64_t>(rest_.size());
   if (count > (binary_ ? size / size_of(type) : (size + 1) / 2)) // a digit and white space
-    fail_array(name_, array,
-               "the file ends before its " + std::to_string(count) + " numbers" + damaged);
+    fail_damaged(in_array(name_, array), "the file ends before its {} numbers", count);
   Column<T> numbers(count);
   if (binary_) {
     copy_numbers(rest_.data(), count, type, swapped, numbers.data());
@@ -141,9 +140,9 @@ Column<T> LegacyText::numbers(const std::string& array, Scalar type, std::int64_
   }
   for (std::int64_t i = 0; i < count; ++i)
     if (const std::string_view text = word(); !parse_number(text, type, numbers[i]))
-      fail_array(name_, array,
-                 in_quotes(text) + " at place " + std::to_string(i) + " of " +
-                     std::to_string(count) + " is not a number of its type; correct it");
+      fail_file(in_array(name_, array),
+                "{} at place {} of {} is not a number of its type; correct it", in_quotes(text), i,
+                count);
   return numbers;
 }
 
@@ -153,7 +152,7 @@ template Column<std::int64_t> LegacyText::numbers(const std::string&, Scalar, st
 
 void LegacyText::skip_bytes(const std::string& array, std::int64_t count) {
   if (count > static_cast<std::int64_t>(rest_.size()))
-    fail_array(name_, array, "the file ends before its data" + damaged);
+    fail_damaged(in_array(name_, array), "the file ends before its data");
   rest_.remove_prefix(static_cast<std::size_t>(count));
 }
 
@@ -182,7 +181,7 @@ void LegacyText::skip(const std::string& array, const Type& type, std::int64_t c
   } else if (!binary_) {
     for (std::int64_t i = 0; i < count; ++i)
       if (word().empty())
-        fail_array(name_, array, "the file ends before its data" + damaged);
+        fail_damaged(in_array(name_, array), "the file ends before its data");
   } else if (type.scalar) {
     skip_bytes(array, count * size_of(*type.scalar));
   } else if (type.name == "bit") {
@@ -201,7 +200,5 @@ void LegacyText::skip_metadata() {
       return;
   }
 }
-
-void LegacyText::fail(const std::string& problem) const { fail_file(name_, problem); }
 
 } // namespace calotte::io_detail

@@ -54,8 +54,6 @@ public:
   /// Passes over the lines of METADATA, which end with an empty one.
   void skip_metadata();
 
-  [[noreturn]] void fail(const std::string& problem) const;
-
 private:
   void skip_bytes(const std::string& array, std::int64_t count);
   void skip_string(const std::string& array);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 #include "io/formats/poly_data.h"
 #include "io/formats/vtk_cell_types.h"
 #include "io/formats/vtk_legacy.h"
-
-#include <calotte/error.h>
 
 #include <array>
 #include <optional>
@@ -18,25 +17,25 @@
 namespace calotte::io_detail {
 namespace {
 
+Scalar type_of_numbers(LegacyText& text, const std::string& array) {
+  const LegacyText::Type type = text.type();
+  if (!type.scalar)
+    fail_damaged(in_array(text.name(), array), "its type is {}, not one of numbers", type.name);
+  return *type.scalar;
+}
+
 /// The points of cells of one kind. As of version 5.1: offsets from 0 on, and the points.
 IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
                      std::int64_t points) {
-  const auto type = [&] {
-    const LegacyText::Type read = text.type();
-    if (!read.scalar)
-      fail_array(text.name(), section,
-                 "its type is " + read.name + ", not one of numbers" + damaged);
-    return *read.scalar;
-  };
   IdLists cells;
-  const Scalar of_offsets = type();
+  const Scalar of_offsets = type_of_numbers(text, section);
   cells.begin = text.numbers<std::int64_t>(section, of_offsets, offsets);
   if (!text.take("CONNECTIVITY"))
-    fail_array(text.name(), section, "no CONNECTIVITY follows its OFFSETS" + damaged);
-  const Scalar of_points = type();
+    fail_damaged(in_array(text.name(), section), "no CONNECTIVITY follows its OFFSETS");
+  const Scalar of_points = type_of_numbers(text, section);
   cells.items = text.numbers<std::int32_t>(section, of_points, points);
   if (offsets > 0 && cells.begin[0] != 0)
-    fail_array(text.name(), section, "its OFFSETS do not start with 0" + damaged);
+    fail_damaged(in_array(text.name(), section), "its OFFSETS do not start with 0");
   return cells;
 }
 
@@ -45,18 +44,15 @@ IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t co
                    std::int64_t size) {
   const auto list = text.numbers<std::int32_t>(section, Scalar::int32, size);
   if (count > size)
-    fail_array(text.name(), section,
-               "its " + std::to_string(size) + " numbers cannot hold " + std::to_string(count) +
-                   " cells" + damaged);
+    fail_damaged(in_array(text.name(), section), "its {} numbers cannot hold {} cells", size,
+                 count);
   IdLists cells{Offsets::Zero(count + 1), Ids(size - count)};
   std::int64_t place = 0, end = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t corners = place < size ? list[place] : -1;
     if (corners < 0 || corners > size - place - 1 || end + corners > cells.items.size())
-      fail_array(text.name(), section,
-                 "cell " + std::to_string(i) + " runs beyond the " + std::to_string(size) +
-                     " numbers" + damaged,
-                 i);
+      fail_file(in_array(text.name(), section), i, "cell {} runs beyond the {} numbers{}", i, size,
+                damaged);
     cells.items.segment(end, corners) = list.segment(place + 1, corners);
     place += corners + 1;
     end += corners;
@@ -83,8 +79,8 @@ public:
       for (char& c : lower)
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
       if (!read_geometry(lower) && !read_attribute(lower))
-        text_.fail(in_quotes(keyword) + " is not a keyword of " +
-                   (grid_ ? "UNSTRUCTURED_GRID" : "POLYDATA") + " in a legacy VTK file" + damaged);
+        fail_damaged(text_.name(), "{} is not a keyword of {} in a legacy VTK file",
+                     in_quotes(keyword), grid_ ? "UNSTRUCTURED_GRID" : "POLYDATA");
     }
     return finish();
   }
@@ -94,8 +90,8 @@ private:
     const bool keyword = text_.take("DATASET");
     grid_ = keyword && text_.take("UNSTRUCTURED_GRID");
     if (!grid_ && !(keyword && text_.take("POLYDATA")))
-      text_.fail("it holds " + in_quotes(text_.word()) +
-                 "; only DATASET POLYDATA and UNSTRUCTURED_GRID are read");
+      fail_file(text_.name(), "it holds {}; only DATASET POLYDATA and UNSTRUCTURED_GRID are read",
+                in_quotes(text_.word()));
   }
 
   // ---- Points and cells
@@ -110,7 +106,7 @@ private:
     else if ((keyword == "vertices" || keyword == "lines") && !grid_)
       before_ += read_cells(text_, keyword).size();
     else if (keyword == "triangle_strips" && !grid_)
-      refuse_strips();
+      require_no_strips();
     else
       return false;
     return true;
@@ -118,13 +114,10 @@ private:
 
   void read_points() {
     const std::int64_t count = text_.count("points");
-    const LegacyText::Type type = text_.type();
-    if (!type.scalar)
-      fail_array(text_.name(), "POINTS",
-                 "its type is " + type.name + ", not one of numbers" + damaged);
-    const Column<double> numbers = text_.numbers<double>("POINTS", *type.scalar, 3 * count);
+    const Scalar type = type_of_numbers(text_, "POINTS");
+    const Column<double> numbers = text_.numbers<double>("POINTS", type, 3 * count);
     poly_data_.points = Eigen::Map<const Points3>(numbers.data(), 3, count);
-    poly_data_.single = type.scalar == Scalar::float32;
+    poly_data_.single = type == Scalar::float32;
   }
 
   void read_types() {
@@ -132,10 +125,9 @@ private:
     types_ = text_.numbers<std::int32_t>("CELL_TYPES", Scalar::int32, count);
   }
 
-  void refuse_strips() {
+  void require_no_strips() {
     if (const std::int64_t strips = read_cells(text_, "TRIANGLE_STRIPS").size(); strips > 0)
-      text_.fail("it has " + std::to_string(strips) +
-                 " triangle strips, which are not read; write triangles (vtkTriangleFilter)");
+      refuse_strips(text_.name(), strips);
   }
 
   // ---- Data
@@ -194,8 +186,8 @@ private:
     std::int64_t components = 1;
     if (const std::string_view word = text_.word_of_line();
         !word.empty() && (!parse_number(word, Scalar::int64, components) || components < 0))
-      fail_array(text_.name(), name,
-                 in_quotes(word) + " is not its number of components" + damaged);
+      fail_damaged(in_array(text_.name(), name), "{} is not its number of components",
+                   in_quotes(word));
     if (text_.take("LOOKUP_TABLE"))
       text_.word();
     read_array(name, type, components, tuples_);
@@ -226,14 +218,10 @@ private:
   void read_array(const std::string& name, const LegacyText::Type& type, std::int64_t components,
                   std::int64_t tuples) {
     if (!of_cells_.has_value() || tuples != tuples_)
-      fail_array(
-          text_.name(), name,
-          "it has " + std::to_string(tuples) + " values, but POINT_DATA or CELL_DATA " +
-              (of_cells_.has_value() ? "announces " + std::to_string(tuples_) : "is missing") +
-              damaged);
+      fail_damaged(in_array(text_.name(), name), "it has {} values, but POINT_DATA or CELL_DATA {}",
+                   tuples, of_cells_.has_value() ? message("announces {}", tuples_) : "is missing");
     if (components > most_components)
-      fail_array(text_.name(), name,
-                 "it has " + std::to_string(components) + " components" + damaged);
+      fail_damaged(in_array(text_.name(), name), "it has {} components", components);
     if (!type.scalar || !is_read(name, *of_cells_, components))
       return ignore(name, type, components * tuples);
     poly_data_.arrays.push_back({name, *of_cells_, static_cast<int>(components),
@@ -245,9 +233,8 @@ private:
   PolyData finish() {
     if (grid_) {
       if (types_.size() != poly_data_.size())
-        fail_array(text_.name(), "CELL_TYPES",
-                   "it has " + std::to_string(types_.size()) + " types for " +
-                       std::to_string(poly_data_.size()) + " cells" + damaged);
+        fail_damaged(in_array(text_.name(), "CELL_TYPES"), "it has {} types for {} cells",
+                     types_.size(), poly_data_.size());
       require_cell_types(text_.name(), poly_data_, types_, "CELL_TYPES");
     }
     const std::string section = grid_ ? "CELLS" : "POLYGONS";
@@ -262,10 +249,9 @@ private:
     const std::int64_t skipped = array.of_polygons ? before_ : 0,
                        used = array.of_polygons ? poly_data_.size() : poly_data_.points.cols();
     if (array.values.size() != array.components * (skipped + used))
-      fail_array(text_.name(), array.name,
-                 "it has " + std::to_string(array.values.size() / array.components) +
-                     " values for " + std::to_string(skipped + used) +
-                     (array.of_polygons ? " cells" : " points") + damaged);
+      fail_damaged(in_array(text_.name(), array.name), "it has {} values for {} {}",
+                   array.values.size() / array.components, skipped + used,
+                   array.of_polygons ? "cells" : "points");
     if (skipped > 0)
       array.values = Column<double>(array.values.tail(array.components * used));
   }

@@ -23,9 +23,7 @@ struct Place {
   const VtkStorage& storage;
   const XmlElement& array;
 
-  [[noreturn]] void fail(const std::string& problem) const {
-    fail_array(storage.name, array.attribute("Name", array.name), problem);
-  }
+  std::string name() const { return in_array(storage.name, array.attribute("Name", array.name)); }
 };
 
 // ---- Bytes
@@ -55,7 +53,7 @@ public:
   /// \throws Error parse if there are fewer.
   StoredBytes take(std::uint64_t count) {
     if (count > static_cast<std::uint64_t>(most()))
-      place_.fail("its data end early" + damaged);
+      fail_damaged(place_.name(), "its data end early");
     if (!is_base64_) {
       const std::string_view taken = raw_.substr(0, count);
       raw_.remove_prefix(count);
@@ -65,7 +63,7 @@ public:
     out.reserve(count);
     base64_.take(static_cast<std::int64_t>(count), out);
     if (out.size() != count)
-      place_.fail("its base64 text ends early or has another character" + damaged);
+      fail_damaged(place_.name(), "its base64 text ends early or has another character");
     return StoredBytes(std::move(out));
   }
 
@@ -84,13 +82,10 @@ private:
   bool is_base64_;
 };
 
-std::string count_text(std::uint64_t bytes) { return std::to_string(bytes) + " bytes"; }
-
 /// \param size how many bytes there must be; -1 for any number.
 void require_size(const Place& place, std::uint64_t bytes, std::int64_t size) {
   if (size >= 0 && bytes != static_cast<std::uint64_t>(size))
-    place.fail("it has " + count_text(bytes) + ", but " + std::to_string(size) + " belong there" +
-               damaged);
+    fail_damaged(place.name(), "it has {} bytes, but {} belong there", bytes, size);
 }
 
 // ---- Compression
@@ -114,17 +109,16 @@ Blocks take_blocks(const Place& place, Source& source) {
   const std::uint64_t count = source.take_length();
   Blocks blocks{.size = source.take_length(), .last = source.take_length(), .compressed = {}};
   if (count > static_cast<std::uint64_t>(source.most() / size_of(place.storage.length_type)))
-    place.fail("its header announces " + std::to_string(count) + " blocks, more than there are" +
-               damaged);
+    fail_damaged(place.name(), "its header announces {} blocks, more than there are", count);
   for (std::uint64_t i = 0; i < count; ++i)
     blocks.compressed.push_back(source.take_length());
   auto left = static_cast<std::uint64_t>(source.most());
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t compressed = blocks.compressed[i], size = blocks.size_of_block(i);
     if (compressed > left || !is_plausible(size, compressed))
-      place.fail("its header announces block " + std::to_string(i) + " of " +
-                 count_text(compressed) + " for " + count_text(size) + ", which cannot be" +
-                 damaged);
+      fail_damaged(place.name(),
+                   "its header announces block {} of {} bytes for {} bytes, which cannot be", i,
+                   compressed, size);
     left -= compressed;
   }
   return blocks;
@@ -164,8 +158,8 @@ StoredBytes take_compressed(const Place& place, Source& source, std::int64_t siz
   for (std::size_t i = 0; i < blocks.compressed.size(); ++i) {
     const StoredBytes block = source.take(blocks.compressed[i]);
     if (!inflate_block(block.view(), blocks.size_of_block(i), out))
-      place.fail("block " + std::to_string(i) + " is not " + count_text(blocks.size_of_block(i)) +
-                 " compressed by zlib" + damaged);
+      fail_damaged(place.name(), "block {} is not {} bytes compressed by zlib", i,
+                   blocks.size_of_block(i));
   }
   return StoredBytes(std::move(out));
 }
@@ -177,13 +171,13 @@ Source source_of(const Place& place, bool appended) {
   if (!appended)
     return {place, place.array.text, true};
   if (!storage.appended)
-    place.fail("its data are appended, but the file has no AppendedData" + damaged);
+    fail_damaged(place.name(), "its data are appended, but the file has no AppendedData");
   const std::string text = place.array.attribute("offset");
   std::int64_t offset = -1;
   if (!parse_number(text, Scalar::int64, offset) || offset < 0 ||
       offset > static_cast<std::int64_t>(storage.appended->size()))
-    place.fail("its offset is " + in_quotes(text) + ", which is not within the " +
-               std::to_string(storage.appended->size()) + " bytes of AppendedData" + damaged);
+    fail_damaged(place.name(), "its offset is {}, which is not within the {} bytes of AppendedData",
+                 in_quotes(text), storage.appended->size());
   return {place, storage.appended->substr(static_cast<std::size_t>(offset)),
           storage.appended_base64};
 }
@@ -204,13 +198,12 @@ void read_text(const Place& place, Scalar type, std::int64_t count, const Room<T
   for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
     T number{};
     if (!parse_number(word, type, number))
-      place.fail(in_quotes(word) + " at place " + std::to_string(numbers.size()) +
-                 " is not a number of its type; correct it");
+      fail_file(place.name(), "{} at place {} is not a number of its type; correct it",
+                in_quotes(word), numbers.size());
     numbers.push_back(number);
   }
   if (count >= 0 && std::ssize(numbers) != count)
-    place.fail("it has " + std::to_string(numbers.size()) + " numbers, but " +
-               std::to_string(count) + " belong there" + damaged);
+    fail_damaged(place.name(), "it has {} numbers, but {} belong there", numbers.size(), count);
   std::copy(numbers.begin(), numbers.end(), room(std::ssize(numbers)));
 }
 
@@ -240,18 +233,18 @@ void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::i
   const Place place{storage, array};
   const std::optional<Scalar> type = vtk_type(array.attribute("type"));
   if (!type)
-    place.fail("its type " + in_quotes(array.attribute("type")) + " is not one of numbers");
+    fail_file(place.name(), "its type {} is not one of numbers",
+              in_quotes(array.attribute("type")));
   const std::string format = array.attribute("format", "ascii");
   if (format == "ascii")
     return read_text<T>(place, *type, count, room);
   if (format != "binary" && format != "appended")
-    place.fail("its format " + in_quotes(format) + " is not ascii, binary or appended");
+    fail_file(place.name(), "its format {} is not ascii, binary or appended", in_quotes(format));
   const std::int64_t width = size_of(*type);
   const StoredBytes bytes = bytes_of(place, format == "appended", count < 0 ? -1 : width * count);
   const auto size = static_cast<std::int64_t>(bytes.view().size());
   if (size % width != 0)
-    place.fail("it has " + std::to_string(size) + " bytes, which are not numbers of " +
-               std::to_string(width) + damaged);
+    fail_damaged(place.name(), "it has {} bytes, which are not numbers of {}", size, width);
   copy_numbers(bytes.view().data(), size / width, *type, storage.swapped, room(size / width));
 }
 

@@ -26,7 +26,7 @@ struct Parts {
 /// \throws Error parse for a file that starts as no file of XML does.
 void require_xml(std::string_view start, const std::string& name) {
   if (start.find('<') == std::string_view::npos)
-    fail_file(name, "it does not start with XML, so it is no VTK file of XML" + damaged);
+    fail_damaged(name, "it does not start with XML, so it is no VTK file of XML");
 }
 
 Parts parts_of(std::string_view content, const std::string& name) {
@@ -40,8 +40,7 @@ Parts parts_of(std::string_view content, const std::string& name) {
   while (begin < content.size() && is_space(content[begin]))
     ++begin;
   if (end == std::string_view::npos || end <= begin || content[begin] != '_')
-    fail_file(name, "its AppendedData do not start with _ and end with " + std::string(end_tag) +
-                        damaged);
+    fail_damaged(name, "its AppendedData do not start with _ and end with {}", end_tag);
   return {{content.substr(0, close + 1), content.substr(end)},
           content.substr(begin + 1, end - begin - 1)};
 }
@@ -61,24 +60,24 @@ struct VtkFile {
 Scalar length_type(const XmlElement& root, const std::string& name) {
   const std::string type = root.attribute("header_type", "UInt32");
   if (type != "UInt32" && type != "UInt64")
-    fail_file(name, "its header_type " + in_quotes(type) + " is not UInt32 or UInt64" + damaged);
+    fail_damaged(name, "its header_type {} is not UInt32 or UInt64", in_quotes(type));
   return type == "UInt64" ? Scalar::uint64 : Scalar::uint32;
 }
 
 bool is_swapped(const XmlElement& root, const std::string& name) {
   const std::string order = root.attribute("byte_order", "LittleEndian");
   if (order != "LittleEndian" && order != "BigEndian")
-    fail_file(name,
-              "its byte_order " + in_quotes(order) + " is not LittleEndian or BigEndian" + damaged);
+    fail_damaged(name, "its byte_order {} is not LittleEndian or BigEndian", in_quotes(order));
   return (order == "LittleEndian") != (std::endian::native == std::endian::little);
 }
 
 bool is_compressed(const XmlElement& root, const std::string& name) {
   const std::string compressor = root.attribute("compressor");
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-    fail_file(name, "it is compressed by " + in_quotes(compressor) +
-                        ", which is not read; write it with vtkZLibDataCompressor or without "
-                        "compression");
+    fail_file(name,
+              "it is compressed by {}, which is not read; write it with vtkZLibDataCompressor or "
+              "without compression",
+              in_quotes(compressor));
   return !compressor.empty();
 }
 
@@ -88,8 +87,9 @@ VtkFile file_of(std::string_view content, const std::string& name) {
   const XmlElement& root = file.document.front();
   file.type = root.attribute("type");
   if (root.name != "VTKFile" || (file.type != "PolyData" && file.type != "UnstructuredGrid"))
-    fail_file(name, "it holds " + in_quotes(root.name) + " of type " + in_quotes(file.type) +
-                        "; only VTKFile of type PolyData or UnstructuredGrid is read");
+    fail_file(name,
+              "it holds {} of type {}; only VTKFile of type PolyData or UnstructuredGrid is read",
+              in_quotes(root.name), in_quotes(file.type));
   file.storage = {.name = name,
                   .swapped = is_swapped(root, name),
                   .length_type = length_type(root, name),
@@ -99,8 +99,8 @@ VtkFile file_of(std::string_view content, const std::string& name) {
   if (const XmlElement* appended = file.child(root, "AppendedData")) {
     const std::string encoding = appended->attribute("encoding", "base64");
     if (encoding != "raw" && encoding != "base64")
-      fail_file(name, "the encoding " + in_quotes(encoding) +
-                          " of its AppendedData is not raw or base64" + damaged);
+      fail_damaged(name, "the encoding {} of its AppendedData is not raw or base64",
+                   in_quotes(encoding));
     file.storage.appended_base64 = encoding == "base64";
   }
   return file;
@@ -113,8 +113,7 @@ std::int64_t count_of(const XmlElement& piece, const std::string& key, const std
   const std::string text = piece.attribute(key, "0");
   std::int32_t count = -1;
   if (!parse_number(text, Scalar::int64, count) || count < 0)
-    fail_file(name, "its " + key + " is " + in_quotes(text) +
-                        ", not a number from 0 to 2147483647" + damaged);
+    fail_damaged(name, "its {} is {}, not a number from 0 to 2147483647", key, in_quotes(text));
   return count;
 }
 
@@ -146,15 +145,16 @@ const XmlElement& piece_of(const VtkFile& file) {
   const std::vector<const XmlElement*> pieces =
       data != nullptr ? children(file.document, *data, "Piece") : std::vector<const XmlElement*>{};
   if (pieces.empty())
-    fail_file(name, "it has no Piece of " + file.type + damaged);
+    fail_damaged(name, "it has no Piece of {}", file.type);
   std::vector<const XmlElement*> full;
   for (const XmlElement* const piece : pieces)
     if (!counts_of(file, *piece).empty())
       full.push_back(piece);
   if (full.size() > 1)
-    fail_file(name, "it has " + std::to_string(full.size()) +
-                        " pieces, whose points on common borders are double; write it as one piece "
-                        "without double points (vtkCleanPolyData, vtkStaticCleanUnstructuredGrid)");
+    fail_file(name,
+              "it has {} pieces, whose points on common borders are double; write it as one piece "
+              "without double points (vtkCleanPolyData, vtkStaticCleanUnstructuredGrid)",
+              full.size());
   return full.empty() ? *pieces.front() : *full.front();
 }
 
@@ -172,8 +172,8 @@ const XmlElement& array_of(const VtkFile& file, const XmlElement& piece, const s
                            const std::string& array) {
   if (const XmlElement* const found = find_array(file, piece, section, array))
     return *found;
-  fail_array(file.storage.name, array.empty() ? section : array,
-             "it is not among the DataArrays of " + section + damaged);
+  fail_damaged(in_array(file.storage.name, array.empty() ? section : array),
+               "it is not among the DataArrays of {}", section);
 }
 
 void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t count,
@@ -182,8 +182,8 @@ void read_points(const VtkFile& file, const XmlElement& piece, std::int64_t coun
     return;
   const XmlElement& array = array_of(file, piece, "Points", "");
   if (const std::string components = array.attribute("NumberOfComponents"); components != "3")
-    fail_array(file.storage.name, array.attribute("Name", "Points"),
-               "its NumberOfComponents is " + in_quotes(components) + ", not 3" + damaged);
+    fail_damaged(in_array(file.storage.name, array.attribute("Name", "Points")),
+                 "its NumberOfComponents is {}, not 3", in_quotes(components));
   read_vtk_numbers<double>(file.storage, array, 3 * count, [&](std::int64_t size) {
     poly_data.points.resize(3, size / 3);
     return poly_data.points.data();
@@ -219,7 +219,8 @@ void read_array(const VtkFile& file, const XmlElement& element, const Counts& co
   const std::string text = element.attribute("NumberOfComponents", "1");
   std::int32_t components = 0;
   if (!parse_number(text, Scalar::int64, components) || components < 0)
-    fail_array(file.storage.name, name, "its NumberOfComponents is " + in_quotes(text) + damaged);
+    fail_damaged(in_array(file.storage.name, name), "its NumberOfComponents is {}",
+                 in_quotes(text));
   const bool numbers = element.name == "DataArray" && vtk_type(element.attribute("type"));
   if (name.empty() || !numbers || !is_read(name, of_polygons, components)) {
     poly_data.ignored.push_back(name);
@@ -257,9 +258,7 @@ RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
   const XmlElement& piece = piece_of(file);
   const Counts counts = counts_of(file, piece);
   if (counts.strips > 0)
-    fail_file(name,
-              "it has " + std::to_string(counts.strips) +
-                  " triangle strips, which are not read; write triangles (vtkTriangleFilter)");
+    refuse_strips(name, counts.strips);
   PolyData poly_data;
   read_points(file, piece, counts.points, poly_data);
   read_polygons(file, piece, counts.polygons, poly_data);

@@ -30,7 +30,7 @@ bool has_walls(const Recipe& recipe) { return recipe.walls.x || recipe.walls.y; 
 GridFile write_with_rings(const std::string& path, const Mesh& mesh, const Recipe& recipe,
                           const WriteOptions& options) {
   require(format_of(path, options.format) == Format::mpas,
-          path + ": a limited area is written as MPAS; give a name that ends in .nc");
+          "{}: a limited area is written as MPAS; give a name that ends in .nc", path);
   const CutReport report = write_limited_area(path, mesh, recipe.surface, options);
   return {report.cells, report.cells_by_mask.front(), {0, 0}};
 }

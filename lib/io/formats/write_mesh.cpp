@@ -29,8 +29,7 @@ namespace io_detail {
 
 void require_options(const std::string& path, const WriteOptions& options) {
   if (!(options.sphere_radius > 0 && std::isfinite(options.sphere_radius)))
-    refuse_path(path, "the sphere's radius is " + std::to_string(options.sphere_radius) +
-                          "; give a positive number");
+    refuse_path(path, "the sphere's radius is {}; give a positive number", options.sphere_radius);
   evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
 }
 
@@ -58,8 +57,7 @@ using namespace io_detail;
 void require_ids(const std::string& path, const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols();
   if (!are_ids(mesh.triangles, sites) || !are_ids(mesh.site_of_input, sites))
-    refuse_path(path,
-                "the mesh has an id that is not one of its " + std::to_string(sites) + " points");
+    refuse_path(path, "the mesh has an id that is not one of its {} points", sites);
 }
 
 MeshSizes sizes_of(const Mesh& mesh) {
@@ -70,10 +68,11 @@ void require_mesh(const std::string& path, const Mesh& mesh, Format format) {
   require_ids(path, mesh);
   if (info_of(format).cells && !mesh.closed())
     refuse_path(
-        path, "the mesh is open, and its outer cells would reach round the far side of the "
-              "sphere; write its triangles (" +
-                  triangle_formats(", ") +
-                  "), cut a limited area out of a wider grid, or add sites all around the sphere");
+        path,
+        "the mesh is open, and its outer cells would reach round the far side of the sphere; "
+        "write its triangles ({}), cut a limited area out of a wider grid, or add sites all "
+        "around the sphere",
+        triangle_formats(", "));
 }
 
 /// The mesh in a file's numbering, and the options' values with it.
@@ -173,14 +172,17 @@ void require_planar_format(const std::string& path, const Surface& plane, Format
     return;
   const std::string triangles = triangle_formats();
   if (bounded)
-    refuse_path(path, "the cells of a bounded plane are written as " + clipped_formats() +
-                          ", its triangles as " + triangles + "; give one of these formats");
-  refuse_path(path, periodic
-                        ? "a periodic plane is written as MPAS or as triangles alone; give a name "
-                          "that ends in .nc, .txt or .tri"
-                        : "a plane is written as triangles, " + triangles +
-                              ", and as cells only within a domain, which clips them; give a name "
-                              "that ends so, or convert that file with its domain");
+    refuse_path(path,
+                "the cells of a bounded plane are written as {}, its triangles as {}; give one of "
+                "these formats",
+                clipped_formats(), triangles);
+  if (periodic)
+    refuse_path(path, "a periodic plane is written as MPAS or as triangles alone; give a name that "
+                      "ends in .nc, .txt or .tri");
+  refuse_path(path,
+              "a plane is written as triangles, {}, and as cells only within a domain, which clips "
+              "them; give a name that ends so, or convert that file with its domain",
+              triangles);
 }
 
 void write(const std::string& path, const Mesh& mesh, const WriteOptions& options) {

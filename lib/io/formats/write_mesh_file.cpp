@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
 #include "io/cells/centroids.h"
@@ -31,20 +32,19 @@ using namespace io_detail;
 
 /// \throws Error invalid_argument, where the format does not hold cells of any shape.
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
-  const std::string others = "; write " + polygon_formats(file.polygons->surface.is_sphere());
+  const std::string why = message("{}; write {}", file.not_voronoi.text(),
+                                  polygon_formats(file.polygons->surface.is_sphere()));
   if (format == Format::mpas_minimal)
-    refuse_path(path, "minimal MPAS files need Voronoi cells without a boundary, but " +
-                          file.not_voronoi.text() + others);
+    refuse_path(path, "minimal MPAS files need Voronoi cells without a boundary, but {}", why);
   if (!row_of(format).polygons_as)
-    refuse_path(path, "the format holds triangles, but the mesh consists of cells, and " +
-                          file.not_voronoi.text() + others);
+    refuse_path(path, "the format holds triangles, but the mesh consists of cells, and {}", why);
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (file.polygons->ids.count(i) == 0)
-      refuse_path(path,
-                  "cell " + std::to_string(i) +
-                      " has an incomplete boundary, which no format of cells can hold; write the "
-                      "triangles (" +
-                      triangle_formats(", ") + ")");
+      refuse_path(
+          path,
+          "cell {} has an incomplete boundary, which no format of cells can hold; write the "
+          "triangles ({})",
+          i, triangle_formats(", "));
 }
 
 /// The points of the cells where these have the polygons' places, which keeps their bits; none in a
@@ -60,8 +60,8 @@ Points3 places_of(const MeshFile& file, double radius) {
 void write_open_mpas(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   const OpenCells cells = open_cells(file);
   if (!cells.problem.passed())
-    refuse_path(path, "MPAS needs Voronoi cells, but " + cells.problem.text() + "; write " +
-                          polygon_formats(file.polygons->surface.is_sphere()));
+    refuse_path(path, "MPAS needs Voronoi cells, but {}; write {}", cells.problem.text(),
+                polygon_formats(file.polygons->surface.is_sphere()));
   write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
 }
 
@@ -95,8 +95,9 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
       polygons.centres = centroids_of(polygons);
     const FormatRow& format = row_of(options.format);
     if (!polygons.surface.is_sphere() && !format.planes.clipped && format.info.cells)
-      refuse_path(path, "the format holds cells of the sphere, but the mesh is planar; write " +
-                            polygon_formats(false) + ", or mpas");
+      refuse_path(path,
+                  "the format holds cells of the sphere, but the mesh is planar; write {}, or mpas",
+                  polygon_formats(false));
     format.write_polygons(path, cell_grid(polygons), options);
   }
   Monitor(options.progress).finish("write");
@@ -127,11 +128,10 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
     return;
   const EdgeCounts edges = count_edges(mesh);
   if (edges.not_delaunay > 0)
-    refuse_path(path, "the mesh has " + std::to_string(edges.not_delaunay) +
-                          " edges that are not Delaunay (the first is from site " +
-                          std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]) +
-                          "), so it has no Voronoi cells; write its triangles (" +
-                          triangle_formats(", ") + "), or triangulate its points anew");
+    refuse_path(path,
+                "the mesh has {} edges that are not Delaunay (the first is from site {} to {}), so "
+                "it has no Voronoi cells; write its triangles ({}), or triangulate its points anew",
+                edges.not_delaunay, edges.first[0], edges.first[1], triangle_formats(", "));
 }
 
 /// Whether a field stands at the corners of the file's cells, of which only some are triangles.

@@ -79,8 +79,8 @@ double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
     return 1;
   if (units.starts_with("rad"))
     return 180 / std::numbers::pi;
-  file.fail("the units of " + variable + " are " + in_quotes(units) +
-            "; only degrees and radians of longitude and latitude are read");
+  file.fail("the units of {} are {}; only degrees and radians of longitude and latitude are read",
+            variable, in_quotes(units));
 }
 
 std::vector<double> degrees_of(const NetcdfReader& file, const std::string& axis) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_header.h"
 
+#include "base/message.h"
 #include "io/bytes/big_endian.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_reader.h"
@@ -65,10 +66,10 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& problem) const {
-    fail_file(file_.path(), problem + "; make it again");
+    fail_file(file_.path(), "{}; make it again", problem);
   }
   [[noreturn]] void damaged(const std::string& what) const {
-    fail("its header is damaged: byte " + std::to_string(position_) + " " + what);
+    fail(message("its header is damaged: byte {} {}", position_, what));
   }
   void require(bool truth, const std::string& what) const {
     if (!truth)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_library.h"
 
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_reader.h"
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <new>
-#include <system_error>
 
 namespace calotte::io_detail {
 namespace {
@@ -22,7 +22,7 @@ void require_system(const std::string& path, int code) {
   if (code == NC_ENOMEM || code == ENOMEM)
     throw std::bad_alloc();
   if (code > 0)
-    fail_read(path, std::generic_category().message(code) + "; check the disk");
+    fail_disk(path, code);
 }
 
 } // namespace
@@ -172,11 +172,11 @@ void NetcdfLibraryFile::require_values(int variable, int code) const {
     return;
   char name[NC_MAX_NAME + 1] = "";
   nc_inq_varname(id_, variable, name);
-  const std::string problem = code == NC_ECHAR ? " is text, not numbers"
+  const std::string problem = code == NC_ECHAR ? "is text, not numbers"
                               : code == NC_ERANGE
-                                  ? " has a number out of range"
-                                  : std::string(" cannot be read (") + nc_strerror(code) + ")";
-  fail_file(file_.path(), name + problem + "; make the file again");
+                                  ? "has a number out of range"
+                                  : message("cannot be read ({})", nc_strerror(code));
+  fail_file(file_.path(), "{} {}; make the file again", name, problem);
 }
 
 void NetcdfLibraryFile::get(int variable, const std::vector<std::size_t>& start,

@@ -19,13 +19,6 @@ namespace {
 
 // ---- Shapes
 
-std::string shape_in_words(const std::vector<std::int64_t>& shape) {
-  std::string words = "(";
-  for (std::size_t d = 0; d < shape.size(); ++d)
-    words += (d > 0 ? ", " : "") + (shape[d] < 0 ? "any" : std::to_string(shape[d]));
-  return words + ")";
-}
-
 bool matches(const std::vector<std::int64_t>& shape, const std::vector<std::int64_t>& wanted) {
   return std::equal(shape.begin(), shape.end(), wanted.begin(), wanted.end(),
                     [](std::int64_t size, std::int64_t want) { return want < 0 || size == want; });
@@ -98,6 +91,13 @@ bool is_floating(std::optional<NetcdfType> type) {
 
 } // namespace
 
+std::string in_words(const std::vector<std::int64_t>& shape) {
+  std::vector<std::string> words;
+  for (const std::int64_t size : shape)
+    words.push_back(size < 0 ? "any" : std::to_string(size));
+  return message("({})", listed(words));
+}
+
 NetcdfReader::NetcdfReader(const std::string& path) : file_(path) {
   if (is_classic_netcdf(file_)) {
     header_ = classic_header(file_);
@@ -122,7 +122,7 @@ NetcdfReader::NetcdfReader(const std::string& path) : file_(path) {
 void NetcdfReader::require_values() const {
   for (const NetcdfVariable& variable : variables())
     if (variable.begin < header_.bytes || variable.end > file_.size())
-      fail("it is cut short: " + variable.name + " is incomplete; make it again");
+      fail("it is cut short: {} is incomplete; make it again", variable.name);
   std::int64_t end = header_.bytes;
   for (const bool of_records : {false, true})
     for (int v = 0; v < std::ssize(variables()); ++v) {
@@ -130,8 +130,8 @@ void NetcdfReader::require_values() const {
       if ((variable.stride > 0) != of_records)
         continue;
       if (variable.begin < end)
-        fail("its header is damaged: " + variable.name +
-             " begins within another variable; make it again");
+        fail("its header is damaged: {} begins within another variable; make it again",
+             variable.name);
       end = of_records ? variable.begin + record_bytes(v) : variable.end;
     }
 }
@@ -144,7 +144,7 @@ void NetcdfReader::require_sizes() const {
       if (__builtin_mul_overflow(
               bytes, std::max<std::int64_t>(dimensions()[static_cast<std::size_t>(d)].size, 1),
               &bytes))
-        fail(variable.name + " is too large; make the file again");
+        fail("{} is too large; make the file again", variable.name);
   }
 }
 
@@ -172,18 +172,16 @@ std::vector<std::string> NetcdfReader::variable_names() const {
 int NetcdfReader::require_variable(const std::string& name, const std::string& remedy) const {
   const int v = find(name);
   if (v < 0 && !header_.groups.empty())
-    fail_for_groups("it has no variable " + name);
+    fail_for_groups(message("it has no variable {}", name));
   if (v < 0)
-    fail("it has no variable " + name + "; " + remedy);
+    fail("it has no variable {}; {}", name, remedy);
   return v;
 }
 
 void NetcdfReader::fail_for_groups(const std::string& problem) const {
-  std::string names;
-  for (const std::string& group : header_.groups)
-    names.append(names.empty() ? "" : ", ").append(group);
-  fail(problem + " beside its groups (" + names + "), which are not read; ncks -G : -g " +
-       header_.groups.front() + " IN OUT takes what one holds out");
+  fail("{} beside its groups ({}), which are not read; ncks -G : -g {} IN OUT takes what one holds "
+       "out",
+       problem, listed(header_.groups), header_.groups.front());
 }
 
 std::vector<std::string> NetcdfReader::dimensions_of(const std::string& variable) const {
@@ -286,7 +284,7 @@ double NetcdfReader::number(const std::string& variable, const std::string& attr
 std::int32_t NetcdfReader::start_index(const std::string& variable, std::int32_t fallback) const {
   const double start = number(variable, "start_index", fallback);
   if (start != 0 && start != 1)
-    fail("the attribute start_index of " + variable + " is neither 0 nor 1; correct it");
+    fail("the attribute start_index of {} is neither 0 nor 1; correct it", variable);
   return static_cast<std::int32_t>(start);
 }
 
@@ -317,18 +315,18 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
                                      const std::vector<std::int64_t>& shape) const {
   const std::vector<std::int64_t> has = shape_of(variable);
   if (!matches(has, shape))
-    fail(variable + " has the shape " + shape_in_words(has) + " instead of " +
-         shape_in_words(shape) + "; make the file again");
+    fail("{} has the shape {} instead of {}; make the file again", variable, in_words(has),
+         in_words(shape));
   const std::int64_t count = product(find(variable), 0, has.size());
   // What deflate can reach, for a file that stores something of each value.
   constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
   if (count > least && count / most_compressed > file_.size() / std::int64_t{sizeof(T)})
-    fail(variable + " has more values than a file of its size can hold; make the file again");
+    fail("{} has more values than a file of its size can hold; make the file again", variable);
   std::vector<T> values;
   try {
     values = zeros<T>(count);
   } catch (const std::exception&) {
-    fail(variable + " is too large for this machine's memory; read it on a larger one");
+    fail("{} is too large for this machine's memory; read it on a larger one", variable);
   }
   if (count > 0)
     get_rows(find(variable), 0, has.empty() ? 1 : has[0], values.data());
@@ -337,7 +335,7 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
 
 void NetcdfReader::require_converted(const NetcdfVariable& variable, const char* problem) const {
   if (problem != nullptr)
-    fail(variable.name + " " + problem + "; make the file again");
+    fail("{} {}; make the file again", variable.name, problem);
 }
 
 template <class T>

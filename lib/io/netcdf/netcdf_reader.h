@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "io/bytes/file_reader.h"
 #include "io/netcdf/netcdf_header.h"
 #include "io/netcdf/netcdf_library.h"
@@ -9,10 +10,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// NetCDF files that are read.
 namespace calotte::io_detail {
+
+/// A shape, or a place in one, as messages show it: "(3, 120)"; "any" stands for a negative size.
+std::string in_words(const std::vector<std::int64_t>& shape);
 
 /// An open NetCDF file of any kind. The header is read once; what it says needs no lock. Threads
 /// may read values at once: those of a classic file from the file itself, which the C library would
@@ -28,6 +33,12 @@ public:
 
   const std::string& path() const { return file_.path(); }
   [[noreturn]] void fail(const std::string& problem) const; ///< parse, "PATH: problem"
+  /// The same with a pattern, as in message().
+  template <class Value, class... Values>
+  [[noreturn]] void fail(std::type_identity_t<Pattern<Value, Values...>> pattern,
+                         const Value& value, const Values&... values) const {
+    fail(message(pattern, value, values...));
+  }
 
   // ---- The header
 

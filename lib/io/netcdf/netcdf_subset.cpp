@@ -83,8 +83,8 @@ std::optional<std::size_t> axis_of(const NetcdfReader& source, const NetcdfSubse
       continue;
     if (axis)
       refuse_path(source.path(),
-                  variable.name +
-                      " has two dimensions of cells, edges or vertices; remove the variable");
+                  "{} has two dimensions of cells, edges or vertices; remove the variable",
+                  variable.name);
     axis = d;
   }
   return axis;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/netcdf/netcdf_writer.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_reader.h"
@@ -100,8 +101,8 @@ void NetcdfWriter::State::require(int code) const {
     file.fail(code);
   if (code != NC_NOERR)
     throw Error(ErrorCode::internal,
-                std::string("the NetCDF library refuses what Calotte writes (") +
-                    nc_strerror(code) + "); report this as a bug");
+                message("the NetCDF library refuses what Calotte writes ({}); report this as a bug",
+                        nc_strerror(code)));
 }
 
 void NetcdfWriter::State::define(int id) const {
@@ -154,7 +155,8 @@ void NetcdfWriter::State::extend_to_last_record(int id) const {
 NetcdfWriter::State::Variable& NetcdfWriter::State::start(int variable, NetcdfType type) {
   Variable& of = variables.at(static_cast<std::size_t>(variable));
   if (of.type != type || of.offset < 0 || of.is_put)
-    throw Error(ErrorCode::internal, of.name + " is put as another type, twice or before begin()");
+    throw Error(ErrorCode::internal,
+                message("{} is put as another type, twice or before begin()", of.name));
   of.is_put = true;
   return of;
 }
@@ -308,7 +310,7 @@ void NetcdfWriter::put(int variable, std::int64_t piece_bytes, const FillBytes& 
 void NetcdfWriter::finish() {
   for (const State::Variable& variable : state_->variables)
     if (!variable.is_put)
-      throw Error(ErrorCode::internal, variable.name + " is not put");
+      throw Error(ErrorCode::internal, message("{} is not put", variable.name));
   state_->file.finish();
 }
 

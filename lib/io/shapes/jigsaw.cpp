@@ -49,13 +49,12 @@ private:
       reader_.fail("a file of Gmsh; give one of JIGSAW");
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos)
-      reader_.fail(in_quotes(line) +
-                   " is not a line NAME=...; a section has more or fewer lines than "
-                   "it announces");
+      reader_.fail("{} is not a line NAME=...; a section has more or fewer lines than it announces",
+                   in_quotes(line));
     const std::string name = trimmed_lower(line.substr(0, equals));
     const std::string what(line.substr(equals + 1));
     if (name != "coord" && !seen_.insert(name).second)
-      reader_.fail("the section " + in_quotes(name) + " comes twice; leave one of them out");
+      reader_.fail("the section {} comes twice; leave one of them out", in_quotes(name));
     if (name == "mshid")
       file_.kind = kind_in(what);
     else if (name == "ndims")
@@ -92,7 +91,7 @@ private:
   void radii(std::string_view text) {
     std::array<double, 3>& radii = file_.radii.emplace();
     if (parse_columns(text, 3, radii.data()).outcome != Outcome::ok) {
-      parse(text, 1, radii.data());
+      take_columns(reader_, text, 1, radii.data());
       radii.fill(radii[0]);
     }
     for (const double radius : radii)
@@ -105,7 +104,7 @@ private:
     std::array<std::int64_t, count> values{};
     const Columned read = parse_columns(text, count, values.data());
     if (read.outcome != Outcome::ok || *std::min_element(values.begin(), values.end()) < 0)
-      reader_.fail(in_quotes(text) + " is not a count of lines");
+      reader_.fail("{} is not a count of lines", in_quotes(text));
     return values;
   }
 
@@ -116,20 +115,12 @@ private:
     return line;
   }
 
-  template <class T> void parse(std::string_view line, int count, T* values) {
-    const Columned read = parse_columns(line, count, values);
-    if (read.outcome == Outcome::too_few)
-      reader_.fail("fewer than " + std::to_string(count) + " columns");
-    if (read.outcome != Outcome::ok)
-      reader_.fail(describe(read));
-  }
-
   /// The first columns of so many lines, line by line.
   std::vector<double> numbers(std::int64_t lines, int columns) {
     std::vector<double> values;
     std::array<double, 4> row{};
     for (std::int64_t i = 0; i < lines; ++i) {
-      parse(next(), columns, row.data());
+      take_columns(reader_, next(), columns, row.data());
       for (int c = 0; c < columns; ++c)
         if (!std::isfinite(row[static_cast<std::size_t>(c)]))
           reader_.fail("NaN or an infinite number; correct it");
@@ -140,17 +131,17 @@ private:
 
   void grid(const std::array<std::int64_t, 2>& head) {
     if (head[0] != 1 && head[0] != 2)
-      reader_.fail("COORD=" + std::to_string(head[0]) + " is not an axis of a grid; give 1 and 2");
+      reader_.fail("COORD={} is not an axis of a grid; give 1 and 2", head[0]);
     std::vector<double>& axis = head[0] == 1 ? file_.x_grid : file_.y_grid;
     if (!axis.empty())
-      reader_.fail("COORD=" + std::to_string(head[0]) + " comes twice; leave one of them out");
+      reader_.fail("COORD={} comes twice; leave one of them out", head[0]);
     axis = numbers(head[1], 1);
   }
 
   void points(std::int64_t count) {
     if (file_.dimensions != 2 && file_.dimensions != 3)
-      reader_.fail("points of " + std::to_string(file_.dimensions) +
-                   " dimensions; write NDIMS=2 or NDIMS=3 before them");
+      reader_.fail("points of {} dimensions; write NDIMS=2 or NDIMS=3 before them",
+                   file_.dimensions);
     const int columns = file_.dimensions + 1;
     const std::vector<double> all = numbers(count, columns);
     const Eigen::Map<const DoubleMatrix> rows(all.data(), columns,
@@ -163,7 +154,7 @@ private:
   void edges(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) {
       std::array<std::int64_t, 3> ids{}; // and a tag
-      parse(next(), 3, ids.data());
+      take_columns(reader_, next(), 3, ids.data());
       if (std::min(ids[0], ids[1]) < 0 || std::max(ids[0], ids[1]) >= most_points)
         reader_.fail("an edge's end is no number of a point; count the points from 0");
       file_.edges.push_back({static_cast<std::int32_t>(ids[0]), static_cast<std::int32_t>(ids[1])});
@@ -174,7 +165,7 @@ private:
     std::vector<std::int32_t> all;
     for (std::int64_t i = 0; i < count; ++i) {
       std::array<std::int64_t, 4> ids{}; // and a tag
-      parse(next(), 4, ids.data());
+      take_columns(reader_, next(), 4, ids.data());
       parse_ids(reader_, ids.data(), most_points, all);
     }
     file_.triangles =
@@ -206,15 +197,13 @@ private:
     for (std::size_t e = 0; e < file_.edges.size(); ++e)
       if (const std::int32_t last = std::max(file_.edges[e][0], file_.edges[e][1]);
           last >= file_.points.cols())
-        fail_file(reader_.name(), "edge " + std::to_string(e) + " has the point " +
-                                      std::to_string(last) + ", but there are " +
-                                      std::to_string(file_.points.cols()) + ", counted from 0");
+        fail_file(reader_.name(), "edge {} has the point {}, but there are {}, counted from 0", e,
+                  last, file_.points.cols());
     for (Eigen::Index t = 0; t < file_.triangles.cols(); ++t)
-      if (file_.triangles.col(t).maxCoeff() >= file_.points.cols())
-        fail_file(reader_.name(), "triangle " + std::to_string(t) + " has vertex " +
-                                      std::to_string(file_.triangles.col(t).maxCoeff()) +
-                                      ", but there are " + std::to_string(file_.points.cols()) +
-                                      " points, counted from 0");
+      if (const std::int32_t last = file_.triangles.col(t).maxCoeff(); last >= file_.points.cols())
+        fail_file(reader_.name(),
+                  "triangle {} has vertex {}, but there are {} points, counted from 0", t, last,
+                  file_.points.cols());
   }
 
   static constexpr std::int64_t most_points = std::int64_t{1} << 31;
@@ -244,8 +233,8 @@ double radius_of(const JigsawFile& file, const std::string& name) {
 
 void require_values(const JigsawFile& file, std::size_t nodes, const std::string& name) {
   if (file.values.size() != nodes)
-    fail_file(name, "VALUE has " + std::to_string(file.values.size()) + " widths for " +
-                        std::to_string(nodes) + " nodes; give one for each");
+    fail_file(name, "VALUE has {} widths for {} nodes; give one for each", file.values.size(),
+              nodes);
 }
 
 bool is_planar_mesh(const JigsawFile& file) {
@@ -256,17 +245,14 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
   if (file.dimensions == 3)
     return file.points;
   if (file.kind != "ellipsoid-mesh")
-    fail_file(name, "a mesh of the plane; give an ellipsoid-mesh, or points "
-                    "of NDIMS=3");
+    fail_file(name, "a mesh of the plane; give an ellipsoid-mesh, or points of NDIMS=3");
   constexpr double degrees = 180 / std::numbers::pi;
   Points3 points(3, file.points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     const double latitude = file.points(1, i) * degrees;
     if (std::abs(latitude) > 90.001)
-      fail_file(name,
-                "latitude " + std::to_string(file.points(1, i)) + " of point " + std::to_string(i) +
-                    " is not an angle in radians from -pi/2 to pi/2",
-                i);
+      fail_file(name, i, "latitude {} of point {} is not an angle in radians from -pi/2 to pi/2",
+                std::to_string(file.points(1, i)), i);
     const Vec3 p = from_lonlat(file.points(0, i) * degrees, std::clamp(latitude, -90.0, 90.0));
     points.col(i) << p.x, p.y, p.z;
   }
