@@ -35,13 +35,12 @@ void require_options(const CullOptions& options) {
 /// Coasts and rasters are followed from cell to cell all around the sphere.
 /// \throws Error invalid_argument, for a part of the sphere.
 void require_global(const MpasSource& source, const Voronoi& cells) {
-  if (cells.cells_on_cell.items.minCoeff() < 0)
-    throw Error(
-        ErrorCode::invalid_argument,
-        source.netcdf().path() +
-            " does not cover the sphere, so that coasts and rasters leave its cells; leave the "
-            "land out of the global mesh with calotte cull and cut the region from that "
-            "ocean with calotte cut, or tell the sea by a field (--field)");
+  require(
+      cells.cells_on_cell.items.minCoeff() >= 0,
+      "{} does not cover the sphere, so that coasts and rasters leave its cells; leave the land "
+      "out of the global mesh with calotte cull and cut the region from that ocean with calotte "
+      "cut, or tell the sea by a field (--field)",
+      source.netcdf().path());
 }
 
 /// The cells of the source, as far as options need them.
@@ -116,10 +115,9 @@ void require_passages(const Ground& ground, const Land& land, const Ids& sea,
       return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
     });
     if (apart)
-      throw Error(ErrorCode::invalid_argument,
-                  "passage " + std::to_string(p) +
-                      " lies on land only and reaches no sea; begin and end it in the sea",
-                  static_cast<std::int64_t>(p));
+      refuse(message("passage {} lies on land only and reaches no sea; begin and end it in the sea",
+                     p),
+             static_cast<std::int64_t>(p));
   }
 }
 

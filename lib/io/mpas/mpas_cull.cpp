@@ -77,7 +77,7 @@ void add_row_change(const MpasSource& source, const std::string& variable, Netcd
     return;
   const std::optional<NetcdfType> type = file.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::float32 && type != NetcdfType::float64)
-    file.fail(variable + " does not hold floating-point numbers; make the file again");
+    file.fail("{} does not hold floating-point numbers; make the file again", variable);
   const std::int64_t size = size_of(*type), row_bytes = width_of(file, v) * size;
   subset.changes[variable].push_back([=](std::int64_t begin, std::int64_t end, char* bytes) {
     for (std::int64_t row = begin; row < end; ++row, bytes += row_bytes)

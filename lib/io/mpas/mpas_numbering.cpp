@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_numbering.h"
+#include "base/message.h"
 #include "io/mpas/mpas_variables.h"
 
 #include <algorithm>
@@ -136,8 +137,7 @@ void number_edges(const Finder& finder, Deviations& deviations, MpasNumbering& o
 bool is_whole(const std::string& dimension, std::int64_t size, Deviations& deviations) {
   const std::int64_t stored = deviations.file().dimension(dimension);
   if (stored != size && stored >= 0)
-    deviations.add(dimension, dimension + " is " + std::to_string(stored) + ", but the mesh has " +
-                                  std::to_string(size));
+    deviations.add(dimension, message("{} is {}, but the mesh has {}", dimension, stored, size));
   return stored == size;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas_open.h"
+#include "base/message.h"
 #include "io/mpas/mpas_variables.h"
 #include "io/mpas/vertex_order.h"
 
@@ -31,12 +32,14 @@ bool read_table(const std::string& name, std::int64_t rows, std::int64_t width, 
 }
 
 /// A law of the rows of a variable.
-bool check_law(const std::string& variable, const std::string& things, const std::string& problem,
-               const Broken& found, Deviations& deviations) {
+template <class VerdictAt>
+bool check_law(const std::string& variable, std::int64_t rows, const std::string& problem,
+               const VerdictAt& verdict_at, Deviations& deviations) {
+  const Broken found = broken(rows, verdict_at);
   if (found.any())
     deviations.add(variable,
-                   variable + ": " + found.of_all() + " " + things + " " + problem +
-                       "; the first is " + std::to_string(found.first) + " (0-based)",
+                   message("{}: {} {}; the first is {} (0-based)", variable, found.of_all(),
+                           problem, found.first),
                    found.first);
   return !found.any();
 }
@@ -89,18 +92,17 @@ Verdict vertex_verdict(const OpenLists& lists, std::int64_t v) {
 
 bool check_edges(const OpenLists& lists, Deviations& deviations) {
   const std::int64_t edges = lists.cells_on_edge.rows();
-  const bool pairs = check_law(mpas::cells_on_edge, "edges", "have no cell, or one cell twice",
-                               broken(edges,
-                                      [&](std::int64_t e) {
-                                        return verdict_of(lists.cells_on_edge.at(e, 0) !=
-                                                          lists.cells_on_edge.at(e, 1));
-                                      }),
-                               deviations);
-  return check_law(mpas::vertices_on_edge, "edges",
-                   "do not run, with their first cell to the left, between two vertices of both "
-                   "cells",
-                   broken(edges, [&](std::int64_t e) { return edge_verdict(lists, e); }),
-                   deviations) &&
+  const bool pairs = check_law(
+      mpas::cells_on_edge, edges, "edges have no cell, or one cell twice",
+      [&](std::int64_t e) {
+        return verdict_of(lists.cells_on_edge.at(e, 0) != lists.cells_on_edge.at(e, 1));
+      },
+      deviations);
+  return check_law(
+             mpas::vertices_on_edge, edges,
+             "edges do not run, with their first cell to the left, between two vertices of both "
+             "cells",
+             [&](std::int64_t e) { return edge_verdict(lists, e); }, deviations) &&
          pairs;
 }
 
@@ -169,20 +171,20 @@ bool check_cells(const OpenLists& lists, Deviations& deviations) {
   const std::vector<std::int32_t> count = edges_by_cell(lists);
   const auto law = [&](const std::string& variable, const std::string& problem,
                        const auto& verdict_at) {
-    return check_law(variable, "cells", problem, broken(lists.cells, verdict_at), deviations);
+    return check_law(variable, lists.cells, problem, verdict_at, deviations);
   };
-  const bool counts = law(mpas::n_edges_on_cell, "have another number of edges in cellsOnEdge",
-                          [&](std::int64_t i) {
+  const bool counts = law(mpas::n_edges_on_cell,
+                          "cells have another number of edges in cellsOnEdge", [&](std::int64_t i) {
                             const auto cell = static_cast<std::size_t>(i);
                             return verdict_of(count[cell] == lists.edge_count[cell]);
                           });
   return counts &&
-         law(mpas::edges_on_cell, "do not list their edges, each once, then 0",
+         law(mpas::edges_on_cell, "cells do not list their edges, each once, then 0",
              [&](std::int64_t i) { return edges_verdict(lists, i); }) &&
          law(mpas::vertices_on_cell,
-             "do not list the ends of their edges, counter-clockwise, then 0",
+             "cells do not list the ends of their edges, counter-clockwise, then 0",
              [&](std::int64_t i) { return corners_verdict(lists, i); }) &&
-         law(mpas::cells_on_cell, "do not list the cells across their edges, then 0",
+         law(mpas::cells_on_cell, "cells do not list the cells across their edges, then 0",
              [&](std::int64_t i) { return neighbours_verdict(lists, i); });
 }
 
@@ -224,12 +226,10 @@ bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviation
 
 bool check_open_lists(const OpenLists& lists, Deviations& deviations) {
   const bool edges = check_edges(lists, deviations);
-  const bool vertices =
-      check_law(mpas::edges_on_vertex, "vertices",
-                "do not list edges that end there, edge j before cell j of cellsOnVertex",
-                broken(lists.cells_on_vertex.rows(),
-                       [&](std::int64_t v) { return vertex_verdict(lists, v); }),
-                deviations);
+  const bool vertices = check_law(
+      mpas::edges_on_vertex, lists.cells_on_vertex.rows(),
+      "vertices do not list edges that end there, edge j before cell j of cellsOnVertex",
+      [&](std::int64_t v) { return vertex_verdict(lists, v); }, deviations);
   return check_cells(lists, deviations) && edges && vertices;
 }
 

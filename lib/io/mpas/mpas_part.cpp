@@ -2,6 +2,7 @@
 #include "io/mpas/mpas_part.h"
 
 #include "base/parallel.h"
+#include "base/require.h"
 #include "io/bytes/big_endian.h"
 #include "io/mpas/mpas.h"
 #include "io/mpas/vertex_order.h"
@@ -19,20 +20,16 @@ namespace {
 /// Throws unless the file has a mesh of the sphere with the lists of its cells.
 void require_lists(const NetcdfReader& file) {
   const std::string& path = file.path();
-  if (!is_mpas(file))
-    throw Error(ErrorCode::invalid_argument, path + " holds no MPAS mesh; convert it with calotte "
-                                                    "convert");
-  if (is_planar_mpas(file))
-    throw Error(ErrorCode::invalid_argument,
-                path + " holds a mesh of the plane, not of the sphere; give another");
+  require(is_mpas(file), "{} holds no MPAS mesh; convert it with calotte convert", path);
+  require(!is_planar_mpas(file), "{} holds a mesh of the plane, not of the sphere; give another",
+          path);
   for (const char* name :
        {mpas::n_edges_on_cell, mpas::cells_on_cell, mpas::edges_on_cell, mpas::vertices_on_cell})
-    if (file.find(name) < 0)
-      throw Error(ErrorCode::invalid_argument,
-                  path + " holds no " + name + "; complete it with calotte convert IN OUT.nc");
+    require(file.has_variable(name), "{} holds no {}; complete it with calotte convert IN OUT.nc",
+            path, name);
   for (const MpasKind& kind : {mpas_cell, mpas_edge, mpas_vertex})
     if (file.dimension(kind.dimension()) < 0)
-      file.fail("it has no dimension " + kind.dimension() + "; make the file again");
+      file.fail("it has no dimension {}; make the file again", kind.dimension());
 }
 
 /// \throws Error parse, unless the generators are on the sphere of the attribute.
@@ -43,9 +40,10 @@ double radius_of(const NetcdfReader& file) {
   const double norm = std::hypot(place[0], place[1], place[2]),
                radius = file.number("", "sphere_radius", norm);
   if (!(std::abs(radius - norm) <= 1e-3 * norm))
-    file.fail("the first cell is " + std::to_string(norm) +
-              " from the centre of the sphere, but the attribute sphere_radius is " +
-              std::to_string(radius) + "; correct it");
+    file.fail(
+        "the first cell is {} from the centre of the sphere, but the attribute sphere_radius is "
+        "{}; correct it",
+        std::to_string(norm), std::to_string(radius));
   return radius;
 }
 
@@ -66,17 +64,19 @@ void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& 
   for (std::int64_t i = 0; i < cells.vertices_on_cell.size(); ++i) {
     const std::span<const std::int32_t> vertices = cells.vertices_on_cell[i];
     if (vertices.size() < 3)
-      file.fail("cell " + std::to_string(i + 1) + " (1-based) has " +
-                std::to_string(vertices.size()) +
-                " edges in nEdgesOnCell, fewer than three; make the file again");
+      file.fail("cell {} (1-based) has {} edges in nEdgesOnCell, fewer than three; make the file "
+                "again",
+                i + 1, vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const std::int32_t end = vertices[k], start = voronoi_detail::start_of(cells, i, k);
       const Eigen::Vector2i pair(std::min(start, end), std::max(start, end));
       auto known = ends.col(cells.edges_on_cell[i][k]);
       if (known[0] >= 0 && known != pair)
-        file.fail("edgesOnCell and verticesOnCell of cell " + std::to_string(i + 1) +
-                  " (1-based) do not correspond: in all cells edge k lies between vertices k - 1 "
-                  "and k, or between k and k + 1; make the file again");
+        file.fail(
+            "edgesOnCell and verticesOnCell of cell {} (1-based) do not correspond: in all "
+            "cells edge k lies between vertices k - 1 and k, or between k and k + 1; make the "
+            "file again",
+            i + 1);
       known = pair;
     }
   }
@@ -87,9 +87,8 @@ void take_row(const NetcdfReader& file, const std::string& variable, std::int64_
               const T* stored, std::int64_t bound, std::span<std::int32_t> out) {
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (stored[k] < 0 || stored[k] > bound + 1)
-      file.fail(variable + " has the id " + std::to_string(stored[k]) + " at cell " +
-                std::to_string(row + 1) + " (both 1-based), but there are " +
-                std::to_string(bound) + "; make the file again");
+      file.fail("{} has the id {} at cell {} (both 1-based), but there are {}; make the file again",
+                variable, stored[k], row + 1, bound);
     out[k] = stored[k] == bound + 1 ? -1 : static_cast<std::int32_t>(stored[k]) - 1;
   }
 }
@@ -132,8 +131,8 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
   const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   for (const std::int32_t count : counts_)
     if (count < 0 || count > width)
-      file.fail("nEdgesOnCell is " + std::to_string(count) + " at a cell, but cellsOnCell holds " +
-                std::to_string(width) + "; make the file again");
+      file.fail("nEdgesOnCell is {} at a cell, but cellsOnCell holds {}; make the file again",
+                count, width);
 }
 
 Points3 MpasSource::places() const { return read_places(netcdf_, mpas_cell, cells_); }
@@ -152,10 +151,10 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const
   const NetcdfReader& file = netcdf_;
   const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   if (file.shape_of(variable) != std::vector<std::int64_t>{cells_, width})
-    file.fail(variable + " has another shape than cellsOnCell; make the file again");
+    file.fail("{} has another shape than cellsOnCell; make the file again", variable);
   const std::optional<NetcdfType> type = netcdf_.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::int32 && type != NetcdfType::int64)
-    file.fail(variable + " does not hold integers of 4 or 8 bytes; make the file again");
+    file.fail("{} does not hold integers of 4 or 8 bytes; make the file again", variable);
   const bool turned =
       variable == mpas::vertices_on_cell && vertex_order_ == VertexOrder::before_edges;
   IdLists lists{Offsets(kept.count() + 1), {}};

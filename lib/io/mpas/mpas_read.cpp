@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/require.h"
 #include "io/cells/dual.h"
 #include "io/cells/field_order.h"
 #include "io/cells/mesh_intake.h"
@@ -45,10 +46,8 @@ std::vector<std::int32_t> ids_of(const NetcdfReader& file, const std::string& va
   std::vector<std::int32_t> ids = file.ints(variable, shape);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k] < 0 || ids[k] > count)
-      file.fail(variable + " has " + thing + " " + std::to_string(ids[k]) + " at " + row + " " +
-                std::to_string(static_cast<std::int64_t>(k) / width + 1) +
-                " (both 1-based), but there are " + std::to_string(count) +
-                "; make the file again");
+      file.fail("{} has {} {} at {} {} (both 1-based), but there are {}; make the file again",
+                variable, thing, ids[k], row, static_cast<std::int64_t>(k) / width + 1, count);
     --ids[k];
   }
   return ids;
@@ -96,9 +95,10 @@ Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
     polygons.ids.begin[i] = std::ssize(ids);
     const std::int64_t count = counts[static_cast<std::size_t>(i)];
     if (count < 0 || count > width)
-      file.fail("nEdgesOnCell is " + std::to_string(count) + " at cell " + std::to_string(i + 1) +
-                " (1-based), but verticesOnCell holds " + std::to_string(width) +
-                "; make the file again");
+      file.fail(
+          "nEdgesOnCell is {} at cell {} (1-based), but verticesOnCell holds {}; make the file "
+          "again",
+          count, i + 1, width);
     const auto first = rows.begin() + i * width;
     if (std::all_of(first, first + count, [](std::int32_t id) { return id >= 0; }))
       ids.insert(ids.end(), first, first + count);
@@ -164,8 +164,8 @@ bool holds_cells(const NetcdfReader& file) {
 Points3 read_finite_coordinates(const NetcdfReader& file, const MpasKind& kind) {
   Points3 places = read_coordinates(file, kind);
   if (!places.allFinite())
-    file.fail("a coordinate " + kind.axis(0) + " or " + kind.axis(1) +
-              " is NaN or infinite; make the file again");
+    file.fail("a coordinate {} or {} is NaN or infinite; make the file again", kind.axis(0),
+              kind.axis(1));
   places.row(2).setZero();
   return places;
 }
@@ -174,11 +174,11 @@ Points3 read_finite_coordinates(const NetcdfReader& file, const MpasKind& kind) 
 /// periodic in both directions, with rows of cells that are to be removed.
 void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool closed) {
   if (closed && period.minCoeff() == 0)
-    file.fail(std::string(period.x() == 0 ? "x_period" : "y_period") +
-              " is 0, which makes a channel, but cells join its walls" +
-              (file.has_variable("cullCell")
-                   ? "; remove those that cullCell marks, with MpasCellCuller.x"
-                   : "; give the period, or remove the cells between the walls"));
+    file.fail("{} is 0, which makes a channel, but cells join its walls; {}",
+              period.x() == 0 ? "x_period" : "y_period",
+              file.has_variable("cullCell")
+                  ? "remove those that cullCell marks, with MpasCellCuller.x"
+                  : "give the period, or remove the cells between the walls");
 }
 
 /// The cells of a channel, or of a box with land.
@@ -253,9 +253,8 @@ bool is_planar_mpas(const NetcdfReader& file) {
 }
 
 Points3 read_mpas_sites(const NetcdfReader& file) {
-  if (is_planar_mpas(file))
-    throw Error(ErrorCode::invalid_argument, file.path() + " holds a mesh of the plane, not of the "
-                                                           "sphere; read it with read_mesh()");
+  require(!is_planar_mpas(file),
+          "{} holds a mesh of the plane, not of the sphere; read it with read_mesh()", file.path());
   return read_coordinates(file, mpas_cell);
 }
 

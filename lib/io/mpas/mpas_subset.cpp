@@ -27,12 +27,6 @@ template <class T, class Work> void on_values(char* bytes, std::int64_t count, c
   to_big_endian(values.begin(), count, bytes);
 }
 
-[[noreturn]] void refuse_id(const NetcdfReader& file, const std::string& variable, std::int64_t row,
-                            std::int64_t id, std::int64_t count) {
-  file.fail(variable + " has the id " + std::to_string(id) + " in row " + std::to_string(row + 1) +
-            " (both 1-based), but there are " + std::to_string(count) + "; make the file again");
-}
-
 /// Models write the number after the last for a missing one, others 0.
 template <class T> bool is_missing(T id, std::int64_t count) { return id == 0 || id == count + 1; }
 
@@ -44,7 +38,9 @@ ChangeRows renumbering(const NetcdfReader& source, int variable, const Kept& of)
     on_values<T>(bytes, (end - begin) * width, [&](T* ids, std::int64_t n) {
       for (std::int64_t k = 0; k < n; ++k) {
         if (ids[k] < 0 || ids[k] > count + 1)
-          refuse_id(source, name, begin + k / width, ids[k], count);
+          source.fail("{} has the id {} in row {} (both 1-based), but there are {}; make the file "
+                      "again",
+                      name, ids[k], begin + k / width + 1, count);
         ids[k] = is_missing(ids[k], count) ? 0 : of.number[ids[k] - 1];
       }
     });
@@ -58,14 +54,14 @@ ChangeRows renumbering_of(const NetcdfReader& source, int variable, const Kept& 
     return renumbering<std::int32_t>(source, variable, of);
   if (ids.type == NetcdfType::int64)
     return renumbering<std::int64_t>(source, variable, of);
-  source.fail(ids.name + " does not hold integers of 4 or 8 bytes; make the file again");
+  source.fail("{} does not hold integers of 4 or 8 bytes; make the file again", ids.name);
 }
 
 /// \throws Error parse.
 void require_integers(const NetcdfReader& source, int variable) {
   const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
   if (!source.is_integer(name))
-    source.fail(name + " does not hold integers; make the file again");
+    source.fail("{} does not hold integers; make the file again", name);
 }
 
 /// The file's own numbers from 1 on, of integers of any size.
@@ -137,7 +133,7 @@ void add_scaling(const NetcdfReader& source, const std::string& variable, double
       return scaling<float>(width, factor, divisor);
     if (of.type == NetcdfType::float64)
       return scaling<double>(width, factor, divisor);
-    source.fail(variable + " does not hold floating-point numbers; make the file again");
+    source.fail("{} does not hold floating-point numbers; make the file again", variable);
   });
 }
 
