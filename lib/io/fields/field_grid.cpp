@@ -36,15 +36,14 @@ Surface surface_of(const FieldGrid& grid) {
 void require_one_surface(const FieldGrid& source, const FieldGrid& target) {
   const auto words = [](const FieldGrid& grid) {
     const Surface surface = surface_of(grid);
-    return std::string(surface.is_sphere()          ? " is on the sphere"
-                       : surface.period().isZero(0) ? " is in a plane"
-                                                    : " is in a periodic plane");
+    return std::string(surface.is_sphere()          ? "on the sphere"
+                       : surface.period().isZero(0) ? "in a plane"
+                                                    : "in a periodic plane");
   };
   const Surface from = surface_of(source), to = surface_of(target);
   require(from.is_sphere() == to.is_sphere() && from.period() == to.period(),
-          source.name + words(source) + ", and " + target.name + words(target) +
-              (words(source) == words(target) ? " of another period" : "") +
-              "; give grids of one surface");
+          "{} is {}, and {} is {}{}; give grids of one surface", source.name, words(source),
+          target.name, words(target), words(source) == words(target) ? " of another period" : "");
 }
 
 /// The centres of cells.
@@ -88,7 +87,7 @@ Weights on_triangles(const FieldGrid& source, const Points3& positions, Interpol
   const Mesh mesh =
       delaunay(centres, surface_of(source).is_sphere() ? Surface::sphere() : Surface::plane());
   require(mesh.points.cols() == centres.cols(),
-          source.name + " has cells with the same centre; give --method conservative or nearest");
+          "{} has cells with the same centre; give --method conservative or nearest", source.name);
   Weights weights = interpolation_weights(mesh, positions, kind);
   const Ids cells = cells_at(*source.mesh.polygons, positions);
   weights.prune([&](Eigen::Index row, Eigen::Index, double) { return cells[row] >= 0; });
@@ -124,9 +123,8 @@ std::string dimension_of_cells(const NetcdfReader& file, const FieldGrid& mesh) 
     if (dimension.size == mesh.size())
       found.push_back(dimension.name);
   if (found.size() != 1)
-    file.fail((found.empty() ? "no dimension" : "several dimensions") + std::string(" of ") +
-              std::to_string(mesh.size()) + ", the number of cells of " + mesh.name +
-              "; give the fields of that mesh");
+    file.fail("{} of {}, the number of cells of {}; give the fields of that mesh",
+              found.empty() ? "no dimension" : "several dimensions", mesh.size(), mesh.name);
   return found.front();
 }
 
@@ -173,8 +171,10 @@ void require_records(const std::string& path, const FieldGrid& grid, FieldChoice
     if (file.has_variable(name))
       for (const std::string& dimension : file.dimensions_of(name))
         if (file.dimension(dimension) == 0)
-          file.fail("its dimension " + dimension + " has the size 0, so that " + name +
-                    " holds no numbers; give a file with records");
+          file.fail(
+              "its dimension {} has the size 0, so that {} holds no numbers; give a file with "
+              "records",
+              dimension, name);
 }
 
 bool counts(const FieldGrid& grid, Eigen::Index cell) {
@@ -249,8 +249,8 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
                           FieldChoice choice) {
   using namespace io_detail;
   FieldGrid grid = read_field_grid(mesh_path, FieldChoice::none);
-  require(!grid.boxes, mesh_path + " is a raster, whose fields are in its own file; give that "
-                                   "alone");
+  require(!grid.boxes, "{} is a raster, whose fields are in its own file; give that alone",
+          mesh_path);
   const NetcdfReader file(path);
   std::set<std::string> coordinates;
   for (const std::string& name : file.variable_names())
@@ -284,8 +284,9 @@ Polygons cells_of(const FieldGrid& grid) {
     return *grid.mesh.polygons;
   const Mesh& mesh = *grid.mesh.mesh;
   base_detail::require(mesh.closed() || (!mesh.surface.is_sphere() && mesh.surface.is_bounded()),
-                       grid.name + " has triangles of a part of the surface, without cells; give "
-                                   "linear or nearest as the method");
+                       "{} has triangles of a part of the surface, without cells; give linear or "
+                       "nearest as the method",
+                       grid.name);
   return polygons_of(voronoi(mesh));
 }
 

@@ -36,9 +36,9 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
       std::swap(first, second);
     constexpr double rounding = 1e-4; // degrees, of floats
     if (i > 0 && !(std::abs(first - sides[i]) < rounding))
-      file.fail(name + "[" + std::to_string(i) +
-                "] does not begin where the one before ends; give "
-                "bounds without gaps, or remove them");
+      file.fail("{}[{}] does not begin where the one before ends; give bounds without gaps, or "
+                "remove them",
+                name, i);
     if (i == 0)
       sides[0] = first;
     sides[i + 1] = second;

@@ -9,7 +9,6 @@
 #include "io/netcdf/netcdf_reader.h"
 #include "remap/weight_rows.h"
 
-#include <calotte/error.h>
 #include <calotte/field_grid.h>
 
 #include <algorithm>
@@ -72,8 +71,9 @@ DescribedGrid described(const FieldGrid& grid, const DoubleVector& area, DoubleV
 
 void require_sphere(const FieldGrid& grid) {
   require(grid.boxes || grid.mesh.surface().is_sphere(),
-          grid.name + " is in a plane, and files of weights hold longitudes and latitudes; leave "
-                      "the weights out");
+          "{} is in a plane, and files of weights hold longitudes and latitudes; leave the weights "
+          "out",
+          grid.name);
 }
 
 /// Corner k of a cell.
@@ -235,14 +235,13 @@ std::vector<double> first_weights(const NetcdfReader& file, const std::string& n
   const std::vector<double> all = file.doubles(name, shape);
   const std::int64_t width = shape.size() == 2 ? shape[1] : 1;
   if (std::ssize(all) != links * width)
-    file.fail(name + " has " + std::to_string(all.size()) + " values for " + std::to_string(links) +
-              " links; make the weights again");
+    file.fail("{} has {} values for {} links; make the weights again", name, all.size(), links);
   std::vector<double> weights(static_cast<std::size_t>(links));
   for (std::size_t k = 0; k < all.size(); ++k)
     if (k % static_cast<std::size_t>(width) == 0)
       weights[k / static_cast<std::size_t>(width)] = all[k];
     else if (all[k] != 0)
-      file.fail(name + " has gradients of second order; give weights of first order");
+      file.fail("{} has gradients of second order; give weights of first order", name);
   return weights;
 }
 
@@ -266,17 +265,16 @@ Weights read_links(const NetcdfReader& file, const LinkNames& names) {
   const std::int64_t columns = file.dimension(names.source_size),
                      rows = file.dimension(names.target_size);
   if (columns < 0 || rows < 0)
-    file.fail("no dimensions " + names.source_size + " and " + names.target_size +
-              "; make the weights again");
+    file.fail("no dimensions {} and {}; make the weights again", names.source_size,
+              names.target_size);
   const std::vector<std::int32_t> column = file.ints(names.column, {-1}),
                                   row = file.ints(names.row, {std::ssize(column)});
   const std::vector<double> weight = first_weights(file, names.weight, std::ssize(column));
   for (std::size_t k = 0; k < column.size(); ++k)
     if (column[k] < 1 || column[k] > columns || row[k] < 1 || row[k] > rows)
-      file.fail("link " + std::to_string(k) + " (0-based) joins " + names.column + " " +
-                std::to_string(column[k]) + " and " + names.row + " " + std::to_string(row[k]) +
-                " of " + std::to_string(columns) + " and " + std::to_string(rows) +
-                " cells; make the weights again");
+      file.fail(
+          "link {} (0-based) joins {} {} and {} {} of {} and {} cells; make the weights again", k,
+          names.column, column[k], names.row, row[k], columns, rows);
   return matrix_of_links(rows, columns, row, column, weight);
 }
 

@@ -160,8 +160,8 @@ bool is_own_name(const std::string& name) {
 void require_free_names(const std::string& path, const std::vector<MeshField>& fields) {
   for (const MeshField& field : fields)
     require(!is_own_name(field.name),
-            path + ": the field " + field.name +
-                " has the name of a coordinate; leave it out with --fields");
+            "{}: the field {} has the name of a coordinate; leave it out with --fields", path,
+            field.name);
 }
 
 /// What belongs to fields of a file.
@@ -191,13 +191,13 @@ void write_fields(const std::string& path, const FieldGrid& grid,
   using namespace io_detail;
   for (const MeshField& field : fields)
     require(field.location == Location::cells && field.values.size() == grid.size() * field.count(),
-            "the field " + field.name + " does not have a value for each of " +
-                std::to_string(grid.size()) + " cells; interpolate it to " + grid.name);
+            "the field {} does not have a value for each of {} cells; interpolate it to {}",
+            field.name, grid.size(), grid.name);
   WriteOptions options;
   options.history = history;
   options.sphere_radius = grid.boxes ? 1 : grid.mesh.sphere_radius;
   if (suffix_of(path) != ".nc") {
-    require(!grid.boxes, path + ": a raster is written to NetCDF; give a name that ends in .nc");
+    require(!grid.boxes, "{}: a raster is written to NetCDF; give a name that ends in .nc", path);
     options.fields = fields;
     write(path, grid.mesh, options);
     return;
