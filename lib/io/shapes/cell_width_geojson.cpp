@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "density/cell_width_polygons.h"
 #include "density/raster_field.h"
 #include "io/bytes/file_error.h"
 #include "io/shapes/cell_width_file.h"
 #include "io/shapes/geojson_areas.h"
-
-#include <calotte/error.h>
 
 #include <nlohmann/json.hpp>
 
@@ -24,20 +23,17 @@ public:
 
   Raster read(std::istream& in) {
     const GeoPolygons polygons = read_polygons(in, name_, lonlat_pair);
-    outer_width(polygons.members, "insideWidth", widths_.inside, false);
-    outer_width(polygons.members, "outsideWidth", widths_.outside, true);
-    outer_width(polygons.members, "transition", widths_.transition, true);
+    outer_width(polygons.members, "insideWidth", "inside width", widths_.inside, false);
+    outer_width(polygons.members, "outsideWidth", "outside width", widths_.outside, true);
+    outer_width(polygons.members, "transition", "width of the transition", widths_.transition,
+                true);
     for (const GeoGeometry& geometry : polygons.geometries) {
       where_ = geometry.where;
       regions_.push_back(region_of(geometry));
     }
     where_.clear();
     require_narrower();
-    try {
-      return cell_width_of(regions_, widths_);
-    } catch (const Error& error) {
-      throw Error(error.code(), name_ + ": " + error.what());
-    }
+    return named(name_, [&] { return cell_width_of(regions_, widths_); });
   }
 
 private:
@@ -45,20 +41,19 @@ private:
 
   double positive(const Json& value, const std::string& what) const {
     if (!value.is_number() || !(value.get<double>() > 0) || !std::isfinite(value.get<double>()))
-      fail(what + " is not a positive number; give km");
+      fail(message("{} is not a positive number; give km", what));
     return value.get<double>();
   }
 
   /// Takes a width from the caller or, if that is 0, from the file's member of that name.
-  void outer_width(const Json& root, const std::string& key, double& width, bool needed) const {
+  void outer_width(const Json& root, const char* key, const char* what, double& width,
+                   bool needed) const {
     const auto given = root.find(key);
     if (width == 0 && given != root.end())
-      width = positive(*given, "\"" + key + "\"");
+      width = positive(*given, message("\"{}\"", key));
     if (!std::isfinite(width) || width < 0 || (needed && width == 0))
-      refuse_path(name_, "no positive " +
-                             (key == "transition" ? "width of the transition"
-                                                  : key.substr(0, key.size() - 5) + " width") +
-                             "; give it in km as an option or as the file's \"" + key + "\"");
+      refuse_path(name_, "no positive {}; give it in km as an option or as the file's \"{}\"", what,
+                  key);
   }
 
   double width_inside(const Json& properties) const {
@@ -90,8 +85,7 @@ private:
     Ring ring;
     for (const GeoPosition& position : positions) {
       require_degrees(position, name_,
-                      where_ + "position " + std::to_string(ring.size()) + " of ring " +
-                          std::to_string(number));
+                      message("{}position {} of ring {}", where_, ring.size(), number));
       ring.push_back({position[0], position[1]});
     }
     return ring;
@@ -104,8 +98,9 @@ private:
     for (const WidthRegion& region : regions_)
       inside.insert(region.inside);
     if (inside.size() > 1 && *inside.rbegin() > widths_.outside)
-      fail("of several inside widths the widest, " + Json(*inside.rbegin()).dump() +
-           " km, is wider than the outside; as the least one holds it would not be seen");
+      fail(message("of several inside widths the widest, {} km, is wider than the outside; as the "
+                   "least one holds it would not be seen",
+                   Json(*inside.rbegin()).dump()));
   }
 
   std::string name_, where_;

@@ -4,10 +4,10 @@
 #include "base/elementary.h"
 #include "base/lonlat.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "density/raster_field.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/error.h>
 #include <calotte/locate.h>
 
 #include <algorithm>
@@ -70,10 +70,7 @@ double short_edge(const Mesh& mesh) {
 Raster resampled(const Points3& points, const DoubleVector& widths) {
   constexpr double finest = 0.05, coarsest = 1; // degrees
   Mesh mesh = delaunay(points);
-  if (!mesh.closed())
-    throw Error(ErrorCode::invalid_argument,
-                "the points lie within a hemisphere; give widths on the "
-                "whole sphere");
+  require(mesh.closed(), "the points lie within a hemisphere; give widths on the whole sphere");
   for (auto&& point : mesh.points.colwise())
     point.normalize();
   const double spacing = 2 * arc_sine(0.5 * short_edge(mesh)) * 180 / std::numbers::pi;

@@ -5,8 +5,6 @@
 #include "io/shapes/jigsaw.h"
 #include "io/shapes/raster_file.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <numbers>
 #include <string>
@@ -40,19 +38,14 @@ DoubleVector widths_of_points(const JigsawFile& file, const std::string& name) {
   require_values(file, static_cast<std::size_t>(file.points.cols()), name);
   for (std::size_t i = 0; i < file.values.size(); ++i)
     if (!(file.values[i] > 0))
-      fail_file(name, "VALUE of point " + std::to_string(i) + " is not positive; correct it");
+      fail_file(name, "VALUE of point {} is not positive; correct it", i);
   return vector_of(file.values);
 }
 
 Raster of_mesh(const JigsawFile& file, const std::string& name) {
   const DoubleVector widths = widths_of_points(file, name);
-  try {
-    return resampled(directions_of(file, name), widths);
-  } catch (const Error& error) {
-    if (std::string(error.what()).starts_with(name))
-      throw;
-    throw Error(error.code(), name + ": " + error.what(), error.index());
-  }
+  const Points3 points = directions_of(file, name);
+  return named(name, [&] { return resampled(points, widths); });
 }
 
 Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Surface& plane) {
@@ -60,8 +53,10 @@ Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Su
     return resampled_in_plane(Points2(file.points), widths_of_points(file, name));
   if (file.kind == "euclidean-grid")
     return of_grid(file, name, plane);
-  fail_file(name, "no cell widths of a plane in a file of the kind \"" + file.kind +
-                      "\"; give euclidean-grid, or a euclidean-mesh of NDIMS=2");
+  fail_file(name,
+            "no cell widths of a plane in a file of the kind \"{}\"; give euclidean-grid, or a "
+            "euclidean-mesh of NDIMS=2",
+            file.kind);
 }
 
 } // namespace
@@ -73,8 +68,10 @@ Raster widths_of(const JigsawFile& file, const std::string& name, const Surface&
     return of_grid(file, name, surface);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
     return of_mesh(file, name);
-  fail_file(name, "no cell widths of the sphere in a file of the kind \"" + file.kind +
-                      "\"; give ellipsoid-grid, ellipsoid-mesh or euclidean-mesh");
+  fail_file(name,
+            "no cell widths of the sphere in a file of the kind \"{}\"; give ellipsoid-grid, "
+            "ellipsoid-mesh or euclidean-mesh",
+            file.kind);
 }
 
 } // namespace calotte::io_detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/read.h>
 
+#include "base/message.h"
 #include "domain/spherical_area.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
@@ -38,11 +39,11 @@ void require_gshhg(const std::string& path) {
   if (!name.starts_with("binned_GSHHS_") || std::filesystem::exists(path, error))
     return;
   const bool high = name.starts_with("binned_GSHHS_h"), full = name.starts_with("binned_GSHHS_f");
-  fail_read(path, std::string("No such file; it comes with Debian's package gmt-gshhg-") +
-                      (high   ? "high"
-                       : full ? "full"
-                              : "low") +
-                      ", in /usr/share/gmt-gshhg; install it, or give other polygons of land");
+  fail_read(path, message("No such file; it comes with Debian's package gmt-gshhg-{}, in "
+                          "/usr/share/gmt-gshhg; install it, or give other polygons of land",
+                          high   ? "high"
+                          : full ? "full"
+                                 : "low"));
 }
 
 } // namespace

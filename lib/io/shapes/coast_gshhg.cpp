@@ -46,7 +46,7 @@ private:
   std::int64_t scalar(const std::string& name) const {
     const std::int32_t value = file_.ints(name, {1}).front();
     if (value <= 0)
-      file_.fail(name + " is not positive; give a binned file of GSHHG");
+      file_.fail("{} is not positive; give a binned file of GSHHG", name);
     return value;
   }
   std::vector<std::int32_t> all(const std::string& name) const { return file_.ints(name, {-1}); }
@@ -84,8 +84,7 @@ private:
         return add(ring);
       next = open_.find({polygon, end});
     }
-    file_.fail("the coast of polygon " + std::to_string(polygon) +
-               " is not closed; give a binned file of GSHHG");
+    file_.fail("the coast of polygon {} is not closed; give a binned file of GSHHG", polygon);
   }
 
   void add(const Line& line) {

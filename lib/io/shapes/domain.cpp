@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/file_names.h"
@@ -44,8 +45,8 @@ GeoPosition corner_of(const LineReader& reader, std::string_view line) {
   GeoPosition corner;
   const Columned read = parse_columns(line, 2, corner.data());
   if (read.outcome != Outcome::ok)
-    reader.fail((read.outcome == Outcome::too_few ? "1 column only" : describe(read)) +
-                "; write two numbers x y on each line, and a blank line between rings");
+    reader.fail("{}; write two numbers x y on each line, and a blank line between rings",
+                read.outcome == Outcome::too_few ? "1 column only" : describe(read));
   return corner;
 }
 
@@ -69,15 +70,14 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
     if (!open) {
       rings.close();
       rings.corners.emplace_back();
-      rings.origins.push_back("begins in line " + std::to_string(reader.number()));
+      rings.origins.push_back(message("begins in line {}", reader.number()));
     }
     open = true;
     rings.corners.back().push_back(corner);
   }
   rings.close();
   if (rings.corners.empty())
-    fail_file(name, "no corners in " + std::to_string(reader.number()) +
-                        " lines; write two numbers x y on each line");
+    fail_file(name, "no corners in {} lines; write two numbers x y on each line", reader.number());
   return rings;
 }
 
@@ -89,8 +89,7 @@ FileRings rings_of_geojson(std::istream& in, const std::string& name) {
     for (const GeoPolygon& polygon : geometry.polygons)
       for (const GeoRing& ring : polygon) {
         rings.corners.push_back(ring);
-        rings.origins.push_back("is in the file: " + geometry.where + "ring " +
-                                std::to_string(number++));
+        rings.origins.push_back(message("is in the file: {}ring {}", geometry.where, number++));
       }
   }
   return rings;
@@ -127,12 +126,9 @@ Surface read_domain(const std::string& path) {
   } catch (const Error& error) {
     const std::int64_t ring = error.index();
     const bool named = ring >= 0 && ring < std::ssize(rings.origins);
-    throw Error(error.code(),
-                path + ": " + error.what() +
-                    (named ? " (ring " + std::to_string(ring) + " " +
-                                 rings.origins[static_cast<std::size_t>(ring)] + ")"
-                           : ""),
-                ring);
+    const std::string which =
+        named ? message(" (ring {} {})", ring, rings.origins[static_cast<std::size_t>(ring)]) : "";
+    throw Error(error.code(), message("{}: {}{}", path, error.what(), which), ring);
   }
 }
 

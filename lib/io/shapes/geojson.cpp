@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson.h"
 
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/json_stream.h"
-
-#include <calotte/error.h>
 
 #include <cmath>
 #include <istream>
@@ -32,42 +31,43 @@ Json parse(std::istream& in, const std::string& name,
   try {
     return Json::parse(checked, keep);
   } catch (const Json::parse_error& error) {
-    fail_file(name, "no JSON from byte " + std::to_string(error.byte) +
-                        " on; the file was cut short or damaged");
+    fail_file(name, "no JSON from byte {} on; the file was cut short or damaged", error.byte);
   } catch (const Json::exception&) {
     fail_file(name, "a number that no double can hold; correct it");
   }
 }
 
-const Json& array(const Json& object, const char* key, const std::string& where) {
+/// \param where names the feature.
+const Json& array(const Json& object, const char* key, const std::string& name,
+                  const std::string& where) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_array())
-    throw Error(ErrorCode::parse, where + "no array \"" + key + "\"" + as_rfc);
+    fail_file(name, "{}no array \"{}\"{}", where, key, as_rfc);
   return *found;
 }
 
 void take_feature(const Json& object, std::int64_t number, const std::string& name,
                   const std::function<void(const GeoFeature&)>& take) {
-  const std::string where = number < 0 ? "" : "feature " + std::to_string(number) + ": ";
+  const std::string where = number < 0 ? "" : message("feature {}: ", number);
   const std::string type = text_in(object, "type");
   if (type != "Feature" && (object.contains("coordinates") || object.contains("geometries")))
     return take({number, where, Json(), object}); // a geometry alone
   if (type != "Feature" && !(type.empty() && object.contains("geometry")))
-    fail_file(name, where + "no object of the type \"Feature\"" + as_rfc);
+    fail_file(name, "{}no object of the type \"Feature\"{}", where, as_rfc);
   take({number, where, object.value("properties", Json()), object.value("geometry", Json())});
 }
 
 void visit_geometry(const Json& object, int depth, const GeoFeature& feature,
                     const std::string& name, const GeometryVisit& visit) {
-  const std::string where = name + ": " + feature.where;
   const std::string type = object.is_object() ? text_in(object, "type") : "";
   const bool is_collection = type == "GeometryCollection";
   if (is_collection && depth < deepest)
-    for (const Json& part : array(object, "geometries", where))
+    for (const Json& part : array(object, "geometries", name, feature.where))
       visit_geometry(part, depth + 1, feature, name, visit);
   else
     visit(feature, type,
-          type.empty() || is_collection ? Json() : array(object, "coordinates", where));
+          type.empty() || is_collection ? Json()
+                                        : array(object, "coordinates", name, feature.where));
 }
 
 } // namespace
@@ -81,8 +81,8 @@ Json read_features(std::istream& in, const std::string& name,
     fail_file(name, "no GeoJSON object; give features or a geometry");
   const std::string type = text_in(rest, "type");
   if (type == "FeatureCollection") {
-    if (!array(rest, "features", name + ": ").empty())
-      fail_file(name, std::string("\"features\" holds other values than objects") + as_rfc);
+    if (!array(rest, "features", name, "").empty())
+      fail_file(name, "\"features\" holds other values than objects{}", as_rfc);
   } else if (type == "Feature") {
     take_feature(rest, -1, name, take);
   } else {

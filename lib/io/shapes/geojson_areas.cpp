@@ -2,6 +2,7 @@
 #include "io/shapes/geojson_areas.h"
 
 #include "base/lonlat.h"
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 
 #include <nlohmann/json.hpp>
@@ -11,14 +12,11 @@
 namespace calotte::io_detail {
 namespace {
 
-std::string ring_name(std::size_t ring) { return "ring " + std::to_string(ring); }
-
 WrittenRing ring_of(const GeoRing& positions, const std::string& name, const std::string& where,
                     std::size_t number) {
-  WrittenRing ring{{}, where + ring_name(number)};
+  WrittenRing ring{{}, message("{}ring {}", where, number)};
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    require_degrees(positions[i], name,
-                    where + "position " + std::to_string(i) + " of " + ring_name(number));
+    require_degrees(positions[i], name, message("{}position {} of ring {}", where, i, number));
     ring.corners.push_back(from_lonlat(positions[i][0], positions[i][1]));
   }
   drop_repeated(ring.corners);
@@ -47,8 +45,8 @@ GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
 void require_degrees(const GeoPosition& position, const std::string& name,
                      const std::string& what) {
   if (!are_degrees(position))
-    fail_file(name, what + " is [" + Json(position[0]).dump() + ", " + Json(position[1]).dump() +
-                        "], no longitude and latitude in degrees; correct it");
+    fail_file(name, "{} is [{}, {}], no longitude and latitude in degrees; correct it", what,
+              Json(position[0]).dump(), Json(position[1]).dump());
 }
 
 std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::string& name) {
@@ -57,7 +55,7 @@ std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::str
   const Json& given = geometry.properties["inside"];
   const std::string what = geometry.where + "its property \"inside\"";
   if (!is_position(given))
-    fail_file(name, what + " is not a position [longitude, latitude]; give degrees");
+    fail_file(name, "{} is not a position [longitude, latitude]; give degrees", what);
   const GeoPosition position = position_of(given);
   require_degrees(position, name, what);
   return position;

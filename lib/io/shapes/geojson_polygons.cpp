@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/shapes/geojson_polygons.h"
 
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 
@@ -15,8 +16,8 @@ public:
 
   std::vector<GeoPolygon> read(const std::string& type, const Json& coordinates) {
     if (!is_polygon(type))
-      fail("a geometry of the type " + in_quotes(type) +
-           " has no inside; give Polygon or MultiPolygon");
+      fail(message("a geometry of the type {} has no inside; give Polygon or MultiPolygon",
+                   in_quotes(type)));
     if (type == "Polygon")
       return {polygon(coordinates)};
     std::vector<GeoPolygon> polygons;
@@ -39,25 +40,24 @@ private:
     return polygon;
   }
 
-  std::string ring_name() const { return "ring " + std::to_string(rings_); }
-
   GeoRing ring(const Json& positions) const {
     if (!positions.is_array())
-      fail(ring_name() + " is not an array of positions; give GeoJSON as RFC 7946 has it");
+      fail(
+          message("ring {} is not an array of positions; give GeoJSON as RFC 7946 has it", rings_));
     GeoRing ring;
     for (const Json& position : positions)
       ring.push_back(place(position, ring.size()));
     if (ring.size() > 1 && ring.front() == ring.back())
       ring.pop_back();
     if (ring.size() < 3)
-      fail(ring_name() + " has fewer than 3 places; leave it out");
+      fail(message("ring {} has fewer than 3 places; leave it out", rings_));
     return ring;
   }
 
   GeoPosition place(const Json& position, std::size_t index) const {
     if (!is_position(position))
-      fail("position " + std::to_string(index) + " of " + ring_name() + " is not a position " +
-           pair_.form + "; " + pair_.remedy);
+      fail(message("position {} of ring {} is not a position {}; {}", index, rings_, pair_.form,
+                   pair_.remedy));
     return position_of(position);
   }
 

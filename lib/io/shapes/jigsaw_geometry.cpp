@@ -112,8 +112,7 @@ private:
 /// Closed rings of a plane bound the domain; lines, which may end at them, stay.
 JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
   if (file.parts > 1)
-    fail_file(path, "a geometry of " + std::to_string(file.parts) +
-                        " parts (BOUND); give each part a file of its own");
+    fail_file(path, "a geometry of {} parts (BOUND); give each part a file of its own", file.parts);
   JigsawGeometry out;
   const LineNetwork all =
       generators_detail::network_of(lines_of(file, columns_of(file, path)), false);
@@ -127,8 +126,9 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
     const Points3 line = line_of_chain(network, chain);
     if (chain.front() != chain.back() ||
         network.neighbours[static_cast<std::size_t>(chain.front())] != 2)
-      fail_file(path, "rings of edges touch at the point " + std::to_string(line(0, 0)) + " " +
-                          std::to_string(line(1, 0)) + "; let each ring have corners of its own");
+      fail_file(path,
+                "rings of edges touch at the point {} {}; let each ring have corners of its own",
+                std::to_string(line(0, 0)), std::to_string(line(1, 0)));
     rings.emplace_back(line.topLeftCorner(2, line.cols() - 1));
   }
   if (rings.empty())
@@ -150,10 +150,11 @@ JigsawGeometry read_jigsaw_geometry(const std::string& path) {
   if (is_planar_mesh(file))
     return in_plane(file, path);
   if (file.kind != "ellipsoid-mesh")
-    fail_file(path, "a geometry of the kind \"" + file.kind + "\" and " +
-                        std::to_string(file.dimensions) +
-                        " dimensions; only a sphere (ellipsoid-mesh) and a plane (euclidean-mesh, "
-                        "NDIMS=2) are meshed");
+    fail_file(
+        path,
+        "a geometry of the kind \"{}\" and {} dimensions; only a sphere (ellipsoid-mesh) and a "
+        "plane (euclidean-mesh, NDIMS=2) are meshed",
+        file.kind, file.dimensions);
   JigsawGeometry out;
   out.radius = radius_of(file, path);
   out.extent = 2 * out.radius;

@@ -68,8 +68,8 @@ void limit_jigsaw_values(const std::string& path, double radius) {
   else if (file.kind == "euclidean-grid")
     values = limited_in_plane(file, path);
   else
-    fail_file(path, "values of the kind \"" + file.kind +
-                        "\"; give a grid: ellipsoid-grid or euclidean-grid");
+    fail_file(path, "values of the kind \"{}\"; give a grid: ellipsoid-grid or euclidean-grid",
+              file.kind);
   for (std::size_t i = 0; i < values.size(); ++i) // rounding at a node raises none
     file.values[i] = std::min(file.values[i], values[i]);
   write_jigsaw_grid(path, file);

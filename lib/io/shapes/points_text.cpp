@@ -5,7 +5,6 @@
 #include "io/bytes/file.h"
 #include "io/bytes/file_error.h"
 
-#include <calotte/error.h>
 #include <calotte/read.h>
 #include <calotte/write.h>
 
@@ -27,9 +26,11 @@ using io_detail::Outcome;
 /// What stands in a line.
 struct LineFormat {
   int columns;
-  std::string expected; ///< what to write in a line, for messages
-  std::string perhaps;  ///< a remedy where a column is missing, or empty
-  const char* use;      ///< what a non-finite number does not give, for messages
+  // for messages
+  const char* expected; ///< what to write in a line
+  const char* headers;  ///< that name further columns
+  const char* perhaps;  ///< a remedy where a column is missing, or empty
+  const char* use;      ///< what a non-finite number does not give
   void (*require)(const LineReader&, const double*);
   void (*append)(std::vector<double>&, const double*);
 };
@@ -40,12 +41,10 @@ void require_direction(const LineReader& reader, const double* values) {
 }
 
 void require_latitude(const LineReader& reader, const double* values) {
-  if (std::abs(values[1]) <= 90)
-    return;
-  char latitude[32];
-  std::snprintf(latitude, sizeof latitude, "%g", values[1]);
-  reader.fail("latitude " + std::string(latitude) +
-              " is outside -90 to 90; write longitude first, then latitude, in degrees");
+  if (std::abs(values[1]) > 90)
+    reader.fail(
+        "latitude {} is outside -90 to 90; write longitude first, then latitude, in degrees",
+        values[1]);
 }
 
 void append_lonlat(std::vector<double>& coordinates, const double* values) {
@@ -65,15 +64,22 @@ LineFormat line_format(Columns columns) {
   if (columns == Columns::lonlat)
     return {2,
             "write longitude and latitude in degrees on each line",
+            "id lon lat, or lon lat value",
             "",
             "direction",
             require_latitude,
             append_lonlat};
   if (columns == Columns::xy)
-    return {2,       "write two numbers x y on each line",    "",
-            "place", [](const LineReader&, const double*) {}, append_xy};
+    return {2,
+            "write two numbers x y on each line",
+            "id x y, or x y value",
+            "",
+            "place",
+            [](const LineReader&, const double*) {},
+            append_xy};
   return {3,
           "write three numbers x y z on each line",
+          "id x y z, or x y z value",
           ", or read them as longitude and latitude, or as places in a plane",
           "direction",
           require_direction,
@@ -83,17 +89,16 @@ LineFormat line_format(Columns columns) {
 [[noreturn]] void refuse_line(const LineReader& reader, const Columned& read,
                               const LineFormat& format) {
   if (read.outcome != Outcome::too_few)
-    reader.fail(describe(read) + "; " + format.expected);
-  const std::string has =
-      read.columns == 1 ? "1 column" : std::to_string(read.columns) + " columns";
-  reader.fail(has + " only; " + format.expected + (read.columns == 2 ? format.perhaps : ""));
+    reader.fail("{}; {}", describe(read), format.expected);
+  reader.fail("{} {} only; {}{}", read.columns, read.columns == 1 ? "column" : "columns",
+              format.expected, read.columns == 2 ? format.perhaps : "");
 }
 
 void require_finite(const LineReader& reader, const double* values, const LineFormat& format) {
   for (int i = 0; i < format.columns; ++i)
     if (!std::isfinite(values[i]))
-      reader.fail(std::string(std::isnan(values[i]) ? "NaN" : "an infinite number") + " gives no " +
-                  format.use + "; remove the point or correct it");
+      reader.fail("{} gives no {}; remove the point or correct it",
+                  std::isnan(values[i]) ? "NaN" : "an infinite number", format.use);
 }
 
 // ---- Headers
@@ -217,7 +222,8 @@ bool has_decimal_commas(std::string_view line, int count, const std::optional<He
 /// the lines, or what no longitude is.
 class FirstColumn {
 public:
-  FirstColumn(Columns columns, int count) : lonlat_(columns == Columns::lonlat), count_(count) {}
+  FirstColumn(Columns columns, const LineFormat& format)
+      : lonlat_(columns == Columns::lonlat), format_(format) {}
 
   bool has_further() const { return further_; }
 
@@ -225,7 +231,8 @@ public:
   void take(const LineReader& reader, std::string_view line, double value, bool named) {
     if (lines_++ == 0) {
       double values[4];
-      further_ = io_detail::parse_columns(line, count_ + 1, values).outcome != Outcome::too_few;
+      further_ =
+          io_detail::parse_columns(line, format_.columns + 1, values).outcome != Outcome::too_few;
       counts_ = further_ && !named && value == std::floor(value);
       begin_ = value;
     }
@@ -241,15 +248,12 @@ public:
 
 private:
   [[noreturn]] void refuse(const LineReader& reader, const std::string& what) const {
-    reader.fail(what + ", and there are more than " + std::to_string(count_) +
-                "; write a header that names the columns, such as " +
-                (lonlat_       ? "id lon lat, or lon lat value"
-                 : count_ == 3 ? "id x y z, or x y z value"
-                               : "id x y, or x y value"));
+    reader.fail("{}, and there are more than {}; write a header that names the columns, such as {}",
+                what, format_.columns, format_.headers);
   }
 
   bool lonlat_;
-  int count_;
+  const LineFormat& format_;
   std::int64_t lines_ = 0;
   double begin_ = 0;
   bool further_ = false, counts_ = false;
@@ -262,7 +266,7 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
   std::vector<double> coordinates;
   bool header = false;
   std::optional<Header> names;
-  FirstColumn first(columns, format.columns);
+  FirstColumn first(columns, format);
   for (std::string_view line; reader.next(line);) {
     const std::size_t comment = line.find('#');
     const std::string_view content = line.substr(0, comment);
@@ -301,9 +305,8 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
     result.lines.push_back(reader.number());
   }
   if (coordinates.empty())
-    io_detail::fail_file(name, "no points in " + std::to_string(reader.number()) +
-                                   (reader.number() == 1 ? " line" : " lines") + "; " +
-                                   format.expected);
+    io_detail::fail_file(name, "no points in {} {}; {}", reader.number(),
+                         reader.number() == 1 ? "line" : "lines", format.expected);
   first.require_no_count(reader, 3);
   result.further_columns = first.has_further() && !names;
   result.points = Eigen::Map<const Points3>(coordinates.data(), 3, std::ssize(coordinates) / 3);
@@ -366,8 +369,7 @@ void write_points(std::ostream& out, const PointsRef& points) {
       },
       points);
   if (!out.flush())
-    throw Error(ErrorCode::file, "cannot write the points: the stream failed; make room or write "
-                                 "elsewhere");
+    io_detail::fail_write("the points", "the stream failed; make room or write elsewhere");
 }
 
 } // namespace calotte

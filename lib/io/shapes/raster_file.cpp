@@ -2,6 +2,7 @@
 #include "io/shapes/raster_file.h"
 
 #include "base/message.h"
+#include "base/require.h"
 #include "io/bytes/file_error.h"
 #include "io/netcdf/cf_axes.h"
 #include "io/netcdf/cf_values.h"
@@ -29,14 +30,13 @@ constexpr double degree_slack = 1e-3;
 void require_ascending(const DoubleVector& values, const std::string& variable,
                        const std::string& name) {
   if (values.size() < 2)
-    fail_file(name, variable + " has fewer than 2 values; give a raster that covers the domain");
+    fail_file(name, "{} has fewer than 2 values; give a raster that covers the domain", variable);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const std::string element = variable + "[" + std::to_string(i) + "]";
     if (!std::isfinite(values[i]))
-      fail_file(name, element + " is NaN or infinite; correct it");
+      fail_file(name, "{}[{}] is NaN or infinite; correct it", variable, i);
     if (i > 0 && !(values[i] > values[i - 1]))
-      fail_file(name, element + " = " + shortly(values[i]) + " does not follow " +
-                          shortly(values[i - 1]) + "; sort the raster along it");
+      fail_file(name, "{}[{}] = {} does not follow {}; sort the raster along it", variable, i,
+                values[i], values[i - 1]);
   }
 }
 
@@ -56,15 +56,17 @@ void drop_repeated_meridian(RasterOfFile& stored, const std::string& name) {
   const Eigen::Index last = x.size() - 1;
   const double around = x[last] - x[0] - 360;
   if (around > degree_slack)
-    fail_file(name, stored.x_name + " spans more than 360 degrees; remove the repeated longitudes");
+    fail_file(name, "{} spans more than 360 degrees; remove the repeated longitudes",
+              stored.x_name);
   if (around < -degree_slack)
     return;
   for (Eigen::Index j = 0; j < values.cols(); ++j)
     if (const double first = values(0, j), again = values(last, j);
         std::abs(again - first) > 1e-3 * std::abs(first))
-      fail_file(name, stored.value_name + " differs at longitudes " + shortly(x[0]) + " and " +
-                          shortly(x[last]) + " of latitude " + shortly(stored.raster.y[j]) +
-                          ", which are one place; make them equal or leave the last out");
+      fail_file(name,
+                "{} differs at longitudes {} and {} of latitude {}, which are one place; make them "
+                "equal or leave the last out",
+                stored.value_name, x[0], x[last], stored.raster.y[j]);
   x.conservativeResize(last);
   values.conservativeResize(last, Eigen::NoChange);
   require_ascending(x, stored.x_name, name);
@@ -76,9 +78,8 @@ void require_law(const RasterOfFile& stored, const std::string& name, const Valu
     for (Eigen::Index i = 0; i < values.rows(); ++i)
       if (!law.holds(values(i, j))) {
         const Eigen::Index first = stored.x_fastest ? j : i, second = stored.x_fastest ? i : j;
-        fail_file(name, stored.value_name + "[" + std::to_string(first) + "][" +
-                            std::to_string(second) + "] = " + shortly(values(i, j)) + " is not " +
-                            law.name + "; correct it");
+        fail_file(name, "{}[{}][{}] = {} is not {}; correct it", stored.value_name, first, second,
+                  values(i, j), law.name);
       }
 }
 
@@ -86,8 +87,7 @@ void require_law(const RasterOfFile& stored, const std::string& name, const Valu
 void clamp_latitudes(RasterOfFile& stored, const std::string& name) {
   for (double& latitude : stored.raster.y) {
     if (std::abs(latitude) > 90 + degree_slack)
-      fail_file(name,
-                stored.y_name + " " + shortly(latitude) + " is outside -90 to 90; give degrees");
+      fail_file(name, "{} {} is outside -90 to 90; give degrees", stored.y_name, latitude);
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
   require_ascending(stored.raster.y, stored.y_name, name); // still ascending
@@ -150,7 +150,7 @@ double kilometres_of(const NetcdfReader& file, const std::string& variable) {
   try {
     return kilometres_in(file.text(variable, "units"));
   } catch (const Error& error) {
-    file.fail(variable + ": " + error.what());
+    file.fail("{}: {}", variable, error.what());
   }
 }
 
@@ -166,7 +166,7 @@ double metres_up(const NetcdfReader& file, const std::string& variable) {
   try {
     return (down ? -1 : 1) * (units.empty() ? 1 : std::round(1000 * kilometres_in(units)));
   } catch (const Error&) {
-    file.fail(variable + ": the unit \"" + units + "\" is not one of heights; give m or km");
+    file.fail("{}: the unit \"{}\" is not one of heights; give m or km", variable, units);
   }
 }
 
@@ -174,7 +174,7 @@ double metres_up(const NetcdfReader& file, const std::string& variable) {
 RasterAxes plane_axes(const NetcdfReader& file) {
   for (const std::string name : {"x", "y"})
     if (!file.has_variable(name) || file.shape_of(name).size() != 1)
-      file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ")");
+      file.fail("no coordinate variable {}; give {}({})", name, name, name);
   return {"x", "y"};
 }
 
@@ -190,7 +190,7 @@ RasterAxes axes_for(const NetcdfReader& file, const std::string& variable) {
     return is_latitude(file, one) && file.dimensions_of(one) == std::vector{one};
   });
   const std::string name = has_latitude ? "lon" : "lat";
-  file.fail("no coordinate variable " + name + "; give " + name + "(" + name + ") in degrees");
+  file.fail("no coordinate variable {}; give {}({}) in degrees", name, name, name);
 }
 
 std::string only_raster(const NetcdfReader& file, bool of_plane) {
@@ -200,21 +200,16 @@ std::string only_raster(const NetcdfReader& file, bool of_plane) {
         (of_plane ? file.dimensions_of(name).size() == 2 : axes_of(file, name).has_value()))
       found.push_back(name);
   if (found.size() != 1)
-    file.fail(std::to_string(found.size()) + " variables are rasters of " +
-              (of_plane ? "x and y" : "latitudes and longitudes") +
-              "; name one, or give a file with one");
+    file.fail("{} variables are rasters of {}; name one, or give a file with one", found.size(),
+              of_plane ? "x and y" : "latitudes and longitudes");
   return found.front();
 }
 
 /// A variable in any order of its dimensions, of which others have the size 1. Missing values are
 /// NaN.
 RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable, bool of_plane) {
-  const auto shape = [&](const std::string& y, const std::string& x) {
-    return variable + "(" + y + ", " + x + ")";
-  };
   if (!file.has_variable(variable))
-    file.fail("no variable " + variable + "; give " +
-              (of_plane ? shape("y", "x") : shape("lat", "lon")));
+    file.fail("no variable {}; give {}({})", variable, variable, of_plane ? "y, x" : "lat, lon");
   const RasterAxes axes = of_plane ? plane_axes(file) : axes_for(file, variable);
   RasterOfFile stored{.raster = {.of_plane = of_plane},
                       .x_name = axes.longitude,
@@ -234,7 +229,7 @@ RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable
   });
   stored.x_fastest = of_values == std::vector{of_y, of_x};
   if (!stored.x_fastest && of_values != std::vector{of_x, of_y})
-    file.fail(variable + " is not " + shape(of_y, of_x) + "; give it these dimensions");
+    file.fail("{} is not {}({}, {}); give it these dimensions", variable, variable, of_y, of_x);
   const std::vector<double> values = cf_values(file, variable, file.shape_of(variable));
   const Eigen::Index columns = raster.x.size(), rows = raster.y.size();
   if (stored.x_fastest)
@@ -300,8 +295,8 @@ double kilometres_in(const std::string& unit) {
     return 1;
   if (std::ranges::find(io_detail::metres, name) != io_detail::metres.end())
     return 0.001;
-  throw Error(ErrorCode::invalid_argument,
-              "the unit \"" + unit + "\" is not one of cell widths; give km or m");
+  base_detail::refuse(
+      base_detail::message("the unit \"{}\" is not one of cell widths; give km or m", unit));
 }
 
 Raster read_raster(const std::string& path, const RasterChoice& choice) {

@@ -23,9 +23,11 @@ std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string&
   for (GeoArea& area : areas)
     for (WrittenRing& ring : area.rings) {
       if (ring.corners.size() < 3)
-        fail_file(name, ring.origin +
-                            " has fewer than 3 distinct places; an edge is the shorter arc of a "
-                            "great circle, so give more places along a parallel");
+        fail_file(
+            name,
+            "{} has fewer than 3 distinct places; an edge is the shorter arc of a great circle, "
+            "so give more places along a parallel",
+            ring.origin);
       rings.push_back(std::move(ring));
     }
   return rings;
@@ -46,8 +48,7 @@ Surface read_geojson(std::istream& in, const std::string& name) {
 void require_format(const std::string& name) {
   refuse_foreign(name);
   if (!is_geojson(name) && suffix_of(name) != ".pts")
-    refuse_path(name, "the name determines no format of regions; name it .geojson, .json or "
-                      ".pts");
+    refuse_path(name, "the name determines no format of regions; name it .geojson, .json or .pts");
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/lonlat.h"
+#include "base/message.h"
 #include "io/bytes/file_error.h"
 #include "io/bytes/text.h"
 #include "io/shapes/region_file.h"
@@ -86,9 +87,9 @@ private:
             return keyword == quantity.written || keyword == quantity.other;
           });
       if (known == quantities.end())
-        reader_.fail(in_quotes(keyword) +
-                     " is no keyword; write Name, Type, Point, Radius, Semi-major-axis, "
-                     "Semi-minor-axis, Orientation-angle, Upper-lat or Lower-lat");
+        reader_.fail("{} is no keyword; write Name, Type, Point, Radius, Semi-major-axis, "
+                     "Semi-minor-axis, Orientation-angle, Upper-lat or Lower-lat",
+                     in_quotes(keyword));
       values_[known->written] = number(*known, value);
     }
   }
@@ -97,10 +98,9 @@ private:
     const auto read = numbers_of(text);
     if (!read || read->size() != 1 || !((*read)[0] >= quantity.low) ||
         !((*read)[0] <= quantity.high))
-      reader_.fail(in_quotes(text) + " is no " + std::string(quantity.written) +
-                   "; write a number of " + std::string(quantity.unit) + " from " +
-                   std::to_string(static_cast<int>(quantity.low)) + " to " +
-                   std::to_string(static_cast<int>(quantity.high)) + ", without the unit");
+      reader_.fail("{} is no {}; write a number of {} from {} to {}, without the unit",
+                   in_quotes(text), quantity.written, quantity.unit, static_cast<int>(quantity.low),
+                   static_cast<int>(quantity.high));
     return (*read)[0];
   }
 
@@ -108,21 +108,21 @@ private:
     const auto read = numbers_of(text);
     if (!read || read->size() != 2 || !(std::abs((*read)[0]) <= 90) ||
         !(std::abs((*read)[1]) <= 720))
-      reader_.fail(in_quotes(text) +
-                   " is no place; write latitude (-90 to 90) and longitude, in degrees");
+      reader_.fail("{} is no place; write latitude (-90 to 90) and longitude, in degrees",
+                   in_quotes(text));
     return from_lonlat((*read)[1], (*read)[0]);
   }
 
   double value_of(const std::string& keyword) const {
     const auto found = values_.find(keyword);
     if (found == values_.end())
-      fail("a region of the type " + type_ + " has no line \"" + keyword + ":\"; add it");
+      fail(message("a region of the type {} has no line \"{}:\"; add it", type_, keyword));
     return found->second;
   }
 
   Eigen::Vector3d point() const {
     if (!point_)
-      fail("a region of the type " + type_ + " has no line \"Point:\"; add a place inside it");
+      fail(message("a region of the type {} has no line \"Point:\"; add a place inside it", type_));
     return {point_->x, point_->y, point_->z};
   }
 
@@ -137,8 +137,9 @@ private:
     if (type_ == "channel")
       return channel(value_of("lower-lat") * degree, value_of("upper-lat") * degree);
     if (type_ != "custom")
-      fail((type_.empty() ? "no line \"Type:\"" : "the type " + in_quotes(type_) + " is unknown") +
-           "; write Type: custom, circle, ellipse or channel");
+      fail(message("{}; write Type: custom, circle, ellipse or channel",
+                   type_.empty() ? "no line \"Type:\""
+                                 : message("the type {} is unknown", in_quotes(type_))));
     const Surface::Rings corners = corners_of({{ring_, ""}});
     return region_around({corners.begin(), corners.end()}, point());
   }

@@ -7,7 +7,6 @@
 #include "io/shapes/coast_file.h"
 #include "io/shapes/geojson_areas.h"
 
-#include <calotte/error.h>
 #include <calotte/read.h>
 
 #include <nlohmann/json.hpp>
@@ -29,8 +28,8 @@ Points3 line_of(const Json& positions, const std::string& name, const std::strin
   Points3 places(3, std::ssize(positions));
   for (std::size_t k = 0; k < positions.size(); ++k) {
     if (!is_position(positions[k]) || !(plane || are_degrees(position_of(positions[k]))))
-      fail_file(name,
-                where + positions[k].dump() + " is no position " + pair.form + "; " + pair.remedy);
+      fail_file(name, "{}{} is no position {}; {}", where, positions[k].dump(), pair.form,
+                pair.remedy);
     const auto [x, y] = position_of(positions[k]);
     const Vec3 place = plane ? Vec3{x, y, 0} : from_lonlat(x, y);
     places.col(static_cast<Eigen::Index>(k)) << place.x, place.y, place.z;
@@ -58,8 +57,8 @@ std::vector<Points3> lines_of(const std::string& path, bool plane, const Geometr
 
 [[noreturn]] void refuse_type(const std::string& path, const GeoFeature& feature,
                               const std::string& type) {
-  fail_file(path, feature.where + "an object of the type \"" + type +
-                      "\" is no line; give LineString or MultiLineString");
+  fail_file(path, "{}an object of the type \"{}\" is no line; give LineString or MultiLineString",
+            feature.where, type);
 }
 
 std::vector<Points3> points_of(const std::string& path, bool plane) {

@@ -26,15 +26,9 @@
 namespace calotte {
 namespace {
 
-using base_detail::shortly;
+using base_detail::listed;
+using base_detail::message;
 using io_detail::fail_at;
-
-template <class Words> std::string listed(const Words& words) {
-  std::string text;
-  for (const std::string& word : words)
-    text.append(text.empty() ? "" : ", ").append(word);
-  return text;
-}
 
 std::string beside(const std::string& path, const std::filesystem::path& name) {
   return (std::filesystem::path(path).parent_path() / name).string();
@@ -50,7 +44,7 @@ public:
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
     const toml::node* const node = table_.get(key);
     fail_at(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
-            key + " " + problem);
+            message("{} {}", key, problem));
   }
 
   /// Whether there is a key that nobody took before.
@@ -64,7 +58,7 @@ public:
   double number(const std::string& key) {
     const toml::node* const node = take(key);
     if (node == nullptr)
-      fail_at(path_, table_.source().begin.line, "the rule needs " + key + "; give a number");
+      fail_at(path_, table_.source().begin.line, message("the rule needs {}; give a number", key));
     const std::optional<double> value = node->value<double>();
     if (!value || !(*value > 0) || !std::isfinite(*value))
       refuse(key, "is not a positive number; give one");
@@ -75,7 +69,7 @@ public:
     const toml::node* const node = take(key);
     const std::optional<std::string> value = node ? node->value_exact<std::string>() : std::nullopt;
     if (!value || value->empty())
-      refuse(key, "is no text; give " + what + " in quotes");
+      refuse(key, message("is no text; give {} in quotes", what));
     return *value;
   }
 
@@ -100,8 +94,8 @@ public:
           return pair != nullptr && pair->size() == 2 ? (*pair)[k].value<double>() : std::nullopt;
         };
         if (!at(0) || !at(1))
-          refuse(key, "holds no pair at place " + std::to_string(profile.nodes.size()) +
-                          "; give [[number, width], ...]");
+          refuse(key, message("holds no pair at place {}; give [[number, width], ...]",
+                              profile.nodes.size()));
         profile.nodes.push_back({*at(0), *at(1)});
       }
     if (profile.nodes.empty())
@@ -117,8 +111,7 @@ public:
       return node == nullptr ? std::nullopt : node->value<double>();
     };
     if (const auto least = number("least"), most = number("most"); least && most && *least > *most)
-      refuse("least",
-             "is " + shortly(*least) + ", above most, " + shortly(*most) + "; exchange them");
+      refuse("least", message("is {}, above most, {}; exchange them", *least, *most));
   }
 
   /// \throws Error parse for a key that nobody took.
@@ -126,8 +119,8 @@ public:
     for (const auto& [key, node] : table_)
       if (!taken_.contains(std::string(key.str())))
         fail_at(path_, key.source().begin.line,
-                "the rule does not take " + std::string(key.str()) + "; it takes " +
-                    listed(taken_) + "; see calotte help widths");
+                message("the rule does not take {}; it takes {}; see calotte help widths",
+                        key.str(), listed(taken_)));
   }
 
   /// With the place in the file before what the library refuses.
@@ -238,7 +231,8 @@ private:
         return known;
       keys.push_back(known.name);
     }
-    fail_at(path_, rule.source().begin.line, "a rule has one of the keys " + listed(keys));
+    fail_at(path_, rule.source().begin.line,
+            message("a rule has one of the keys {}", listed(keys)));
   }
 
   /// Of the rules of a minimum, or of the one rule: "by-distance coast.geojson".
@@ -247,12 +241,12 @@ private:
     if (key != "minimum") {
       const std::optional<std::string> file = rule[key].value_exact<std::string>();
       const std::optional<double> number = rule[key].value<double>();
-      return {key + (file ? " " + *file : number ? " " + shortly(*number) : "")};
+      return {file ? message("{} {}", key, *file) : number ? message("{} {}", key, *number) : key};
     }
     std::vector<std::string> names;
     for (const toml::node& item : *rule[key].as_array())
       names.push_back(item.is_table() ? listed(names_of(*item.as_table()))
-                                      : "width " + shortly(item.value_or(0.0)));
+                                      : message("width {}", item.value_or(0.0)));
     return names;
   }
 
@@ -312,7 +306,7 @@ private:
   Widths blend(RuleTable& table) {
     const std::vector<Widths> both = parts(table, "blend");
     if (both.size() != 2)
-      table.refuse("blend", "holds " + std::to_string(both.size()) + " rules; give [A, B]");
+      table.refuse("blend", message("holds {} rules; give [A, B]", both.size()));
     return Widths::blend(both[0], both[1], share(table));
   }
 
@@ -364,7 +358,7 @@ private:
   static CoastSide side(RuleTable& table) {
     const std::string word = table.text("side", "sea or land");
     if (word != "sea" && word != "land")
-      table.refuse("side", "is \"" + word + "\"; give sea or land");
+      table.refuse("side", message("is \"{}\"; give sea or land", word));
     return word == "sea" ? CoastSide::sea : CoastSide::land;
   }
 
@@ -410,8 +404,9 @@ private:
         std::ranges::find(units, word.substr(std::min(word.find_first_not_of(' '), word.size())),
                           [](const auto& known) { return known.first; });
     if (problem != std::errc() || unit == units.end() || !(value > 0) || !std::isfinite(value))
-      table.refuse("period", "is \"" + text +
-                                 "\"; give a time with its unit, s, min, h or d, such as 12.42h");
+      table.refuse(
+          "period",
+          message("is \"{}\"; give a time with its unit, s, min, h or d, such as 12.42h", text));
     return value * unit->second;
   }
 
