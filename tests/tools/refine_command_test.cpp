@@ -64,7 +64,7 @@ TEST_CASE("cells of a plane that its boundary clips stay, as the file or the opt
   const Bench bench;
   REQUIRE(bench.run("cvt --rectangle 0,0,30,20 --cells 375 -o plane.nc").code == 0);
   bench.file("line.geojson", R"({"type": "LineString", "coordinates": [[10, 10], [15, 2]]})");
-  bench.file("demand.toml", "[cell-width]\nlines = \"line.geojson\"\nwidth = 0.7\nover = 3\n");
+  bench.file("demand.toml", "[cell-width]\naround = \"line.geojson\"\nwidth = 0.7\nover = 3\n");
   const Outcome finer =
       bench.run("refine plane.nc --cell-width demand.toml --gradient 0.2 -o finer.nc");
   CAPTURE(finer.err);
