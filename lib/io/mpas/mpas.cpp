@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/mpas/mpas.h"
+#include "io/mpas/vertex_order.h"
 
 #include "base/parallel.h"
 
@@ -72,7 +73,8 @@ Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int
 
 MpasFile::MpasFile(const std::string& path, const MpasMesh& mesh, const WriteOptions& options)
     : NetcdfGridFile(path, mesh.voronoi.surface.is_sphere() ? options : of_plane(options),
-                     "CF-1.8 MPAS") {
+                     "CF-1.8 MPAS"),
+      vertex_order_(options.vertex_order.value_or(VertexOrder::after_edges)) {
   const bool on_sphere = mesh.voronoi.surface.is_sphere(),
              periodic = mesh.voronoi.surface.period().maxCoeff() > 0;
   netcdf().attribute({"on_a_sphere", std::string(on_sphere ? "YES" : "NO")});
@@ -95,13 +97,24 @@ NetcdfGridFile::Announced MpasFile::announced(const std::string& name) const {
   for (const MpasDimension dimension : {row.rows, row.columns})
     if (dimension != MpasDimension::none)
       dimensions.push_back(id_of(dimension));
-  NetcdfAttributes attributes{{"units", row.units}, {"long_name", row.long_name}};
+  const std::string long_name =
+      name == mpas::vertices_on_cell ? described(vertex_order_) : row.long_name;
+  NetcdfAttributes attributes{{"units", row.units}, {"long_name", long_name}};
   if (!row.standard_name.empty())
     attributes.push_back({"standard_name", row.standard_name});
   return {row.name, dimensions, attributes, row.integer};
 }
 
-void MpasFile::put_values(const MpasMesh& mesh) {
+MpasSink MpasFile::sink() {
+  return [this](const std::vector<std::string>& names, const NetcdfWriter::GroupFill& contents) {
+    std::vector<Announced> variables;
+    for (const std::string& name : names)
+      variables.push_back(announced(name));
+    together(variables, contents);
+  };
+}
+
+void put_values(const MpasSink& sink, const MpasMesh& mesh) {
   for (const MpasVariable& row : mpas_variables()) {
     if (row.values == nullptr)
       continue;
@@ -113,14 +126,15 @@ void MpasFile::put_values(const MpasMesh& mesh) {
         out[k] *= factor;
     };
     if (row.integer)
-      put<std::int32_t>(row.name, [fill](std::int64_t begin, std::int64_t end, std::int32_t* out) {
-        Array<double> values(end - begin);
-        fill(begin, end, values.begin());
-        std::transform(values.begin(), values.end(), out,
-                       [](double value) { return static_cast<std::int32_t>(value); });
-      });
+      sink({row.name},
+           [fill](std::int64_t begin, std::int64_t end, std::int32_t* const* ints, double* const*) {
+             Array<double> values(end - begin);
+             fill(begin, end, values.begin());
+             std::transform(values.begin(), values.end(), ints[0],
+                            [](double value) { return static_cast<std::int32_t>(value); });
+           });
     else
-      put<double>(row.name, fill);
+      put(sink, row.name, NetcdfWriter::Fill<double>(fill));
   }
 }
 

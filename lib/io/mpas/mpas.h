@@ -18,6 +18,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 /// What the full and the minimal MPAS file have in common.
 namespace calotte::io_detail {
@@ -39,6 +40,29 @@ struct MpasMesh {
   }
 };
 
+/// Receives variables of the table that have as many rows, and their contents, which are made
+/// together: a file that is written, or a check of one that is there.
+using MpasSink = std::function<void(const std::vector<std::string>& names,
+                                    const NetcdfWriter::GroupFill& contents)>;
+
+inline void put(const MpasSink& sink, const std::string& name,
+                const NetcdfWriter::Fill<std::int32_t>& contents) {
+  sink({name}, [contents](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
+                          double* const*) { contents(begin, end, ints[0]); });
+}
+inline void put(const MpasSink& sink, const std::string& name,
+                const NetcdfWriter::Fill<double>& contents) {
+  sink({name}, [contents](std::int64_t begin, std::int64_t end, std::int32_t* const*,
+                          double* const* doubles) { contents(begin, end, doubles[0]); });
+}
+
+/// Those that have a function for their values. The mesh must outlive the sink's use of them.
+void put_values(const MpasSink& sink, const MpasMesh& mesh);
+
+/// All that follow from a whole mesh. The same.
+/// \param order of verticesOnCell.
+void put_variables(const MpasSink& sink, const MpasMesh& mesh, VertexOrder order);
+
 /// A file with the attributes of its kind and those that tell of the mesh. Its variables are rows
 /// of the table of MPAS's variables.
 class MpasFile : public NetcdfGridFile {
@@ -50,16 +74,13 @@ public:
   int id_of(MpasDimension dimension) const { return ids_.at(dimension); }
 
   Announced announced(const std::string& name) const;
-  template <class T> void put(const std::string& name, const NetcdfWriter::Fill<T>& contents) {
-    const Announced row = announced(name);
-    variable(name, row.integer ? NetcdfType::int32 : NetcdfType::float64, row.dimensions,
-             row.attributes, contents);
-  }
-  /// Those that have a function for their values. The mesh must outlive the file.
-  void put_values(const MpasMesh& mesh);
+  /// Announces what it receives. The file must outlive it.
+  MpasSink sink();
+  VertexOrder vertex_order() const { return vertex_order_; }
 
 private:
   std::map<MpasDimension, int> ids_;
+  VertexOrder vertex_order_;
 };
 
 /// 16 hexadecimal digits that differ where meshes do.

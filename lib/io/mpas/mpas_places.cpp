@@ -12,8 +12,6 @@
 namespace calotte::io_detail {
 namespace {
 
-using Announced = NetcdfGridFile::Announced;
-
 // ---- Values
 
 /// From 0 to below 2 pi.
@@ -105,55 +103,47 @@ void fill_edges(const MpasMesh& mesh, std::int64_t begin, std::int64_t end,
 
 // ---- Variables
 
-std::vector<Announced> coordinates(const MpasFile& file, const MpasKind& kind) {
-  std::vector<Announced> out;
-  for (int k = 0; k < 3; ++k)
-    out.push_back(file.announced(kind.axis(k)));
-  return out;
+std::vector<std::string> coordinates(const MpasKind& kind) {
+  return {kind.axis(0), kind.axis(1), kind.axis(2)};
 }
 
-/// In the order of fill_places(), the numbers last.
-std::vector<Announced> announced_places(const MpasFile& file, const MpasKind& kind) {
-  std::vector<Announced> out{file.announced(kind.latitude()), file.announced(kind.longitude())};
-  for (Announced& row : coordinates(file, kind))
-    out.push_back(std::move(row));
-  out.push_back(file.announced(kind.numbers()));
-  return out;
+/// In the order of fill_places(), and some more.
+std::vector<std::string> places(const MpasKind& kind, const std::vector<std::string>& others = {}) {
+  std::vector<std::string> names{kind.latitude(), kind.longitude()};
+  for (const std::string& name : coordinates(kind))
+    names.push_back(name);
+  names.push_back(kind.numbers());
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
 }
 
 } // namespace
 
-void put_coordinates(MpasFile& file, const MpasKind& kind, const Points3& points, double factor) {
-  file.together(coordinates(file, kind),
-                [&points, factor](std::int64_t begin, std::int64_t end, std::int32_t* const*,
-                                  double* const* xyz) {
-                  fill_coordinates(columns(points, begin), factor, end - begin, xyz);
-                });
+void put_coordinates(const MpasSink& sink, const MpasKind& kind, const Points3& points,
+                     double factor) {
+  sink(coordinates(kind), [&points, factor](std::int64_t begin, std::int64_t end,
+                                            std::int32_t* const*, double* const* xyz) {
+    fill_coordinates(columns(points, begin), factor, end - begin, xyz);
+  });
 }
 
-void put_cells(MpasFile& file, const MpasMesh& mesh) {
-  file.together(announced_places(file, mpas_cell),
-                [&mesh](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
-                        double* const* doubles) {
-                  const Voronoi& voronoi = mesh.voronoi;
-                  fill_places(mesh, columns(voronoi.cells, begin), begin, end, ints, doubles);
-                  fill_coordinates(columns(mesh.sites(), begin), 1, end - begin, doubles + 2);
-                });
+void put_cells(const MpasSink& sink, const MpasMesh& mesh) {
+  sink(places(mpas_cell), [&mesh](std::int64_t begin, std::int64_t end, std::int32_t* const* ints,
+                                  double* const* doubles) {
+    fill_places(mesh, columns(mesh.voronoi.cells, begin), begin, end, ints, doubles);
+    if (mesh.places.cols() > 0)
+      fill_coordinates(columns(mesh.places, begin), 1, end - begin, doubles + 2);
+  });
 }
 
-void put_vertices(MpasFile& file, const MpasMesh& mesh) {
-  std::vector<Announced> variables = announced_places(file, mpas_vertex);
-  variables.push_back(file.announced(mpas::area_triangle));
-  variables.push_back(file.announced(mpas::kite_areas_on_vertex));
-  file.together(variables, [&mesh](auto... arguments) { fill_vertices(mesh, arguments...); });
+void put_vertices(const MpasSink& sink, const MpasMesh& mesh) {
+  sink(places(mpas_vertex, {mpas::area_triangle, mpas::kite_areas_on_vertex}),
+       [&mesh](auto... arguments) { fill_vertices(mesh, arguments...); });
 }
 
-void put_edges(MpasFile& file, const MpasMesh& mesh) {
-  std::vector<Announced> variables = announced_places(file, mpas_edge);
-  variables.push_back(file.announced(mpas::dc_edge));
-  variables.push_back(file.announced(mpas::dv_edge));
-  variables.push_back(file.announced(mpas::angle_edge));
-  file.together(variables, [&mesh](auto... arguments) { fill_edges(mesh, arguments...); });
+void put_edges(const MpasSink& sink, const MpasMesh& mesh) {
+  sink(places(mpas_edge, {mpas::dc_edge, mpas::dv_edge, mpas::angle_edge}),
+       [&mesh](auto... arguments) { fill_edges(mesh, arguments...); });
 }
 
 } // namespace calotte::io_detail

@@ -72,23 +72,14 @@ NetcdfWriter::Fill<std::int32_t> vertex_lists(const IdLists& lists, std::int64_t
   };
 }
 
-void put_vertices_on_cells(MpasFile& file, const Voronoi& voronoi, VertexOrder order) {
-  NetcdfGridFile::Announced row = file.announced(mpas::vertices_on_cell);
-  for (NetcdfAttribute& attribute : row.attributes)
-    if (attribute.name == "long_name")
-      attribute.value = std::string(described(order));
-  file.ints(row.name, row.dimensions, row.attributes,
-            vertex_lists(voronoi.vertices_on_cell, most_corners(voronoi), order));
-}
-
-void put_ids(MpasFile& file, const Voronoi& voronoi, VertexOrder order) {
+void put_ids(const MpasSink& sink, const Voronoi& voronoi, VertexOrder order) {
   const std::int64_t width = most_corners(voronoi);
-  file.put(mpas::edges_on_cell, cell_lists(voronoi.edges_on_cell, width));
-  put_vertices_on_cells(file, voronoi, order);
-  file.put(mpas::cells_on_cell, cell_lists(voronoi.cells_on_cell, width));
-  file.put(mpas::cells_on_edge, id_columns(voronoi.cells_on_edge));
-  file.put(mpas::vertices_on_edge, id_columns(voronoi.vertices_on_edge));
-  file.put(mpas::edges_on_vertex, id_columns(voronoi.edges_on_vertex));
+  put(sink, mpas::edges_on_cell, cell_lists(voronoi.edges_on_cell, width));
+  put(sink, mpas::vertices_on_cell, vertex_lists(voronoi.vertices_on_cell, width, order));
+  put(sink, mpas::cells_on_cell, cell_lists(voronoi.cells_on_cell, width));
+  put(sink, mpas::cells_on_edge, id_columns(voronoi.cells_on_edge));
+  put(sink, mpas::vertices_on_edge, id_columns(voronoi.vertices_on_edge));
+  put(sink, mpas::edges_on_vertex, id_columns(voronoi.edges_on_vertex));
 }
 
 // ---- The tangential velocity
@@ -106,27 +97,27 @@ void fill_weights(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, 
   }
 }
 
-void put_weights(MpasFile& file, const Voronoi& voronoi) {
+void put_weights(const MpasSink& sink, const Voronoi& voronoi) {
   const std::int64_t width = 2 * most_corners(voronoi);
-  file.together({file.announced(mpas::edges_on_edge), file.announced(mpas::weights_on_edge)},
-                [&voronoi, width](std::int64_t begin, std::int64_t end, std::int32_t* const* edges,
-                                  double* const* weights) {
-                  fill_weights(voronoi, begin, end, width, edges[0], weights[0]);
-                });
+  sink({mpas::edges_on_edge, mpas::weights_on_edge},
+       [&voronoi, width](std::int64_t begin, std::int64_t end, std::int32_t* const* edges,
+                         double* const* weights) {
+         fill_weights(voronoi, begin, end, width, edges[0], weights[0]);
+       });
 }
 
 // ---- Density
 
-void put_density(MpasFile& file, const MpasMesh& mesh) {
-  file.put(mpas::mesh_density, table<double>(1, [&mesh](std::int64_t i, std::int64_t) {
-             return mesh.density.size() == 0 ? 1 : mesh.density[i];
-           }));
+void put_density(const MpasSink& sink, const MpasMesh& mesh) {
+  put(sink, mpas::mesh_density, table<double>(1, [&mesh](std::int64_t i, std::int64_t) {
+        return mesh.density.size() == 0 ? 1 : mesh.density[i];
+      }));
 }
 
-void put_nominal_spacing(MpasFile& file, const MpasMesh& mesh) {
-  file.put(mpas::nominal_min_dc, table<double>(1, [&mesh](std::int64_t, std::int64_t) {
-             return mesh.radius * voronoi_detail::nominal_spacing(mesh.voronoi, mesh.density);
-           }));
+void put_nominal_spacing(const MpasSink& sink, const MpasMesh& mesh) {
+  put(sink, mpas::nominal_min_dc, table<double>(1, [&mesh](std::int64_t, std::int64_t) {
+        return mesh.radius * voronoi_detail::nominal_spacing(mesh.voronoi, mesh.density);
+      }));
 }
 
 // ---- Masks of a limited area
@@ -159,23 +150,24 @@ void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& op
 
 // ---- Files
 
-void announce_lists(MpasFile& file, MpasMesh& mesh, VertexOrder order) {
+void announce_lists(MpasFile& file, MpasMesh& mesh) {
   file.then([&mesh] { release(mesh.places); });
-  put_ids(file, mesh.voronoi, order);
+  put_ids(file.sink(), mesh.voronoi, file.vertex_order());
   file.then([&mesh] { release(mesh.voronoi.vertices_on_edge); });
 }
 
 void announce_measures(MpasFile& file, const MpasMesh& mesh) {
-  put_vertices(file, mesh);
-  put_edges(file, mesh);
+  const MpasSink sink = file.sink();
+  put_vertices(sink, mesh);
+  put_edges(sink, mesh);
   file.then([&mesh] {
     if (!mesh.whole())
       measure_areas(mesh.voronoi);
   });
-  put_weights(file, mesh.voronoi);
-  put_density(file, mesh);
-  put_nominal_spacing(file, mesh);
-  file.put_values(mesh);
+  put_weights(sink, mesh.voronoi);
+  put_density(sink, mesh);
+  put_nominal_spacing(sink, mesh);
+  put_values(sink, mesh);
 }
 
 void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& options) {
@@ -184,13 +176,13 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
   define_full(file, mesh);
   for (const FieldDimension& added : options.dimensions)
     file.netcdf().field_dimension(added.name, added.size);
-  put_cells(file, mesh);
-  file.put(mpas::cells_on_vertex, id_columns(mesh.voronoi.cells_on_vertex));
+  put_cells(file.sink(), mesh);
+  put(file.sink(), mpas::cells_on_vertex, id_columns(mesh.voronoi.cells_on_vertex));
   file.after([&] {
     if (!mesh.whole())
       mesh.connect();
   });
-  announce_lists(file, mesh, options.vertex_order.value_or(VertexOrder::after_edges));
+  announce_lists(file, mesh);
   file.after([&] {
     mesh.density = density_of(mesh.voronoi, options);
     put_graph([&](std::string_view text) { graph.append(text); }, mesh.voronoi);
@@ -212,19 +204,20 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
 void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& options) {
   const Voronoi& voronoi = mesh.voronoi;
   MpasFile file(path, mesh, options);
+  const MpasSink sink = file.sink();
   file.define(D::cells, voronoi.cells.cols());
   file.define(D::vertices, voronoi.cells_on_vertex.cols());
   file.define(D::degree, 3);
   file.netcdf().dimension("Time", 0);
-  put_coordinates(file, mpas_cell, mesh.sites(), 1);
+  put_coordinates(sink, mpas_cell, mesh.sites(), 1);
   file.after([&] {
     mesh.connect();
     measure(mesh.voronoi);
     mesh.density = density_of(voronoi, options);
   });
-  put_coordinates(file, mpas_vertex, voronoi.vertices, mesh.radius);
-  file.put(mpas::cells_on_vertex, id_columns(voronoi.cells_on_vertex));
-  put_density(file, mesh);
+  put_coordinates(sink, mpas_vertex, voronoi.vertices, mesh.radius);
+  put(sink, mpas::cells_on_vertex, id_columns(voronoi.cells_on_vertex));
+  put_density(sink, mesh);
   add_fields(file, options,
              {.cells = {file.id_of(D::cells)}, .vertices = {file.id_of(D::vertices)}},
              mpas_names());
@@ -248,6 +241,15 @@ void write_mesh(const std::string& path, Mesh mesh, const WriteOptions& options,
 }
 
 } // namespace
+
+void put_variables(const MpasSink& sink, const MpasMesh& mesh, VertexOrder order) {
+  put_cells(sink, mesh);
+  put_ids(sink, mesh.voronoi, order);
+  put_vertices(sink, mesh);
+  put_edges(sink, mesh);
+  put_weights(sink, mesh.voronoi);
+  put_values(sink, mesh);
+}
 
 void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options) {
   write_mesh(path, std::move(mesh), options, write_full);
