@@ -28,8 +28,8 @@ std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int3
     const std::int32_t vertex = of.vertices_on_cell[cell][place];
     passed += of.kites(vertex_at(of.cells_on_vertex, vertex, cell), vertex);
     place = place + 1 == on_cell.size() ? 0 : place + 1;
-    const std::int32_t other = on_cell[place], beyond = of.cells_on_cell[cell][place];
-    const double side = beyond < 0 || cell < beyond ? sign : -sign; // out of the lower cell
+    const std::int32_t other = on_cell[place];
+    const double side = of.cells_on_edge(0, other) == cell ? sign : -sign;
     edges[k] = other;
     weights[k] = side * (half - passed) * scale * of.dv[other];
   }
