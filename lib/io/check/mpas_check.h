@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/memory.h"
 #include "io/cells/deviations.h"
 #include "io/check/room.h"
 #include "io/mpas/mpas_numbering.h"
@@ -9,22 +10,30 @@
 #include <calotte/mesh_file.h>
 #include <calotte/voronoi.h>
 
-/// What an MPAS file holds against what follows from its cells and its cellsOnVertex.
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+/// What an MPAS file holds against what the writer would put for its mesh. The tessellation of the
+/// mesh takes over the free choices of the file; then the writer's values are those of the file,
+/// but for rounding.
 namespace calotte::io_detail {
 
-/// What the file should hold, in its own numbering.
+/// What the file should hold.
 struct MpasCheck {
   Deviations& deviations;
-  const Voronoi& voronoi;
-  const DoubleVector& density; ///< of the file, by cell; empty if it has none
-  const MpasNumbering& numbering;
-  double radius;    ///< of the sphere; 1 in a plane
-  double width;     ///< mean width of a cell, in the unit of voronoi
-  double tolerance; ///< relative, of lengths and areas
-  bool closed = true;
+  Voronoi& voronoi; ///< with the file's edges, vertices and starts of lists, where these are known
+  DoubleVector density = {};             ///< of the file, by cell; empty if it has none
+  double radius = 1;                     ///< of the sphere; 1 in a plane
+  double width = 1;                      ///< mean width of a cell, in the unit of voronoi
+  double tolerance = rounding_of_others; ///< relative, of lengths and areas
+  bool closed = true, has_edges = true, has_vertices = true;
+  /// By edge of an open mesh: its only cell is the second in the file, and the first here.
+  Array<std::uint8_t> flipped = {};
+
   /// Rounding of a variable's places, in the unit of voronoi.
   double rounding(const std::string& variable) const;
-
   /// Whether the file has a variable of the table; another shape is a deviation.
   bool has(const std::string& variable) const;
   /// Adds a deviation if there are differences in a variable of the table.
@@ -32,26 +41,59 @@ struct MpasCheck {
            const std::string& fault = {}) const {
     deviations.add(variable, differences, mpas_variable(variable).rule, fault);
   }
-  bool has_vertices() const { return numbering.vertex.size() > 0; }
-  /// Whether a vertex of the tessellation has three cells and three edges.
-  bool has_triangle(std::int32_t v) const {
+  std::int64_t rows(MpasDimension dimension) const;
+  bool is_flipped(std::int64_t e) const { return flipped.size() > 0 && flipped[e] != 0; }
+  /// Whether a vertex has three cells and three edges.
+  bool has_triangle(std::int64_t v) const {
     return closed || (voronoi.cells_on_vertex.col(v).minCoeff() >= 0 &&
                       voronoi.edges_on_vertex.col(v).minCoeff() >= 0);
   }
-  bool has_edges() const { return numbering.edge.size() > 0; }
-  /// Whether both cells of an edge of the tessellation are there, and whole.
-  bool has_weights(std::int32_t e) const {
+  /// Whether a triangle has a right angle but for the precision of others.
+  bool is_right(std::int64_t v) const;
+  /// Whether both cells of an edge are there, and whole.
+  bool has_weights(std::int64_t e) const {
     const std::int32_t a = voronoi.cells_on_edge(0, e), b = voronoi.cells_on_edge(1, e);
     return closed || (b >= 0 && voronoi.cell_area[a] > 0 && voronoi.cell_area[b] > 0);
   }
 };
 
-void check_mpas_attributes(Deviations& deviations, bool on_sphere);
-void check_mpas_places(const MpasCheck& check);
-void check_mpas_lists(const MpasCheck& check); ///< of ids
-void check_mpas_measures(const MpasCheck& check);
-void check_mpas_weights(const MpasCheck& check);
-void check_mpas_values(const MpasCheck& check); ///< those that the table has a function for
+// ---- Rules
+
+/// Some rows of a variable, as the file has them and as they are derived: of ints, or of doubles.
+struct MpasRows {
+  std::int64_t begin, end;
+  const double* stored;
+  std::int64_t stored_width; ///< of a row; what is past its end, there or here, is 0
+  const std::int32_t* ints;
+  const double* doubles;
+  std::int64_t width;
+  const std::int32_t* edges; ///< derived edgesOnEdge, of weights; else null
+};
+
+/// Notes the values that differ by more than they may.
+using MpasRule = std::function<void(const MpasRows& rows, Differences& out)>;
+
+/// By variable. They refer to the check.
+std::map<std::string, MpasRule> mpas_rules(const MpasCheck& check);
+
+/// A fault of MpasMeshConverter.
+struct Fault {
+  std::string text = {};
+  std::function<bool(std::int64_t row, double stored)> explains = {};
+};
+
+/// Without text for variables that it has none in. Refers to the check.
+Fault mpas_fault(const MpasCheck& check, const std::string& variable);
+
+// ---- Checks
+
+/// Numbers the edges and vertices as the file does, and starts lists where it does. What the file
+/// does not tell, or tells wrongly, keeps its numbers, and has_edges or has_vertices is false.
+void take_numbering(const MpasNumbering& numbering, MpasCheck& check);
+
+/// Compares each variable with the writer's; those of cells alone where the tessellation has no
+/// more.
+void compare_mpas(const MpasCheck& check);
 void check_mpas_density(const MpasCheck& check);
 
 /// Of an open mesh: the relations between the lists of ids, and what present cells determine.

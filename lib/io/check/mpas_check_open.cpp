@@ -25,37 +25,26 @@ namespace {
 
 // ---- Ids
 
-void set_edges(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
+/// Edges of a single cell have it first. \returns by edge whether it is the second in the file.
+Array<std::uint8_t> set_edges(const OpenLists& lists, Voronoi& out) {
   const std::int64_t edges = lists.cells_on_edge.rows();
-  out.cells_on_edge.resize(2, edges);
-  out.vertices_on_edge.resize(2, edges);
-  numbering.edge = Array<std::int32_t>(edges);
-  numbering.file_edge = Array<std::int32_t>(edges);
-  numbering.reversed = Array<std::uint8_t>(edges);
-  for (std::int32_t e = 0; e < edges; ++e) {
-    const std::int32_t first = lists.cells_on_edge.at(e, 0), second = lists.cells_on_edge.at(e, 1);
-    const bool reversed = second >= 0 && (first < 0 || second < first);
-    for (int k = 0; k < 2; ++k) {
-      out.cells_on_edge(reversed ? 1 - k : k, e) = lists.cells_on_edge.at(e, k);
-      out.vertices_on_edge(reversed ? 1 - k : k, e) = lists.vertices_on_edge.at(e, k);
-    }
-    numbering.edge[e] = numbering.file_edge[e] = e;
-    numbering.reversed[e] = reversed;
+  out.cells_on_edge = Eigen::Map<const Pairs>(lists.cells_on_edge.ids.data(), 2, edges);
+  out.vertices_on_edge = Eigen::Map<const Pairs>(lists.vertices_on_edge.ids.data(), 2, edges);
+  Array<std::uint8_t> flipped(edges);
+  for (std::int64_t e = 0; e < edges; ++e) {
+    flipped[e] = out.cells_on_edge(0, e) < 0;
+    if (flipped[e] == 0)
+      continue;
+    std::swap(out.cells_on_edge(0, e), out.cells_on_edge(1, e));
+    std::swap(out.vertices_on_edge(0, e), out.vertices_on_edge(1, e));
   }
+  return flipped;
 }
 
-void set_vertices(const OpenLists& lists, Voronoi& out, MpasNumbering& numbering) {
+void set_vertices(const OpenLists& lists, Voronoi& out) {
   const std::int64_t vertices = lists.cells_on_vertex.rows();
   out.cells_on_vertex = Eigen::Map<const Triangles>(lists.cells_on_vertex.ids.data(), 3, vertices);
   out.edges_on_vertex = Eigen::Map<const Triangles>(lists.edges_on_vertex.ids.data(), 3, vertices);
-  numbering.vertex = Array<std::int32_t>(vertices);
-  numbering.vertex_start = Array<std::int8_t>(vertices);
-  numbering.file_vertex = Array<std::int32_t>(vertices);
-  for (std::int32_t v = 0; v < vertices; ++v) {
-    numbering.vertex[v] = v;
-    numbering.vertex_start[v] = 0;
-    numbering.file_vertex[v] = v;
-  }
 }
 
 /// The rows without their padding.
@@ -178,37 +167,30 @@ void check_masks(const Voronoi& part, Deviations& deviations) {
 
 void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations) {
   Voronoi part;
-  MpasNumbering numbering;
   OpenLists lists;
   part.surface = file.mesh->surface;
   part.cells = cells_of(file);
+  MpasCheck check{.deviations = deviations, .voronoi = part, .radius = radius, .closed = false};
   Points3 vertices =
       stored_places(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
                     part.surface.is_sphere(), deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
-  if (whole && !check_open_lists(lists, deviations))
-    return;
-  if (whole) {
-    set_edges(lists, part, numbering);
-    set_vertices(lists, part, numbering);
-    set_cells(lists, part);
-    place_vertices(std::move(vertices), part);
-    voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
-    mark_incomplete_cells(radius, part);
-    check_masks(part, deviations);
-  }
-  const double width = whole ? part.dc.mean() : 1;
-  const DoubleVector density =
-      file.density.size() == part.cells.cols() ? file.density : DoubleVector();
-  const MpasCheck check{deviations,         part, density, numbering, radius, width,
-                        rounding_of_others, false};
-  check_mpas_places(check);
   if (!whole)
+    return compare_mpas(check);
+  if (!check_open_lists(lists, deviations))
     return;
-  check_mpas_measures(check);
-  check_mpas_weights(check);
-  check_mpas_values(check);
+  check.flipped = set_edges(lists, part);
+  set_vertices(lists, part);
+  set_cells(lists, part);
+  place_vertices(std::move(vertices), part);
+  voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
+  mark_incomplete_cells(radius, part);
+  check_masks(part, deviations);
+  check.width = part.dc.mean();
+  if (file.density.size() == part.cells.cols())
+    check.density = file.density;
+  compare_mpas(check);
   check_mpas_density(check);
 }
 

@@ -42,12 +42,14 @@ void add_places(const MpasKind& kind, std::vector<MpasVariable>& table) {
                    .rows = kind.rows,
                    .units = "radians",
                    .long_name = "latitude of " + kind.place,
-                   .standard_name = "latitude"});
+                   .standard_name = "latitude",
+                   .rule = "the latitude of x, y and z, in a plane 0"});
   table.push_back({.name = kind.longitude(),
                    .rows = kind.rows,
                    .units = "radians",
                    .long_name = "longitude of " + kind.place,
-                   .standard_name = "longitude"});
+                   .standard_name = "longitude",
+                   .rule = "the longitude of x, y and z, in a plane 0"});
   constexpr const char* coordinates[] = {"x coordinate of ", "y coordinate of ",
                                          "z coordinate of "};
   for (int k = 0; k < 3; ++k)
@@ -55,7 +57,8 @@ void add_places(const MpasKind& kind, std::vector<MpasVariable>& table) {
                      .rows = kind.rows,
                      .numbers = N::length,
                      .units = "m",
-                     .long_name = coordinates[k] + kind.place});
+                     .long_name = coordinates[k] + kind.place,
+                     .rule = kind.rule});
   table.push_back({.name = kind.numbers(),
                    .rows = kind.rows,
                    .integer = true,

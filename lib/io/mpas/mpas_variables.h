@@ -54,6 +54,7 @@ struct MpasKind {
   std::string name;  ///< ends the names of its variables
   std::string word;  ///< for one of it
   std::string place; ///< where it is
+  std::string rule;  ///< what its coordinates are
 
   std::string dimension() const { return name_of(rows); }
   std::string axis(int k) const { return std::string(1, "xyz"[k]) + name; }
@@ -61,10 +62,13 @@ struct MpasKind {
   std::string longitude() const { return "lon" + name; }
   std::string numbers() const { return "indexTo" + name + "ID"; }
 };
-inline const MpasKind mpas_cell{MpasDimension::cells, "Cell", "cell", "the cells' generators"};
+inline const MpasKind mpas_cell{MpasDimension::cells, "Cell", "cell", "the cells' generators",
+                                "in the plane, or on the sphere of sphere_radius"};
 inline const MpasKind mpas_edge{MpasDimension::edges, "Edge", "edge",
-                                "the edges, where those between cells and vertices cross"};
-inline const MpasKind mpas_vertex{MpasDimension::vertices, "Vertex", "vertex", "the vertices"};
+                                "the edges, where those between cells and vertices cross",
+                                "the middle between the cells of each edge"};
+inline const MpasKind mpas_vertex{MpasDimension::vertices, "Vertex", "vertex", "the vertices",
+                                  "the circumcentre of the cells around each vertex"};
 
 /// What the numbers of a variable are. Ids count from 1, and 0 is none.
 enum class MpasNumbers {

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/check/mpas_check.h"
+
+#include "base/parallel.h"
+#include "io/mpas/mpas.h"
+#include "io/mpas/mpas_places.h"
+#include "io/mpas/vertex_order.h"
+
+#include <algorithm>
+#include <vector>
+
+// The writer puts its variables here instead of into a file.
+
+namespace calotte::io_detail {
+namespace {
+
+/// Whether what the writer puts has the rows and the ids of the file.
+bool is_comparable(const MpasCheck& check, const MpasVariable& variable) {
+  if (variable.name == mpas::boundary_vertex && check.closed)
+    return true; // 0, whatever the vertices are
+  const bool is_list = variable.numbers == MpasNumbers::cells ||
+                       variable.numbers == MpasNumbers::edges ||
+                       variable.numbers == MpasNumbers::vertices;
+  if (is_list && !check.closed && variable.name != mpas::edges_on_edge)
+    return false; // an open mesh has the lists of its file
+  const bool of_edges =
+      variable.rows == MpasDimension::edges || variable.numbers == MpasNumbers::edges;
+  const bool of_vertices =
+      variable.rows == MpasDimension::vertices || variable.numbers == MpasNumbers::vertices;
+  return (check.has_edges || !of_edges) && (check.has_vertices || !of_vertices);
+}
+
+/// One of the variables that are put together.
+struct Column {
+  const MpasVariable& variable;
+  std::int64_t width;            ///< of a row that is put
+  std::int64_t stored_width = 0; ///< 0: it is not compared
+  Array<double> stored = {};     ///< some rows
+};
+
+/// Room for some rows of variables.
+template <class T> class Rows {
+public:
+  T* add(std::int64_t values) {
+    memory_.emplace_back(values);
+    begins_.push_back(memory_.back().begin());
+    return begins_.back();
+  }
+  T* const* begins() const { return begins_.data(); }
+
+private:
+  std::vector<Array<T>> memory_;
+  std::vector<T*> begins_;
+};
+
+using Rules = std::map<std::string, MpasRule>;
+
+/// Compares rows begin to end - 1 of the columns, whose stored rows start with `first`.
+void compare(const Rules& rules, const std::vector<Column>& columns,
+             const NetcdfWriter::GroupFill& contents, std::int64_t first, std::int64_t begin,
+             std::int64_t end, std::vector<Differences>& out) {
+  constexpr std::int64_t most = 512; // rows at once, which the caches hold
+  Rows<std::int32_t> ints;
+  Rows<double> doubles;
+  std::vector<MpasRows> rows;
+  for (const Column& of : columns) {
+    const bool integer = of.variable.integer;
+    const std::int64_t values = most * of.width;
+    rows.push_back({begin, end, of.stored.begin(), of.stored_width,
+                    integer ? ints.add(values) : nullptr, integer ? nullptr : doubles.add(values),
+                    of.width,
+                    of.variable.name == mpas::weights_on_edge ? ints.begins()[0] : nullptr});
+  }
+  for (std::int64_t row = begin; row < end; row += most) {
+    const std::int64_t after = std::min(row + most, end);
+    contents(row, after, ints.begins(), doubles.begins());
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      rows[c].begin = row;
+      rows[c].end = after;
+      rows[c].stored = columns[c].stored.begin() + (row - first) * columns[c].stored_width;
+      if (columns[c].stored_width > 0)
+        rules.at(columns[c].variable.name)(rows[c], out[c]);
+    }
+  }
+}
+
+/// Reads the columns and compares them, some rows at a time.
+std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
+                                     std::vector<Column>& columns,
+                                     const NetcdfWriter::GroupFill& contents) {
+  constexpr std::int64_t at_once = std::int64_t{1} << 22; // values in memory
+  std::int64_t values = 1;                                // of a row
+  for (const Column& column : columns)
+    values += column.stored_width;
+  const std::int64_t rows = check.rows(columns[0].variable.rows);
+  std::vector<Differences> all(columns.size());
+  for (std::int64_t first = 0; first < rows; first += at_once / values) {
+    const std::int64_t count = std::min(at_once / values, rows - first);
+    for (Column& column : columns)
+      if (column.stored_width > 0) {
+        column.stored = Array<double>(count * column.stored_width);
+        check.deviations.file().rows(column.variable.name, first, count, column.stored.begin());
+      }
+    std::vector<std::vector<Differences>> parts(static_cast<std::size_t>(block_count(count)), all);
+    for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
+      std::vector<Differences>& part = parts[static_cast<std::size_t>(block)];
+      part.assign(columns.size(), {});
+      compare(rules, columns, contents, first, first + begin, first + end, part);
+    });
+    for (const std::vector<Differences>& part : parts)
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        all[c].take(part[c]);
+  }
+  return all;
+}
+
+/// Whether a known fault explains all values is counted where some differ.
+void report(const MpasCheck& check, const std::string& variable, Differences differences) {
+  const Fault fault = mpas_fault(check, variable);
+  if (differences.count > 0 && fault.explains)
+    differences.unlike_fault =
+        check.deviations
+            .visit_rows<double>(variable,
+                                [&](std::int64_t row, const double* stored, Differences& out) {
+                                  out.unlike_fault += fault.explains(row, *stored) ? 0 : 1;
+                                })
+            .unlike_fault;
+  check.add(variable, differences, fault.text);
+}
+
+} // namespace
+
+void compare_mpas(const MpasCheck& check) {
+  const Rules rules = mpas_rules(check);
+  const bool whole = check.voronoi.edges_on_cell.size() > 0;
+  const std::int64_t most = whole ? most_corners(check.voronoi) : 0;
+  const auto width = [&](MpasDimension columns) {
+    return columns == MpasDimension::none         ? 1
+           : columns == MpasDimension::max_edges  ? most
+           : columns == MpasDimension::max_edges2 ? 2 * most
+                                                  : check.rows(columns);
+  };
+  const MpasSink sink = [&](const std::vector<std::string>& names,
+                            const NetcdfWriter::GroupFill& contents) {
+    std::vector<Column> columns;
+    for (const std::string& name : names) {
+      const MpasVariable& variable = mpas_variable(name);
+      columns.push_back({variable, width(variable.columns)});
+      if (is_comparable(check, variable) && check.has(name))
+        columns.back().stored_width = check.deviations.width(name);
+    }
+    if (std::ranges::all_of(columns, [](const Column& c) { return c.stored_width == 0; }))
+      return;
+    const std::vector<Differences> found = differences(check, rules, columns, contents);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      report(check, names[c], found[c]);
+  };
+  const MpasMesh mesh{check.voronoi, {}, check.radius};
+  if (whole)
+    put_variables(sink, mesh, vertex_order_of(check.deviations.file()));
+  else
+    put_cells(sink, mesh);
+}
+
+} // namespace calotte::io_detail
