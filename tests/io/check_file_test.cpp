@@ -210,6 +210,19 @@ TEST_CASE("faults of MpasMeshConverter are known, where all values follow them")
   CHECK(kept.mesh->triangles.cols() == 2 * 100 - 4);
 }
 
+TEST_CASE("an edge that is none of the mesh is told alone") {
+  const Scratch scratch;
+  const std::string path = scratch / "mesh.nc";
+  write(path, delaunay(random_sphere(60, 2)), {.format = Format::mpas});
+  Mpas file(path);
+  file.at("cellsOnEdge", 4, 1) = file.at("cellsOnEdge", 4, 0);
+  file.write(path);
+  const std::vector<Deviation> found = deviations_of(path);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].variable == "cellsOnEdge");
+  CHECK(found[0].index == 8);
+}
+
 TEST_CASE("a deviation names the variable, the place, both values and the rule") {
   const Scratch scratch;
   const std::string path = scratch / "mesh.nc";

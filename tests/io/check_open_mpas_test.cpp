@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace calotte;
 using namespace calotte::test;
@@ -26,6 +28,32 @@ TEST_CASE("an open MPAS file has no deviation") {
       REQUIRE(!read_mesh_file(path).mesh->closed());
       check_none(path);
     }
+}
+
+TEST_CASE("an edge of an open mesh may have its only cell as the second") {
+  const Scratch scratch;
+  const std::string path = scratch / "open.nc";
+  Cut file = open_file(scratch, fibonacci_sphere(300), -0.3);
+  std::vector<bool> turned(file.count("nEdges"));
+  for (std::size_t e = 0; e < turned.size(); ++e)
+    turned[e] = e % 3 == 0 && file.at("cellsOnEdge", e, 1) == 0;
+  for (std::size_t e = 0; e < turned.size(); ++e) {
+    for (std::size_t k = 0; k < file["weightsOnEdge"].width(); ++k)
+      if (file.at("edgesOnEdge", e, k) > 0 && turned[e] != turned[file.id("edgesOnEdge", e, k)])
+        file.at("weightsOnEdge", e, k) *= -1;
+    if (!turned[e])
+      continue;
+    for (const char* name : {"cellsOnEdge", "verticesOnEdge"})
+      std::swap(file.at(name, e, 0), file.at(name, e, 1));
+    file.at("angleEdge", e) += open_mpas::pi;
+  }
+  REQUIRE(std::ranges::count(turned, true) > 10);
+  file.create(path, NC_DOUBLE, put_attributes);
+  check_none(path);
+  const auto e = static_cast<std::size_t>(std::ranges::find(turned, true) - turned.begin());
+  file.at("angleEdge", e) += open_mpas::pi;
+  file.create(path, NC_DOUBLE, put_attributes);
+  CHECK(deviations_of(path).at(0).variable == "angleEdge");
 }
 
 TEST_CASE("a variable of an open MPAS file that is spoilt alone is found") {

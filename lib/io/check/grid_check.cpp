@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/check/grid_check.h"
 
+#include "base/message.h"
 #include "base/points.h"
 #include "io/bytes/broken.h"
 #include "io/cells/polygons.h"
@@ -15,7 +16,15 @@
 namespace calotte::io_detail {
 namespace {
 
-std::string cell_name(std::int64_t i) { return "cell " + std::to_string(i) + " (0-based)"; }
+/// Adds a deviation for cells that break a law.
+void add_law(const std::string& names, const Broken& found, const std::string& problem,
+             Deviations& deviations) {
+  if (found.any())
+    deviations.add(names,
+                   message("{}: {} cells {}; the first is cell {} (0-based)", names, found.of_all(),
+                           problem, found.first),
+                   found.first);
+}
 
 // ---- Orientation and cover
 
@@ -24,13 +33,7 @@ void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviat
     // Files of others have cells without corners where their mask is 0.
     return grid.polygons.ids.count(i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
   });
-  if (found.any())
-    deviations.add(grid.lists,
-                   grid.lists + ": " + found.of_all() +
-                       " cells do not run counter-clockwise seen from outside; the "
-                       "first is " +
-                       cell_name(found.first),
-                   found.first);
+  add_law(grid.lists, found, "do not run counter-clockwise seen from outside", deviations);
 }
 
 /// Whether a cell comes to a corner twice.
@@ -43,34 +46,7 @@ void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
         return Verdict::breaks;
     return Verdict::keeps;
   });
-  if (found.any())
-    deviations.add(grid.lists,
-                   grid.lists + ": " + found.of_all() +
-                       " cells have a corner twice; the first is " + cell_name(found.first),
-                   found.first);
-}
-
-/// Whether a polygon shares a side, in its direction, with another. One without area covers
-/// nothing.
-void check_overlap(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
-                   Deviations& deviations) {
-  const auto covers = [&](const Side& side) {
-    return has_area(grid.polygons, side.polygon, areas[side.polygon]);
-  };
-  const Broken found = broken(sides.from.size(), [&](std::int64_t node) {
-    const std::span<const Side> from = sides.from[node];
-    for (std::size_t k = 1; k < from.size(); ++k)
-      if (from[k].to == from[k - 1].to && covers(from[k]) && covers(from[k - 1]))
-        return Verdict::breaks;
-    return Verdict::keeps;
-  });
-  if (found.any())
-    deviations.add(grid.lists,
-                   grid.lists +
-                       ": two cells overlap, as both lie to the left of one side from "
-                       "corner " +
-                       std::to_string(found.first) + " (0-based)",
-                   found.first);
+  add_law(grid.lists, found, "have a corner twice", deviations);
 }
 
 void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector& areas,
@@ -84,8 +60,9 @@ void check_cover(const StoredGrid& grid, const Sides& sides, const DoubleVector&
   if (open.any() || std::abs(sum - whole) <= 1e-9 * whole + grid.rounding)
     return;
   deviations.add(grid.corners,
-                 grid.corners + ": no side is open, but the areas of the cells sum to " +
-                     std::to_string(sum / whole) + " times the sphere's",
+                 message("{}: no side is open, but the areas of the cells sum to {} times the "
+                         "sphere's",
+                         grid.corners, sum / whole),
                  -1, std::abs(sum / whole - 1));
 }
 
@@ -122,12 +99,7 @@ void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations&
     return verdict_of((areas[i] < 0 ? -turn : turn) >
                       (polygons.surface.is_sphere() ? std::numbers::pi : on_boundary));
   });
-  if (found.any())
-    deviations.add(grid.centres,
-                   grid.centres + ": " + found.of_all() +
-                       " centres are outside their cells; the first is that of " +
-                       cell_name(found.first),
-                   found.first);
+  add_law(grid.centres, found, "have their centres outside", deviations);
 }
 
 /// Distances that are equal but for rounding.
@@ -153,13 +125,9 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
       range.add(column(polygons.corners, id) - column(polygons.centres, i));
     return verdict_of(range.is_one(grid.rounding));
   });
-  if (found.any() && found.is_law())
-    deviations.add(grid.centres,
-                   grid.centres + ": " + found.of_all() +
-                       " centres are not the circumcentres of their triangles, as "
-                       "the others are; the first is that of " +
-                       cell_name(found.first),
-                   found.first);
+  if (found.is_law())
+    add_law(grid.centres, found,
+            "have centres that are no circumcentres, as those of the others are", deviations);
   return found.is_law();
 }
 
@@ -185,17 +153,17 @@ void check_voronoi(const StoredGrid& grid, const Sides& sides, Deviations& devia
                               [&](std::int64_t node) { return is_equidistant(grid, sides, node); });
   if (!found.any() || !found.is_law())
     return;
-  const std::string law = ": " + found.of_all() +
-                          " corners are not as far from the centres of all cells around them, as "
-                          "the others are; the first is corner " +
-                          std::to_string(found.first) + " (0-based)";
+  const std::string law =
+      message("{} corners are not as far from the centres of all cells around them, as the others "
+              "are; the first is corner {} (0-based)",
+              found.of_all(), found.first);
   for (const Side& side : sides.from[found.first])
     if (centre_is_wrong(grid, sides, side.polygon))
       return deviations.add(grid.centres,
-                            grid.centres + law + "; the centre of " + cell_name(side.polygon) +
-                                " is not that of a Voronoi cell",
+                            message("{}: {}; the centre of cell {} is not that of a Voronoi cell",
+                                    grid.centres, law, side.polygon),
                             side.polygon);
-  deviations.add(grid.corners, grid.corners + law, found.first);
+  deviations.add(grid.corners, message("{}: {}", grid.corners, law), found.first);
 }
 
 bool has_triangles_only(const Polygons& polygons) {
@@ -208,7 +176,6 @@ void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& devi
   const DoubleVector areas = areas_of(grid.polygons);
   check_orientation(grid, areas, deviations);
   check_distinct_corners(grid, deviations);
-  check_overlap(grid, sides, areas, deviations);
   check_cover(grid, sides, areas, deviations);
   if (grid.polygons.centres.cols() != grid.polygons.size())
     return;
@@ -250,7 +217,7 @@ void check_mask(const std::string& variable, std::int64_t cells, Deviations& dev
   deviations.add(variable, differences, "0 or 1");
   const std::vector<std::int32_t> mask = deviations.file().ints(variable, {cells});
   if (cells > 0 && std::all_of(mask.begin(), mask.end(), [](std::int32_t m) { return m == 0; }))
-    deviations.add(variable, variable + " is 0 at all cells, so that none takes part", 0);
+    deviations.add(variable, message("{} is 0 at all cells, so that none takes part", variable), 0);
 }
 
 } // namespace calotte::io_detail

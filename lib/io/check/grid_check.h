@@ -28,7 +28,7 @@ struct StoredGrid {
 
 /// Orientation; a sphere covered once, where no side is open; centres inside. Where most corners
 /// are as far from the centres of all cells around them, all must be, as those of Voronoi cells
-/// are; likewise the centres of triangles.
+/// are; likewise the centres of triangles. Readers have refused cells that overlap.
 void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& deviations);
 
 /// The areas in a variable, if the file has it, in radians^2.

@@ -4,6 +4,7 @@
 #include "io/formats/formats.h"
 #include "io/formats/ugrid.h"
 
+#include "base/message.h"
 #include "base/points.h"
 
 #include <algorithm>
@@ -26,8 +27,9 @@ void check_names(const std::string& variable, const std::string& attribute,
                  Deviations& deviations) {
   for (const std::string& name : names_in(deviations.file().text(variable, attribute)))
     if (!deviations.file().has_variable(name))
-      deviations.add(variable, "the attribute " + attribute + " of " + variable + " names " + name +
-                                   ", which is no variable of the file");
+      deviations.add(variable, message("the attribute {} of {} names {}, which is no variable of "
+                                       "the file",
+                                       attribute, variable, name));
 }
 
 void check_all_names(Deviations& deviations) {
@@ -43,14 +45,14 @@ void check_all_names(Deviations& deviations) {
 void check_units(const std::string& variable, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   if (file.has_variable(variable) && file.text(variable, "units").empty())
-    deviations.add(variable, variable + " has no units; they must be degrees or radians");
+    deviations.add(variable, message("{} has no units; they must be degrees or radians", variable));
 }
 
 void check_role(const std::string& variable, const std::string& role, Deviations& deviations) {
   const std::string stored = deviations.file().text(variable, "cf_role");
   if (!stored.empty() && stored != role)
-    deviations.add(variable, "the attribute cf_role of " + variable + " is \"" + stored +
-                                 "\" instead of \"" + role + "\"");
+    deviations.add(variable, message("the attribute cf_role of {} is \"{}\" instead of \"{}\"",
+                                     variable, stored, role));
 }
 
 void check_ugrid_attributes(const Topology& topology, Deviations& deviations) {
@@ -58,16 +60,18 @@ void check_ugrid_attributes(const Topology& topology, Deviations& deviations) {
   check_all_names(deviations);
   check_role(topology.face_nodes, "face_node_connectivity", deviations);
   if (file.number(topology.mesh, "topology_dimension", -1) != 2)
-    deviations.add(topology.mesh, "the attribute topology_dimension of " + topology.mesh +
-                                      " is missing; it must be 2");
+    deviations.add(
+        topology.mesh,
+        message("the attribute topology_dimension of {} is missing; it must be 2", topology.mesh));
   const double start = file.number(topology.face_nodes, "start_index", 0);
   if (start != 0 && start != 1)
-    deviations.add(topology.face_nodes, "the attribute start_index of " + topology.face_nodes +
-                                            " is " + std::to_string(start) + "; it must be 0 or 1");
+    deviations.add(topology.face_nodes,
+                   message("the attribute start_index of {} is {}; it must be 0 or 1",
+                           topology.face_nodes, start));
   if (!topology.face_dimension.empty() && file.dimension(topology.face_dimension) < 0)
-    deviations.add(topology.mesh, "the attribute face_dimension of " + topology.mesh + " names " +
-                                      topology.face_dimension +
-                                      ", which is no dimension of the file");
+    deviations.add(topology.mesh, message("the attribute face_dimension of {} names {}, which is "
+                                          "no dimension of the file",
+                                          topology.mesh, topology.face_dimension));
   for (const auto* names : {&topology.nodes, &topology.faces})
     for (const std::string& name : *names)
       check_units(name, deviations);
@@ -155,10 +159,10 @@ void check_grid_dims(std::int64_t cells, Deviations& deviations) {
   for (const double size : deviations.file().doubles("grid_dims", {-1}))
     product *= size;
   if (product != static_cast<double>(cells))
-    deviations.add("grid_dims",
-                   "grid_dims: the product of its sizes is " + std::to_string(product) +
-                       ", but grid_size is " + std::to_string(cells),
-                   0, std::abs(product / static_cast<double>(cells) - 1));
+    deviations.add(
+        "grid_dims",
+        message("grid_dims: the product of its sizes is {}, but grid_size is {}", product, cells),
+        0, std::abs(product / static_cast<double>(cells) - 1));
 }
 
 // ---- ESMF
@@ -184,15 +188,7 @@ void check_padding(std::int64_t nodes, Deviations& deviations) {
         if (count != counts[static_cast<std::size_t>(i)])
           out.note(i, counts[static_cast<std::size_t>(i)], static_cast<double>(count), 1);
       });
-  if (differences.count > 0)
-    deviations.add("numElementConn",
-                   "numElementConn: " + std::to_string(differences.count) +
-                       " numbers are not those of the nodes in elementConn; at (" +
-                       std::to_string(differences.index) + "), 0-based, " +
-                       std::to_string(static_cast<std::int64_t>(differences.stored)) +
-                       " is stored, but elementConn has " +
-                       std::to_string(static_cast<std::int64_t>(differences.derived)),
-                   differences.index);
+  deviations.add("numElementConn", differences, "the numbers of nodes in elementConn");
 }
 
 } // namespace

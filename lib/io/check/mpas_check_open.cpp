@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/check/mpas_check.h"
 
+#include "base/message.h"
 #include "base/points.h"
 #include "domain/clipped_cell.h"
 #include "exact/space.h"
@@ -145,9 +146,9 @@ void check_masks(const Voronoi& part, Deviations& deviations) {
   const Ids of_cells = Eigen::Map<const Ids>(stored.data(), std::ssize(stored));
   const auto check = [&](const DerivedMask& mask, const IdLists& on_cell, std::int64_t count) {
     if (!file.has_variable(mask.name))
-      return deviations.add(mask.name, std::string(mask.name) +
-                                           ": is missing, and MPAS reads it where there is " +
-                                           cell_mask);
+      return deviations.add(
+          mask.name,
+          message("{}: is missing, and MPAS reads it where there is {}", mask.name, cell_mask));
     if (!deviations.has(mask.name, {count}))
       return;
     const Ids least = least_mask(on_cell, of_cells, count);
@@ -157,7 +158,7 @@ void check_masks(const Voronoi& part, Deviations& deviations) {
                        [&](std::int64_t row, const std::int32_t* value, Differences& differences) {
                          differences.compare(row, *value, least[row]);
                        }),
-                   std::string("the ") + mask.meaning);
+                   message("the {}", mask.meaning));
   };
   check(edge_mask, part.edges_on_cell, part.cells_on_edge.cols());
   check(vertex_mask, part.vertices_on_cell, part.cells_on_vertex.cols());

@@ -56,9 +56,9 @@ private:
 using Rules = std::map<std::string, MpasRule>;
 
 /// Compares rows begin to end - 1 of the columns, whose stored rows start with `first`.
-void compare(const Rules& rules, const std::vector<Column>& columns,
-             const NetcdfWriter::GroupFill& contents, std::int64_t first, std::int64_t begin,
-             std::int64_t end, std::vector<Differences>& out) {
+void compare_block(const Rules& rules, const std::vector<Column>& columns,
+                   const NetcdfWriter::GroupFill& contents, std::int64_t first, std::int64_t begin,
+                   std::int64_t end, std::vector<Differences>& out) {
   constexpr std::int64_t most = 512; // rows at once, which the caches hold
   Rows<std::int32_t> ints;
   Rows<double> doubles;
@@ -105,7 +105,7 @@ std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
     for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
       std::vector<Differences>& part = parts[static_cast<std::size_t>(block)];
       part.assign(columns.size(), {});
-      compare(rules, columns, contents, first, first + begin, first + end, part);
+      compare_block(rules, columns, contents, first, first + begin, first + end, part);
     });
     for (const std::vector<Differences>& part : parts)
       for (std::size_t c = 0; c < columns.size(); ++c)
@@ -115,7 +115,7 @@ std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
 }
 
 /// Whether a known fault explains all values is counted where some differ.
-void report(const MpasCheck& check, const std::string& variable, Differences differences) {
+void add_differences(const MpasCheck& check, const std::string& variable, Differences differences) {
   const Fault fault = mpas_fault(check, variable);
   if (differences.count > 0 && fault.explains)
     differences.unlike_fault =
@@ -153,7 +153,7 @@ void compare_mpas(const MpasCheck& check) {
       return;
     const std::vector<Differences> found = differences(check, rules, columns, contents);
     for (std::size_t c = 0; c < columns.size(); ++c)
-      report(check, names[c], found[c]);
+      add_differences(check, names[c], found[c]);
   };
   const MpasMesh mesh{check.voronoi, {}, check.radius};
   if (whole)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/message.h"
+#include "io/bytes/broken.h"
 #include "io/cells/id_table.h"
 #include "io/check/grid_check.h"
 
@@ -46,94 +48,94 @@ Connectivity read_connectivity(const std::string& mesh, const std::string& attri
   return table;
 }
 
-/// A row of a table that breaks its rule.
-void report(const Connectivity& table, std::int64_t row, const std::string& problem,
-            Deviations& deviations) {
-  deviations.add(table.name, table.name + ": row " + std::to_string(row) + " (0-based) " + problem,
-                 row);
+/// Adds a deviation for the first row of a table that breaks its rule. \returns whether none does.
+/// \param holds(row) runs in parallel.
+template <class Holds>
+bool check_rows(const Connectivity& table, const std::string& problem, const Holds& holds,
+                Deviations& deviations) {
+  const Broken found =
+      broken(table.rows(), [&](std::int64_t row) { return verdict_of(holds(row)); });
+  if (found.any())
+    deviations.add(table.name, message("{}: row {} (0-based) {}", table.name, found.first, problem),
+                   found.first);
+  return !found.any();
 }
 
-struct EdgeNodes {
-  std::int32_t from, to;
-};
-
-bool is_side_of(const Sides& sides, const EdgeNodes& edge, std::int32_t face) {
-  return sides.polygon_of(edge.from, edge.to) == face ||
-         sides.polygon_of(edge.to, edge.from) == face;
+/// The ids of a row, without those that are missing.
+std::vector<std::int32_t> sorted_ids(const Connectivity& table, std::int64_t row) {
+  std::vector<std::int32_t> ids;
+  for (std::int64_t k = 0; k < table.width; ++k)
+    if (table.at(row, k) >= 0)
+      ids.push_back(table.at(row, k));
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
-/// The edges, if each is a side of faces and no two are one.
-std::vector<EdgeNodes> check_edge_nodes(const Connectivity& table, const Sides& sides,
-                                        Deviations& deviations) {
-  std::vector<EdgeNodes> edges;
-  for (std::int64_t row = 0; row < table.rows(); ++row) {
-    const EdgeNodes edge{table.at(row, 0), table.at(row, 1)};
-    if (edge.from < 0 || edge.to < 0 ||
-        (sides.polygon_of(edge.from, edge.to) < 0 && sides.polygon_of(edge.to, edge.from) < 0)) {
-      report(table, row, "is no side of a face", deviations);
-      return {};
-    }
-    edges.push_back(edge);
-  }
+/// The faces to the left and to the right of an edge; -1 for none.
+std::pair<std::int32_t, std::int32_t> faces_of(const Connectivity& edges, const Sides& sides,
+                                               std::int64_t edge) {
+  const std::int32_t from = edges.at(edge, 0), to = edges.at(edge, 1);
+  return from < 0 || to < 0 ? std::pair(-1, -1)
+                            : std::pair(sides.polygon_of(from, to), sides.polygon_of(to, from));
+}
+
+/// Whether each edge is a side of faces and no two are one.
+bool check_edge_nodes(const Connectivity& table, const Sides& sides, Deviations& deviations) {
+  const auto is_side = [&](std::int64_t row) {
+    const auto [left, right] = faces_of(table, sides, row);
+    return left >= 0 || right >= 0;
+  };
+  if (!check_rows(table, "is no side of a face", is_side, deviations))
+    return false;
   std::vector<std::pair<std::int32_t, std::int32_t>> sorted;
-  for (const EdgeNodes& edge : edges)
-    sorted.push_back(std::minmax(edge.from, edge.to));
+  for (std::int64_t row = 0; row < table.rows(); ++row)
+    sorted.push_back(std::minmax({table.at(row, 0), table.at(row, 1)}));
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end())
-    return edges;
-  deviations.add(table.name, table.name + ": two rows are the same edge");
-  return {};
+    return true;
+  deviations.add(table.name, message("{}: two rows are the same edge", table.name));
+  return false;
 }
 
 /// Each face has as many different edges as corners, all of them sides of it.
-void check_face_edges(const Connectivity& table, const std::vector<EdgeNodes>& edges,
+void check_face_edges(const Connectivity& table, const Connectivity& edges,
                       const Polygons& polygons, const Sides& sides, Deviations& deviations) {
-  for (std::int64_t row = 0; row < table.rows(); ++row) {
-    std::vector<std::int32_t> ids;
-    for (std::int64_t k = 0; k < table.width; ++k)
-      if (table.at(row, k) >= 0)
-        ids.push_back(table.at(row, k));
-    std::sort(ids.begin(), ids.end());
-    const bool whole = std::ssize(ids) == polygons.ids.count(row) &&
-                       std::adjacent_find(ids.begin(), ids.end()) == ids.end();
-    if (!whole || !std::all_of(ids.begin(), ids.end(), [&](std::int32_t e) {
-          return is_side_of(sides, edges[static_cast<std::size_t>(e)],
-                            static_cast<std::int32_t>(row));
-        }))
-      return report(table, row, "does not hold the sides of its face", deviations);
-  }
+  const auto holds = [&](std::int64_t face) {
+    const std::vector<std::int32_t> ids = sorted_ids(table, face);
+    return std::ssize(ids) == polygons.ids.count(face) &&
+           std::adjacent_find(ids.begin(), ids.end()) == ids.end() &&
+           std::ranges::all_of(ids, [&](std::int32_t e) {
+             const auto [left, right] = faces_of(edges, sides, e);
+             return left == face || right == face;
+           });
+  };
+  check_rows(table, "does not hold the sides of its face", holds, deviations);
 }
 
 void check_face_faces(const Connectivity& table, const Polygons& polygons, const Sides& sides,
                       Deviations& deviations) {
-  for (std::int64_t row = 0; row < table.rows(); ++row) {
-    std::vector<std::int32_t> stored, derived;
-    for (std::int64_t k = 0; k < table.width; ++k)
-      if (table.at(row, k) >= 0)
-        stored.push_back(table.at(row, k));
-    const std::span<const std::int32_t> ids = polygons.ids[row];
+  const auto holds = [&](std::int64_t face) {
+    std::vector<std::int32_t> derived;
+    const std::span<const std::int32_t> ids = polygons.ids[face];
     for (std::size_t k = 0; k < ids.size(); ++k)
       if (const std::int32_t other =
               sides.polygon_of(k + 1 < ids.size() ? ids[k + 1] : ids[0], ids[k]);
           other >= 0)
         derived.push_back(other);
-    std::sort(stored.begin(), stored.end());
     std::sort(derived.begin(), derived.end());
-    if (stored != derived)
-      return report(table, row, "does not hold the faces across the sides of its face", deviations);
-  }
+    return sorted_ids(table, face) == derived;
+  };
+  check_rows(table, "does not hold the faces across the sides of its face", holds, deviations);
 }
 
-void check_edge_faces(const Connectivity& table, const std::vector<EdgeNodes>& edges,
-                      const Sides& sides, Deviations& deviations) {
-  for (std::int64_t row = 0; row < table.rows(); ++row) {
-    const EdgeNodes& edge = edges[static_cast<std::size_t>(row)];
-    const std::int32_t left = sides.polygon_of(edge.from, edge.to),
-                       right = sides.polygon_of(edge.to, edge.from);
+void check_edge_faces(const Connectivity& table, const Connectivity& edges, const Sides& sides,
+                      Deviations& deviations) {
+  const auto holds = [&](std::int64_t row) {
+    const auto [left, right] = faces_of(edges, sides, row);
     const std::int32_t a = table.at(row, 0), b = table.width > 1 ? table.at(row, 1) : -1;
-    if (std::min(a, b) != std::min(left, right) || std::max(a, b) != std::max(left, right))
-      return report(table, row, "does not hold the faces on both sides of its edge", deviations);
-  }
+    return (a == left && b == right) || (a == right && b == left);
+  };
+  check_rows(table, "does not hold the faces on both sides of its edge", holds, deviations);
 }
 
 } // namespace
@@ -145,16 +147,14 @@ void check_ugrid_connectivity(const Polygons& polygons, const Sides& sides, cons
   };
   const std::int64_t faces = polygons.size();
   check_face_faces(read("face_face_connectivity", faces, faces), polygons, sides, deviations);
-  const Connectivity edge_nodes = read("edge_node_connectivity", -1, polygons.corners.cols());
-  if (edge_nodes.width < 2)
+  const Connectivity edges = read("edge_node_connectivity", -1, polygons.corners.cols());
+  if (edges.width < 2 || edges.rows() == 0)
     return;
-  const std::vector<EdgeNodes> edges = check_edge_nodes(edge_nodes, sides, deviations);
-  if (edges.empty())
+  if (!check_edge_nodes(edges, sides, deviations))
     return;
-  check_face_edges(read("face_edge_connectivity", faces, std::ssize(edges)), edges, polygons, sides,
+  check_face_edges(read("face_edge_connectivity", faces, edges.rows()), edges, polygons, sides,
                    deviations);
-  check_edge_faces(read("edge_face_connectivity", std::ssize(edges), faces), edges, sides,
-                   deviations);
+  check_edge_faces(read("edge_face_connectivity", edges.rows(), faces), edges, sides, deviations);
 }
 
 } // namespace calotte::io_detail
