@@ -65,6 +65,11 @@ public:
   /// not". \param fault of MpasMeshConverter; known if all values follow it.
   void add(const std::string& variable, const Differences& differences, const std::string& rule,
            const std::string& fault = {});
+  /// visit_rows(), and the deviation that follows from it. \param values what they should be.
+  template <class T, class Rule>
+  void check_rows(const std::string& variable, const std::string& values, const Rule& rule) {
+    add(variable, visit_rows<T>(variable, rule), values);
+  }
   /// Adds a deviation without values.
   void add(const std::string& variable, const std::string& text, std::int64_t index = -1,
            double difference = 1);

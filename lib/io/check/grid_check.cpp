@@ -195,26 +195,24 @@ void check_areas(const StoredGrid& grid, const std::string& variable, Deviations
   const DoubleVector areas = areas_of(grid.polygons);
   const double width = std::sqrt(areas.cwiseAbs().mean());
   const double tolerance = rounding_of_others + 4 * grid.rounding / width;
-  deviations.add(
+  deviations.check_rows<double>(
       variable,
-      deviations.visit_rows<double>(variable,
-                                    [&](std::int64_t i, const double* stored, Differences& out) {
-                                      const double derived = std::abs(areas[i]);
-                                      out.compare(i, *stored, derived, derived, tolerance);
-                                    }),
       on_sphere ? "the area on the unit sphere of each cell, whose sides are arcs of great circles"
-                : "the area of each cell, whose sides are straight");
+                : "the area of each cell, whose sides are straight",
+      [&](std::int64_t i, const double* stored, Differences& out) {
+        const double derived = std::abs(areas[i]);
+        out.compare(i, *stored, derived, derived, tolerance);
+      });
 }
 
 void check_mask(const std::string& variable, std::int64_t cells, Deviations& deviations) {
   if (!deviations.has(variable, {cells}))
     return;
-  const Differences differences = deviations.visit_rows<std::int32_t>(
-      variable, [](std::int64_t i, const std::int32_t* stored, Differences& out) {
+  deviations.check_rows<std::int32_t>(
+      variable, "0 or 1", [](std::int64_t i, const std::int32_t* stored, Differences& out) {
         if (*stored != 0 && *stored != 1)
           out.note(i, *stored, 1, 1);
       });
-  deviations.add(variable, differences, "0 or 1");
   const std::vector<std::int32_t> mask = deviations.file().ints(variable, {cells});
   if (cells > 0 && std::all_of(mask.begin(), mask.end(), [](std::int32_t m) { return m == 0; }))
     deviations.add(variable, message("{} is 0 at all cells, so that none takes part", variable), 0);

@@ -92,27 +92,16 @@ void check_sites(const std::vector<std::string>& names, const Points3& points, d
     if (!deviations.has(name, {points.cols()}))
       continue;
     const double of_floats = rounding + rounding_of(deviations.file(), name);
-    deviations.add(name,
-                   deviations.visit_rows<double>(
-                       name,
-                       [&](std::int64_t i, const double* stored, Differences& out) {
-                         out.compare(i, *stored, radius * points(axis, i), radius * width,
-                                     rounding_of_others + of_floats / width);
-                       }),
-                   "the place at the longitude and latitude, on the sphere of sphere_radius");
+    deviations.check_rows<double>(
+        name, "the place at the longitude and latitude, on the sphere of sphere_radius",
+        [&](std::int64_t i, const double* stored, Differences& out) {
+          out.compare(i, *stored, radius * points(axis, i), radius * width,
+                      rounding_of_others + of_floats / width);
+        });
   }
 }
 
 // ---- Bounds
-
-/// Whether an angle in degrees is that of a place, or cannot be told there.
-bool is_angle(double stored, const LonLat& place, bool longitude, double tolerance) {
-  const double apart = stored - (longitude ? place.longitude : place.latitude);
-  return longitude ? std::abs(std::remainder(apart, 360.0)) *
-                             std::cos(place.latitude * std::numbers::pi / 180) <=
-                         tolerance
-                   : std::abs(apart) <= tolerance;
-}
 
 /// The bounds of the faces' longitudes or latitudes against their nodes. What follows the last
 /// corner is any of them, or no number.
@@ -123,31 +112,37 @@ void check_bounds(const std::string& variable, bool longitude, const StoredGrid&
   if (name.empty() || !deviations.has(name, {grid.polygons.size(), -1}))
     return;
   const double unit = degrees_per_unit(file, variable), fill = file.number(name, "_FillValue", NAN),
-               tolerance =
-                   1e-9 + (grid.rounding + rounding_of(file, name)) * 180 / std::numbers::pi;
+               degree = std::numbers::pi / 180,
+               tolerance = 1e-9 + (grid.rounding + rounding_of(file, name)) / degree;
   const Polygons& faces = grid.polygons;
   const std::int64_t width = deviations.width(name);
   const auto corner_at = [&](std::int64_t face, std::int64_t k) {
-    return eastern_lonlat_of(column(faces.corners, faces.ids[face][static_cast<std::size_t>(k)]));
+    return eastern_lonlat_of(column(faces.corners, corner_or_last(faces, face, k)));
   };
-  deviations.add(name,
-                 deviations.visit_rows<double>(
-                     name,
-                     [&](std::int64_t face, const double* row, Differences& out) {
-                       const std::int64_t count = faces.ids.count(face);
-                       for (std::int64_t k = 0; k < width; ++k) {
-                         const bool past = k >= count;
-                         bool fits = past && (row[k] == fill || std::isnan(row[k]));
-                         for (std::int64_t j = past ? 0 : k; !fits && j < (past ? count : k + 1);
-                              ++j)
-                           fits = is_angle(unit * row[k], corner_at(face, j), longitude, tolerance);
-                         const LonLat corner = corner_at(face, std::min(k, count - 1));
-                         if (!fits)
-                           out.note(face * width + k, row[k],
-                                    (longitude ? corner.longitude : corner.latitude) / unit, 1);
-                       }
-                     }),
-                 "the corners of the faces in their order");
+  const auto is_angle_of = [&](const LonLat& corner, double value) { // or cannot be told there
+    return longitude ? std::abs(std::remainder(unit * value - corner.longitude, 360.0)) *
+                               std::cos(corner.latitude * degree) <=
+                           tolerance
+                     : std::abs(unit * value - corner.latitude) <= tolerance;
+  };
+  const auto fits = [&](std::int64_t face, std::int64_t k, double value) {
+    const std::int64_t count = faces.ids.count(face);
+    bool any =
+        k >= count ? value == fill || std::isnan(value) : is_angle_of(corner_at(face, k), value);
+    for (std::int64_t j = 0; !any && k >= count && j < count; ++j)
+      any = is_angle_of(corner_at(face, j), value);
+    return any;
+  };
+  deviations.check_rows<double>(
+      name, "the corners of the faces in their order",
+      [&](std::int64_t face, const double* row, Differences& out) {
+        for (std::int64_t k = 0; k < width; ++k)
+          if (!fits(face, k, row[k])) {
+            const LonLat corner = corner_at(face, k);
+            out.note(face * width + k, row[k],
+                     (longitude ? corner.longitude : corner.latitude) / unit, 1);
+          }
+      });
 }
 
 // ---- SCRIP

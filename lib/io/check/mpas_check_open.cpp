@@ -152,13 +152,11 @@ void check_masks(const Voronoi& part, Deviations& deviations) {
     if (!deviations.has(mask.name, {count}))
       return;
     const Ids least = least_mask(on_cell, of_cells, count);
-    deviations.add(mask.name,
-                   deviations.visit_rows<std::int32_t>(
-                       mask.name,
-                       [&](std::int64_t row, const std::int32_t* value, Differences& differences) {
-                         differences.compare(row, *value, least[row]);
-                       }),
-                   message("the {}", mask.meaning));
+    deviations.check_rows<std::int32_t>(
+        mask.name, message("the {}", mask.meaning),
+        [&](std::int64_t row, const std::int32_t* value, Differences& out) {
+          out.compare(row, *value, least[row]);
+        });
   };
   check(edge_mask, part.edges_on_cell, part.cells_on_edge.cols());
   check(vertex_mask, part.vertices_on_cell, part.cells_on_vertex.cols());
