@@ -92,20 +92,21 @@ std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
   std::int64_t values = 1;                                // of a row
   for (const Column& column : columns)
     values += column.stored_width;
-  const std::int64_t rows = check.rows(columns[0].variable.rows);
-  std::vector<Differences> all(columns.size());
-  for (std::int64_t first = 0; first < rows; first += at_once / values) {
-    const std::int64_t count = std::min(at_once / values, rows - first);
+  const std::int64_t rows = check.rows(columns[0].variable.rows),
+                     most = std::max<std::int64_t>(at_once / values, 1);
+  const std::vector<Differences> none(columns.size());
+  std::vector<Differences> all = none;
+  for (std::int64_t first = 0; first < rows; first += most) {
+    const std::int64_t count = std::min(most, rows - first);
     for (Column& column : columns)
       if (column.stored_width > 0) {
         column.stored = Array<double>(count * column.stored_width);
         check.deviations.file().rows(column.variable.name, first, count, column.stored.begin());
       }
-    std::vector<std::vector<Differences>> parts(static_cast<std::size_t>(block_count(count)), all);
+    std::vector<std::vector<Differences>> parts(static_cast<std::size_t>(block_count(count)), none);
     for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-      std::vector<Differences>& part = parts[static_cast<std::size_t>(block)];
-      part.assign(columns.size(), {});
-      compare_block(rules, columns, contents, first, first + begin, first + end, part);
+      compare_block(rules, columns, contents, first, first + begin, first + end,
+                    parts[static_cast<std::size_t>(block)]);
     });
     for (const std::vector<Differences>& part : parts)
       for (std::size_t c = 0; c < columns.size(); ++c)
