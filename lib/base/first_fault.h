@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <calotte/error.h>
+#include "base/message.h"
+#include "base/require.h"
 
 #include <atomic>
 #include <cstdint>
@@ -27,8 +28,7 @@ public:
   /// \throws Error invalid_argument "<thing> <index> <fault>" if there is a fault.
   void refuse(const std::string& thing, const std::string& fault) const {
     if (index() >= 0)
-      throw Error(ErrorCode::invalid_argument, thing + ' ' + std::to_string(index()) + ' ' + fault,
-                  index());
+      base_detail::refuse(message("{} {} {}", thing, index(), fault), index());
   }
 
 private:

@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <initializer_list>
 #include <iterator>
@@ -32,6 +33,11 @@ template <class Value> std::string shown(const Value& value) {
   } else {
     return std::string(value);
   }
+}
+
+/// "1 row", "2 rows".
+inline std::string counted(std::int64_t number, const std::string& thing) {
+  return std::to_string(number) + ' ' + thing + (number == 1 ? "" : "s");
 }
 
 /// A text with one {} for each of some values; another number of them does not compile.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "base/require.h"
 #include "base/vec3.h"
 
+#include <calotte/error.h>
 #include <calotte/mesh.h>
 
 #include <cstdint>
@@ -41,9 +43,8 @@ inline Vec3 point(const PointsRef& points, std::int64_t i) {
 inline void require_rows(const PointsRef& points, Eigen::Index rows, const std::string& columns,
                          const std::string& instead) {
   const bool other = points.rows() == 2 || points.rows() == 3;
-  require(points.rows() == rows, "the points have " + std::to_string(points.rows()) +
-                                     (points.rows() == 1 ? " row" : " rows") + "; give " + columns +
-                                     (other && !instead.empty() ? ", or " + instead : ""));
+  require(points.rows() == rows, "the points have {}; give {}{}", counted(points.rows(), "row"),
+          columns, other && !instead.empty() ? ", or " + instead : "");
 }
 
 /// A caller's directions, in place.
@@ -64,11 +65,23 @@ inline Points2Ref plane_points_of(const PointsRef& points) {
   }
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (!(points(2, i) == 0))
-      throw Error(ErrorCode::invalid_argument,
-                  "point " + std::to_string(i) + " of the plane has the z " +
-                      std::to_string(points(2, i)) + "; give z = 0, or 2 rows",
-                  i);
+      refuse_at(i, "point {} of the plane has the z {}; give z = 0, or 2 rows", points(2, i));
   return points.topRows<2>();
+}
+
+/// \throws Error not_finite for a caller's point i.
+inline void require_finite(const Vec3& point, std::int64_t i) {
+  if (!is_finite(point))
+    throw Error(ErrorCode::not_finite,
+                message("point {} has a coordinate that is NaN or infinite: remove it", i), i);
+}
+
+/// \throws Error not_finite, zero_vector for a caller's point i.
+inline void require_direction(const Vec3& point, std::int64_t i) {
+  require_finite(point, i);
+  if (is_zero(point))
+    throw Error(ErrorCode::zero_vector,
+                message("point {} is the zero vector: remove it, it has no direction", i), i);
 }
 
 /// Points of the plane with z = 0.

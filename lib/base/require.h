@@ -19,6 +19,14 @@ constexpr std::int64_t most_points = std::int64_t{1} << 30;
   throw Error(ErrorCode::invalid_argument, message, index);
 }
 
+/// \throws Error invalid_argument with the pattern's message, whose first {} is for the index.
+template <class... Values>
+[[noreturn]] void refuse_at(std::int64_t index,
+                            std::type_identity_t<Pattern<std::int64_t, Values...>> pattern,
+                            const Values&... values) {
+  refuse(filled(pattern.text, {shown(index), shown(values)...}), index);
+}
+
 /// \throws Error invalid_argument with the message.
 inline void require(bool holds, const std::string& message) {
   if (!holds)

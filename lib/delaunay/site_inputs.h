@@ -9,27 +9,14 @@
 #include "exact/plane_predicates.h"
 #include "exact/predicates.h"
 
-#include <calotte/error.h>
 #include <calotte/mesh.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
 
 /// The kinds of input points: their comparison and their position along the curve.
 namespace calotte::delaunay_detail {
-
-inline bool is_finite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-inline bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
-
-[[noreturn]] inline void refuse_not_finite(std::int64_t i) {
-  throw Error(ErrorCode::not_finite,
-              "point " + std::to_string(i) + " has a coordinate that is NaN or infinite: remove it",
-              i);
-}
 
 /// Directions of any norm.
 struct Directions {
@@ -38,17 +25,11 @@ struct Directions {
   static constexpr std::int64_t fewest = 3;
   static constexpr const char* distinct = "distinct directions";
   static constexpr const char* domain = "the sphere";
-  static constexpr const char* twin = " has the direction of point ";
+  static constexpr const char* twin = "has the direction of";
 
   const Vec3& at(std::int64_t i) const { return column(points, i); }
   bool is_valid(std::int64_t i) const { return is_finite(at(i)) && !is_zero(at(i)); }
-  [[noreturn]] void refuse(std::int64_t i) const {
-    if (!is_zero(at(i)))
-      refuse_not_finite(i);
-    throw Error(
-        ErrorCode::zero_vector,
-        "point " + std::to_string(i) + " is the zero vector: remove it, it has no direction", i);
-  }
+  void require_valid(std::int64_t i) const { require_direction(at(i), i); }
   CubePoint square(std::int64_t i) const { return to_cube(at(i)); }
   int compare(std::int64_t i, std::int64_t j) const {
     const Vec3 &p = at(i), &q = at(j);
@@ -74,11 +55,11 @@ struct Places {
   static constexpr std::int64_t fewest = 3;
   static constexpr const char* distinct = "distinct places";
   static constexpr const char* domain = "the plane";
-  static constexpr const char* twin = " stands where point ";
+  static constexpr const char* twin = "stands where";
 
   Vec3 at(std::int64_t i) const { return {points(0, i), points(1, i), 0}; }
   bool is_valid(std::int64_t i) const { return is_finite(at(i)); }
-  [[noreturn]] static void refuse(std::int64_t i) { refuse_not_finite(i); }
+  void require_valid(std::int64_t i) const { require_finite(at(i), i); }
   CubePoint square(std::int64_t i) const {
     const Vec3 p = unit(at(i));
     return {0, p.x, p.y};

@@ -2,6 +2,8 @@
 #include "delaunay/sites.h"
 
 #include "base/matrix_memory.h"
+#include "base/message.h"
+#include "base/require.h"
 #include "curve/hilbert.h"
 #include "curve/radix_sort.h"
 #include "delaunay/duplicates.h"
@@ -13,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 #include <type_traits>
 
 namespace calotte::delaunay_detail {
@@ -41,15 +42,15 @@ template <class Input> void set_keys(const Input& input, Array<std::uint64_t>& k
   });
   const auto first = std::min_element(offending.begin(), offending.end());
   if (first != offending.end() && *first != none)
-    input.refuse(*first);
+    input.require_valid(*first);
 }
 
 void refuse_duplicates(const std::vector<std::int32_t>& lowest, const char* twin) {
   for (std::size_t i = 0; i < lowest.size(); ++i)
     if (static_cast<std::size_t>(lowest[i]) != i)
       throw Error(ErrorCode::duplicate,
-                  "point " + std::to_string(i) + twin + std::to_string(lowest[i]) +
-                      ": remove it, or let duplicates be merged",
+                  message("point {} {} point {}: remove it, or let duplicates be merged", i, twin,
+                          lowest[i]),
                   static_cast<std::int64_t>(i));
 }
 
@@ -99,12 +100,10 @@ void number_all(std::vector<std::int32_t>& site_of_input) {
 
 template <class Input> void require_count(std::int64_t n, const char* kind) {
   if (n < Input::fewest)
-    throw Error(ErrorCode::too_few_sites, "there are " + std::to_string(n) + " " + kind +
-                                              ": a triangulation of " + Input::domain +
-                                              " needs at least " + std::to_string(Input::fewest));
-  if (n > std::int64_t{1} << 30)
-    throw Error(ErrorCode::invalid_argument, "there are " + std::to_string(n) +
-                                                 " points: 32-bit triangle ids allow 2^30 at most");
+    throw Error(ErrorCode::too_few_sites,
+                message("there are {} {}: a triangulation of {} needs at least {}", n, kind,
+                        Input::domain, Input::fewest));
+  require(n <= most_points, "there are {} points: 32-bit triangle ids allow 2^30 at most", n);
 }
 
 /// \param all_points returns the input's points in the form of Sites; called at most once, after
@@ -149,11 +148,10 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   return sites;
 }
 
-void require_distance(double merge_within, const std::string& kind, const std::string& unit) {
-  if (!(merge_within >= 0) || !std::isfinite(merge_within))
-    throw Error(ErrorCode::invalid_argument, "the " + kind + " to merge within is " +
-                                                 std::to_string(merge_within) + "; give 0" + unit +
-                                                 " or more");
+bool is_distance(double within) { return within >= 0 && std::isfinite(within); }
+
+void require_angle(double within) {
+  require(is_distance(within), "the angle to merge within is {}; give 0 radians or more", within);
 }
 
 Vec2 place_of(const Image& image, const Vec2& period) {
@@ -164,20 +162,21 @@ Vec2 place_of(const Image& image, const Vec2& period) {
 
 Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_within,
                  Monitor* monitor) {
-  require_distance(merge_within, "angle", " radians");
+  require_angle(merge_within);
   const Directions input{points};
   return make_sites_of(input, duplicates, merge_within, monitor, [&] { return copy_of(input); });
 }
 
 Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within, Monitor* monitor) {
-  require_distance(merge_within, "angle", " radians");
+  require_angle(merge_within);
   return make_sites_of(Directions{points}, duplicates, merge_within, monitor,
                        [&] { return std::move(points); });
 }
 
 Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
                         Monitor* monitor) {
-  require_distance(merge_within, "distance", "");
+  require(is_distance(merge_within), "the distance to merge within is {}; give 0 or more",
+          merge_within);
   const Frame frame = frame_of(points);
   const Places input{points, frame};
   Sites sites =

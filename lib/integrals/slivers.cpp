@@ -71,8 +71,6 @@ HalfEdge precise_half_edge(const PreciseVec3& a, const PreciseVec3& b, const mpf
   return {sine.get_d(), cosine.get_d(), 2 * arc_tangent(tangent), tangent};
 }
 
-bool is_finite(const Vec3& x) { return std::isfinite(x.x + x.y + x.z); }
-
 /// As triangle_rows(). False if the corners span no triangle: a mesh that is no longer Delaunay may
 /// have such corners.
 bool resolve(const Batch& batch, Sliver& sliver, TriangleRows& rows) {

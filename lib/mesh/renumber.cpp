@@ -4,6 +4,7 @@
 #include "base/matrix_memory.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "base/triangle.h"
 #include "curve/curve_squares.h"
 #include "curve/hilbert.h"
@@ -11,22 +12,14 @@
 #include "mesh/canonical_order.h"
 #include "mesh/ids.h"
 
-#include <calotte/error.h>
 #include <calotte/mesh.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
-#include <string>
 
 namespace calotte {
 namespace mesh_detail {
 namespace {
-
-bool is_zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
-bool is_finite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool are_directions(const Points3& points) {
   return holds_for_blocks(points.cols(), [&](std::int64_t begin, std::int64_t end) {
@@ -36,21 +29,11 @@ bool are_directions(const Points3& points) {
   });
 }
 
-[[noreturn]] void refuse_infinite(std::int64_t i) {
-  throw Error(ErrorCode::not_finite,
-              "point " + std::to_string(i) + " has a coordinate that is NaN or infinite", i);
-}
-
 void require_directions(const Points3& points) {
   if (are_directions(points))
     return;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Vec3& p = column(points, i);
-    if (is_zero(p))
-      throw Error(ErrorCode::zero_vector, "point " + std::to_string(i) + " is the zero vector", i);
-    if (!is_finite(p))
-      refuse_infinite(i);
-  }
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    require_direction(column(points, i), i);
 }
 
 /// body(i, curve key of point i) for begin <= i < end.
@@ -82,12 +65,10 @@ Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
 
 void require_ids(const Mesh& mesh) {
   const std::int64_t sites = mesh.points.cols(), triangles = mesh.triangles.cols();
-  if (!are_ids(mesh.triangles, sites) || mesh.neighbours.cols() != triangles ||
-      !are_ids(mesh.neighbours, triangles, -1) || !are_ids(mesh.site_of_input, sites))
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh to renumber has an id out of range, or not the "
-                "neighbours of its triangles; give one as delaunay() or "
-                "read_mesh() makes it");
+  require(are_ids(mesh.triangles, sites) && mesh.neighbours.cols() == triangles &&
+              are_ids(mesh.neighbours, triangles, -1) && are_ids(mesh.site_of_input, sites),
+          "the mesh to renumber has an id out of range, or not the neighbours of its triangles; "
+          "give one as delaunay() or read_mesh() makes it");
 }
 
 template <Space S> Array<std::int32_t> order_along_curve(const Points3& points) {
@@ -101,8 +82,7 @@ Array<std::int32_t> curve_order_in_plane(const Points3& points) {
   if (points.cols() == 0)
     return {};
   for (Eigen::Index i = 0; i < points.cols(); ++i)
-    if (!is_finite(column(points, i)))
-      refuse_infinite(i);
+    require_finite(column(points, i), i);
   return order_along_curve<Plane>(points);
 }
 

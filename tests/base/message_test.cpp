@@ -40,5 +40,18 @@ TEST_CASE("a condition says what it required, and no word if it holds") {
   CHECK(std::string(error.what()) == "cells is 3; give more");
 }
 
+TEST_CASE("an index is the first value of its message") {
+  const Error error = test::error_of([] { refuse_at(7, "hint {} is {}; give {}", -3, "more"); });
+  CHECK(error.code() == ErrorCode::invalid_argument);
+  CHECK(error.index() == 7);
+  CHECK(std::string(error.what()) == "hint 7 is -3; give more");
+}
+
+TEST_CASE("one thing is counted without an s") {
+  CHECK(counted(0, "row") == "0 rows");
+  CHECK(counted(1, "row") == "1 row");
+  CHECK(counted(2, "row") == "2 rows");
+}
+
 } // namespace
 } // namespace calotte::base_detail

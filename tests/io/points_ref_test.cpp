@@ -144,9 +144,9 @@ TEST_CASE("the message names the rows and the remedy") {
         "the plane");
   CHECK(message_of([&] { delaunay(none); }) == "the points have 0 rows; give 3 x n columns x y z");
   CHECK(message_of([&] { delaunay(three, Surface::plane()); }) ==
-        "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
+        "point 0 of the plane has the z 0.5; give z = 0, or 2 rows");
   CHECK(message_of([&] { make_grid({.surface = unit_square(), .start = {.points = three}}); }) ==
-        "point 0 of the plane has the z 0.500000; give z = 0, or 2 rows");
+        "point 0 of the plane has the z 0.5; give z = 0, or 2 rows");
 }
 
 TEST_CASE("empty matrices are refused, or give nothing") {
