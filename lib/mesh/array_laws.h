@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "mesh/faces.h"
 #include "mesh/failures.h"
 
@@ -16,26 +17,25 @@ inline std::string shape_failure(const Mesh& mesh) {
   if (mesh.triangles.cols() == 0)
     return "the mesh has no triangle";
   if (mesh.triangles.cols() > std::numeric_limits<std::int32_t>::max())
-    return "the mesh has " + std::to_string(mesh.triangles.cols()) +
-           " triangles: 32-bit neighbours allow 2^31 - 1 at most";
+    return message("the mesh has {} triangles: 32-bit neighbours allow 2^31 - 1 at most",
+                   mesh.triangles.cols());
   if (mesh.neighbours.cols() != mesh.triangles.cols())
-    return "the mesh has " + std::to_string(mesh.triangles.cols()) +
-           " triangles but neighbours of " + std::to_string(mesh.neighbours.cols());
+    return message("the mesh has {} triangles but neighbours of {}", mesh.triangles.cols(),
+                   mesh.neighbours.cols());
   const std::int64_t n = mesh.points.cols();
   for (std::size_t i = 0; i < mesh.site_of_input.size(); ++i)
     if (mesh.site_of_input[i] < 0 || mesh.site_of_input[i] >= n)
-      return "input " + std::to_string(i) + " is said to be site " +
-             std::to_string(mesh.site_of_input[i]) + " of " + std::to_string(n);
+      return message("input {} is said to be site {} of {}", i, mesh.site_of_input[i], n);
   return {};
 }
 
 inline std::string id_failure(const Faces& s, std::int64_t t) {
   for (int i = 0; i < 3; ++i) {
     if (s.vertex(t, i) < 0 || s.vertex(t, i) >= s.sites())
-      return triangle_name(s, t) + " has a vertex outside 0 to " + std::to_string(s.sites() - 1);
+      return message("{} has a vertex outside 0 to {}", triangle_name(s, t), s.sites() - 1);
     if (s.neighbour(t, i) < -1 || s.neighbour(t, i) >= s.triangles())
-      return triangle_name(s, t) + " has the neighbour " + std::to_string(s.neighbour(t, i)) +
-             ", outside -1 to " + std::to_string(s.triangles() - 1);
+      return message("{} has the neighbour {}, outside -1 to {}", triangle_name(s, t),
+                     s.neighbour(t, i), s.triangles() - 1);
   }
   return {};
 }
@@ -63,10 +63,11 @@ inline std::string neighbour_failure(const Faces& s, std::int64_t t, int i) {
     return {};
   const int start = slot_of(s, other, s.vertex(t, i + 2));
   if (start == 3 || s.vertex(other, start + 1) != s.vertex(t, i + 1))
-    return edge_name(s, t, i) + " is not an edge of its neighbour, " + triangle_name(s, other);
+    return message("{} is not an edge of its neighbour, {}", edge_name(s, t, i),
+                   triangle_name(s, other));
   if (s.neighbour(other, start + 2) != t)
-    return edge_name(s, t, i) + ": its neighbour, " + triangle_name(s, other) +
-           ", has another there";
+    return message("{}: its neighbour, {}, has another there", edge_name(s, t, i),
+                   triangle_name(s, other));
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include "mesh/edge_counts.h"
 #include "mesh/planar_check.h"
 
+#include "base/message.h"
 #include "base/points.h"
 #include "base/spherical_triangle.h"
 #include "curve/hilbert.h"
@@ -16,7 +17,7 @@
 namespace calotte {
 namespace {
 
-using base_detail::Array;
+using base_detail::Array, base_detail::message;
 using base_detail::Vec3;
 using mesh_detail::Area;
 
@@ -24,7 +25,7 @@ std::string direction_failure(const Mesh& mesh, std::int64_t site) {
   const auto p = mesh.points.col(site);
   const bool good = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) &&
                     (p[0] != 0 || p[1] != 0 || p[2] != 0);
-  return good ? std::string() : "site " + std::to_string(site) + " is not a direction";
+  return good ? std::string() : message("site {} is not a direction", site);
 }
 
 /// The area of a triangle known to be counter-clockwise, and a bound on its error. With p = b-a (or
@@ -134,7 +135,7 @@ struct OnSphere : mesh_detail::Faces {
   static std::string area_failure(const Area& area, const Check& result) {
     if (result.boundary_edges > 0 || std::abs(result.expected_area - area.value) <= 2 * area.error)
       return {};
-    return "the areas sum to " + std::to_string(area.value) + " instead of 4 pi";
+    return message("the areas sum to {} instead of 4 pi", std::to_string(area.value));
   }
 };
 

@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 /// Calls a body for each edge of a spherical or planar mesh once: at the first of its triangles.
@@ -37,7 +36,7 @@ template <class AnyMesh> void require_vertices(const AnyMesh& mesh) {
   for (std::int64_t t = 0; t < mesh.triangles.cols(); ++t)
     require(mesh.triangles.col(t).minCoeff() >= 0 &&
                 mesh.triangles.col(t).maxCoeff() < mesh.points.cols(),
-            "triangle " + std::to_string(t) + " has a vertex outside the mesh's points");
+            "triangle {} has a vertex outside the mesh's points", t);
 }
 
 /// The edges of a mesh.
@@ -50,9 +49,7 @@ struct EdgeCount {
 ///         edges and sites than most_points.
 template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
   const std::int64_t n = mesh.points.cols(), triangles = mesh.triangles.cols();
-  require(mesh.neighbours.cols() == triangles,
-          "the mesh has " + std::to_string(triangles) + " triangles but neighbours of " +
-              std::to_string(mesh.neighbours.cols()) + "; give a mesh with both");
+  require_neighbours(mesh);
   require_vertices(mesh);
   EdgeCount edges;
   edges.before.resize(static_cast<std::size_t>(base_detail::block_count(triangles)));
@@ -63,8 +60,8 @@ template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
         edges.before[static_cast<std::size_t>(block)] = here;
       });
   edges.all = base_detail::exclusive_scan(std::span(edges.before));
-  require(n + edges.all <= most_points,
-          "bisection gives more than " + std::to_string(most_points) + " points; give fewer");
+  require(n + edges.all <= most_points, "bisection gives more than {} points; give fewer",
+          most_points);
   return edges;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "base/monitor.h"
 #include "base/parallel.h"
 #include "mesh/faces.h"
@@ -15,14 +16,13 @@
 namespace calotte::mesh_detail {
 
 inline std::string triangle_name(const Faces& s, std::int64_t t) {
-  return "triangle " + std::to_string(t) + " (" + std::to_string(s.vertex(t, 0)) + ", " +
-         std::to_string(s.vertex(t, 1)) + ", " + std::to_string(s.vertex(t, 2)) + ")";
+  return message("triangle {} ({}, {}, {})", t, s.vertex(t, 0), s.vertex(t, 1), s.vertex(t, 2));
 }
 
 /// The edge across from vertex i of triangle t.
 inline std::string edge_name(const Faces& s, std::int64_t t, int i) {
-  return "edge (" + std::to_string(s.vertex(t, i + 1)) + ", " + std::to_string(s.vertex(t, i + 2)) +
-         ") of " + triangle_name(s, t);
+  return message("edge ({}, {}) of {}", s.vertex(t, i + 1), s.vertex(t, i + 2),
+                 triangle_name(s, t));
 }
 
 /// The first result of law(0), ..., law(n - 1) that is not empty.

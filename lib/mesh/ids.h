@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/require.h"
 #include "mesh/room.h"
 
 #include <calotte/mesh.h>
@@ -31,6 +32,13 @@ inline bool are_ids(const Triangles& ids, std::int64_t bound, std::int32_t least
 inline bool are_ids(const std::vector<std::int32_t>& ids, std::int64_t bound,
                     std::int32_t least = 0) {
   return are_ids(ids.data(), std::ssize(ids), bound, least);
+}
+
+/// \throws Error invalid_argument for a mesh that lacks neighbours.
+template <class AnyMesh> void require_neighbours(const AnyMesh& mesh) {
+  require(mesh.neighbours.cols() == mesh.triangles.cols(),
+          "the mesh has {} triangles but neighbours of {}; give a mesh with both",
+          mesh.triangles.cols(), mesh.neighbours.cols());
 }
 
 } // namespace calotte::mesh_detail

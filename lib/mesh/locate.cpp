@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/locate.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -18,7 +19,6 @@
 #include <cstddef>
 #include <limits>
 #include <mutex>
-#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -31,44 +31,19 @@ using base_detail::require;
 
 enum class Rim { exact, within_rounding };
 
-/// \param bad(p) whether a position cannot be located.
-template <class Bad>
-void refuse_positions(const PointsRef& positions, const Bad& bad, ErrorCode code,
-                      const std::string& what) {
+void require_all_finite(const PointsRef& positions) {
   for (std::int64_t i = 0; i < positions.cols(); ++i)
-    if (bad(positions.col(i)))
-      throw Error(code, "position " + std::to_string(i) + what, i);
-}
-
-void require_finite(const PointsRef& positions) {
-  refuse_positions(
-      positions, [](const auto& p) { return !p.allFinite(); }, ErrorCode::not_finite,
-      " is not finite; leave it out");
-}
-
-void require_queries(const Sphere&, const PointsRef& given) {
-  const base_detail::Points3Ref positions = base_detail::directions_of(given);
-  require_finite(positions);
-  refuse_positions(
-      positions, [](const auto& p) { return (p.array() == 0).all(); }, ErrorCode::zero_vector,
-      " is the zero vector, which is no direction; leave it out");
-}
-
-void require_queries(const Plane& plane, const PointsRef& given) {
-  require_finite(base_detail::plane_points_of(given));
-  require_positions(plane, given, "position");
+    if (!positions.col(i).allFinite())
+      throw Error(ErrorCode::not_finite, message("position {} is not finite; leave it out", i), i);
 }
 
 void require_hints(const Ids& hints, std::int64_t positions, std::int64_t triangles) {
   require(hints.size() == 0 || hints.size() == positions,
-          "there are " + std::to_string(hints.size()) + " hints for " + std::to_string(positions) +
-              " positions; give one for each, or none");
+          "there are {} hints for {} positions; give one for each, or none", hints.size(),
+          positions);
   for (std::int64_t i = 0; i < hints.size(); ++i)
     if (hints[i] < -1 || hints[i] >= triangles)
-      throw Error(ErrorCode::invalid_argument,
-                  "hint " + std::to_string(i) + " is " + std::to_string(hints[i]) +
-                      "; give a triangle, 0 to " + std::to_string(triangles - 1) + ", or -1",
-                  i);
+      refuse_at(i, "hint {} is {}; give a triangle, 0 to {}, or -1", hints[i], triangles - 1);
 }
 
 /// A Locator in a space.
@@ -108,7 +83,7 @@ private:
   /// the grid.
   template <class Body>
   void for_each_position(const PointsRef& positions, const Ids& hints, const Body& body) const {
-    require_queries(space_, positions);
+    checked_positions(space_, positions);
     const std::int64_t count = positions.cols();
     require_hints(hints, count, mesh_.triangles.cols());
     const bool hinted = hints.size() > 0, few = !hinted && count < grid_.cells();
@@ -424,6 +399,24 @@ Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
 }
 
 } // namespace
+
+base_detail::Points3Ref checked_positions(const Sphere&, const PointsRef& given) {
+  const base_detail::Points3Ref positions = base_detail::directions_of(given);
+  require_all_finite(positions);
+  for (std::int64_t i = 0; i < positions.cols(); ++i)
+    if (positions.col(i).isZero(0))
+      throw Error(ErrorCode::zero_vector,
+                  message("position {} is the zero vector, which is no direction; leave it out", i),
+                  i);
+  return positions;
+}
+
+base_detail::Points2Ref checked_positions(const Plane& plane, const PointsRef& given) {
+  const base_detail::Points2Ref positions = base_detail::plane_points_of(given);
+  require_all_finite(positions);
+  require_positions(plane, positions, "position");
+  return positions;
+}
 
 Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions) {
   return locate(mesh, positions, Rim::within_rounding);

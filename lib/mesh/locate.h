@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/points.h"
+#include "exact/space.h"
 #include "mesh/room.h"
 
 #include <calotte/locate.h>
 
 namespace calotte::mesh_detail {
+
+/// A caller's positions, in place.
+/// \throws Error as Locator::find() for positions.
+base_detail::Points3Ref checked_positions(const exact_detail::Sphere& sphere,
+                                          const PointsRef& given);
+base_detail::Points2Ref checked_positions(const exact_detail::Plane& plane, const PointsRef& given);
 
 /// As locate(), but a position that is outside of an open mesh by rounding alone is on its
 /// boundary: less than 1e-15 from it, in the plane of the largest coordinate.

@@ -5,11 +5,11 @@
 #include "base/parallel.h"
 #include "base/require.h"
 #include "mesh/faces.h"
+#include "mesh/ids.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace calotte {
@@ -17,10 +17,7 @@ namespace mesh_detail {
 namespace {
 
 void require_triangles(const Mesh& mesh) {
-  require(mesh.neighbours.cols() == mesh.triangles.cols(),
-          "the mesh has " + std::to_string(mesh.triangles.cols()) +
-              " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
-              "; give a mesh with both");
+  require_neighbours(mesh);
   FirstFault fault;
   for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
@@ -72,9 +69,8 @@ IdLists neighbours(const Mesh& mesh) {
       return;
     }
     if (faces.neighbour(last.triangle, next_vertex(last.vertex)) >= 0)
-      refuse("triangle " + std::to_string(last.triangle) +
-                 " has a neighbour that does not fit it: triangulate the points anew",
-             last.triangle);
+      refuse_at(last.triangle,
+                "triangle {} has a neighbour that does not fit it: triangulate the points anew");
     out.items[end++] = preceding_site(faces, last);
   };
   for_each_corner([&](std::int32_t t, int v) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/planar_check.h"
 
+#include "base/message.h"
 #include "curve/hilbert.h"
 #include "exact/space.h"
 #include "mesh/edge_counts.h"
@@ -11,6 +12,7 @@
 namespace calotte {
 namespace {
 
+using base_detail::message;
 using exact_detail::Image;
 using exact_detail::Plane;
 using exact_detail::roundoff;
@@ -19,16 +21,16 @@ using mesh_detail::Area;
 using mesh_detail::Proof;
 
 std::string site_failure(const Mesh& mesh, std::int64_t site) {
-  const std::string name = "site " + std::to_string(site);
   if (!(mesh.points(2, site) == 0))
-    return name + " of the plane has a z that is not 0";
+    return message("site {} of the plane has a z that is not 0", site);
   const Eigen::Vector2d p = mesh.points.col(site).head<2>(), &period = mesh.surface.period();
   if (!p.allFinite())
-    return name + " is not a place";
+    return message("site {} is not a place", site);
   const auto outside = p.array() < 0 || p.array() >= period.array();
-  return (period.array() > 0 && outside).any()
-             ? name + " is outside the periodic " + (mesh.surface.is_box() ? "box" : "channel")
-             : std::string();
+  if (!(period.array() > 0 && outside).any())
+    return {};
+  return message("site {} is outside the periodic {}", site,
+                 mesh.surface.is_box() ? "box" : "channel");
 }
 
 /// The power of two that brings the largest of the coordinates and periods to between 1/2 and 1.
@@ -202,10 +204,9 @@ struct InPlane : mesh_detail::Faces {
     const Area all = whole();
     if (std::abs(all.value - area.value) <= 2 * (area.error + all.error))
       return {};
-    return "the areas sum to " + std::to_string(area.value / all.value) + " of the area of the " +
-           (is_box()     ? "periodic box"
-            : periodic() ? "channel"
-                         : "hull");
+    const char* const covered = is_box() ? "periodic box" : periodic() ? "channel" : "hull";
+    return message("the areas sum to {} of the area of the {}",
+                   std::to_string(area.value / all.value), covered);
   }
 };
 

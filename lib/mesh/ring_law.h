@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "mesh/stars.h"
 
 #include <cstdint>
@@ -23,10 +24,9 @@ namespace calotte::mesh_detail {
 template <class Surface>
 std::string ring_failure(const Surface& s, const Stars& stars, std::int32_t site,
                          bool convex = true) {
-  const std::string name = "site " + std::to_string(site);
   const Corner first = stars.first(site);
   if (!exists(first))
-    return name + " is not a vertex of any triangle";
+    return message("site {} is not a vertex of any triangle", site);
   const std::int32_t ahead = following_site(s, first);
   std::int32_t walked = 0, turns = 0;
   int way = 1;
@@ -43,13 +43,13 @@ std::string ring_failure(const Surface& s, const Stars& stars, std::int32_t site
   });
   const bool is_fan = exists(last);
   if (is_fan && convex && (reflex || way < 0))
-    return "the boundary is not convex at " + name;
+    return message("the boundary is not convex at site {}", site);
   if (walked < stars.size(site) && (convex || !is_fan))
-    return "the triangles at " + name + " are not a single cycle or fan";
+    return message("the triangles at site {} are not a single cycle or fan", site);
   if (is_fan && turns > 0)
-    return "the triangles at " + name + " overlap";
+    return message("the triangles at site {} overlap", site);
   if (!is_fan && turns != 1)
-    return "the triangles turn " + std::to_string(turns) + " times around " + name;
+    return message("the triangles turn {} times around site {}", turns, site);
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "exact/predicates.h"
 #include "mesh/faces.h"
@@ -29,8 +30,8 @@ template <class Surface> std::string edge_failure(const Surface& s, std::int64_t
   const std::int32_t across = s.vertex(other, slot_of(s, other, s.vertex(t, i + 2)) + 2);
   if (s.in_circle(s.vertex(t, i + 1), s.vertex(t, i + 2), s.vertex(t, i), across) < 0)
     return {};
-  return edge_name(s, t, i) + " is not Delaunay: site " + std::to_string(across) +
-         " is inside the circum" + Surface::circle;
+  return message("{} is not Delaunay: site {} is inside the circum{}", edge_name(s, t, i), across,
+                 Surface::circle);
 }
 
 template <class Surface> std::string euler_failure(const Surface& s, std::int64_t boundary_edges) {
@@ -39,8 +40,7 @@ template <class Surface> std::string euler_failure(const Surface& s, std::int64_
   const std::int64_t expected = s.euler(boundary_edges);
   if (euler == expected)
     return {};
-  return "Euler's characteristic is " + std::to_string(euler) + " instead of " +
-         std::to_string(expected);
+  return message("Euler's characteristic is {} instead of {}", euler, expected);
 }
 
 struct Area {
