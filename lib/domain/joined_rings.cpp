@@ -189,20 +189,12 @@ private:
 
 bool any_meet(const Rings& rings) { return first_meeting(rings, ArcTree(rings.arcs.items)) >= 0; }
 
-void require_corners(const WrittenRing& ring, std::int64_t number) {
-  const std::size_t count = ring.corners.size();
-  if (count < 3)
-    refuse_region(ring.origin + " has " + std::to_string(count) +
-                      (count == 1 ? " corner" : " corners") +
-                      " and encloses nothing; give three at least",
-                  number);
-}
-
 } // namespace
 
 std::vector<WrittenRing> joined(std::vector<WrittenRing> rings) {
   for (std::size_t r = 0; r < rings.size(); ++r)
-    require_corners(rings[r], static_cast<std::int64_t>(r));
+    if (const std::int64_t corners = std::ssize(rings[r].corners); corners < 3)
+      refuse_region(few_corners_fault(rings[r].origin, corners), static_cast<std::int64_t>(r));
   const std::vector<WrittenRing> exact = Joiner(std::move(rings)).join();
   return with_origins(exact, [&] {
     const Rings arcs = rings_of(corners_of(exact));

@@ -7,13 +7,9 @@
 #include <calotte/mesh.h>
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace calotte::domain_detail {
-
-/// "line 3, point 1".
-std::string name_of_point(std::int64_t line, Eigen::Index point);
 
 /// The places of a line: unit vectors, joined by arcs shorter than a half circle, or x y 0 of a
 /// plane, joined straight. Equal ones may follow each other.

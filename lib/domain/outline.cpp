@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/outline.h"
 
-#include "base/first_fault.h"
+#include "base/message.h"
 #include "base/parallel.h"
-
-#include <calotte/error.h>
+#include "base/require.h"
+#include "domain/rings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,32 +18,20 @@ namespace {
 constexpr double largest_coordinate = 1e30, least_extent = 1e-30;
 
 [[noreturn]] void refuse_domain(const std::string& what, std::int64_t index = -1) {
-  throw Error(ErrorCode::invalid_argument, "the domain: " + what, index);
+  refuse("the domain: " + what, index);
 }
 
-/// The ring of an edge and the corner at which the edge starts.
-struct Name {
-  std::int64_t ring, corner;
-  std::string words() const {
-    return "ring " + std::to_string(ring) + ", corner " + std::to_string(corner);
-  }
-};
-
 void require_ring(const DoubleMatrix& ring, std::int64_t r) {
-  const std::string name = "ring " + std::to_string(r);
   if (ring.rows() != 2)
-    refuse_domain(name + " has " + std::to_string(ring.rows()) +
-                      (ring.rows() == 1 ? " row" : " rows") + "; give 2 x n columns x y",
+    refuse_domain(message("ring {} has {}; give 2 x n columns x y", r, counted(ring.rows(), "row")),
                   r);
   if (ring.cols() < 3)
-    refuse_domain(name + " has " + std::to_string(ring.cols()) +
-                  " corners and encloses nothing; give three at least");
+    refuse_domain(few_corners_fault(message("ring {}", r), ring.cols()), r);
   for (Eigen::Index i = 0; i < ring.cols(); ++i) {
-    const Name corner{r, i};
     if (!(ring.col(i).cwiseAbs().maxCoeff() <= largest_coordinate)) // NaN included
-      refuse_domain(corner.words() + " is not finite, or beyond 1e30; give numbers within", r);
+      refuse_domain(corner_name(r, i) + " is not finite, or beyond 1e30; give numbers within", r);
     if (ring.col(i) == ring.col((i + 1) % ring.cols()))
-      refuse_domain(corner.words() + " and the next are one place; leave one of them out", r);
+      refuse_domain(corner_name(r, i) + " and the next are one place; leave one of them out", r);
   }
 }
 
@@ -114,16 +102,9 @@ void Outline::require_simple() const {
                        : next_in_list(edges_, f) == e ? fold(edge(f), edge(e))
                                                       : meet(edge(e), edge(f));
       if (bad)
-        refuse_domain("the edges from " + name_of(e) + " and from " + name_of(f) +
-                          " meet; rings may neither cross nor touch themselves or each other",
-                      list_of(edges_, e));
+        refuse_domain(meeting_fault(edges_, e, f), list_of(edges_, e));
     });
   }
-}
-
-std::string Outline::name_of(std::int32_t edge) const {
-  const std::int64_t ring = list_of(edges_, edge);
-  return Name{ring, edge - edges_.begin[static_cast<std::size_t>(ring)]}.words();
 }
 
 /// Reverses the edges of rings that have the domain to their right.

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace calotte::domain_detail {
@@ -66,7 +65,6 @@ private:
   }
   std::int64_t strip(double y) const; ///< clamped to those there are
   const Edge& edge(std::int32_t e) const { return edges_.items[static_cast<std::size_t>(e)]; }
-  std::string name_of(std::int32_t edge) const;
   void make_strips();
   void require_simple() const;
   void orient();

@@ -2,20 +2,16 @@
 #include "domain/rings.h"
 
 #include "base/first_fault.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
-
-#include <calotte/error.h>
+#include "base/require.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace calotte::domain_detail {
 namespace {
-
-std::string corner_name(std::int64_t ring, std::int64_t corner) {
-  return "ring " + std::to_string(ring) + ", corner " + std::to_string(corner);
-}
 
 void append_arc(const Points3& corners, std::int64_t r, std::int64_t i, std::vector<Arc>& arcs) {
   const Arc arc{as_unit(column(corners, i)), as_unit(column(corners, (i + 1) % corners.cols()))};
@@ -32,10 +28,7 @@ void append_arc(const Points3& corners, std::int64_t r, std::int64_t i, std::vec
 void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs) {
   const Eigen::Index count = corners.cols();
   if (count < 3)
-    refuse_region("ring " + std::to_string(r) + " has " + std::to_string(count) +
-                      (count == 1 ? " corner" : " corners") +
-                      " and encloses nothing; give three at least",
-                  r);
+    refuse_region(few_corners_fault(message("ring {}", r), count), r);
   require_directions(corners, r);
   for (Eigen::Index i = 0; i < count; ++i)
     append_arc(corners, r, i, arcs);
@@ -69,12 +62,7 @@ std::int32_t first_conflict(const Rings& rings, const ArcTree& tree, std::int32_
 } // namespace
 
 void refuse_region(const std::string& what, std::int64_t ring) {
-  throw Error(ErrorCode::invalid_argument, "the region: " + what, ring);
-}
-
-std::string Rings::name_of(std::int32_t arc) const {
-  const std::int64_t ring = list_of(arcs, arc);
-  return corner_name(ring, arc - arcs.begin[static_cast<std::size_t>(ring)]);
+  refuse("the region: " + what, ring);
 }
 
 void require_directions(const Points3& corners, std::int64_t r) {
@@ -112,9 +100,7 @@ const Rings& simple(const Rings& rings, const ArcTree& tree) {
   if (found < 0)
     return rings;
   const auto e = static_cast<std::int32_t>(found);
-  refuse_region("the edges from " + rings.name_of(e) + " and from " +
-                    rings.name_of(first_conflict(rings, tree, e)) +
-                    " meet; rings may neither cross nor touch themselves or each other",
+  refuse_region(meeting_fault(rings.arcs, e, first_conflict(rings, tree, e)),
                 list_of(rings.arcs, e));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/lists.h"
+#include "base/message.h"
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/room.h"
@@ -22,9 +23,6 @@ struct Rings {
   Lists<std::vector<Arc>, std::vector<std::int32_t>> arcs{{0}, {}};
 
   const Arc& arc(std::int32_t i) const { return arcs.items[static_cast<std::size_t>(i)]; }
-
-  /// "ring 2, corner 5": where an arc begins.
-  std::string name_of(std::int32_t arc) const;
 
   /// The first corner of a ring.
   SideCells::Corner corner_of(std::size_t ring) const {
@@ -53,6 +51,31 @@ const Rings& simple(const Rings& rings, const ArcTree& tree);
 /// each with the first arc that it meets so.
 std::vector<std::pair<std::int32_t, std::int32_t>> meetings(const Rings& rings,
                                                             const ArcTree& tree);
+
+/// "ring 2, corner 5".
+inline std::string corner_name(std::int64_t ring, std::int64_t corner) {
+  return message("ring {}, corner {}", ring, corner);
+}
+
+/// That of the corner at which an edge begins. \param edges of each ring.
+template <class Edges> std::string start_name(const Edges& edges, std::int32_t edge) {
+  const std::int64_t ring = list_of(edges, edge);
+  return corner_name(ring, edge - edges.begin[static_cast<std::size_t>(ring)]);
+}
+
+/// What is wrong with two edges that meet.
+template <class Edges>
+std::string meeting_fault(const Edges& edges, std::int32_t e, std::int32_t f) {
+  return message("the edges from {} and from {} meet; rings may neither cross nor touch themselves "
+                 "or each other",
+                 start_name(edges, e), start_name(edges, f));
+}
+
+/// What is wrong with a ring of one or two corners.
+inline std::string few_corners_fault(const std::string& ring, std::int64_t corners) {
+  return message("{} has {} and encloses nothing; give three at least", ring,
+                 counted(corners, "corner"));
+}
 
 /// Ends in an error on a region.
 /// \throws Error invalid_argument, always.

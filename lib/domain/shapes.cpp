@@ -20,12 +20,6 @@ using namespace domain_detail;
 constexpr double least_angle = 1e-6;
 constexpr double half_turn = std::numbers::pi, quarter_turn = 0.5 * std::numbers::pi;
 
-std::string in_words(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 /// Cosine and sine of i/n of a turn.
 CosSin part_of_turn(std::int64_t i, std::int64_t n) {
   const auto octant = static_cast<int>(8 * i / n);
@@ -41,8 +35,7 @@ struct Compass {
 
 Compass compass_at(const Eigen::Vector3d& place, const std::string& what) {
   require(place.allFinite() && !place.isZero(0),
-          "the " + what +
-              "'s centre is no direction; give three finite numbers that are not all 0");
+          "the {}'s centre is no direction; give three finite numbers that are not all 0", what);
   const Vec3 up = as_unit({place.x(), place.y(), place.z()});
   const double sideways = std::sqrt(up.x * up.x + up.y * up.y);
   const Vec3 east = sideways > 0 ? Vec3{-up.y / sideways, up.x / sideways, 0} : Vec3{0, 1, 0};
@@ -50,8 +43,8 @@ Compass compass_at(const Eigen::Vector3d& place, const std::string& what) {
 }
 
 void require_corners(int corners) {
-  require(corners >= 8 && corners <= 1 << 24,
-          "the number of corners is " + std::to_string(corners) + "; give 8 to 16777216");
+  require(corners >= 8 && corners <= 1 << 24, "the number of corners is {}; give 8 to 16777216",
+          corners);
 }
 
 /// The ring of place(cosine, sine) for the angles of a regular polygon.
@@ -87,7 +80,7 @@ Surface rectangle(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
 Surface circle(const Eigen::Vector3d& centre, double radius, int corners) {
   const auto [up, east, north] = compass_at(centre, "circle");
   require(radius >= least_angle && radius <= half_turn - least_angle,
-          "the circle's radius is " + in_words(radius) + "; give 1e-6 to pi - 1e-6 radians");
+          "the circle's radius is {}; give 1e-6 to pi - 1e-6 radians", radius);
   require_corners(corners);
   const CosSin away = cos_sin_of_angle(radius);
   return UncheckedSurface::of_sphere(
@@ -103,8 +96,9 @@ Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_mi
   const auto [up, east, north] = compass_at(centre, "ellipse");
   require(semi_minor >= least_angle && semi_minor <= semi_major &&
               semi_major <= quarter_turn - least_angle,
-          "the ellipse's semi-axes are " + in_words(semi_major) + " and " + in_words(semi_minor) +
-              "; give the major one first, and 1e-6 to pi/2 - 1e-6 radians for both");
+          "the ellipse's semi-axes are {} and {}; give the major one first, and "
+          "1e-6 to pi/2 - 1e-6 radians for both",
+          semi_major, semi_minor);
   require(std::isfinite(bearing), "the ellipse's bearing is not finite; give radians from north");
   require_corners(corners);
   const double turned = std::remainder(bearing, 2 * half_turn);
@@ -125,9 +119,9 @@ Surface channel(double lower, double upper, int corners) {
            (std::abs(latitude) <= quarter_turn && is_pole(latitude));
   };
   require(valid(lower) && valid(upper) && upper - lower >= least_angle,
-          "the channel's latitudes are " + in_words(lower) + " and " + in_words(upper) +
-              "; give the lower one first, -pi/2 to pi/2 radians, 1e-6 or more from each other and "
-              "from a pole that is not one of them");
+          "the channel's latitudes are {} and {}; give the lower one first, -pi/2 to pi/2 radians, "
+          "1e-6 or more from each other and from a pole that is not one of them",
+          lower, upper);
   require(!is_pole(lower) || !is_pole(upper),
           "the channel from pole to pole is the whole sphere; give no region");
   require_corners(corners);

@@ -68,9 +68,8 @@ Surface Surface::plane() { return domain_detail::UncheckedSurface::of_plane({}, 
 Surface Surface::periodic(const Eigen::Vector2d& period) {
   const auto good = [](double side) { return side == 0 || (side >= 1e-30 && side <= 1e30); };
   base_detail::require(good(period.x()) && good(period.y()) && period.maxCoeff() > 0,
-                       "the period is " + std::to_string(period.x()) + " x " +
-                           std::to_string(period.y()) +
-                           "; give two lengths from 1e-30 to 1e30, or one and 0");
+                       "the period is {} x {}; give two lengths from 1e-30 to 1e30, or one and 0",
+                       period.x(), period.y());
   return domain_detail::UncheckedSurface::of_plane({}, period);
 }
 
@@ -80,9 +79,8 @@ Surface Surface::within(Rings rings) const {
   base_detail::require(!rings.empty(), "there are no rings; give one or more");
   for (std::size_t k = 0; sphere_ && k < rings.size(); ++k)
     base_detail::require(rings[k].rows() == 3,
-                         "ring " + std::to_string(k) + ": it has " +
-                             std::to_string(rings[k].rows()) +
-                             " rows; give 3, the coordinates x y z of a direction");
+                         "ring {}: it has {} rows; give 3, the coordinates x y z of a direction", k,
+                         rings[k].rows());
   Surface part = *this;
   const auto bounds = std::make_shared<Bounds>(std::move(rings));
   if (sphere_)
@@ -167,20 +165,20 @@ void require_inside(const Points3Ref& points, const Surface& surface, std::int64
 void require_finite_plane(const Surface& surface) {
   const Eigen::Vector2d& period = surface.period();
   const bool good = (period.array() >= 1e-30).all() && (period.array() <= 1e30).all();
-  require(surface.is_bounded() || good, "the domain: it has no rings, and the periodic box is " +
-                                            std::to_string(period.x()) + " x " +
-                                            std::to_string(period.y()) +
-                                            "; give rings, or two lengths from 1e-30 to 1e30");
+  require(surface.is_bounded() || good,
+          "the domain: it has no rings, and the periodic box is {} x {}; "
+          "give rings, or two lengths from 1e-30 to 1e30",
+          period.x(), period.y());
 }
 
 void require_sphere(const Surface& surface, const std::string& what) {
-  base_detail::require(surface.is_sphere(), what + " for the sphere, and the surface is a plane; "
-                                                   "give one of the sphere");
+  require(surface.is_sphere(),
+          "{} for the sphere, and the surface is a plane; give one of the sphere", what);
 }
 
 void require_plane(const Surface& surface, const std::string& what) {
-  base_detail::require(!surface.is_sphere(), what + " for the plane, and the surface is one of the "
-                                                    "sphere; give one of the plane");
+  require(!surface.is_sphere(),
+          "{} for the plane, and the surface is one of the sphere; give one of the plane", what);
 }
 
 } // namespace domain_detail

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -122,8 +121,7 @@ Points3 lifted(const Polygon::ring_type& ring, double least, const Stereographic
 Surface widened(const Surface& surface, double distance) {
   constexpr double farthest = 2; // radians from the centre, where distances are enlarged 3.4 times
   base_detail::require(distance > 0 && std::isfinite(distance),
-                       "the distance is " + std::to_string(distance) +
-                           "; give a positive angle in radians");
+                       "the distance is {}; give a positive angle in radians", distance);
   require_sphere(surface, "a widened region is");
   if (!surface.is_bounded())
     return surface;

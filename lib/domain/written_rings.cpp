@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "domain/written_rings.h"
 
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/arc_tree.h"
@@ -116,7 +117,7 @@ std::vector<WrittenRing> written(const std::vector<Points3>& rings) {
   std::vector<WrittenRing> written;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     require_directions(rings[r], static_cast<std::int64_t>(r));
-    written.push_back({{}, "ring " + std::to_string(r)});
+    written.push_back({{}, message("ring {}", r)});
     for (Eigen::Index i = 0; i < rings[r].cols(); ++i)
       written.back().corners.push_back(as_unit(column(rings[r], i)));
     drop_repeated(written.back().corners);
@@ -159,23 +160,23 @@ Surface::Rings corners_of(const std::vector<WrittenRing>& rings) {
 }
 
 std::string explained(const std::vector<WrittenRing>& rings, const Error& error) {
-  std::string message;
+  std::string text;
   for (std::string_view rest = error.what(); !rest.empty();) {
-    const bool begins = message.empty() || message.back() == ' ';
+    const bool begins = text.empty() || text.back() == ' ';
     const auto r = begins ? take(rest, "ring ", rings.size()) : std::nullopt;
     if (!r) {
-      message += rest.front();
+      text += rest.front();
       rest.remove_prefix(1);
       continue;
     }
     const WrittenRing& ring = rings[*r];
     const std::size_t corners = ring.corners.size();
-    message += ring.origin;
+    text += ring.origin;
     if (const auto corner = take(rest, ", corner ", corners))
-      message += ", corner " +
-                 std::to_string(ring.reversed ? (2 * corners - 2 - *corner) % corners : *corner);
+      text +=
+          message(", corner {}", ring.reversed ? (2 * corners - 2 - *corner) % corners : *corner);
   }
-  return message;
+  return text;
 }
 
 } // namespace calotte::domain_detail

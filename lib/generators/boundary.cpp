@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -87,8 +86,8 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
   std::vector<Vec3> places;
   for (std::size_t ring = 0; ring < curves.size(); ++ring) {
     const Curve<S>& curve = curves[ring];
-    require(curve.edges() > 0, "the density is zero along ring " + std::to_string(ring) +
-                                   " of the boundary; make it positive");
+    require(curve.edges() > 0,
+            "the density is zero along ring {} of the boundary; make it positive", ring);
     for (const double stop : curve.stops()) {
       const auto [place, segment] = curve.place(stop);
       places.push_back(inside<S>(*outline_of<S>(surface), place, curve.segments()[segment]));
@@ -104,8 +103,7 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
 
 Points3 generators_detail::all_boundary_points(const Surface& surface, std::int64_t cells,
                                                const Density& density) {
-  require(cells >= 4 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
-                                                  "; give 4 to " + std::to_string(most_points));
+  base_detail::require_count(cells, 4, "the number of cells");
   if (!surface.is_bounded())
     return Points3(3, 0);
   return surface.is_sphere() ? points_on_boundary<Sphere>(surface, cells, density)
@@ -115,8 +113,7 @@ Points3 generators_detail::all_boundary_points(const Surface& surface, std::int6
 Points3 boundary_points(const Surface& surface, std::int64_t cells, const Density& density) {
   Points3 points = all_boundary_points(surface, cells, density);
   require(points.cols() < std::max<std::int64_t>(cells, 1),
-          "the boundary takes " + std::to_string(points.cols()) + " of the " +
-              std::to_string(cells) + " generators; give more cells");
+          "the boundary takes {} of the {} generators; give more cells", points.cols(), cells);
   return points;
 }
 

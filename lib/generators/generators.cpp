@@ -18,7 +18,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -205,7 +204,7 @@ Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool pol
   require_count(latitudes, 1, "the number of latitudes");
   require_count(longitudes, 3, "the number of longitudes");
   require(latitudes <= most_points / longitudes,
-          "the grid has more than " + std::to_string(most_points) + " points; give fewer rows");
+          "the grid has more than {} points; give fewer rows", most_points);
   const std::int64_t n = latitudes * longitudes;
   Points3 points(3, n + (poles ? 2 : 0));
   for (std::int64_t j = 0; j < latitudes; ++j) {
@@ -227,8 +226,8 @@ Points3 lat_lon_sphere(std::int64_t latitudes, std::int64_t longitudes, bool pol
 
 Points3 cubed_sphere(std::int64_t m) {
   require_count(m, 1, "the number of cells along an edge");
-  require(m <= 13377, "the grid has more than " + std::to_string(most_points) +
-                          " points; give at most 13377 cells along an edge");
+  require(m <= 13377, "the grid has more than {} points; give at most 13377 cells along an edge",
+          most_points);
   std::vector<double> tangents(m);
   for (std::int64_t i = 0; i < m; ++i) {
     const std::int64_t right = 2 * i + 1 - m; // of 8 m in a turn
@@ -266,15 +265,14 @@ Points3 bisect(const Mesh& mesh) {
 Mesh hexagonal_box(std::int64_t columns, std::int64_t rows, double spacing) {
   require_count(columns, 3, "the number of columns");
   require_count(rows, 4, "the number of rows");
-  require(rows % 2 == 0, "the number of rows is " + std::to_string(rows) +
-                             "; give an even one, as every second row is shifted");
-  require(rows <= most_points / columns,
-          "the plane has more than " + std::to_string(most_points) + " cells; give fewer rows");
+  require(rows % 2 == 0,
+          "the number of rows is {}; give an even one, as every second row is shifted", rows);
+  require(rows <= most_points / columns, "the plane has more than {} cells; give fewer rows",
+          most_points);
   const double rise = spacing * (std::numbers::sqrt3 / 2);
   const Eigen::Vector2d period(static_cast<double>(columns) * spacing,
                                static_cast<double>(rows) * rise);
-  require(rise > 0 && period.allFinite(),
-          "the spacing is " + std::to_string(spacing) + "; give a positive number");
+  require(rise > 0 && period.allFinite(), "the spacing is {}; give a positive number", spacing);
   Mesh mesh;
   mesh.surface = Surface::periodic(period);
   mesh.points.resize(3, columns * rows);

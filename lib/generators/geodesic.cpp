@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 
 namespace calotte {
 namespace {
@@ -109,9 +108,9 @@ bool is_power_of_four(std::int64_t square) {
 Points3 geodesic_sphere(std::int64_t b, std::int64_t c) {
   const std::int64_t most = 1 << 15; // whose square does not overflow
   require(b >= 0 && c >= 0 && b < most && c < most && b + c > 0 && count_of({b, c}) <= most_points,
-          "the vector is (" + std::to_string(b) + ", " + std::to_string(c) +
-              "); give two numbers from 0, not both 0, with at most " +
-              std::to_string(most_points) + " points, 10 (b^2 + b c + c^2) + 2");
+          "the vector is ({}, {}); give two numbers from 0, not both 0, with at most {} points, "
+          "10 (b^2 + b c + c^2) + 2",
+          b, c, most_points);
   return points_of(regular({b, c}));
 }
 
@@ -125,8 +124,7 @@ Points3 geodesic_sphere(std::int64_t n) {
 std::int64_t geodesic_count(double points) {
   constexpr double fewest = 12, tolerance = 0.005;
   require(points >= fewest && points <= static_cast<double>(most_points),
-          "the number of points is " + std::to_string(points) + "; give 12 to " +
-              std::to_string(most_points));
+          "the number of points is {}; give 12 to {}", points, most_points);
   std::int64_t best = 0;
   const double most = std::sqrt(points / 10) + 1;
   for (std::int64_t c = 0; static_cast<double>(c) <= most; ++c) {

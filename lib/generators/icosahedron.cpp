@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace calotte {
 namespace generators_detail {
@@ -86,8 +85,8 @@ EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
 } // namespace
 
 Points3 bisected_icosahedron(int level) {
-  base_detail::require(level >= 0 && level <= 13,
-                       "the level is " + std::to_string(level) + "; give a number from 0 to 13");
+  base_detail::require(level >= 0 && level <= 13, "the level is {}; give a number from 0 to 13",
+                       level);
   std::int32_t count = 12;
   Points3 points(3, 10 * (std::int64_t{1} << (2 * level)) + 2);
   const std::array<Vec3, 12> corners = icosahedron_points();

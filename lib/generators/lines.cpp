@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <calotte/generators.h>
 
-#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "curve/box_tree.h"
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace calotte {
@@ -142,8 +140,7 @@ void require_inside(const std::vector<Points3>& lines, const Surface& surface) {
   for (std::size_t k = 0; k < lines.size(); ++k)
     for (Eigen::Index i = 0; i < lines[k].cols(); ++i)
       require(surface.contains(lines[k].col(i)),
-              domain_detail::name_of_point(static_cast<std::int64_t>(k), i) +
-                  " is outside the surface; cut the lines to its extent");
+              "line {}, point {} is outside the surface; cut the lines to its extent", k, i);
 }
 
 template <Space S>
@@ -158,8 +155,7 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
   std::vector<Vec3> points = apart(others, candidates.places(), spacing, S::on_sphere);
   for (const Vec3& x : points)
     require(side_of<S>(outline_of<S>(surface), x) != Side::outside,
-            "a line crosses what the surface leaves out, at " + base_detail::shortly(x.x) + " " +
-                base_detail::shortly(x.y) + " " + base_detail::shortly(x.z) + "; cut it there");
+            "a line crosses what the surface leaves out, at {} {} {}; cut it there", x.x, x.y, x.z);
   LinePoints out;
   out.points.resize(3, std::ssize(points));
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -178,8 +174,7 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
 
 LinePoints line_points(const std::vector<Points3>& lines, const Surface& surface,
                        std::int64_t cells, const Density& density, const Points3& beside) {
-  require(cells >= 3 && cells <= most_points, "the number of cells is " + std::to_string(cells) +
-                                                  "; give 3 to " + std::to_string(most_points));
+  base_detail::require_count(cells, 3, "the number of cells");
   require(surface.period().isZero(0) || lines.empty(),
           "lines are not followed in a periodic plane; give fixed points");
   if (surface.is_sphere())

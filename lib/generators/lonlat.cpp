@@ -2,27 +2,27 @@
 #include <calotte/generators.h>
 
 #include "base/lonlat.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 
 #include <calotte/error.h>
 
 #include <cmath>
-#include <string>
 
 namespace calotte {
 namespace {
 
-[[noreturn]] void refuse(ErrorCode code, Eigen::Index i, const char* problem) {
-  throw Error(code, "point " + std::to_string(i) + ": " + problem, i);
-}
+using base_detail::message, base_detail::refuse_at;
 
 void require_lonlat(double longitude, double latitude, Eigen::Index i) {
   if (!std::isfinite(longitude) || !std::isfinite(latitude))
-    refuse(ErrorCode::not_finite, i, "longitude or latitude is not finite; remove or correct it");
+    throw Error(ErrorCode::not_finite,
+                message("point {}: longitude or latitude is not finite; remove or correct it", i),
+                i);
   if (std::abs(latitude) > 90)
-    refuse(ErrorCode::invalid_argument, i,
-           "the latitude is not within -90 to 90 degrees; give longitude, then latitude");
+    refuse_at(i, "point {}: the latitude is not within -90 to 90 degrees; give longitude, then "
+                 "latitude");
 }
 
 } // namespace

@@ -113,8 +113,8 @@ Points3 lattice_inside(std::int64_t n, const Outline& outline) {
   const Lattice lattice(outline, spacing_for(n, outline));
   std::vector<std::int64_t> begin = count_rows(outline, lattice);
   const std::int64_t total = base_detail::exclusive_scan(std::span(begin));
-  require(total > 0, "no place of a lattice of " + std::to_string(n) +
-                         " places is inside the domain; increase the number");
+  require(total > 0, "no place of a lattice of {} places is inside the domain; increase the number",
+          n);
   Points3 places(3, total);
   base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
     std::int64_t next = begin[static_cast<std::size_t>(row)];

@@ -245,5 +245,5 @@ TEST_CASE("boundary: too few cells are refused in one line") {
     return test::message_of([&] { boundary_points(holed(), cells); });
   };
   CHECK(message(8).find("the boundary takes ") == 0);
-  CHECK(message(3).find("the number of cells is 3; give 4 to") == 0);
+  CHECK(message(3).find("the number of cells is 3; give a number from 4 to") == 0);
 }
