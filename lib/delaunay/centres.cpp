@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/centres.h"
 
+#include "base/message.h"
 #include "base/require.h"
 #include "delaunay/owners.h"
 #include "exact/predicates.h"
 
-#include <calotte/error.h>
 #include <calotte/generators.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 namespace calotte::delaunay_detail {
 namespace {
@@ -136,22 +135,17 @@ std::vector<Vec3> sampled_centres(const Sites& sites, int regions) {
 
 std::vector<Vec3> columns(const PointsRef& points, const std::optional<Frame>& plane) {
   require(points.rows() == 3 || (plane && points.rows() == 2),
-          "the regions' centres have " + std::to_string(points.rows()) +
-              (points.rows() == 1 ? " row; give " : " rows; give ") +
-              (plane ? "2 x k columns x y" : "3 x k columns x y z"));
+          "the regions' centres have {}; give {}", counted(points.rows(), "row"),
+          plane ? "2 x k columns x y" : "3 x k columns x y z");
   std::vector<Vec3> out(static_cast<std::size_t>(points.cols()));
   for (Eigen::Index k = 0; k < points.cols(); ++k) {
     const Vec3 p{points(0, k), points(1, k), plane ? 0 : points(2, k)};
-    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    if (plane && finite) {
+    if (plane && is_finite(p)) {
       out[static_cast<std::size_t>(k)] = (*plane)(p.x, p.y);
       continue;
     }
-    if (!finite || (p.x == 0 && p.y == 0 && p.z == 0))
-      throw Error(ErrorCode::invalid_argument,
-                  "region centre " + std::to_string(k) +
-                      " has no direction: give finite, non-zero centres",
-                  k);
+    if (!is_finite(p) || is_zero(p))
+      refuse_at(k, "region centre {} has no direction: give finite, non-zero centres");
     const double scale = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const Vec3 q{p.x / scale, p.y / scale, p.z / scale};
     out[static_cast<std::size_t>(k)] = (1 / norm(q)) * q;
@@ -170,14 +164,11 @@ int default_region_count(std::int64_t sites) {
 
 std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition) {
   if (partition.given_centres) {
-    if (partition.given_centres->cols() == 0)
-      throw Error(ErrorCode::invalid_argument, "no region centre is given; give at least one");
+    require(partition.given_centres->cols() > 0, "no region centre is given; give at least one");
     return columns(*partition.given_centres, sites.frame);
   }
   const int regions = partition.regions.value_or(default_region_count(sites.size()));
-  if (regions < 1)
-    throw Error(ErrorCode::invalid_argument,
-                "the number of regions is " + std::to_string(regions) + ": give at least 1");
+  require(regions >= 1, "the number of regions is {}: give at least 1", regions);
   // More regions than sites would own no sites; their centres would only cost time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
   if (partition.centres == Centres::fibonacci)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/periodic.h"
 
+#include "base/message.h"
 #include "base/require.h"
 #include "mesh/adjacency.h"
 #include "mesh/canonical_order.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace calotte::delaunay_detail {
@@ -127,9 +127,9 @@ Triangles one_copy_each(const Mesh& mesh, std::int64_t sites,
 
 [[noreturn]] void refuse_few(std::int64_t sites) {
   throw Error(ErrorCode::too_few_sites,
-              "a circle wider than half of the periodic box holds none of the " +
-                  std::to_string(sites) +
-                  " sites: add sites, or put several copies of the box beside each other");
+              message("a circle wider than half of the periodic box holds none of the {} sites: "
+                      "add sites, or put several copies of the box beside each other",
+                      sites));
 }
 
 /// The mesh of the sites of the box, from `whole`, which contains copies.
@@ -140,9 +140,9 @@ Mesh folded(const Mesh& whole, const Copies& copies, const Points3& sites, const
   mesh.neighbours = neighbours_of(mesh.triangles, sites.cols());
   mesh.surface = box;
   if (mesh.triangles.cols() != 2 * sites.cols())
-    throw Error(ErrorCode::internal, "a periodic box of " + std::to_string(sites.cols()) +
-                                         " sites has " + std::to_string(mesh.triangles.cols()) +
-                                         " triangles: please report this input as a bug");
+    throw Error(ErrorCode::internal, message("a periodic box of {} sites has {} triangles: "
+                                             "please report this input as a bug",
+                                             sites.cols(), mesh.triangles.cols()));
   return mesh;
 }
 

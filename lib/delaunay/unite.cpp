@@ -3,6 +3,7 @@
 
 #include "base/lists.h"
 #include "base/matrix_memory.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/split_mix.h"
 #include "base/triangle.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <atomic>
 #include <span>
-#include <string>
 #include <utility>
 
 namespace calotte::delaunay_detail {
@@ -137,10 +137,10 @@ template RegionTriangles report_triangles(Triangulation<PlaneChart>&, const Site
 namespace {
 
 [[noreturn]] void disagree(const Triple& sites) {
-  throw Error(ErrorCode::internal, "regions disagree on the triangle of sites " +
-                                       std::to_string(sites[0]) + ", " + std::to_string(sites[1]) +
-                                       " and " + std::to_string(sites[2]) +
-                                       ": please report this input as a bug");
+  throw Error(ErrorCode::internal,
+              message("regions disagree on the triangle of sites {}, {} and {}: "
+                      "please report this input as a bug",
+                      sites[0], sites[1], sites[2]));
 }
 
 /// The seam triangles whose lowest site one region owns, by their sites, with open addressing. A
