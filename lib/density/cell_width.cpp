@@ -14,8 +14,6 @@
 #include "domain/spherical_outline.h"
 #include "domain/surface.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +28,7 @@
 namespace calotte {
 namespace {
 
-using base_detail::shortly;
+using base_detail::require;
 using density_detail::RasterField;
 using density_detail::require_kind;
 using density_detail::require_radius;
@@ -140,8 +138,8 @@ void require_kind(bool of_plane, const Surface& surface) {
 }
 
 void require_radius(double radius_km) {
-  if (!(radius_km > 0) || !std::isfinite(radius_km))
-    throw Error(ErrorCode::invalid_argument, "the sphere's radius must be positive; give it in km");
+  require(radius_km > 0 && std::isfinite(radius_km),
+          "the sphere's radius must be positive; give it in km");
 }
 
 } // namespace density_detail
@@ -279,7 +277,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Surface& 
 }
 
 std::string extent(const std::string& name, const DoubleVector& nodes) {
-  return name + " runs from " + shortly(nodes[0]) + " to " + shortly(nodes[nodes.size() - 1]);
+  return message("{} runs from {} to {}", name, nodes[0], nodes[nodes.size() - 1]);
 }
 
 std::string uncovered_sphere(const Raster& raster, const Surface& region, const std::string& x,
@@ -288,15 +286,15 @@ std::string uncovered_sphere(const Raster& raster, const Surface& region, const 
   if (cover.whole())
     return {};
   if (!region.is_bounded())
-    return (cover.around ? extent(y, raster.y) : extent(x, raster.x)) +
-           " and leaves part of the sphere out; give a global raster in degrees";
+    return message("{} and leaves part of the sphere out; give a global raster in degrees",
+                   cover.around ? extent(y, raster.y) : extent(x, raster.x));
   const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
   if (!place)
     return {};
   const auto [east, north] = base_detail::lonlat_of({place->x(), place->y(), place->z()});
-  return extent(x, raster.x) + ", " + extent(y, raster.y) + ", and leaves out the place " +
-         shortly(east) + " " + shortly(north) +
-         " of the region; give a raster in degrees that covers it";
+  return message("{}, {}, and leaves out the place {} {} of the region; "
+                 "give a raster in degrees that covers it",
+                 extent(x, raster.x), extent(y, raster.y), east, north);
 }
 
 std::string uncovered_plane(const Raster& raster, const Surface& plane, const std::string& x,
@@ -315,8 +313,8 @@ std::string uncovered_plane(const Raster& raster, const Surface& plane, const st
     const double slack = 0.5 * widest_step(nodes);
     if (low[k] >= nodes[0] - slack && high[k] <= nodes[nodes.size() - 1] + slack)
       return {};
-    return extent(name, nodes) + ", but the domain from " + shortly(low[k]) + " to " +
-           shortly(high[k]) + "; give a raster that covers the domain";
+    return message("{}, but the domain from {} to {}; give a raster that covers the domain",
+                   extent(name, nodes), low[k], high[k]);
   };
   const std::string of_x = beyond(raster.x, x, 0);
   return of_x.empty() ? beyond(raster.y, y, 1) : of_x;
@@ -338,7 +336,7 @@ void require_covering(const Raster& widths, const Surface& surface) {
   const std::string problem =
       widths.of_plane ? density_detail::uncovered(widths, surface, "x", "y")
                       : density_detail::uncovered(widths, surface, "longitude", "latitude");
-  base_detail::require(problem.empty(), "cell width: " + problem);
+  require(problem.empty(), "cell width: {}", problem);
 }
 
 Gradient largest_gradient(const WidthField& widths, double radius_km) {

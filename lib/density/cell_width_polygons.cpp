@@ -4,13 +4,12 @@
 #include "base/elementary.h"
 #include "base/lonlat.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "base/vec3.h"
 #include "density/raster_field.h"
 #include "domain/arc_tree.h"
 #include "domain/arcs.h"
 #include "domain/written_rings.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +18,6 @@
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
 
 namespace calotte::density_detail {
@@ -96,10 +94,8 @@ bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
       arcs.push_back(east ? arc : Arc{arc.to, arc.from});
     });
   }
-  if (std::abs(round) > turn)
-    throw Error(ErrorCode::invalid_argument,
-                "polygon " + std::to_string(polygon) +
-                    " of a width runs round the Earth more than once; cut it in parts");
+  require(std::abs(round) <= turn,
+          "polygon {} of a width runs round the Earth more than once; cut it in parts", polygon);
   const bool north_is_left = round > 0;
   return round != 0 && domain_detail::enclose_left(arcs) == north_is_left;
 }
@@ -290,7 +286,7 @@ double step_for(const PolygonWidths& widths) {
                   "a transition of %g km is too narrow for the finest raster, of %g degrees; give "
                   "at least %.3g km",
                   widths.transition, finest, 1.005 * least);
-    throw Error(ErrorCode::invalid_argument, text);
+    refuse(text);
   }
   return std::clamp(degrees / samples, finest, coarsest);
 }

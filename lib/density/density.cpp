@@ -14,17 +14,15 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <string>
 
 namespace calotte {
 namespace density_detail {
 namespace {
 
 Profile profile_of(const Bump& bump, std::size_t b) {
-  const std::string name = "bump " + std::to_string(b) + " of the density: ";
-  Profile profile = profile_without_place(bump, name);
-  if (!bump.centre.allFinite() || bump.centre.isZero(0))
-    refuse(name + "the centre has no direction; give a finite, non-zero vector");
+  Profile profile = profile_without_place(bump, b);
+  require_of_bump(b, bump.centre.allFinite() && !bump.centre.isZero(0),
+                  "the centre has no direction; give a finite, non-zero vector");
   profile.centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
   if (bump.stretch > 1) {
     const Vec3 given{bump.major[0], bump.major[1], bump.major[2]};
@@ -116,15 +114,12 @@ std::vector<Profile> profiles_of(const Density& density) {
 
 } // namespace
 
-Profile profile_without_place(const Bump& bump, const std::string& name) {
-  if (!(bump.beta > 0) || !std::isfinite(bump.beta))
-    refuse(name + "beta must be positive");
-  if (!(bump.alpha > 0) || !std::isfinite(bump.alpha))
-    refuse(name + "alpha must be positive");
-  if (!(bump.gamma > 0) || !(bump.gamma < 1))
-    refuse(name + "gamma must lie between 0 and 1");
-  if (!(bump.stretch >= 1) || !std::isfinite(bump.stretch))
-    refuse(name + "stretch must be at least 1");
+Profile profile_without_place(const Bump& bump, std::size_t b) {
+  require_of_bump(b, bump.beta > 0 && std::isfinite(bump.beta), "beta must be positive");
+  require_of_bump(b, bump.alpha > 0 && std::isfinite(bump.alpha), "alpha must be positive");
+  require_of_bump(b, bump.gamma > 0 && bump.gamma < 1, "gamma must lie between 0 and 1");
+  require_of_bump(b, bump.stretch >= 1 && std::isfinite(bump.stretch),
+                  "stretch must be at least 1");
   return {{0, 0, 0},
           {0, 0, 0},
           1 - 1 / bump.stretch,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/elementary.h"
+#include "base/require.h"
 #include "base/vec3.h"
 #include "density/bounds.h"
 #include "density/room.h"
@@ -11,10 +12,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -31,10 +32,14 @@ CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
   return bump.gamma + bump.height * logistic((bump.beta - distance) * bump.slope);
 }
 
-/// The profile without centre and axis.
-/// \param name names the bump in messages.
+/// \throws Error invalid_argument, naming bump b, unless a condition on it holds.
+inline void require_of_bump(std::size_t b, bool holds, const char* fault) {
+  require(holds, "bump {} of the density: {}", b, fault);
+}
+
+/// The profile without centre and axis of bump b.
 /// \throws Error invalid_argument if a number is out of range.
-Profile profile_without_place(const Bump& bump, const std::string& name);
+Profile profile_without_place(const Bump& bump, std::size_t b);
 
 /// A density prepared for repeated evaluation.
 class DensityEvaluator {

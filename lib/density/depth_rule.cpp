@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/message.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "density/raster_field.h"
@@ -15,16 +14,8 @@
 namespace calotte {
 namespace {
 
-using base_detail::require;
-using base_detail::shortly;
-
 constexpr double gravity = 9.80665, rotation = 7.292e-5; // of the Earth, m/s^2 and 1/s
 constexpr double radians = std::numbers::pi / 180;
-
-void require_positive(double value, const char* name) {
-  require(value > 0 && std::isfinite(value), std::string("the ") + name + " of a rule of depths, " +
-                                                 shortly(value) + ", is not positive; give one");
-}
 
 /// Of the barotropic wave; near the equator the equatorial one (Gill, Atmosphere-Ocean Dynamics,
 /// 1982, Sect. 11.5).
@@ -97,11 +88,11 @@ Raster widths_of(const Raster& raster, const DepthRule& rule, double radius) {
 } // namespace
 
 Widths Widths::by_depth(const Raster& raster, const DepthRule& rule) {
-  require_positive(rule.cells, "number of cells");
-  require_positive(rule.least, "least width");
-  if (rule.kind == DepthRule::Kind::wavelength)
-    require_positive(rule.period, "period");
   using namespace density_detail;
+  require_positive(rule.cells, "number of cells", "depths");
+  require_positive(rule.least, "least width", "depths");
+  if (rule.kind == DepthRule::Kind::wavelength)
+    require_positive(rule.period, "period", "depths");
   require(!raster.of_plane, "depths are those of a raster of longitudes and latitudes; give one");
   require_values(raster, "heights", finite);
   return Widths(std::make_shared<WidthsOfRadius>(

@@ -2,16 +2,15 @@
 #include "density/envelope.h"
 
 #include "base/elementary.h"
+#include "base/message.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "density/surface_density.h"
 #include "domain/surface.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 namespace calotte::density_detail {
 namespace {
@@ -157,10 +156,9 @@ EnvelopeOf<Map>::EnvelopeOf(const Density& density, Map map)
   cover(depth);
   while (std::all_of(boxes_.begin(), boxes_.end(), is_zero)) {
     if (depth++ == last_depth)
-      throw Error(ErrorCode::invalid_argument,
-                  "the density is zero at each of " +
-                      std::to_string(boxes_.size() * lattice * lattice) +
-                      " points spread over the " + Map::name + ": make it positive somewhere");
+      refuse(message("the density is zero at each of {} points spread over the {}: "
+                     "make it positive somewhere",
+                     boxes_.size() * lattice * lattice, Map::name));
     cover(depth);
   }
   refine();

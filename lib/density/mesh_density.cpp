@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <string>
 
 namespace calotte {
 namespace {
@@ -70,15 +69,14 @@ Density::Callable interpolation(const Mesh& mesh, const S& space, const DoubleVe
 
 Density interpolated_density(const Mesh& mesh, const DoubleVector& density) {
   base_detail::require(density.size() == mesh.points.cols(),
-                       "the density has " + std::to_string(density.size()) +
-                           " values; give one for each of the mesh's " +
-                           std::to_string(mesh.points.cols()) + " sites");
+                       "the density has {} values; give one for each of the mesh's {} sites",
+                       density.size(), mesh.points.cols());
   base_detail::require(mesh.triangles.cols() > 0,
                        "the mesh has no triangle; triangulate its points");
   for (Eigen::Index i = 0; i < density.size(); ++i)
     base_detail::require(density[i] >= 0 && std::isfinite(density[i]),
-                         "the density is " + std::to_string(density[i]) + " at site " +
-                             std::to_string(i) + "; give finite numbers that are not negative");
+                         "the density is {} at site {}; give finite numbers that are not negative",
+                         density[i], i);
   Density result;
   result.kind = Density::Kind::callable;
   result.callable = in_space_of(mesh.surface, [&](const Space auto& space) {

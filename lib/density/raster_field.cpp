@@ -4,9 +4,8 @@
 #include "base/lonlat.h"
 #include "base/parallel.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "base/spherical_angles.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -21,21 +20,16 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
-[[noreturn]] void refuse_raster(const std::string& name, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument, name + ": " + problem);
-}
-
 /// \param nearest of two nodes: slopes overflow where they are closer.
 void require_ascending(const DoubleVector& values, const std::string& name, const std::string& axis,
                        double nearest) {
-  if (values.size() < 2)
-    refuse_raster(name, "fewer than 2 " + axis + "; give a grid that covers the domain");
+  require(values.size() >= 2, "{}: fewer than 2 {}; give a grid that covers the domain", name,
+          axis);
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]) ||
-        (i > 0 && !(values[i] > values[i - 1] && values[i] - values[i - 1] >= nearest)))
-      refuse_raster(name, axis + " " + std::to_string(i) +
-                              " is not finite and above the one before" +
-                              (nearest > 0 ? " by 1e-9 degrees" : "") + "; sort them");
+    require(std::isfinite(values[i]) &&
+                (i == 0 || (values[i] > values[i - 1] && values[i] - values[i - 1] >= nearest)),
+            "{}: {} {} is not finite and above the one before{}; sort them", name, axis, i,
+            nearest > 0 ? " by 1e-9 degrees" : "");
 }
 
 /// The mean of a row, exact if all values are equal.
@@ -97,24 +91,22 @@ void require_raster(const Raster& raster, const std::string& name) {
   const double nearest = raster.of_plane ? 0 : 1e-9; // degrees
   require_ascending(x, name, raster.of_plane ? "x" : "longitudes", nearest);
   require_ascending(y, name, raster.of_plane ? "y" : "latitudes", nearest);
-  if (!raster.of_plane && !(x[x.size() - 1] < x[0] + 360))
-    refuse_raster(name, "the last longitude is not below the first + 360; remove the repeated "
-                        "longitudes");
-  if (!raster.of_plane && (y[0] < -90 || y[y.size() - 1] > 90))
-    refuse_raster(name, "latitudes outside -90 to 90; give degrees north");
-  if (raster.values.rows() != x.size() || raster.values.cols() != y.size())
-    refuse_raster(name, std::string("the values are not ") +
-                            (raster.of_plane ? "x by y" : "longitudes x latitudes") +
-                            "; give one for each node");
+  require(raster.of_plane || x[x.size() - 1] < x[0] + 360,
+          "{}: the last longitude is not below the first + 360; remove the repeated longitudes",
+          name);
+  require(raster.of_plane || (y[0] >= -90 && y[y.size() - 1] <= 90),
+          "{}: latitudes outside -90 to 90; give degrees north", name);
+  require(raster.values.rows() == x.size() && raster.values.cols() == y.size(),
+          "{}: the values are not {}; give one for each node", name,
+          raster.of_plane ? "x by y" : "longitudes x latitudes");
 }
 
 void require_values(const Raster& raster, const std::string& name, const ValueLaw& law) {
   require_raster(raster, name);
   for (Eigen::Index j = 0; j < raster.y.size(); ++j)
     for (Eigen::Index i = 0; i < raster.x.size(); ++i)
-      if (!law.holds(raster.values(i, j)))
-        refuse_raster(name, "value (" + std::to_string(i) + ", " + std::to_string(j) + ") is not " +
-                                law.name + "; correct it");
+      require(law.holds(raster.values(i, j)), "{}: value ({}, {}) is not {}; correct it", name, i,
+              j, law.name);
 }
 
 void require_widths(const Raster& widths) {
@@ -122,9 +114,14 @@ void require_widths(const Raster& widths) {
   require_ratio(widths.values.maxCoeff(), widths.values.minCoeff());
 }
 
+void require_positive(double value, const char* name, const char* rules) {
+  require(positive_and_finite.holds(value), "the {} of a rule of {}, {}, is not positive; give one",
+          name, rules, value);
+}
+
 void require_ratio(double most, double least) {
-  if (most > 1e30 * least)
-    refuse_raster("cell width", "the widths differ by more than 1e30; give them in one unit");
+  require(most <= 1e30 * least,
+          "cell width: the widths differ by more than 1e30; give them in one unit");
 }
 
 // ---- RasterField

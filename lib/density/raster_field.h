@@ -71,6 +71,9 @@ void require_raster(const Raster& raster, const std::string& name);
 void require_values(const Raster& raster, const std::string& name, const ValueLaw& law);
 /// The same of cell widths: > 0 and finite, max / min at most 1e30.
 void require_widths(const Raster& widths);
+/// \throws Error invalid_argument unless a number of a rule is positive and finite.
+/// \param rules what it is a rule of, for the message.
+void require_positive(double value, const char* name, const char* rules);
 /// \throws Error invalid_argument for widths whose ratio exceeds 1e30.
 void require_ratio(double most, double least);
 

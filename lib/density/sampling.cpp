@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/sampling.h"
 
+#include "base/message.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "base/split_mix.h"
 #include "density/envelope.h"
 #include "density/surface_density.h"
 #include "domain/surface.h"
-
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -123,8 +123,8 @@ constexpr std::int64_t most_in_vain = 1 << 24, acceptable = 1 << 14;
 template <class Map> std::string remedy_in_vain() {
   if (std::is_same_v<Map, Hemispheres>)
     return "follow the density: lower its peaks, or make them wider";
-  return std::string("lie in the ") + Map::name + " and follow the density: widen the " +
-         Map::name + ", or lower the density's peaks";
+  return message("lie in the {} and follow the density: widen the {}, or lower the density's peaks",
+                 Map::name, Map::name);
 }
 
 /// Fills the points, or returns the witnesses above the envelope.
@@ -146,9 +146,7 @@ std::vector<Witness> fill(const EnvelopeOf<Map>& envelope, std::uint64_t seed, s
     filled = append(drawn, filled, points);
     proposed += tasks * proposals_of_task;
     if (proposed >= most_in_vain && proposed / acceptable > filled)
-      throw Error(ErrorCode::invalid_argument, "only " + std::to_string(filled) + " of " +
-                                                   std::to_string(proposed) + " points tried " +
-                                                   remedy_in_vain<Map>());
+      refuse(message("only {} of {} points tried {}", filled, proposed, remedy_in_vain<Map>()));
   }
   return {};
 }
@@ -165,9 +163,7 @@ Points3 draw_from(EnvelopeOf<Map> envelope, std::int64_t n, std::uint64_t seed) 
       return points;
     envelope.raise(above);
   }
-  throw Error(ErrorCode::invalid_argument,
-              "the density grows without bound, or from call to call: give "
-              "one with a greatest value");
+  refuse("the density grows without bound, or from call to call: give one with a greatest value");
 }
 
 } // namespace

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace calotte::density_detail {
@@ -20,13 +19,12 @@ std::vector<Profile> planar_profiles(const Density& density) {
   std::vector<Profile> profiles;
   for (std::size_t b = 0; b < density.bumps.size(); ++b) {
     const Bump& bump = density.bumps[b];
-    const std::string name = "bump " + std::to_string(b) + " of the density: ";
-    Profile profile = profile_without_place(bump, name);
-    require(bump.centre.head<2>().allFinite(), name + "the centre is not finite; give a place");
+    Profile profile = profile_without_place(bump, b);
+    require_of_bump(b, bump.centre.head<2>().allFinite(), "the centre is not finite; give a place");
     profile.centre = {bump.centre.x(), bump.centre.y(), 0};
     const double length = bump.major.head<2>().norm();
-    require(bump.stretch == 1 || (length > 0 && std::isfinite(length)),
-            name + "the long axis has no direction in the plane; give one");
+    require_of_bump(b, bump.stretch == 1 || (length > 0 && std::isfinite(length)),
+                    "the long axis has no direction in the plane; give one");
     if (bump.stretch > 1)
       profile.major = {bump.major.x() / length, bump.major.y() / length, 0};
     profiles.push_back(profile);

@@ -19,7 +19,6 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
-#include <string>
 #include <vector>
 
 // Rules at nodes: of tiles, as a run takes them, and of regular rasters.
@@ -27,9 +26,6 @@
 namespace calotte {
 namespace density_detail {
 namespace {
-
-using base_detail::require;
-using base_detail::shortly;
 
 /// What a raster of a plane covers.
 struct PlaneBox {
@@ -66,7 +62,7 @@ void require_kind_of(const WidthRule& rule, const Surface& surface) {
 
 Raster sample_on_sphere(const Widths& widths, double step) {
   require(step == 0 || (step >= 0.01 && step <= 10),
-          "the step " + shortly(step) + " of a raster is out of range; give 0.01 to 10 degrees");
+          "the step {} of a raster is out of range; give 0.01 to 10 degrees", step);
   const std::shared_ptr<const WidthRule> rule = widths.rule();
   return sample(*rule, step == 0 ? step_for(*rule, widths.radius_km()) : step);
 }
@@ -77,8 +73,8 @@ Raster sample_in_plane(const Widths& widths, const Surface& plane, double step) 
   constexpr double most_nodes = 2e7, usual_nodes = 4e6;
   require(step == 0 ||
               (step > 0 && (box.size[0] / step + 1) * (box.size[1] / step + 1) <= most_nodes),
-          "the step " + shortly(step) + " of a raster is not positive, or gives more than " +
-              shortly(most_nodes) + " nodes; give another one");
+          "the step {} of a raster is not positive, or gives more than {} nodes; give another one",
+          step, most_nodes);
   Raster raster = step > 0
                       ? grid_over(box.low, box.size, step, 2 * most_nodes)
                       : grid_over(box.low, box.size,
@@ -133,10 +129,9 @@ Raster sample(const Widths& widths, const Surface& surface, double step) {
 namespace {
 
 [[noreturn]] void refuse_place(double x, double y, bool of_plane) {
-  base_detail::refuse("no rule gives a width at " +
-                      (of_plane ? "x " + shortly(x) + ", y " + shortly(y)
-                                : "longitude " + shortly(x) + ", latitude " + shortly(y)) +
-                      "; add one that holds everywhere, such as a number");
+  refuse(message("no rule gives a width at {} {}, {} {}; "
+                 "add one that holds everywhere, such as a number",
+                 of_plane ? "x" : "longitude", x, of_plane ? "y" : "latitude", y));
 }
 
 /// Gives nodes outside a surface without a demand the largest width of the others.
@@ -348,8 +343,7 @@ Raster sampled(const Widths& widths, const Surface& surface, double step) {
 
 Widths Widths::with_step(double step) const {
   base_detail::require(step > 0 && std::isfinite(step),
-                       "the step " + base_detail::shortly(step) +
-                           " of a raster is not a positive number; give one");
+                       "the step {} of a raster is not a positive number; give one", step);
   Widths widths = *this;
   widths.step_ = step;
   return widths;

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "density/width_profile.h"
 
-#include "base/message.h"
 #include "base/require.h"
 
 #include <cmath>
-#include <string>
 
 namespace calotte::density_detail {
 namespace {
-
-using base_detail::require;
-using base_detail::shortly;
 
 /// Straight pieces of a cubic leave it by less than 1e-6 of its height.
 constexpr int pieces_of_cubic = 1024;
@@ -49,15 +44,17 @@ template <class Node> std::vector<Node> mirrored(const std::vector<Node>& nodes)
 ProfileCurve::ProfileCurve(const WidthProfile& profile, const char* what, double low, double high,
                            const char* value, const ValueLaw& law) {
   const auto& given = profile.nodes;
-  require(!given.empty(), std::string("a profile of ") + what + " has no node; give one or more");
+  require(!given.empty(), "a profile of {} has no node; give one or more", what);
   for (std::size_t k = 0; k < given.size(); ++k) {
     const double x = given[k][0], width = given[k][1];
-    const std::string node = "node " + std::to_string(k) + " of a profile of " + what;
-    require(x >= low && x <= high, node + " is at " + shortly(x) + ", outside " + shortly(low) +
-                                       " to " + shortly(high) + "; correct it");
-    require(k == 0 || x > given[k - 1][0], node + " is not above the one before; sort them");
-    require(law.holds(width), node + " has the " + value + " " + shortly(width) +
-                                  ", which is not " + law.name + "; correct it");
+    require(x >= low && x <= high,
+            "node {} of a profile of {} is at {}, outside {} to {}; correct it", k, what, x, low,
+            high);
+    require(k == 0 || x > given[k - 1][0],
+            "node {} of a profile of {} is not above the one before; sort them", k, what);
+    require(law.holds(width),
+            "node {} of a profile of {} has the {} {}, which is not {}; correct it", k, what, value,
+            width, law.name);
   }
   nodes_.push_back({given[0][0], given[0][1]});
   for (std::size_t k = 1; k < given.size(); ++k) {

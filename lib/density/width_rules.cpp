@@ -3,7 +3,6 @@
 
 #include "base/elementary.h"
 #include "base/lonlat.h"
-#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -21,15 +20,12 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace calotte {
 namespace density_detail {
 namespace {
 
-using base_detail::require;
-using base_detail::shortly;
 using Rule = std::shared_ptr<const WidthRule>;
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -39,7 +35,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 class ConstantRule : public WidthRule {
 public:
   explicit ConstantRule(double width) : WidthRule(RuleSpace::any), width_(width) {
-    require(width > 0, "the cell width " + shortly(width) + " is not a positive number; give one");
+    require(width > 0, "the cell width {} is not a positive number; give one", width);
   }
   void evaluate(std::span<const Vec3>, std::span<double> widths) const override {
     std::fill(widths.begin(), widths.end(), width_);
@@ -375,8 +371,9 @@ double common_radius(const std::vector<Widths>& widths) {
   for (const Widths& one : widths)
     if (one.radius_km() != earth_radius_km) {
       require(radius == earth_radius_km || radius == one.radius_km(),
-              "some widths are of a sphere of " + shortly(radius) + " km and some of one of " +
-                  shortly(one.radius_km()) + "; give those of one of them");
+              "some widths are of a sphere of {} km and some of one of {}; "
+              "give those of one of them",
+              radius, one.radius_km());
       radius = one.radius_km();
     }
   return radius;
@@ -521,9 +518,9 @@ Widths Widths::on_sphere(double radius_km) const {
   require_radius(radius_km);
   if (is_of_plane() || radius_km == radius_km_)
     return *this;
-  require(radius_km_ == earth_radius_km, "the widths are those of a sphere of " +
-                                             shortly(radius_km_) + " km, not of " +
-                                             shortly(radius_km) + "; give one radius");
+  require(radius_km_ == earth_radius_km,
+          "the widths are those of a sphere of {} km, not of {}; give one radius", radius_km_,
+          radius_km);
   Widths there = *this;
   there.radius_km_ = radius_km;
   return there;
@@ -572,7 +569,7 @@ Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, grea
 Widths Widths::sum(const std::vector<Widths>& of) { return combined(of, sum_of); }
 Widths Widths::times(double factor) const {
   require(factor > 0 && std::isfinite(factor),
-          "the factor " + shortly(factor) + " of widths is not a positive number; give one");
+          "the factor {} of widths is not a positive number; give one", factor);
   return combined({*this, factor}, product_of);
 }
 Widths Widths::where(const Share& share, const Widths& inside, const Widths& outside) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/elementary.h"
-#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "density/disc_rule.h"
+#include "density/raster_field.h"
 #include "oceans/shores.h"
 
 #include <calotte/delaunay.h>
@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -143,20 +142,14 @@ std::vector<Disc> discs_of(const ShorePoints& shore, const CoastSides& sides,
   return all;
 }
 
-void require_positive(double value, const char* name) {
-  require(value > 0 && std::isfinite(value),
-          std::string("the ") + name + " of a rule of channels, " + base_detail::shortly(value) +
-              ", is not positive; give one");
-}
-
 } // namespace
 } // namespace oceans_detail
 
 Widths Widths::by_channel(const Coast& coast, const ChannelRule& rule) {
   using namespace oceans_detail;
-  require_positive(rule.cells, "number of cells");
-  require_positive(rule.least, "least width");
-  require_positive(rule.widest, "widest channel");
+  density_detail::require_positive(rule.cells, "number of cells", "channels");
+  density_detail::require_positive(rule.least, "least width", "channels");
+  density_detail::require_positive(rule.widest, "widest channel", "channels");
   const std::vector<ShoreArc> shore = shore_arcs(coast);
   if (shore.empty())
     return no_demand;
