@@ -9,13 +9,11 @@
 #include "exact/space.h"
 
 #include <calotte/delaunay.h>
-#include <calotte/error.h>
 #include <calotte/quality.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -121,10 +119,8 @@ Vec3 off_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t
 void require_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i) {
   const double size = closed.surface.is_sphere() ? norm(moments.first[i]) : moments.mass[i];
   if (!(size > 0 && std::isfinite(size)))
-    throw Error(ErrorCode::invalid_argument,
-                "the density is zero over the whole cell of site " + std::to_string(i) +
-                    ", or beyond 1e150: make it positive everywhere, and smaller",
-                i);
+    refuse_at(i, "the density is zero over the whole cell of site {}, or beyond 1e150: make it "
+                 "positive everywhere, and smaller");
 }
 
 Array<std::uint8_t> triangles_inside(const ClosedMesh& closed, const Triangles& triangles) {

@@ -2,6 +2,7 @@
 #include <calotte/quality.h>
 
 #include "base/first_fault.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "integrals/moments.h"
@@ -16,13 +17,11 @@
 #include "voronoi/part.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,9 +57,9 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
 bool require_delaunay(const Mesh& mesh) {
   const Check found = require_surface(mesh);
   if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
-    throw Error(ErrorCode::invalid_argument,
-                std::to_string(edges) + " edges are not Delaunay, so that the mesh has no Voronoi "
-                                        "cells; triangulate the points anew");
+    refuse(message("{} edges are not Delaunay, so that the mesh has no Voronoi cells; "
+                   "triangulate the points anew",
+                   edges));
   return found.boundary_edges == 0;
 }
 

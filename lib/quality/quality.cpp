@@ -2,6 +2,7 @@
 #include <calotte/quality.h>
 
 #include "base/points.h"
+#include "base/require.h"
 #include "density/surface_density.h"
 #include "domain/surface.h"
 #include "quality/closed_mesh.h"
@@ -11,7 +12,6 @@
 #include "quality/voronoi_mesh.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 
 #include <cmath>
 #include <numbers>
@@ -31,10 +31,10 @@ double require_cells(const Mesh& mesh) {
   const Check found = require_voronoi_mesh(mesh);
   if (!mesh.surface.is_sphere())
     require_inside(mesh.points, mesh.surface);
-  else if (found.boundary_edges > 0)
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do "
-                "not tessellate the sphere: give sites all around");
+  else
+    require(found.boundary_edges == 0,
+            "the mesh is open, as all its sites lie in a hemisphere, and its Voronoi cells do not "
+            "tessellate the sphere: give sites all around");
   return found.area;
 }
 

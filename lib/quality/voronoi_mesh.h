@@ -5,7 +5,6 @@
 #include "quality/room.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 
 namespace calotte::quality_detail {
 
@@ -13,8 +12,8 @@ namespace calotte::quality_detail {
 /// \throws Error invalid_argument.
 inline Check require_surface(const Mesh& mesh) {
   Check found = check_surface(mesh);
-  base_detail::require(found.passed(), "the triangles do not form a surface: " + found.failure +
-                                           "; triangulate the points anew");
+  require(found.passed(), "the triangles do not form a surface: {}; triangulate the points anew",
+          found.failure);
   return found;
 }
 
@@ -30,12 +29,11 @@ inline Check require_voronoi_mesh(const Mesh& mesh) {
   const std::string failure = found.failure;
   found = check_surface(mesh);
   const EdgeCounts edges = found.passed() ? count_edges(mesh) : EdgeCounts{};
-  if (edges.cocircular == 0 || edges.not_delaunay > 0 || edges.not_convex > 0 ||
-      edges.unused_sites > 0)
-    throw Error(ErrorCode::invalid_argument,
-                "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
-                "cells: " +
-                    failure + "; triangulate the points anew");
+  require(edges.cocircular > 0 && edges.not_delaunay == 0 && edges.not_convex == 0 &&
+              edges.unused_sites == 0,
+          "the mesh is not the Delaunay triangulation of its points, so it has no Voronoi "
+          "cells: {}; triangulate the points anew",
+          failure);
   return found;
 }
 

@@ -2,6 +2,7 @@
 #include <calotte/voronoi.h>
 
 #include "base/lists.h"
+#include "base/message.h"
 #include "base/points.h"
 #include "base/require.h"
 #include "domain/clipped_cell.h"
@@ -13,11 +14,8 @@
 #include "voronoi/open.h"
 #include "voronoi/stages.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <array>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,8 +30,8 @@ namespace {
 
 void require_mesh(const Mesh& mesh) {
   require(are_ids(mesh.triangles, mesh.points.cols()),
-          "the mesh has an id that is not one of its " + std::to_string(mesh.points.cols()) +
-              " points: triangulate the points anew");
+          "the mesh has an id that is not one of its {} points: triangulate the points anew",
+          mesh.points.cols());
 }
 
 // ---- Edges of the triangulation
@@ -46,11 +44,9 @@ struct DelaunayEdge {
 };
 
 [[noreturn]] void refuse_edge(const DelaunayEdge& edge) {
-  throw Error(ErrorCode::invalid_argument,
-              "the edge from site " + std::to_string(edge.low) + " to " +
-                  std::to_string(edge.high) +
-                  " has several triangles on one side: triangulate the "
-                  "points anew");
+  refuse(message("the edge from site {} to {} has several triangles on one side: "
+                 "triangulate the points anew",
+                 edge.low, edge.high));
 }
 
 /// Sorted by their sites.
@@ -93,10 +89,7 @@ Neighbours neighbours_across(const std::vector<DelaunayEdge>& edges, std::int64_
       });
   for (std::int64_t i = 0; i < sites; ++i)
     if (out.count(i) == 0)
-      throw Error(ErrorCode::invalid_argument,
-                  "site " + std::to_string(i) +
-                      " is not a vertex of any triangle: triangulate the points anew",
-                  i);
+      refuse_at(i, "site {} is not a vertex of any triangle: triangulate the points anew");
   return out;
 }
 
@@ -158,10 +151,9 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
   std::vector<std::int32_t> known;
   const auto set = [&](std::int32_t triangle, int turns) {
     require(turns == 0 || turns == 1,
-            "the domain's boundary and the cells around site " +
-                std::to_string(mesh.triangles(0, triangle)) +
-                " do not fit: give the Delaunay triangulation of the points, and rings that keep "
-                "more than rounding apart");
+            "the domain's boundary and the cells around site {} do not fit: give the Delaunay "
+            "triangulation of the points, and rings that keep more than rounding apart",
+            mesh.triangles(0, triangle));
     inside[static_cast<std::size_t>(triangle)] = static_cast<std::int8_t>(turns);
     known.push_back(triangle);
   };
@@ -249,11 +241,8 @@ void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
 }
 
 [[noreturn]] void refuse_cell(std::int32_t cell) {
-  throw Error(ErrorCode::invalid_argument,
-              "the domain's boundary cuts the Voronoi cell of site " + std::to_string(cell) +
-                  " into several parts, or encloses an island in it, and a cell is one polygon; "
-                  "give more sites there",
-              cell);
+  refuse_at(cell, "the domain's boundary cuts the Voronoi cell of site {} into several parts, or "
+                  "encloses an island in it, and a cell is one polygon; give more sites there");
 }
 
 /// Appends the vertices of a cell, the end of the side towards the lowest neighbour first.

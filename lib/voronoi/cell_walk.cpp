@@ -2,9 +2,8 @@
 #include "voronoi/cell_walk.h"
 
 #include "base/points.h"
+#include "base/require.h"
 #include "voronoi/connectivity.h"
-
-#include <calotte/error.h>
 
 #include <span>
 
@@ -57,9 +56,7 @@ std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
 }
 
 void CellWalk::lose() {
-  throw Error(ErrorCode::invalid_argument,
-              "a line leaves the cells of the mesh, which do not cover the "
-              "sphere; give a global mesh");
+  refuse("a line leaves the cells of the mesh, which do not cover the sphere; give a global mesh");
 }
 
 } // namespace calotte::voronoi_detail

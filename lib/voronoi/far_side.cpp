@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "voronoi/far_side.h"
 
+#include "base/message.h"
 #include "base/points.h"
+#include "base/require.h"
 #include "base/triangle.h"
 #include "exact/predicates.h"
 #include "mesh/adjacency.h"
@@ -9,7 +11,6 @@
 #include "mesh/faces.h"
 
 #include <calotte/check.h>
-#include <calotte/error.h>
 
 #include <algorithm>
 #include <array>
@@ -23,10 +24,10 @@ namespace calotte::voronoi_detail {
 namespace {
 
 [[noreturn]] void refuse_boundary(std::int64_t site, const std::string& problem) {
-  throw Error(ErrorCode::invalid_argument,
-              "the mesh is open, and its boundary is not the hull of its sites: " + problem +
-                  "; use the cells of its file, or triangulate the points anew",
-              site);
+  refuse(message("the mesh is open, and its boundary is not the hull of its sites: {}; "
+                 "use the cells of its file, or triangulate the points anew",
+                 problem),
+         site);
 }
 
 /// The sites of the boundary, the mesh to the left.
@@ -41,7 +42,7 @@ std::vector<std::int32_t> boundary_of(const Mesh& mesh) {
         first = mesh.triangles(next_vertex(v), t);
         auto& end = following[static_cast<std::size_t>(first)];
         if (end >= 0)
-          refuse_boundary(first, "it touches itself at site " + std::to_string(first));
+          refuse_boundary(first, message("it touches itself at site {}", first));
         end = mesh.triangles(previous_vertex(v), t);
         ++edges;
       }
@@ -54,7 +55,7 @@ std::vector<std::int32_t> boundary_of(const Mesh& mesh) {
     if (site == first)
       break;
     if (site < 0)
-      refuse_boundary(ring.back(), "it does not close at site " + std::to_string(ring.back()));
+      refuse_boundary(ring.back(), message("it does not close at site {}", ring.back()));
   }
   if (ring.size() != edges)
     refuse_boundary(first, "it has several parts");
@@ -69,7 +70,7 @@ void require_convex(const Mesh& mesh, const std::vector<std::int32_t>& ring) {
     const std::int32_t site = ring[(i + 1) % k];
     if (exact_detail::orientation(column(mesh.points, ring[i]), column(mesh.points, site),
                                   column(mesh.points, ring[(i + 2) % k])) < 0)
-      refuse_boundary(site, "it turns to the inside at site " + std::to_string(site));
+      refuse_boundary(site, message("it turns to the inside at site {}", site));
   }
 }
 

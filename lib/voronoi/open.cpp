@@ -16,7 +16,6 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -76,9 +75,10 @@ std::vector<Edge> edges_of(const Voronoi& of) {
     if (same(k)) {
       const CellSide& other = sides[++k];
       if (same(k) || !fit(of, side, other))
-        refuse("cell " + std::to_string(side.cell) + " and cell " + std::to_string(other.cell) +
-                   " overlap, as they do not lie on opposite sides of their common edge",
-               side.cell);
+        refuse_at(side.cell,
+                  "cell {} and cell {} overlap, as they do not lie on opposite sides of their "
+                  "common edge",
+                  other.cell);
       edge.cell[1] = other.cell;
       edge.place[1] = other.place;
     }
@@ -136,7 +136,7 @@ std::vector<Fan> fans_of(const Voronoi& of) {
       const std::int32_t v = vertices[place];
       Fan& fan = fans[static_cast<std::size_t>(v)];
       if (fan.count == 3)
-        refuse("vertex " + std::to_string(v) + " is on more than three cells", v);
+        refuse_at(v, "vertex {} is on more than three cells");
       fan.sectors[static_cast<std::size_t>(fan.count++)] = {
           i, edges[place + 1 == edges.size() ? 0 : place + 1], edges[place]};
     }
@@ -169,7 +169,7 @@ void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
       out.cells_on_edge(1, fan.sectors[static_cast<std::size_t>(first)].from) >= 0;
   for (int j = 0, k = first; j < fan.count; ++j) {
     if (k == 3 || (j > 0 && k == first) || (j == 2 && !complete))
-      refuse("vertex " + std::to_string(v) + " has more than three edges", v);
+      refuse_at(v, "vertex {} has more than three edges");
     const Sector& sector = fan.sectors[static_cast<std::size_t>(k)];
     out.cells_on_vertex(j, v) = sector.cell;
     out.edges_on_vertex(j, v) = sector.from;
@@ -178,7 +178,7 @@ void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
     k = sector_from(fan, sector.to);
   }
   if (complete != (fan.count == 3))
-    refuse("vertex " + std::to_string(v) + " is on two cells only, but not on the boundary", v);
+    refuse_at(v, "vertex {} is on two cells only, but not on the boundary");
 }
 
 // ---- Measures

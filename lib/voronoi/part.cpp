@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace calotte {
@@ -39,10 +38,8 @@ KeptStars kept_stars(const Mesh& mesh, const Ids& mask) {
     int corners = 0;
     const bool closed = stars.for_each_corner(site, [&](Corner) { ++corners; });
     if (!closed || corners != stars.size(site)) // of one fan
-      refuse("site " + std::to_string(site) +
-                 " is to have a cell, but triangles do not surround it; leave it out, or mesh more "
-                 "points around it",
-             site);
+      refuse_at(site, "site {} is to have a cell, but triangles do not surround it; leave it "
+                      "out, or mesh more points around it");
     out.site.push_back(site);
     begin.push_back(begin.back() + stars.size(site));
   }
@@ -126,9 +123,8 @@ CellPart part_of(const Mesh& mesh, const Ids& mask) {
 
 Voronoi voronoi(const Mesh& mesh, const Ids& mask) {
   using namespace voronoi_detail;
-  require(mask.size() == mesh.points.cols(),
-          "there are " + std::to_string(mask.size()) + " masks for " +
-              std::to_string(mesh.points.cols()) + " sites; give one for each");
+  require(mask.size() == mesh.points.cols(), "there are {} masks for {} sites; give one for each",
+          mask.size(), mesh.points.cols());
   require(mask.size() > 0 && mask.maxCoeff() >= 0, "no site is to have a cell; keep at least one");
   require(mesh.surface.is_sphere() || !mesh.surface.is_bounded(),
           "the boundary of the plane clips cells, of which no part can be kept; keep all");

@@ -7,17 +7,15 @@
 #include "base/points.h"
 #include "base/require.h"
 #include "exact/predicates.h"
+#include "mesh/ids.h"
 #include "voronoi/connectivity.h"
 #include "voronoi/far_side.h"
 #include "voronoi/geometry.h"
 #include "voronoi/open.h"
 #include "voronoi/stages.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace calotte {
@@ -38,12 +36,12 @@ void set_space(const Mesh& mesh, Voronoi& out) {
   // Products and quotients of areas must stay in the range of doubles.
   const Eigen::Vector2d& period = mesh.surface.period();
   require(period.minCoeff() > 1e-30 && period.maxCoeff() < 1e30,
-          "the box of the plane is " + std::to_string(period[0]) + " x " +
-              std::to_string(period[1]) + ": give two positive periods between 1e-30 and 1e30");
-  require(mesh.closed(), "the mesh of " + std::to_string(mesh.points.cols()) + " sites has " +
-                             std::to_string(mesh.triangles.cols()) +
-                             " triangles, and one that covers a periodic box has two for each "
-                             "site: give such a mesh");
+          "the box of the plane is {} x {}: give two positive periods between 1e-30 and 1e30",
+          period[0], period[1]);
+  require(mesh.closed(),
+          "the mesh of {} sites has {} triangles, and one that covers a periodic box has two for "
+          "each site: give such a mesh",
+          mesh.points.cols(), mesh.triangles.cols());
   out.surface = mesh.surface;
 }
 
@@ -52,12 +50,9 @@ Rings begin(const Mesh& mesh, Voronoi& out) {
   set_space(mesh, out);
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
   require(mesh.points.cols() <= most_cells,
-          "the mesh has " + std::to_string(mesh.points.cols()) +
-              " sites, and the edges of more than 536870912 cannot be numbered: give fewer");
-  require(mesh.neighbours.cols() == mesh.triangles.cols(),
-          "the mesh has " + std::to_string(mesh.triangles.cols()) +
-              " triangles but neighbours of " + std::to_string(mesh.neighbours.cols()) +
-              ": give a mesh with both");
+          "the mesh has {} sites, and the edges of more than {} cannot be numbered: give fewer",
+          mesh.points.cols(), most_cells);
+  require_neighbours(mesh);
   Rings rings = find_rings(faces_of(mesh), out);
   out.cells = places_of(mesh);
   return rings;
