@@ -279,8 +279,9 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
   Eigen::Index cell = 0;
   const double beyond = (fractions.array() - 0.5).abs().maxCoeff(&cell) - 0.5;
   require(beyond <= 1e-6,
-          "the land covers cell " + std::to_string(cell) + " " + std::to_string(fractions[cell]) +
-              " times, as its polygons overlap or cross themselves; give polygons that do not");
+          "the land covers cell {} {} times, as its polygons overlap or cross themselves; give "
+          "polygons that do not",
+          cell, std::to_string(fractions[cell]));
   return fractions.cwiseMax(0).cwiseMin(1);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -19,7 +20,7 @@
 namespace calotte::oceans_detail {
 using base_detail::block_count, base_detail::for_each_block;
 using base_detail::column, base_detail::set_column;
-using base_detail::require;
+using base_detail::message, base_detail::refuse, base_detail::require;
 using base_detail::Vec3;
 using domain_detail::Arc;
 using exact_detail::normalised;

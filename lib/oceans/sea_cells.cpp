@@ -5,7 +5,6 @@
 #include "oceans/room.h"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 namespace calotte {
@@ -19,7 +18,7 @@ constexpr std::int32_t land = -1, sea = 0;
 std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids& of_cell) {
   std::int64_t changed = 0;
   for (const std::int32_t cell : cells) {
-    require(cell >= 0 && cell < of_cell.size(), "there is no cell " + std::to_string(cell));
+    require(cell >= 0 && cell < of_cell.size(), "there is no cell {}", cell);
     changed += of_cell[cell] != value;
     of_cell[cell] = value;
   }
@@ -89,8 +88,7 @@ std::vector<bool> kept_parts(const SeaParts& parts, const std::vector<std::int32
                                   parts.size.begin())] = true;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     const std::int32_t part = parts.of_cell[seeds[k]];
-    require(part >= 0, "seed " + std::to_string(k) + " is on land, in cell " +
-                           std::to_string(seeds[k]) + "; give a place in the sea");
+    require(part >= 0, "seed {} is on land, in cell {}; give a place in the sea", k, seeds[k]);
     kept[static_cast<std::size_t>(part)] = true;
   }
   return kept;

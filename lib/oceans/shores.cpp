@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,8 +33,9 @@ std::vector<Vec3> corners_of(const Points3& ring, std::int64_t number) {
       continue;
     const Vec3 middle = corners.empty() ? corner : corners.back() + corner;
     require(dot(middle, middle) > 1e-20,
-            "ring " + std::to_string(number) + " of the coast, corner " + std::to_string(i) +
-                " is opposite to the one before; give a corner between them");
+            "ring {} of the coast, corner {} is opposite to the one before; "
+            "give a corner between them",
+            number, i);
     corners.push_back(corner);
   }
   return corners;
@@ -124,9 +124,9 @@ const std::vector<ShoreArc>& once(const std::vector<ShoreArc>& shore) {
     }
   if (share * repeated > shore.size()) {
     const base_detail::LonLat at = base_detail::lonlat_of(last);
-    require(false, "areas of land are there twice, one with a corner at longitude " +
-                       base_detail::shortly(at.longitude) + ", latitude " +
-                       base_detail::shortly(at.latitude) + "; give each once");
+    refuse(message("areas of land are there twice, one with a corner at longitude {}, "
+                   "latitude {}; give each once",
+                   at.longitude, at.latitude));
   }
   return shore;
 }

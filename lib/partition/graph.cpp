@@ -3,6 +3,7 @@
 
 #include "base/first_fault.h"
 #include "base/lists.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/require.h"
 
@@ -44,8 +45,10 @@ void require_ids(const IdLists& neighbours) {
         if (id < -1 || id >= cells)
           fault.at(i);
   });
-  fault.refuse("cell", "has a neighbour that is not one of the " + std::to_string(cells) +
-                           " cells; number them from 0, and give -1 for none");
+  fault.refuse("cell",
+               message("has a neighbour that is not one of the {} cells; number them from 0, "
+                       "and give -1 for none",
+                       cells));
 }
 
 void require_mutual(const Graph& graph) {

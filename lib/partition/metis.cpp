@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "partition/metis.h"
 
+#include "base/message.h"
 #include "base/require.h"
 
 #include <calotte/error.h>
@@ -15,7 +16,6 @@
 #include <limits>
 #include <mutex>
 #include <new>
-#include <string>
 
 namespace calotte::partition_detail {
 namespace {
@@ -93,9 +93,9 @@ struct Metis::Arrays {
 Metis::Metis(const Graph& graph, const DoubleVector& weights)
     : arrays_(std::make_unique<Arrays>()) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  require(std::ssize(graph.items) <= most, "the cells have " + std::to_string(graph.items.size()) +
-                                               " neighbours in all, but METIS counts to " +
-                                               std::to_string(most) + "; partition a smaller mesh");
+  require(std::ssize(graph.items) <= most,
+          "the cells have {} neighbours in all, but METIS counts to {}; partition a smaller mesh",
+          graph.items.size(), most);
   arrays_->begin.assign(graph.begin.begin(), graph.begin.end());
   arrays_->neighbours.assign(graph.items.begin(), graph.items.end());
   if (weights.size() > 0)
@@ -114,9 +114,9 @@ std::vector<std::int32_t> Metis::partition(std::int64_t parts, int attempt) cons
   if (code == METIS_ERROR_MEMORY)
     throw std::bad_alloc();
   if (code != METIS_OK)
-    throw Error(ErrorCode::internal, "METIS made no " + std::to_string(parts) +
-                                         " parts: its code is " + std::to_string(code) +
-                                         "; give another number of parts");
+    throw Error(ErrorCode::internal,
+                message("METIS made no {} parts: its code is {}; give another number of parts",
+                        parts, code));
   return {part.begin(), part.end()};
 }
 

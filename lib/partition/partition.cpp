@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/first_fault.h"
+#include "base/message.h"
 #include "base/monitor.h"
 #include "base/parallel.h"
 #include "base/require.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace calotte {
@@ -22,25 +22,20 @@ using namespace partition_detail;
 void require_weights(const DoubleVector& weights, std::int64_t cells) {
   if (weights.size() == 0)
     return;
-  require(weights.size() == cells, "there are " + std::to_string(weights.size()) +
-                                       " weights, but " + std::to_string(cells) +
-                                       " cells; give one for each cell");
+  require(weights.size() == cells, "there are {} weights, but {} cells; give one for each cell",
+          weights.size(), cells);
   for (std::int64_t i = 0; i < cells; ++i)
     if (!(weights[i] >= 0) || !std::isfinite(weights[i]))
-      throw Error(ErrorCode::invalid_argument,
-                  "the weight of cell " + std::to_string(i) + " is " + std::to_string(weights[i]) +
-                      "; give finite weights >= 0",
-                  i);
+      refuse_at(i, "the weight of cell {} is {}; give finite weights >= 0", weights[i]);
   require(weights.sum() > 0, "all weights are 0; give at least one that is positive");
   require(std::isfinite(weights.sum()), "the sum of the weights is infinite; give smaller ones");
 }
 
 void require_parts(std::int64_t parts, std::int64_t cells) {
   if (parts < 1 || parts > cells)
-    throw Error(ErrorCode::invalid_argument,
-                std::to_string(cells) + " cells cannot make " + std::to_string(parts) +
-                    " parts; give a number from 1 to " + std::to_string(cells),
-                parts);
+    refuse(
+        message("{} cells cannot make {} parts; give a number from 1 to {}", cells, parts, cells),
+        parts);
 }
 
 /// A graph that several numbers of parts share.

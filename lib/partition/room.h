@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/first_fault.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/require.h"
 
@@ -12,5 +13,6 @@
 namespace calotte::partition_detail {
 using base_detail::FirstFault;
 using base_detail::for_each_block, base_detail::for_each_task;
+using base_detail::message, base_detail::refuse, base_detail::refuse_at;
 using base_detail::require, base_detail::require_count;
 } // namespace calotte::partition_detail

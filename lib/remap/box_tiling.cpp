@@ -2,6 +2,7 @@
 #include "remap/box_tiling.h"
 
 #include "base/lonlat.h"
+#include "base/message.h"
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
@@ -25,7 +26,7 @@ constexpr double slack =
 constexpr double widest = 180; ///< degrees, of a box; excluded
 
 std::string named_value(const std::string& name, Eigen::Index i, double value) {
-  return name + "[" + std::to_string(i) + "] = " + std::to_string(value);
+  return message("{}[{}] = {}", name, i, std::to_string(value));
 }
 
 /// \param sign 1 for values that ascend, -1 if they descend.
@@ -34,8 +35,8 @@ void require_order(const DoubleVector& values, const std::string& name, double s
     if (!std::isfinite(values[i]))
       refuse(named_value(name, i, values[i]) + " is not finite; correct it");
     if (i > 0 && !(sign * values[i] > sign * values[i - 1]))
-      refuse(named_value(name, i, values[i]) + " does not follow " + std::to_string(values[i - 1]) +
-             "; sort the raster along it");
+      refuse(message("{} does not follow {}; sort the raster along it",
+                     named_value(name, i, values[i]), std::to_string(values[i - 1])));
   }
 }
 
@@ -69,9 +70,8 @@ DoubleVector meridians_around(const DoubleVector& nodes) {
     step = std::max(step, nodes[i] - nodes[i - 1]);
   const double gap = nodes[0] + 360 - nodes[n - 1];
   const double rounding = 0.01 * step;
-  require(gap > -rounding, "the longitudes of a raster span " +
-                               std::to_string(nodes[n - 1] - nodes[0]) +
-                               " degrees; give at most 360");
+  require(gap > -rounding, "the longitudes of a raster span {} degrees; give at most 360",
+          std::to_string(nodes[n - 1] - nodes[0]));
   if (gap < rounding) { // the first meridian is repeated, up to the rounding of floats
     sides[0] = nodes[0];
     sides[n] = nodes[0] + 360;
@@ -178,8 +178,9 @@ std::int64_t BoxTiling::row_at(const Height& height) const {
 LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows) {
   constexpr std::int64_t most = std::int64_t{1} << 20;
   base_detail::require(columns >= 3 && columns <= most && rows >= 1 && rows <= most,
-                       "a raster of " + std::to_string(columns) + " x " + std::to_string(rows) +
-                           " boxes is out of range; give 3 to 2^20 columns and 1 to 2^20 rows");
+                       "a raster of {} x {} boxes is out of range; "
+                       "give 3 to 2^20 columns and 1 to 2^20 rows",
+                       columns, rows);
   LonLatBoxes boxes{DoubleVector(columns), DoubleVector(rows), DoubleVector(columns + 1),
                     DoubleVector(rows + 1)};
   for (std::int64_t i = 0; i <= columns; ++i)
@@ -197,8 +198,8 @@ LonLatBoxes lon_lat_boxes(std::int64_t columns, std::int64_t rows) {
 LonLatBoxes lon_lat_boxes(const DoubleVector& longitudes, const DoubleVector& latitudes) {
   using namespace remap_detail;
   require(longitudes.size() >= 3 && latitudes.size() >= 2,
-          "there are " + std::to_string(longitudes.size()) + " longitudes and " +
-              std::to_string(latitudes.size()) + " latitudes; give at least 3 and 2");
+          "there are {} longitudes and {} latitudes; give at least 3 and 2", longitudes.size(),
+          latitudes.size());
   require_order(longitudes, "longitude", 1);
   require_latitudes(latitudes, "latitude");
   LonLatBoxes boxes{longitudes, latitudes, meridians_around(longitudes),
@@ -224,21 +225,20 @@ void require_boxes(const LonLatBoxes& boxes) {
   const Eigen::Index columns = boxes.longitudes.size(), rows = boxes.latitudes.size();
   require(columns >= 1 && rows >= 1 && meridians.size() == columns + 1 &&
               parallels.size() == rows + 1,
-          "a raster's boxes have " + std::to_string(meridians.size()) + " meridians and " +
-              std::to_string(parallels.size()) + " parallels for " + std::to_string(columns) +
-              " x " + std::to_string(rows) + " nodes; give one more of each");
+          "a raster's boxes have {} meridians and {} parallels for {} x {} nodes; "
+          "give one more of each",
+          meridians.size(), parallels.size(), columns, rows);
   require(columns * rows <= std::numeric_limits<std::int32_t>::max(),
-          "a raster of " + std::to_string(columns) + " x " + std::to_string(rows) +
-              " boxes has more than 2^31 - 1; give a smaller one");
+          "a raster of {} x {} boxes has more than 2^31 - 1; give a smaller one", columns, rows);
   require_order(meridians, "meridian", 1);
   require_latitudes(parallels, "parallel");
   require(meridians[columns] - meridians[0] <= 360 + slack,
-          "the meridians of a raster span " + std::to_string(meridians[columns] - meridians[0]) +
-              " degrees; give at most 360");
+          "the meridians of a raster span {} degrees; give at most 360",
+          std::to_string(meridians[columns] - meridians[0]));
   for (Eigen::Index i = 0; i < columns; ++i)
     if (const double width = meridians[i + 1] - meridians[i]; !(width < widest))
-      refuse("box " + std::to_string(i) + " of a raster is " + std::to_string(width) +
-             " degrees wide; give boxes below 180");
+      refuse(message("box {} of a raster is {} degrees wide; give boxes below 180", i,
+                     std::to_string(width)));
   require_order(boxes.longitudes, "longitude", 1);
   require_latitudes(boxes.latitudes, "latitude");
 }

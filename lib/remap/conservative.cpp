@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/points.h"
 #include "base/require.h"
+#include "mesh/locate.h"
 #include "remap/box_overlaps.h"
 #include "remap/box_tiling.h"
 #include "remap/polygon_overlaps.h"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,25 +26,8 @@ void require_polygons(const Polygons& polygons) {
   for (std::int64_t i = 0; i < polygons.size(); ++i)
     for (const std::int32_t corner : polygons.ids[i])
       if (corner < 0 || corner >= polygons.corners.cols())
-        throw Error(ErrorCode::invalid_argument,
-                    "polygon " + std::to_string(i) + " has corner " + std::to_string(corner) +
-                        ", which is not one of " + std::to_string(polygons.corners.cols()) +
-                        "; give ids from 0 on",
-                    i);
-}
-
-/// \throws Error not_finite, zero_vector; invalid_argument for another number of rows.
-base_detail::Points3Ref checked_directions(const PointsRef& positions) {
-  const base_detail::Points3Ref directions = base_detail::directions_of(positions);
-  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-    if (!directions.col(i).allFinite())
-      throw Error(ErrorCode::not_finite,
-                  "position " + std::to_string(i) + " is not finite; correct it", i);
-    if (directions.col(i).isZero(0))
-      throw Error(ErrorCode::zero_vector,
-                  "position " + std::to_string(i) + " is 0, which is no direction; correct it", i);
-  }
-  return directions;
+        refuse_at(i, "polygon {} has corner {}, which is not one of {}; give ids from 0 on", corner,
+                  polygons.corners.cols());
 }
 
 template <Space S> DoubleVector areas_in(const S& space, const Polygons& polygons) {
@@ -370,14 +353,14 @@ Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
     });
   };
   if (polygons.surface.is_sphere()) {
-    const base_detail::Points3Ref directions = checked_directions(positions);
-    locate_in(exact_detail::Sphere(), [&](std::int64_t i) {
+    const Sphere sphere;
+    const base_detail::Points3Ref directions = mesh_detail::checked_positions(sphere, positions);
+    locate_in(sphere, [&](std::int64_t i) {
       return exact_detail::unit_of_any_norm(column(directions, i));
     });
   } else {
-    const base_detail::Points2Ref places = base_detail::plane_points_of(positions);
-    const exact_detail::Plane plane(polygons.surface.period());
-    exact_detail::require_positions(plane, places, "position");
+    const Plane plane(polygons.surface.period());
+    const base_detail::Points2Ref places = mesh_detail::checked_positions(plane, positions);
     locate_in(plane, [&](std::int64_t i) {
       return plane.wrapped(Vec3{places(0, i), places(1, i), 0});
     });
@@ -391,7 +374,7 @@ Weights interpolation_weights(const LonLatBoxes& source, const PointsRef& positi
   base_detail::require(kind == Interpolation::nearest || kind == Interpolation::linear,
                        "a raster has weights at positions of the kinds nearest and linear only; "
                        "give one of these");
-  const base_detail::Points3Ref directions = checked_directions(positions);
+  const base_detail::Points3Ref directions = mesh_detail::checked_positions(Sphere(), positions);
   const BoxInterpolation boxes(source);
   return matrix_of(positions.cols(), source.size(), [&](std::int64_t i, WeightRow& row) {
     const Vec3 unit = exact_detail::unit_of_any_norm(column(directions, i));

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -201,8 +200,8 @@ Weights interpolation_weights(const Mesh& mesh, const PointsRef& positions, Inte
 
 DoubleVector interpolate(const Weights& weights, const DoubleVector& values) {
   base_detail::require(weights.cols() == values.size(),
-                       "there are " + std::to_string(values.size()) + " values for " +
-                           std::to_string(weights.cols()) + " sites; give one for each");
+                       "there are {} values for {} sites; give one for each", values.size(),
+                       weights.cols());
   DoubleVector out(weights.rows());
   base_detail::for_each_block(out.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {

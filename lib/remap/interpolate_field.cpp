@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <string>
 
 namespace calotte {
 namespace remap_detail {
@@ -60,16 +59,13 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
   using namespace remap_detail;
   const Weights& matrix = weights.weights;
   const std::int64_t count = field.count();
-  base_detail::require(field.location == Location::cells,
-                       "the field " + field.name +
-                           " is not at cells; give one at cells or of a raster");
-  base_detail::require(field.values.size() == matrix.cols() * count,
-                       "the field " + field.name + " has " + std::to_string(field.values.size()) +
-                           " values for " + std::to_string(matrix.cols()) +
-                           " cells of the source; give " + std::to_string(count) + " for each");
-  base_detail::require(min_cover >= 0 && min_cover <= 1, "the least cover is " +
-                                                             std::to_string(min_cover) +
-                                                             "; give a fraction from 0 to 1");
+  require(field.location == Location::cells,
+          "the field {} is not at cells; give one at cells or of a raster", field.name);
+  require(field.values.size() == matrix.cols() * count,
+          "the field {} has {} values for {} cells of the source; give {} for each", field.name,
+          field.values.size(), matrix.cols(), count);
+  require(min_cover >= 0 && min_cover <= 1, "the least cover is {}; give a fraction from 0 to 1",
+          min_cover);
   MeshField out = field;
   out.values.resize(matrix.rows() * count);
   for_each_block(matrix.rows(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 /// Rows of weights that tasks make, on their way to one matrix.
@@ -69,7 +68,7 @@ Weights matrix_of(std::int64_t rows, std::int64_t columns, const MakeWorker& mak
   for (const Block& block : blocks)
     entries += std::ssize(block.entries);
   require(entries <= std::numeric_limits<int>::max(),
-          std::to_string(entries) + " weights are too many; give fewer positions at a time");
+          "{} weights are too many; give fewer positions at a time", entries);
   Weights out(rows, columns);
   out.resizeNonZeros(entries);
   std::int64_t row = 0, entry = 0;

@@ -235,7 +235,7 @@ TEST_CASE("invalid arguments are refused with the index and the remedy") {
   CHECK(refusal(DoubleVector::Zero(6)) == "all weights are 0; give at least one that is positive");
   DoubleVector weights = DoubleVector::Ones(6);
   weights[4] = -1;
-  CHECK(refusal(weights) == "the weight of cell 4 is -1.000000; give finite weights >= 0");
+  CHECK(refusal(weights) == "the weight of cell 4 is -1; give finite weights >= 0");
   weights[3] = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal(weights) == "the weight of cell 3 is nan; give finite weights >= 0");
   weights[3] = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 
 #include "base/lonlat.h"
 #include "delaunay/delaunay.h"
+#include "support/errors.h"
 #include "support/random.h"
 
 #include <Eigen/Geometry>
@@ -605,4 +606,17 @@ TEST_CASE("the cell that holds a position") {
   CHECK(found.minCoeff() == -1);
   CHECK(found.maxCoeff() < 200);
   CHECK((found.array() < 0).count() > 150);
+}
+
+TEST_CASE("the positions whose cells are asked for are those of locate()") {
+  const Surface periodic = Surface::periodic({3, 2});
+  for (const Surface& surface : {Surface::sphere(), periodic}) {
+    const Polygons cells = cells_of(delaunay(random_points(80, surface), surface));
+    Points3 at = random_points(3, surface);
+    at(1, 2) = std::nan("");
+    const Error error = test::error_of([&] { cells_at(cells, at); });
+    CHECK(error.code() == ErrorCode::not_finite);
+    CHECK(error.index() == 2);
+    CHECK(std::string(error.what()) == "position 2 is not finite; leave it out");
+  }
 }
