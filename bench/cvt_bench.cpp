@@ -88,7 +88,7 @@ Sample run_library(Workload& work, const Options& options, int threads) {
   std::vector<double> cpu;
   const auto note_cpu = [&](const Progress&) {
     cpu.push_back(watch.stop().cpu_seconds);
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   Cvt result;
   on_threads(threads, [&] {

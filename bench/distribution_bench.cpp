@@ -53,7 +53,7 @@ Points3 generators(const Density& density, std::int64_t n) {
   const std::int64_t coarse = std::min<std::int64_t>(n, 10242);
   Points3 points = make_grid({.cells = coarse,
                               .resolution = density,
-                              .start = {.kind = Start::Kind::continuation},
+                              .start = {.kind = CvtStart::Kind::continuation},
                               .stop = {.tolerance = 1e-3, .max_iterations = 300}})
                        .mesh.points;
   while (points.cols() < n)
@@ -71,7 +71,7 @@ Points3 centres_of(const std::string& decomposition, int regions) {
     return bisected_icosahedron(bisection_level(regions));
   return make_grid({.cells = regions,
                     .resolution = named_density("x8"),
-                    .start = {.kind = Start::Kind::density},
+                    .start = {.kind = CvtStart::Kind::density},
                     .stop = {.tolerance = 1e-3}})
       .mesh.points;
 }

@@ -26,7 +26,7 @@ namespace {
 
 /// What is proven of a mesh, and counted where that is not all.
 struct Findings {
-  Check check;                     ///< of a mesh that is not Delaunay: as a surface
+  CheckReport check;               ///< of a mesh that is not Delaunay: as a surface
   bool delaunay = false;           ///< the mesh is the Delaunay triangulation of its points
   std::optional<EdgeCounts> edges; ///< of a mesh that is not
   std::string failure;             ///< why the check fails; empty if it passes
@@ -60,7 +60,7 @@ Findings findings_of(const Mesh& mesh) {
 }
 
 /// What the areas are compared with.
-std::string area_line(const Check& result, bool plane) {
+std::string area_line(const CheckReport& result, bool plane) {
   std::ostringstream line;
   line << (plane && result.boundary_edges > 0 ? "area / hull     "
            : plane                            ? "area / box      "

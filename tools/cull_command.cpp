@@ -93,7 +93,7 @@ Points3 places_of(const std::vector<std::string>& words) {
 
 /// Those that the model needs besides the mesh's.
 std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
-  const Model* const model = model_of(request.model);
+  const ModelNeeds* const model = model_of(request.model);
   return model != nullptr ? model->dimensions : std::vector<FieldDimension>{};
 }
 
@@ -114,7 +114,7 @@ CullOptions options_of(const CullRequest& request) {
   options.seeds = places_of(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
-  if (const Model* const model = model_of(request.model)) {
+  if (const ModelNeeds* const model = model_of(request.model)) {
     options.sphere_radius = model->sphere_radius;
     options.vertex_order = model->vertex_order;
   }

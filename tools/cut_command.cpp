@@ -47,7 +47,7 @@ CutOptions options_of(const CutRequest& request) {
     options.vertex_order.reset();
   } else
     options.sphere_radius = radius_for(model_of(request.model), request.sphere_radius).value_or(1);
-  if (const Model* const model = model_of(request.model)) {
+  if (const ModelNeeds* const model = model_of(request.model)) {
     options.vertex_order = model->vertex_order;
     options.dimensions = model->dimensions;
   }

@@ -111,8 +111,8 @@ void keep(const CvtState& state, KeptStates& states, Progress& progress) {
 }
 
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
-Next after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
-                     KeptStates& states, Progress& progress, CvtOutcome& outcome) {
+ProgressReply after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
+                              KeptStates& states, Progress& progress, CvtOutcome& outcome) {
   progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
     keep(now.state, states, progress);
@@ -121,7 +121,7 @@ Next after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& k
     outcome.kept = keep(now.state, keeper, progress, "");
   else if (keeper.due(now.report)) // a full disk may have space again by the next time
     keep(now.state, keeper, progress, " (the run continues)");
-  return outcome.signal != 0 ? Next::stop : Next::proceed;
+  return outcome.signal != 0 ? ProgressReply::stop : ProgressReply::proceed;
 }
 
 /// A run before its first descent.
@@ -241,7 +241,7 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   finish(not_well_centred);
 }
 
-[[noreturn]] void finish_not_converged(const CvtRequest& request, const Stop& stop,
+[[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtStop& stop,
                                        const CvtReport& report) {
   std::cout.flush();
   std::cerr << "calotte: not converged: " + residual_words(request, report) +
@@ -330,7 +330,7 @@ void warn_of_result(const CvtRequest& request, const Schedule& schedule,
   if (request.points.empty() && outcome.cells != schedule.recipe.cells && !request.domain->walls)
     std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
                      std::to_string(schedule.recipe.cells) + ": " +
-                     (schedule.recipe.start.kind == Start::Kind::hexagonal
+                     (schedule.recipe.start.kind == CvtStart::Kind::hexagonal
                           ? "the hexagonal lattice has whole rows and columns; --start density "
                           : "bisections of a domain with a boundary leave out midpoints outside "
                             "it; --start multilevel ") +
@@ -367,7 +367,7 @@ void run(CvtRequest request) {
   require_request(request);
   Schedule schedule;
   const CvtOutcome outcome = tessellate_and_write(request, schedule);
-  const Stop& stop = schedule.recipe.stop;
+  const CvtStop& stop = schedule.recipe.stop;
   if (outcome.signal != 0)
     finish_interrupted(request, outcome);
   std::cout << summary(request, stop, outcome.report, outcome.cells,

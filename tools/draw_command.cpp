@@ -94,7 +94,8 @@ CellField field_of(const DrawOptions& options, const std::string& path, const Me
                    std::int64_t cells) {
   const std::string& name = options.field_name;
   for (const MeshField& field : file.fields) {
-    if (field.name == name && field.location == Location::cells && field.values.size() == cells) {
+    if (field.name == name && field.location == FieldLocation::cells &&
+        field.values.size() == cells) {
       return {field.values, field.long_name, field.units};
     }
   }
@@ -116,7 +117,7 @@ bool shows_field(const DrawOptions& options) {
 /// The cells of a limited-area grid show its zones, unless another colouring is given.
 void choose_colouring(const DrawArguments& arguments, const MeshFile& file, DrawOptions& options) {
   const auto is_mask = [](const MeshField& field) {
-    return field.name == limited_area_mask_name && field.location == Location::cells &&
+    return field.name == limited_area_mask_name && field.location == FieldLocation::cells &&
            field.values.size() > 0 && field.values.maxCoeff() > 0;
   };
   if (arguments.colour->count() == 0 && options.shapes != Shapes::triangles && file.mesh &&

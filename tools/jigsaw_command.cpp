@@ -70,7 +70,7 @@ std::string take_points(const JigFile& jig, Recipe& recipe) {
   recipe.fixed = init.points(Eigen::all, fixed);
   if (alone) {
     recipe.start.points = init.points(Eigen::all, free);
-    recipe.start.kind = Start::Kind::points;
+    recipe.start.kind = CvtStart::Kind::points;
     recipe.stop.well_centred = true;
     return "";
   }
@@ -99,7 +99,7 @@ Job job_of(const JigFile& jig) {
   job.remarks = jig.ignored();
   if (const std::string remark = take_points(jig, recipe); !remark.empty())
     job.remarks.push_back(remark);
-  const bool given = recipe.start.kind == Start::Kind::points;
+  const bool given = recipe.start.kind == CvtStart::Kind::points;
   if (recipe.surface.is_bounded() && !given)
     recipe.boundary = Boundary::generators;
   if (!given)
@@ -114,7 +114,7 @@ Cvt make_mesh(const Job& job, const std::optional<int>& threads, Progress& progr
     RunOptions options;
     options.progress = [&](const calotte::Progress& now) {
       progress.stage(describe(*now.run, schedule), std::to_string(now.run->bisections_left));
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     grid = make_grid(schedule, std::move(options));
   });

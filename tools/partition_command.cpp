@@ -105,7 +105,7 @@ DoubleVector weights_of(const PartitionRequest& request, const MeshFile& file, s
     return {};
   std::vector<std::string> names;
   for (const MeshField& field : file.fields)
-    if (field.location == Location::cells && field.values.size() == cells) {
+    if (field.location == FieldLocation::cells && field.values.size() == cells) {
       if (field.name == request.weights)
         return field.values;
       names.push_back(field.name);
@@ -224,7 +224,7 @@ PartitionOutcome partition_file(const PartitionRequest& request,
     const std::string count = std::to_string(done) + " of " + std::to_string(counts.size());
     progress.stage("partitioning " + request.mesh + ", " + count,
                    std::to_string(std::floor(10 * so_far.fraction)));
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   file = {};
   with_threads(request.threads, [&] {

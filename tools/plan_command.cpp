@@ -131,7 +131,7 @@ std::string percent(double share) {
   return formatted("%5.1f", hundred * share) + "%";
 }
 
-std::string gradient_words(const Gradient& gradient) {
+std::string gradient_words(const WidthGradient& gradient) {
   if (!(gradient.slope > 0))
     return "0";
   return formatted("%.2g", gradient.slope) + " at " + place_of(gradient) +

@@ -133,7 +133,7 @@ RefineOptions options_of(const RefineRequest& request, Progress& progress) {
       progress.stage(std::to_string(now.run->report.iterations.back().cells) +
                      " cells of a patch, evaluation " +
                      std::to_string(now.run->report.iterations.size()));
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   return options;
 }

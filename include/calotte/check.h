@@ -13,7 +13,7 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// The result of `check`.
-struct Check {
+struct CheckReport {
   /// One line that describes the first violated law and names the triangle, edge or site; empty if
   /// all laws hold.
   std::string failure;
@@ -54,7 +54,7 @@ struct Check {
 /// \param progress if set, called between blocks of triangles, with the stage "check". A mesh that
 ///         is open or broken is read more than once; the fraction may then stay constant.
 /// \throws Error cancelled.
-Check check(const Mesh& mesh, const ProgressCallback& progress = {});
+CheckReport check(const Mesh& mesh, const ProgressCallback& progress = {});
 
 /// Proves less, for a mesh that need be neither Delaunay nor convex, such as a region cut from a
 /// larger mesh, or an ocean: ids, canonical order and neighbours as above; every triangle
@@ -64,7 +64,7 @@ Check check(const Mesh& mesh, const ProgressCallback& progress = {});
 /// Sites in no triangle are allowed. Such triangles do not overlap near any edge, nor near a site
 /// of one cycle or fan.
 /// \throws Error cancelled.
-Check check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
+CheckReport check_surface(const Mesh& mesh, const ProgressCallback& progress = {});
 
 /// Counts of what keeps a mesh from being the Delaunay triangulation of its points, or closed.
 struct EdgeCounts {

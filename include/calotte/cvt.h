@@ -54,14 +54,14 @@ enum class Boundary {
 };
 
 /// The generators at the start of a run.
-struct Start {
+struct CvtStart {
   /// How they are made. In brackets: what a kind applies to, if not to all surfaces.
   enum class Kind {
     /// multilevel for a density that is not uniform, for a part of the sphere, in the plane and
     /// with fixed generators, unless bisections or iterations are given; otherwise continuation on
     /// the whole sphere without fixed generators, else density.
     automatic,
-    points, ///< those of Start::points, which need not be distinct
+    points, ///< those of CvtStart::points, which need not be distinct
     /// Random points that follow site_density(), as few as resolve the density, beside the fixed
     /// ones. Levels with rounds of insertion and contraction and bisections between them lead to
     /// any number of cells.
@@ -95,7 +95,7 @@ struct Start {
 };
 
 /// Where a run stops.
-struct Stop {
+struct CvtStop {
   Norm norm = Norm::l2_scaled; ///< compared with the tolerance; not none
   /// Stop when the norm is at most this; > 0 and finite. Default 1e-4 for a run that ends
   /// well-centred, below which the errors of a model's operators hardly fall; else 1e-6.
@@ -144,8 +144,8 @@ struct Recipe {
   /// Lines that generators follow, such as rivers; those stay, after the fixed ones. See
   /// line_points(). Default: none.
   std::vector<Points3> lines = {};
-  Start start = {};                          ///< the generators to begin with
-  Stop stop = {};                            ///< the end of the run
+  CvtStart start = {};                       ///< the generators to begin with
+  CvtStop stop = {};                         ///< the end of the run
   std::uint64_t seed = 1;                    ///< of random points
   Method method = Method::automatic;         ///< see Method
   Duplicates duplicates = Duplicates::merge; ///< of the start
@@ -165,8 +165,8 @@ struct CvtIteration {
   double linf = 0;     ///< Norm::linf, not scaled
   double gradient = 0; ///< sqrt( sum |g|^2 ), g = dE/dx of the energy, before the move
   double energy = 0;   ///< sum over cells of the integral of rho |x - x_i|^2
-  /// At a well-centred end, see Stop::well_centred: the largest excess of a shape over its limit;
-  /// otherwise 0.
+  /// At a well-centred end, see CvtStop::well_centred: the largest excess of a shape over its
+  /// limit; otherwise 0.
   double shape_excess = 0;
   /// In a polish: the number of generators farther than 0.01 of the demanded spacing from their
   /// centroids; otherwise 0.
@@ -200,7 +200,7 @@ struct CvtAction {
     bisect,   ///< a generator at the midpoint of each edge begins the next level
     insert,   ///< a round of insertion and contraction, see split_and_collapse()
     converge, ///< nothing: the generators of the last round descend to the end that is asked for
-    polish,   ///< the descent minimises a penalty for shapes, too, see Stop::well_centred
+    polish,   ///< the descent minimises a penalty for shapes, too, see CvtStop::well_centred
     raise,    ///< the polish goes on with a larger penalty, where it fell short
   };
   Kind kind = Kind::start; ///< see Kind
@@ -223,11 +223,11 @@ struct Schedule {
   /// fixed generators with those on lines and on the boundary, the kind of start, its rounds, the
   /// end, and as the resolution the density.
   Recipe recipe;
-  Density density;                          ///< that the run follows, on its surface
-  std::optional<WidthField> widths;         ///< that give it, see width_field(); none without
-  Start::Kind first = Start::Kind::density; ///< how the points of the first level are made
-  std::vector<CvtAction> actions;           ///< of the run, in order
-  double implied_cells = 0;                 ///< by the widths; 0 without
+  Density density;                                ///< that the run follows, on its surface
+  std::optional<WidthField> widths;               ///< that give it, see width_field(); none without
+  CvtStart::Kind first = CvtStart::Kind::density; ///< how the points of the first level are made
+  std::vector<CvtAction> actions;                 ///< of the run, in order
+  double implied_cells = 0;                       ///< by the widths; 0 without
   std::int64_t on_boundary = 0; ///< the last of the fixed generators, by Boundary::generators
   std::int64_t on_lines = 0;    ///< fixed generators before those, by Recipe::lines
   double from_lines = 0;        ///< see LinePoints::farthest

@@ -22,7 +22,7 @@ namespace calotte {
 /// In the plane the centre is the point (x, y), z is ignored, d is the distance to the centre, and
 /// beta and alpha are lengths. In a periodic box d is the distance to the nearest copy of the
 /// centre.
-struct Bump {
+struct DensityBump {
   Eigen::Vector3d centre{0, 0, 1};  ///< a direction, finite and non-zero
   double beta = 0.5235987755982988; ///< radius in radians, > 0; default pi / 6
   double alpha = 0.2;               ///< width of the transition in radians, > 0
@@ -52,8 +52,9 @@ struct Density {
   using Callable =
       std::function<void(const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho)>;
 
-  Kind kind = Kind::uniform;    ///< what determines the density
-  std::vector<Bump> bumps = {}; ///< combined by maximum or sum, of which there is one at least
+  Kind kind = Kind::uniform; ///< what determines the density
+  std::vector<DensityBump> bumps =
+      {}; ///< combined by maximum or sum, of which there is one at least
   /// Of Kind::widths, as density_of() makes them. A uniform density with these, a callable or bumps
   /// is ill-formed; for other kinds they have no effect.
   std::shared_ptr<const density_detail::SampledWidths> widths = {};

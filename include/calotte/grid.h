@@ -65,18 +65,19 @@ Cvt make_grid(const Recipe& recipe, RunOptions options = {});
 Cvt make_grid(const Schedule& schedule, RunOptions options = {});
 
 /// A value with its word, as options, files and other languages name it.
-template <class Value> struct Word {
+template <class Value> struct NamedValue {
   std::string_view word; ///< as in options of the command
   Value value;           ///< what it stands for
 };
 
-std::span<const Word<Start::Kind>> start_words();      ///< "automatic", "points", "multilevel", ...
-std::span<const Word<Norm>> norm_words();              ///< "l2", "linf", "l2-scaled", ..., "none"
-std::span<const Word<Method>> method_words();          ///< "auto", "lloyd", ...
-std::span<const Word<CvtAction::Kind>> action_words(); ///< "start", "bisect", "insert", ...
-std::string_view word_of(Start::Kind kind);            ///< of start_words()
-std::string_view word_of(Norm norm);                   ///< of norm_words()
-std::string_view word_of(CvtAction::Kind kind);        ///< of action_words()
+std::span<const NamedValue<CvtStart::Kind>>
+start_words();                                      ///< "automatic", "points", "multilevel", ...
+std::span<const NamedValue<Norm>> norm_words();     ///< "l2", "linf", "l2-scaled", ..., "none"
+std::span<const NamedValue<Method>> method_words(); ///< "auto", "lloyd", ...
+std::span<const NamedValue<CvtAction::Kind>> action_words(); ///< "start", "bisect", "insert", ...
+std::string_view word_of(CvtStart::Kind kind);               ///< of start_words()
+std::string_view word_of(Norm norm);                         ///< of norm_words()
+std::string_view word_of(CvtAction::Kind kind);              ///< of action_words()
 
 } // namespace calotte
 CALOTTE_API_END

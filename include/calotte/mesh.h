@@ -91,7 +91,7 @@ enum class Numbering {
 Mesh renumbered(const Mesh& mesh, Numbering numbering);
 
 /// Which part of a mesh a field belongs to.
-enum class Location {
+enum class FieldLocation {
   cells, ///< the sites and their cells
   /// The pairs of sites that share an edge of a closed mesh, in the order of Voronoi: sorted by
   /// their lower site, then by their higher one.
@@ -110,10 +110,10 @@ struct FieldDimension {
 
 /// Numbers for each cell, edge or vertex of a mesh, in its order.
 struct MeshField {
-  std::string name;                    ///< of the variable
-  std::string long_name = {};          ///< attribute in NetCDF files; empty for none
-  std::string units = {};              ///< attribute in NetCDF files; empty for none
-  Location location = Location::cells; ///< what has the numbers
+  std::string name;                              ///< of the variable
+  std::string long_name = {};                    ///< attribute in NetCDF files; empty for none
+  std::string units = {};                        ///< attribute in NetCDF files; empty for none
+  FieldLocation location = FieldLocation::cells; ///< what has the numbers
   /// count() numbers for the first cell, edge or vertex, then for the next; those of one in the
   /// order of `dimensions`, of which the last is the fastest. NaN where a file has its _FillValue.
   DoubleVector values = {};

@@ -31,10 +31,10 @@ Polygons unwrapped(Polygons polygons);
 
 /// What polygons measure, and counts of those whose shape is not that of a centroidal Voronoi cell.
 struct PolygonShapes {
-  Range area; ///< steradians; in a plane the square of its unit
+  ValueRange area; ///< steradians; in a plane the square of its unit
   /// Distance of the centres of two polygons that share a side, radians or the plane's unit; all 0
   /// without centres, and if no two share one.
-  Range spacing;
+  ValueRange spacing;
   /// Polygons whose area is 0 up to rounding: with fewer than three corners, or with sides that run
   /// back along each other. They do not count below.
   std::int64_t without_area = 0;
@@ -94,7 +94,7 @@ NotVoronoi not_voronoi(const Polygons& polygons);
 /// or a part of one. A violated law is a result, not an error; it names the first polygon.
 /// \returns sites is the number of polygons, area the sum of theirs, expected_area that of the
 ///          sphere if they cover it, else 0.
-Check check(const Polygons& polygons);
+CheckReport check(const Polygons& polygons);
 
 /// What a mesh file holds. At least one of `mesh` and `polygons` is present.
 struct MeshFile {
@@ -183,9 +183,9 @@ enum class FieldChoice {
 /// fields, and `density` the density. Features without polygons, and Voronoi cells that this
 /// library wrote, are sites; such cells of a part of the sphere are cells.
 ///
-/// Values at edges are brought into the order of Location::edges. `changes` names the fields that
-/// are taken for components along the edges, MeshField::directed: those whose name, long_name or
-/// standard_name holds "normal" or "tangent", and u, v and ru.
+/// Values at edges are brought into the order of FieldLocation::edges. `changes` names the fields
+/// that are taken for components along the edges, MeshField::directed: those whose name, long_name
+/// or standard_name holds "normal" or "tangent", and u, v and ru.
 ///
 /// \param points as read_mesh's.
 /// \throws Error as read_mesh; parse for a file that contradicts itself, naming the first offender:

@@ -23,7 +23,7 @@ struct Progress {
 };
 
 /// What a call does after its callback.
-enum class Next {
+enum class ProgressReply {
   proceed, ///< goes on
   stop,    ///< make_grid() ends with the grid as it is, marked not converged; others as `cancel`
   cancel,  ///< throws Error cancelled, and leaves no result and no file
@@ -36,7 +36,7 @@ enum class Next {
 /// Calls come from one thread at a time, but not always from the same thread. Outside of
 /// make_grid() the last call has the fraction 1; what it returns has no effect. An exception that
 /// the callback throws reaches the caller. Default: empty; nothing is reported.
-using ProgressCallback = std::function<Next(const Progress&)>;
+using ProgressCallback = std::function<ProgressReply(const Progress&)>;
 
 } // namespace calotte
 CALOTTE_API_END

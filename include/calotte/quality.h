@@ -16,7 +16,7 @@ CALOTTE_API_BEGIN
 namespace calotte {
 
 /// Extremes and mean of a quantity; all 0 if there is nothing to measure.
-struct Range {
+struct ValueRange {
   double min = 0;  ///< the least value
   double mean = 0; ///< the mean
   double max = 0;  ///< the greatest value
@@ -52,17 +52,17 @@ struct Quality {
   std::int64_t flat = 0;
   std::vector<std::int64_t> degrees; ///< degrees[d]: number of cells with d neighbours
 
-  Range spacing; ///< length of the Delaunay edges
-  Range sigma;   ///< per cell: distance to the nearest neighbour / distance to the farthest
+  ValueRange spacing; ///< length of the Delaunay edges
+  ValueRange sigma;   ///< per cell: distance to the nearest neighbour / distance to the farthest
   /// Per cell: shortest Voronoi edge / longest; 0 where cocircular sites share a corner.
-  Range cell_quality;
-  Range cell_area; ///< per cell; max / min is the area ratio
+  ValueRange cell_quality;
+  ValueRange cell_area; ///< per cell; max / min is the area ratio
 
   /// Per triangle: (b + c - a) (c + a - b) (a + b - c) / (a b c), with a, b, c the arcs of the
   /// sides; 1 if equilateral. With chords it is twice the inradius divided by the circumradius
   /// (Field, Int. J. Numer. Methods Eng. 47, 2000).
-  Range triangle_quality;
-  Range angles; ///< angles of the flat triangles, degrees; the mean is 60
+  ValueRange triangle_quality;
+  ValueRange angles; ///< angles of the flat triangles, degrees; the mean is 60
   /// Number of triangles with a flat angle above 90 degrees by more than rounding (1e-9). Their
   /// circumcentre lies outside.
   std::int64_t obtuse = 0;
@@ -71,7 +71,7 @@ struct Quality {
   /// length (after Heikes and Randall, Mon. Weather Rev. 123, 1995). Above 1/2 the two edges do not
   /// cross. Voronoi edges shorter than 1e-9 of the Delaunay edge do not count; cocircular sites
   /// share a corner there.
-  Range off_centring;
+  ValueRange off_centring;
 
   /// sqrt( (1/n) sum |x_i - c_i|^2 ) / h with h = sqrt(area / n), on the sphere sqrt(4 pi / n). c_i
   /// = M/|M| is the constrained centroid of the cell, M the integral of rho x. It equals
@@ -93,14 +93,14 @@ struct Quality {
   Percentiles dc_over_h;
   /// Per edge: length dv of the Voronoi edge over that of the Delaunay edge, both arcs on the
   /// sphere; 1/sqrt(3) for regular hexagons, 0 where cocircular sites share a corner.
-  Range dv_over_dc;
+  ValueRange dv_over_dc;
   std::int64_t short_edges = 0; ///< number of edges with dv/dc below short_voronoi_edge
   /// Number of edges with dc/h outside shortest_dc_over_h to longest_dc_over_h.
   std::int64_t mismatched_edges = 0;
   /// Number of cells that a model may object to: with a side or a neighbour counted above, or with
   /// a corner that is the centre of an obtuse triangle.
   std::int64_t bad_cells = 0;
-  Range bad_spacing; ///< mean distance of each of these cells to its neighbours
+  ValueRange bad_spacing; ///< mean distance of each of these cells to its neighbours
 
   double cells_area = 0;     ///< sum of areas over that of the surface; 1 up to rounding
   double triangles_area = 0; ///< sum of the triangles' areas / 4 pi; in a plane 0

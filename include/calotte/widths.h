@@ -77,7 +77,7 @@ double implied_cells(const WidthField& widths, const Surface& surface = {},
 void require_covering(const Raster& widths, const Surface& surface = {});
 
 /// The gradient of cell widths at one place of the sphere.
-struct Gradient {
+struct WidthGradient {
   double slope = 0;     ///< |grad h|, km per km
   double longitude = 0; ///< degrees, from -180 to below 180
   double latitude = 0;  ///< degrees
@@ -95,7 +95,7 @@ inline bool is_too_steep(double slope) { return slope > 1.005 * steepest_width; 
 /// widths are for do not count.
 /// \param radius_km radius of the sphere, > 0 and finite; default that of the Earth.
 /// \throws Error invalid_argument for a radius out of range, and for widths of a plane.
-Gradient largest_gradient(const WidthField& widths, double radius_km = earth_radius_km);
+WidthGradient largest_gradient(const WidthField& widths, double radius_km = earth_radius_km);
 
 /// The largest widths that are nowhere above the given ones, and change by at most g km per km, in
 /// a plane by g per unit of length, between any two nodes: the least of h(y) + g d(x, y) over all
@@ -173,19 +173,19 @@ struct ChannelRule {
 
 /// How far one rule holds rather than another: a share from 0 to 1 for every place. A
 /// value that is cheap to copy.
-class Share {
+class WidthShare {
 public:
   /// 1 in a region and on its boundary, 0 outside.
-  Share(const Surface& region); // NOLINT(google-explicit-constructor): a region is a share
+  WidthShare(const Surface& region); // NOLINT(google-explicit-constructor): a region is a share
   /// By the distance from the boundary of a region: > 0 outside, < 0 inside.
   /// \param profile shares of the distance, instead of widths.
   /// \throws Error invalid_argument for a surface without a boundary; naming the node, a profile
   ///         that is none, or a share that is not 0 to 1.
-  Share(const Surface& region, const WidthProfile& profile);
+  WidthShare(const Surface& region, const WidthProfile& profile);
   /// The fractions of a raster, such as those of land.
   /// \throws Error invalid_argument for one that violates the conditions of Raster, and naming the
   ///         node, for a value that is not 0 to 1.
-  Share(const Raster& raster); // NOLINT(google-explicit-constructor)
+  WidthShare(const Raster& raster); // NOLINT(google-explicit-constructor)
 
   /// What copies share, for any sphere.
   const std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>>&
@@ -289,9 +289,9 @@ public:
   static Widths maximum(const std::vector<Widths>& of); ///< the greatest
   static Widths sum(const std::vector<Widths>& of);     ///< all together
   /// One rule within a region, or where a share is 1/2 or more, another outside.
-  static Widths where(const Share& share, const Widths& inside, const Widths& outside);
+  static Widths where(const WidthShare& share, const Widths& inside, const Widths& outside);
   /// (1 - t) a + t b with the share t.
-  static Widths blend(const Widths& a, const Widths& b, const Share& t);
+  static Widths blend(const Widths& a, const Widths& b, const WidthShare& t);
 
   /// These times a number.
   /// \param factor > 0 and finite.

@@ -174,7 +174,7 @@ const std::vector<FormatInfo>& formats();
 const FormatInfo& info_of(Format format);
 
 /// A model, and the options of write() that suit it.
-struct Model {
+struct ModelNeeds {
   std::string word;         ///< such as "mpas-ocean"
   std::string name;         ///< such as "MPAS-Ocean"
   Format format;            ///< of its files
@@ -196,14 +196,14 @@ struct Model {
 /// - MPAS' shallow-water core: the unit sphere (mpas_sw_test_cases.F), and the dimensions
 ///   nVertLevels and nTracers, which it reads from the file.
 /// - FESOM: the triangles, nod2d.out and elem2d.out.
-const std::vector<Model>& models();
+const std::vector<ModelNeeds>& models();
 
 /// The model of that word; null if there is none.
-const Model* find_model(std::string_view word);
+const ModelNeeds* find_model(std::string_view word);
 
 /// Whether a model reads a file of a mesh of the sphere that write() makes with these options.
 /// \param format not by_name.
-bool suits(const Model& model, Format format, double sphere_radius, VertexOrder vertex_order,
+bool suits(const ModelNeeds& model, Format format, double sphere_radius, VertexOrder vertex_order,
            const std::vector<FieldDimension>& dimensions = {});
 
 } // namespace calotte

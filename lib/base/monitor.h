@@ -63,7 +63,7 @@ private:
 
   void call() {
     try {
-      if ((*callback_)({stage_, fraction()}) == Next::proceed)
+      if ((*callback_)({stage_, fraction()}) == ProgressReply::proceed)
         return;
       throw Error(ErrorCode::cancelled, "the progress callback cancelled the run");
     } catch (...) {

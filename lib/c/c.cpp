@@ -46,7 +46,7 @@ namespace {
 
 int rows_of(const Surface& surface) { return surface.is_sphere() ? 3 : 2; }
 
-Check check_of(const Mesh& mesh) {
+CheckReport check_of(const Mesh& mesh) {
   const bool part = mesh.surface.is_sphere() && mesh.surface.is_bounded();
   return part ? check_surface(mesh) : check(mesh);
 }
@@ -96,7 +96,7 @@ calotte_status calotte_mesh_view(const calotte_mesh* mesh, calotte_triangulation
 
 calotte_status calotte_check(const calotte_mesh* mesh, calotte_error* error) {
   return guarded(error, [&] {
-    const Check result = check_of(mesh_of(mesh));
+    const CheckReport result = check_of(mesh_of(mesh));
     require(result.passed(), result.failure);
   });
 }

@@ -79,8 +79,8 @@ calotte_status calotte_make_grid(const calotte_recipe* recipe, calotte_progress 
       options.progress = [=](const Progress& now) {
         const CvtReport& so_far = now.run->report;
         return progress(std::ssize(so_far.iterations), so_far.residual, progress_data) != 0
-                   ? Next::stop
-                   : Next::proceed;
+                   ? ProgressReply::stop
+                   : ProgressReply::proceed;
       };
     Cvt grid = make_grid(recipe_of(recipe), options);
     hand_over(std::move(grid.mesh), mesh);

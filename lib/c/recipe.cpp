@@ -35,15 +35,15 @@ bool flag_of(std::int64_t value, const std::string& name) {
 
 /// The value of a caller's word. \param usual without one.
 template <class Value>
-Value value_of(const char* word, std::span<const Word<Value>> words, Value usual,
+Value value_of(const char* word, std::span<const NamedValue<Value>> words, Value usual,
                const std::string& name) {
   if (word == nullptr)
     return usual;
-  const auto found = std::ranges::find(words, std::string_view(word), &Word<Value>::word);
+  const auto found = std::ranges::find(words, std::string_view(word), &NamedValue<Value>::word);
   if (found != words.end())
     return found->value;
   std::vector<std::string_view> all;
-  for (const Word<Value>& known : words)
+  for (const NamedValue<Value>& known : words)
     all.push_back(known.word);
   base_detail::refuse(
       message("the {} is '{}'; give one of {}", name, word, base_detail::listed(all)));
@@ -122,8 +122,8 @@ void take_resolution(const calotte_recipe& given, Recipe& recipe) {
       Widths({std::move(x), std::move(y), std::move(widths), !recipe.surface.is_sphere()});
 }
 
-Start start_of(const calotte_recipe& given, bool sphere) {
-  Start start;
+CvtStart start_of(const calotte_recipe& given, bool sphere) {
+  CvtStart start;
   start.kind = value_of(given.start, start_words(), start.kind, "start");
   start.points =
       spatial_points(given.start_points, given.start_count, sphere, "the start's points");
@@ -132,8 +132,8 @@ Start start_of(const calotte_recipe& given, bool sphere) {
   return start;
 }
 
-Stop stop_of(const calotte_recipe& given) {
-  Stop stop;
+CvtStop stop_of(const calotte_recipe& given) {
+  CvtStop stop;
   stop.norm = value_of(given.norm, norm_words(), stop.norm, "norm");
   if (given.tolerance != CALOTTE_AUTOMATIC)
     stop.tolerance = given.tolerance;

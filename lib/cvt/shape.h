@@ -23,8 +23,8 @@ struct ShapeLimits {
   double least_cotangent = 0.05, most_cotangent = 1.3;
   /// Voronoi edge over Delaunay edge, which is the mean of the two cotangents across.
   double least_edge = 0.21, most_edge = 1.1;
-  /// Delaunay edge over the spacing that the density demands there; see Stop::least_spacing.
-  double least_spacing = Stop().least_spacing, most_spacing = 1.3;
+  /// Delaunay edge over the spacing that the density demands there; see CvtStop::least_spacing.
+  double least_spacing = CvtStop().least_spacing, most_spacing = 1.3;
 };
 inline constexpr ShapeLimits shape_limits;
 

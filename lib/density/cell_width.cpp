@@ -339,7 +339,7 @@ void require_covering(const Raster& widths, const Surface& surface) {
   require(problem.empty(), "cell width: {}", problem);
 }
 
-Gradient largest_gradient(const WidthField& widths, double radius_km) {
+WidthGradient largest_gradient(const WidthField& widths, double radius_km) {
   require_kind(widths.of_plane(), {});
   require_radius(radius_km);
   const auto of_row = [&](const auto& part, std::int64_t j) {

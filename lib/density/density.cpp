@@ -19,7 +19,7 @@ namespace calotte {
 namespace density_detail {
 namespace {
 
-Profile profile_of(const Bump& bump, std::size_t b) {
+Profile profile_of(const DensityBump& bump, std::size_t b) {
   Profile profile = profile_without_place(bump, b);
   require_of_bump(b, bump.centre.allFinite() && !bump.centre.isZero(0),
                   "the centre has no direction; give a finite, non-zero vector");
@@ -114,7 +114,7 @@ std::vector<Profile> profiles_of(const Density& density) {
 
 } // namespace
 
-Profile profile_without_place(const Bump& bump, std::size_t b) {
+Profile profile_without_place(const DensityBump& bump, std::size_t b) {
   require_of_bump(b, bump.beta > 0 && std::isfinite(bump.beta), "beta must be positive");
   require_of_bump(b, bump.alpha > 0 && std::isfinite(bump.alpha), "alpha must be positive");
   require_of_bump(b, bump.gamma > 0 && bump.gamma < 1, "gamma must lie between 0 and 1");

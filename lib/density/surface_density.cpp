@@ -18,7 +18,7 @@ std::vector<Profile> planar_profiles(const Density& density) {
   require(!density.bumps.empty(), "the density has no bump: give one, or make it uniform");
   std::vector<Profile> profiles;
   for (std::size_t b = 0; b < density.bumps.size(); ++b) {
-    const Bump& bump = density.bumps[b];
+    const DensityBump& bump = density.bumps[b];
     Profile profile = profile_without_place(bump, b);
     require_of_bump(b, bump.centre.head<2>().allFinite(), "the centre is not finite; give a place");
     profile.centre = {bump.centre.x(), bump.centre.y(), 0};

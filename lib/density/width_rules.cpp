@@ -402,7 +402,7 @@ Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
 }
 
 template <double (*Weight)(double)>
-Widths blended(const Widths& a, const Widths& b, const Share& share) {
+Widths blended(const Widths& a, const Widths& b, const WidthShare& share) {
   const auto of_a = a.rule_of_radius(), of_b = b.rule_of_radius();
   const auto of_share = share.rule_of_radius();
   const RuleSpace space =
@@ -572,22 +572,22 @@ Widths Widths::times(double factor) const {
           "the factor {} of widths is not a positive number; give one", factor);
   return combined({*this, factor}, product_of);
 }
-Widths Widths::where(const Share& share, const Widths& inside, const Widths& outside) {
+Widths Widths::where(const WidthShare& share, const Widths& inside, const Widths& outside) {
   return blended<rounded>(outside, inside, share);
 }
-Widths Widths::blend(const Widths& a, const Widths& b, const Share& t) {
+Widths Widths::blend(const Widths& a, const Widths& b, const WidthShare& t) {
   return blended<all_of>(a, b, t);
 }
 
-Share::Share(const Surface& region)
+WidthShare::WidthShare(const Surface& region)
     : rule_of_radius_(std::make_shared<SharesOfRadius>(std::make_shared<ShareOfRegion>(region))) {}
 
-Share::Share(const Raster& raster) {
+WidthShare::WidthShare(const Raster& raster) {
   require_values(raster, "shares", a_fraction);
   rule_of_radius_ = std::make_shared<SharesOfRadius>(std::make_shared<ShareOfRaster>(raster));
 }
 
-Share::Share(const Surface& region, const WidthProfile& profile) {
+WidthShare::WidthShare(const Surface& region, const WidthProfile& profile) {
   require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "
                                "region");
   const double farthest = farthest_on(region);

@@ -19,41 +19,43 @@ namespace {
 
 using namespace grids_detail;
 
-constexpr std::array<Word<Start::Kind>, 11> starts{{{"automatic", Start::Kind::automatic},
-                                                    {"points", Start::Kind::points},
-                                                    {"multilevel", Start::Kind::multilevel},
-                                                    {"continuation", Start::Kind::continuation},
-                                                    {"density", Start::Kind::density},
-                                                    {"random", Start::Kind::random},
-                                                    {"fibonacci", Start::Kind::fibonacci},
-                                                    {"spiral", Start::Kind::spiral},
-                                                    {"icosahedron", Start::Kind::icosahedron},
-                                                    {"geodesic", Start::Kind::geodesic},
-                                                    {"hexagonal", Start::Kind::hexagonal}}};
+constexpr std::array<NamedValue<CvtStart::Kind>, 11> starts{
+    {{"automatic", CvtStart::Kind::automatic},
+     {"points", CvtStart::Kind::points},
+     {"multilevel", CvtStart::Kind::multilevel},
+     {"continuation", CvtStart::Kind::continuation},
+     {"density", CvtStart::Kind::density},
+     {"random", CvtStart::Kind::random},
+     {"fibonacci", CvtStart::Kind::fibonacci},
+     {"spiral", CvtStart::Kind::spiral},
+     {"icosahedron", CvtStart::Kind::icosahedron},
+     {"geodesic", CvtStart::Kind::geodesic},
+     {"hexagonal", CvtStart::Kind::hexagonal}}};
 
-constexpr std::array<Word<CvtAction::Kind>, 6> actions{{{"start", CvtAction::Kind::start},
-                                                        {"bisect", CvtAction::Kind::bisect},
-                                                        {"insert", CvtAction::Kind::insert},
-                                                        {"converge", CvtAction::Kind::converge},
-                                                        {"polish", CvtAction::Kind::polish},
-                                                        {"raise", CvtAction::Kind::raise}}};
+constexpr std::array<NamedValue<CvtAction::Kind>, 6> actions{
+    {{"start", CvtAction::Kind::start},
+     {"bisect", CvtAction::Kind::bisect},
+     {"insert", CvtAction::Kind::insert},
+     {"converge", CvtAction::Kind::converge},
+     {"polish", CvtAction::Kind::polish},
+     {"raise", CvtAction::Kind::raise}}};
 
-constexpr std::array<Word<Norm>, 5> norms{{{"l2", Norm::l2},
-                                           {"linf", Norm::linf},
-                                           {"l2-scaled", Norm::l2_scaled},
-                                           {"linf-scaled", Norm::linf_scaled},
-                                           {"none", Norm::none}}};
+constexpr std::array<NamedValue<Norm>, 5> norms{{{"l2", Norm::l2},
+                                                 {"linf", Norm::linf},
+                                                 {"l2-scaled", Norm::l2_scaled},
+                                                 {"linf-scaled", Norm::linf_scaled},
+                                                 {"none", Norm::none}}};
 
-constexpr std::array<Word<Method>, 4> methods{{{"auto", Method::automatic},
-                                               {"lloyd", Method::lloyd},
-                                               {"lbfgs", Method::lbfgs},
-                                               {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
+constexpr std::array<NamedValue<Method>, 4> methods{{{"auto", Method::automatic},
+                                                     {"lloyd", Method::lloyd},
+                                                     {"lbfgs", Method::lbfgs},
+                                                     {"lbfgs-laplacian", Method::lbfgs_laplacian}}};
 
 /// The fixed generators, then the free ones.
 Points3 generators(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   Points3 free =
-      recipe.start.kind == Start::Kind::points ? recipe.start.points : free_generators(schedule);
+      recipe.start.kind == CvtStart::Kind::points ? recipe.start.points : free_generators(schedule);
   if (recipe.fixed.cols() == 0)
     return free;
   Points3 all(3, recipe.fixed.cols() + free.cols());
@@ -97,10 +99,10 @@ CvtCallback callback_of(const ProgressCallback& progress) {
   if (!progress)
     return {};
   return [&progress](const CvtProgress& now) {
-    const Next next = progress({.stage = "descend", .run = &now});
-    if (next == Next::cancel)
+    const ProgressReply next = progress({.stage = "descend", .run = &now});
+    if (next == ProgressReply::cancel)
       throw Error(ErrorCode::cancelled, "the progress callback cancelled the run");
-    return next == Next::stop;
+    return next == ProgressReply::stop;
   };
 }
 
@@ -120,22 +122,22 @@ Cvt make_grid(const Recipe& recipe, RunOptions options) {
   return make_grid(plan(recipe), std::move(options));
 }
 
-std::span<const Word<Start::Kind>> start_words() { return starts; }
-std::span<const Word<Norm>> norm_words() { return norms; }
-std::span<const Word<Method>> method_words() { return methods; }
+std::span<const NamedValue<CvtStart::Kind>> start_words() { return starts; }
+std::span<const NamedValue<Norm>> norm_words() { return norms; }
+std::span<const NamedValue<Method>> method_words() { return methods; }
 
-std::string_view word_of(Start::Kind kind) {
-  return std::ranges::find(starts, kind, &Word<Start::Kind>::value)->word;
+std::string_view word_of(CvtStart::Kind kind) {
+  return std::ranges::find(starts, kind, &NamedValue<CvtStart::Kind>::value)->word;
 }
 
-std::span<const Word<CvtAction::Kind>> action_words() { return actions; }
+std::span<const NamedValue<CvtAction::Kind>> action_words() { return actions; }
 
 std::string_view word_of(CvtAction::Kind kind) {
-  return std::ranges::find(actions, kind, &Word<CvtAction::Kind>::value)->word;
+  return std::ranges::find(actions, kind, &NamedValue<CvtAction::Kind>::value)->word;
 }
 
 std::string_view word_of(Norm norm) {
-  return std::ranges::find(norms, norm, &Word<Norm>::value)->word;
+  return std::ranges::find(norms, norm, &NamedValue<Norm>::value)->word;
 }
 
 } // namespace calotte

@@ -197,7 +197,7 @@ Schedule schedule_of(const Surface& surface, const Density& density, std::int64_
   recipe.surface = surface;
   recipe.boundary = surface.is_bounded() ? Boundary::generators : Boundary::clip;
   recipe.fixed = points.leftCols(fixed);
-  recipe.start.kind = Start::Kind::points;
+  recipe.start.kind = CvtStart::Kind::points;
   recipe.start.points = points.rightCols(points.cols() - fixed);
   recipe.start.insertion_rounds = rounds;
   recipe.stop.tolerance = tolerance;

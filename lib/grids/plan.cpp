@@ -29,13 +29,13 @@ constexpr double tolerance_well_centred = 1e-4, tolerance_pure = 1e-6;
 constexpr int usual_rounds = 1, rounds_beside_fixed = 3;
 constexpr int most_bisections = 13, most_rounds = 100;
 
-bool chooses_bisections(Start::Kind kind) {
-  return kind == Start::Kind::multilevel || kind == Start::Kind::continuation;
+bool chooses_bisections(CvtStart::Kind kind) {
+  return kind == CvtStart::Kind::multilevel || kind == CvtStart::Kind::continuation;
 }
 
-bool draws(Start::Kind kind) {
-  return kind == Start::Kind::multilevel || kind == Start::Kind::density ||
-         kind == Start::Kind::random;
+bool draws(CvtStart::Kind kind) {
+  return kind == CvtStart::Kind::multilevel || kind == CvtStart::Kind::density ||
+         kind == CvtStart::Kind::random;
 }
 
 /// The numbers of a shape and kind that do not depend on others.
@@ -53,7 +53,7 @@ void require_values(const Recipe& recipe) {
           "the number of rounds of insertion is {}; give 1 to {}", rounds, most_rounds);
   require(recipe.stop.iterations.value_or(1) >= 1, "the number of iterations is {}; give 1 or more",
           recipe.stop.iterations.value_or(1));
-  const Stop& stop = recipe.stop;
+  const CvtStop& stop = recipe.stop;
   require(stop.norm != Norm::none,
           "the norm none tests nothing; give a number of iterations instead");
   const double tolerance = stop.tolerance.value_or(1);
@@ -107,21 +107,22 @@ void take_limited_area(Recipe& recipe) {
 
 /// \param uniform the density.
 void choose_start(Recipe& recipe, bool uniform) {
-  Start& start = recipe.start;
+  CvtStart& start = recipe.start;
   const bool plane = !recipe.surface.is_sphere(),
              follows = recipe.surface.is_sphere() && recipe.surface.is_bounded(),
              beside = recipe.fixed.cols() > 0 || !recipe.lines.empty(),
              ends = recipe.boundary == Boundary::generators;
-  if (start.kind == Start::Kind::automatic && start.points.cols() > 0)
-    start.kind = Start::Kind::points;
-  if (start.kind == Start::Kind::automatic) {
+  if (start.kind == CvtStart::Kind::automatic && start.points.cols() > 0)
+    start.kind = CvtStart::Kind::points;
+  if (start.kind == CvtStart::Kind::automatic) {
     if ((plane || follows || beside || ends || !uniform) && !recipe.stop.iterations &&
         !start.bisections)
-      start.kind = Start::Kind::multilevel;
+      start.kind = CvtStart::Kind::multilevel;
     else
-      start.kind = plane || follows || beside ? Start::Kind::density : Start::Kind::continuation;
+      start.kind =
+          plane || follows || beside ? CvtStart::Kind::density : CvtStart::Kind::continuation;
   }
-  const bool given = start.kind == Start::Kind::points;
+  const bool given = start.kind == CvtStart::Kind::points;
   require(given == (start.points.cols() > 0),
           given ? "the start has no points; give some, or another kind of start"
                 : "the start has points and another kind; give one of them");
@@ -133,16 +134,16 @@ void choose_start(Recipe& recipe, bool uniform) {
           name + " applies to the whole sphere only; give multilevel, density or random");
   require(anywhere || !beside,
           name + " does not leave room for fixed points; give multilevel, density or random");
-  const bool in_plane = start.kind == Start::Kind::hexagonal;
+  const bool in_plane = start.kind == CvtStart::Kind::hexagonal;
   require(!plane || anywhere || in_plane,
           name + " applies to the sphere only; give multilevel, density, random or hexagonal");
   require(plane || !in_plane,
           "the start hexagonal applies to the plane only; give a surface of the plane");
   require(!start.bisections || !chooses_bisections(start.kind),
           name + " chooses the bisections; leave them out");
-  require(!start.insertion_rounds || start.kind == Start::Kind::multilevel,
+  require(!start.insertion_rounds || start.kind == CvtStart::Kind::multilevel,
           "rounds of insertion apply to the start multilevel only; leave them out");
-  if (start.kind == Start::Kind::multilevel &&
+  if (start.kind == CvtStart::Kind::multilevel &&
       !start.insertion_rounds) // on the boundary none counts
     start.insertion_rounds = beside ? rounds_beside_fixed : usual_rounds;
 }
@@ -165,7 +166,7 @@ std::int64_t reachable(const Schedule& schedule, double implied) {
     return geodesic_count(implied);
   const auto cells = static_cast<std::int64_t>(implied);
   std::int64_t parts = 1; // of a coarse grid's cell
-  while (schedule.recipe.start.kind == Start::Kind::continuation &&
+  while (schedule.recipe.start.kind == CvtStart::Kind::continuation &&
          (cells - 2) / (4 * parts) >= fewest_graded - 2)
     parts *= 4;
   return (cells - 2 + parts / 2) / parts * parts + 2;
@@ -204,7 +205,7 @@ double cells_in_part(const Schedule& schedule, const Surface& asked, double impl
 /// Sets the number of cells where it follows from widths. \returns what they imply.
 double take_cells(Schedule& schedule, const Surface& asked) {
   Recipe& recipe = schedule.recipe;
-  const bool counts = recipe.cells == 0 && recipe.start.kind != Start::Kind::points;
+  const bool counts = recipe.cells == 0 && recipe.start.kind != CvtStart::Kind::points;
   require(!counts || schedule.widths,
           "there is no number of cells; give one, or cell widths, or the points of the start");
   if (!schedule.widths)
@@ -234,7 +235,7 @@ void take_walls(Schedule& schedule) {
   require(recipe.surface.is_box(), "walls end a periodic box; give two periods");
   require(!recipe.walls.x || !recipe.walls.y,
           "walls in x and y leave no period; give a rectangle, whose sides clip the cells");
-  require(recipe.start.kind != Start::Kind::points,
+  require(recipe.start.kind != CvtStart::Kind::points,
           "walls need points beyond them, too; give a number of cells instead of points");
   WallsRun run = run_between_walls(recipe.surface, recipe.walls, schedule.density, recipe.cells);
   recipe.surface = std::move(run.box);
@@ -258,7 +259,7 @@ Points3 on_boundary(const Schedule& schedule) {
     return Points3(3, 0);
   require(recipe.surface.is_bounded(),
           "a mesh ends at generators in a bounded surface only; give the rings that bound it");
-  require(recipe.start.kind != Start::Kind::points,
+  require(recipe.start.kind != CvtStart::Kind::points,
           "a mesh that ends at generators does not take points of the start; give a number of "
           "cells, or fixed points on the boundary");
   return boundary_points(recipe.surface, recipe.cells, schedule.density);
@@ -269,7 +270,7 @@ void take_curves(Schedule& schedule) {
   Recipe& recipe = schedule.recipe;
   const Points3 boundary = on_boundary(schedule);
   if (!recipe.lines.empty()) {
-    require(recipe.start.kind != Start::Kind::points,
+    require(recipe.start.kind != CvtStart::Kind::points,
             "generators on lines follow from a number of cells; give one, and no points of the "
             "start");
     const LinePoints lines = line_points(recipe.lines, recipe.surface, recipe.cells,
@@ -284,7 +285,7 @@ void take_curves(Schedule& schedule) {
 }
 
 void require_free(const Recipe& recipe) {
-  if (recipe.start.kind == Start::Kind::points)
+  if (recipe.start.kind == CvtStart::Kind::points)
     return;
   if (recipe.cells >= 1 && recipe.fixed.cols() >= recipe.cells)
     throw Error(ErrorCode::invalid_argument,
@@ -299,8 +300,8 @@ void require_free(const Recipe& recipe) {
 // ---- The descents
 
 void choose_stop(Recipe& recipe) {
-  Stop& stop = recipe.stop;
-  const bool multilevel = recipe.start.kind == Start::Kind::multilevel;
+  CvtStop& stop = recipe.stop;
+  const bool multilevel = recipe.start.kind == CvtStart::Kind::multilevel;
   stop.well_centred = stop.well_centred.value_or(multilevel && !stop.iterations);
   stop.tolerance =
       stop.tolerance.value_or(*stop.well_centred ? tolerance_well_centred : tolerance_pure);
@@ -308,13 +309,13 @@ void choose_stop(Recipe& recipe) {
 
 FirstLevel first_level(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
-  const Start& start = recipe.start;
+  const CvtStart& start = recipe.start;
   const std::int64_t fixed = recipe.fixed.cols();
-  if (start.kind == Start::Kind::points)
+  if (start.kind == CvtStart::Kind::points)
     return {start.kind, fixed + start.points.cols(), start.bisections.value_or(0)};
-  if (start.kind == Start::Kind::continuation)
+  if (start.kind == CvtStart::Kind::continuation)
     return first_of_continuation(recipe.cells, schedule.density.uniform());
-  if (start.kind == Start::Kind::multilevel)
+  if (start.kind == CvtStart::Kind::multilevel)
     return first_of_multilevel(recipe.cells, recipe.surface, schedule.density, fixed);
   return first_of_kind(start.kind, recipe.cells, start.bisections.value_or(0), recipe.surface,
                        fixed);
@@ -360,7 +361,7 @@ Schedule plan(Recipe recipe) {
   schedule.implied_cells = take_cells(schedule, asked);
   take_walls(schedule);
   take_curves(schedule);
-  if (counts && all.start.kind != Start::Kind::points && all.fixed.cols() > schedule.on_boundary)
+  if (counts && all.start.kind != CvtStart::Kind::points && all.fixed.cols() > schedule.on_boundary)
     all.cells = cells_beside(all.fixed, all.cells, schedule.density, all.surface);
   require_free(all);
   choose_stop(all);

@@ -38,7 +38,7 @@ CvtAction early(CvtAction end) {
 } // namespace
 
 std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first) {
-  const Stop& stop = recipe.stop;
+  const CvtStop& stop = recipe.stop;
   const int rounds = recipe.start.insertion_rounds.value_or(0);
   CvtAction end;
   if (stop.iterations)

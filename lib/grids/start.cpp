@@ -128,16 +128,16 @@ std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
 
 FirstLevel first_of_continuation(std::int64_t cells, bool uniform) {
   if (uniform && cells >= fewest_geodesic)
-    return {Start::Kind::geodesic, cells, 0};
+    return {CvtStart::Kind::geodesic, cells, 0};
   const std::int64_t least = uniform ? fewest_generators(Surface::sphere()) : fewest_graded;
-  FirstLevel first{Start::Kind::density, cells, 0};
+  FirstLevel first{CvtStart::Kind::density, cells, 0};
   std::int64_t& n = first.cells;
   for (; (n - 2) % 4 == 0 && (n - 2) / 4 + 2 >= least; n = (n - 2) / 4 + 2)
     ++first.bisections;
   if (is_icosahedral(n))
-    first.kind = Start::Kind::icosahedron;
+    first.kind = CvtStart::Kind::icosahedron;
   else if (uniform)
-    first.kind = Start::Kind::fibonacci;
+    first.kind = CvtStart::Kind::fibonacci;
   return first;
 }
 
@@ -149,21 +149,21 @@ FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const
     least = std::max(least, spreading_in_plane(density, surface));
   else if (!surface.is_bounded())
     least = std::max(least, spreading(site_density(density)));
-  FirstLevel first{Start::Kind::density, cells, 0};
+  FirstLevel first{CvtStart::Kind::density, cells, 0};
   const auto halved = [&](std::int64_t n) { return cvt_detail::halved(surface, n); };
   for (; halved(first.cells) >= least; first.cells = halved(first.cells))
     ++first.bisections;
   return first;
 }
 
-FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
+FirstLevel first_of_kind(CvtStart::Kind kind, std::int64_t cells, int bisections,
                          const Surface& surface, std::int64_t fixed) {
   FirstLevel first{kind, cells, bisections};
   if (!surface.is_sphere())
     first.cells = start_in_plane(cells, bisections, surface.is_box());
   else if (surface.is_bounded())
     first.cells = cells >> (2 * bisections);
-  else if (kind == Start::Kind::icosahedron)
+  else if (kind == CvtStart::Kind::icosahedron)
     require_icosahedral(cells, bisections);
   if (surface.is_whole_sphere())
     first.cells = start_on_sphere(cells, bisections);
@@ -179,21 +179,21 @@ Points3 free_generators(const Schedule& schedule) {
   const Surface& surface = recipe.surface;
   const std::int64_t count = schedule.actions.front().cells - recipe.fixed.cols();
   const Density sites = site_density(schedule.density, surface);
-  if (recipe.start.kind == Start::Kind::multilevel)
+  if (recipe.start.kind == CvtStart::Kind::multilevel)
     return free_points(count, schedule.actions.front().cells, recipe.fixed, surface, sites,
                        recipe.seed);
   switch (schedule.first) {
-  case Start::Kind::geodesic:
+  case CvtStart::Kind::geodesic:
     return geodesic_sphere(count);
-  case Start::Kind::icosahedron:
+  case CvtStart::Kind::icosahedron:
     return bisected_icosahedron(icosahedral_level(count));
-  case Start::Kind::fibonacci:
+  case CvtStart::Kind::fibonacci:
     return fibonacci_sphere(count);
-  case Start::Kind::spiral:
+  case CvtStart::Kind::spiral:
     return spiral_sphere(count);
-  case Start::Kind::hexagonal:
+  case CvtStart::Kind::hexagonal:
     return hexagonal_lattice(count, surface);
-  case Start::Kind::random:
+  case CvtStart::Kind::random:
     return random_points(count, surface, {}, recipe.seed);
   default:
     return random_points(count, surface, sites, recipe.seed);

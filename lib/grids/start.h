@@ -10,20 +10,20 @@
 namespace calotte::grids_detail {
 
 /// Below that a grid of a density that is not uniform does not resolve it; the first level of
-/// Start::Kind::continuation has as many cells or more.
+/// CvtStart::Kind::continuation has as many cells or more.
 inline constexpr std::int64_t fewest_graded = 642;
 
 /// The first level of a run, from which bisections lead to the last.
 struct FirstLevel {
-  Start::Kind kind = Start::Kind::density; ///< of its points
-  std::int64_t cells = 0;                  ///< fixed ones among them
+  CvtStart::Kind kind = CvtStart::Kind::density; ///< of its points
+  std::int64_t cells = 0;                        ///< fixed ones among them
   int bisections = 0;
 };
 
-/// That of Start::Kind::continuation.
+/// That of CvtStart::Kind::continuation.
 FirstLevel first_of_continuation(std::int64_t cells, bool uniform);
 
-/// That of Start::Kind::multilevel: as few generators as resolve the density. They are at least
+/// That of CvtStart::Kind::multilevel: as few generators as resolve the density. They are at least
 /// 160, 12 in each hemisphere on average or 6 across a box, and four times as many as fixed ones.
 /// \throws Error invalid_argument for an ill-formed density.
 FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const Density& density,
@@ -31,7 +31,7 @@ FirstLevel first_of_multilevel(std::int64_t cells, const Surface& surface, const
 
 /// That of another kind with a number of bisections. \throws Error invalid_argument if these do not
 /// lead to the number of cells, with the nearest numbers to which they do.
-FirstLevel first_of_kind(Start::Kind kind, std::int64_t cells, int bisections,
+FirstLevel first_of_kind(CvtStart::Kind kind, std::int64_t cells, int bisections,
                          const Surface& surface, std::int64_t fixed);
 
 /// The free generators of a schedule's first level: 3 x n, in the plane with z = 0.

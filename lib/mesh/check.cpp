@@ -127,19 +127,19 @@ struct OnSphere : mesh_detail::Faces {
     return area_of(unit[vertex(t, 0)], unit[vertex(t, 1)], unit[vertex(t, 2)]);
   }
 
-  static void set_area(double sum, Check& result) {
+  static void set_area(double sum, CheckReport& result) {
     result.area = sum;
     result.expected_area = result.boundary_edges == 0 ? 4 * std::numbers::pi : 0;
   }
 
-  static std::string area_failure(const Area& area, const Check& result) {
+  static std::string area_failure(const Area& area, const CheckReport& result) {
     if (result.boundary_edges > 0 || std::abs(result.expected_area - area.value) <= 2 * area.error)
       return {};
     return message("the areas sum to {} instead of 4 pi", std::to_string(area.value));
   }
 };
 
-Check prove(const Mesh& mesh, mesh_detail::Proof proof, const ProgressCallback& progress) {
+CheckReport prove(const Mesh& mesh, mesh_detail::Proof proof, const ProgressCallback& progress) {
   if (!mesh.surface.is_sphere())
     return mesh_detail::check_in_plane(mesh, proof, progress);
   return mesh_detail::check_laws(
@@ -161,11 +161,11 @@ EdgeCounts count_edges(const Mesh& mesh) {
 // part has the characteristic 1, so there is one; and two places in it over one direction would be
 // joined by a shortest path, which is not longer than pi and runs along a great circle: they are
 // one place. Such a mesh with Delaunay edges is Delaunay.
-Check check(const Mesh& mesh, const ProgressCallback& progress) {
+CheckReport check(const Mesh& mesh, const ProgressCallback& progress) {
   return prove(mesh, mesh_detail::Proof::delaunay, progress);
 }
 
-Check check_surface(const Mesh& mesh, const ProgressCallback& progress) {
+CheckReport check_surface(const Mesh& mesh, const ProgressCallback& progress) {
   return prove(mesh, mesh_detail::Proof::surface, progress);
 }
 

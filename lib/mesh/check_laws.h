@@ -35,7 +35,7 @@ enum class Proof { delaunay, surface };
 /// \param site_failure(i) of a site alone; surface() is asked for when all sites are sound.
 template <class SiteFailure, class MakeSurface>
 std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
-                             const MakeSurface& surface, Proof proof, Check& result,
+                             const MakeSurface& surface, Proof proof, CheckReport& result,
                              Monitor& monitor) {
   std::string failure = shape_failure(mesh);
   const auto holds = [&](std::int64_t n, const auto& law) {
@@ -78,10 +78,10 @@ std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
 }
 
 template <class SiteFailure, class MakeSurface>
-Check check_laws(const Mesh& mesh, const SiteFailure& site_failure, const MakeSurface& surface,
-                 Proof proof, const ProgressCallback& progress) {
+CheckReport check_laws(const Mesh& mesh, const SiteFailure& site_failure,
+                       const MakeSurface& surface, Proof proof, const ProgressCallback& progress) {
   Monitor monitor(progress);
-  Check result;
+  CheckReport result;
   result.sites = mesh.points.cols();
   result.triangles = mesh.triangles.cols();
   result.boundary_edges = count_boundary_edges(mesh.neighbours);

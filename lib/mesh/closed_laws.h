@@ -107,7 +107,8 @@ template <class Surface> Traversal traversal_of(const Surface& s) {
 /// the whole, and no place is covered twice. The triangles at a site are then a single cycle that
 /// turns around it once, and by Euler's characteristic there are as many cycles as sites. The sum
 /// is below that bound if it is the whole within its error, and this error is small.
-template <class Surface> bool is_proven_closed(const Surface& s, Check& result, Monitor& monitor) {
+template <class Surface>
+bool is_proven_closed(const Surface& s, CheckReport& result, Monitor& monitor) {
   std::vector<Tally> tallies(static_cast<std::size_t>(block_count(s.triangles())));
   const Traversal way = traversal_of(s);
   for_each_block(s.triangles(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
@@ -125,7 +126,7 @@ template <class Surface> bool is_proven_closed(const Surface& s, Check& result, 
   if (!all.good || all.up != all.down || !euler_failure(s, 0).empty())
     return false;
   const Area total = total_of(sums);
-  Check proven = result;
+  CheckReport proven = result;
   s.set_area(total.value, proven);
   if (total.error >= total.value / 16 || !s.area_failure(total, proven).empty())
     return false;

@@ -192,13 +192,13 @@ struct InPlane : mesh_detail::Faces {
     return sum;
   }
 
-  void set_area(double sum, Check& result) const {
+  void set_area(double sum, CheckReport& result) const {
     result.area = std::ldexp(sum, -2 * scale);
     result.expected_area = std::ldexp(whole().value, -2 * scale);
   }
 
   /// In a box with a boundary the areas may sum to less.
-  std::string area_failure(const Area& area, const Check& result) const {
+  std::string area_failure(const Area& area, const CheckReport& result) const {
     if (is_box() && result.boundary_edges > 0)
       return {};
     const Area all = whole();
@@ -221,7 +221,8 @@ struct InPlane : mesh_detail::Faces {
 // the latter, and areas that sum to the channel between its outermost sites one of one sheet.
 // Triangles narrower than half of the box lie in the plane without overlap, which is what
 // in_circle() works in. Such a mesh with Delaunay edges is Delaunay.
-Check mesh_detail::check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress) {
+CheckReport mesh_detail::check_in_plane(const Mesh& mesh, Proof proof,
+                                        const ProgressCallback& progress) {
   return check_laws(
       mesh, [&](std::int64_t site) { return site_failure(mesh, site); },
       [&] { return InPlane(mesh, proof); }, proof, progress);

@@ -9,7 +9,7 @@
 namespace calotte::mesh_detail {
 
 /// What check() or check_surface() finds. \pre the mesh is one of the plane.
-Check check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
+CheckReport check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
 
 /// As count_edges(). \pre as above.
 EdgeCounts count_edges_in_plane(const Mesh& mesh);

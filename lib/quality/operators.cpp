@@ -55,7 +55,7 @@ template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First
 
 /// \returns whether the mesh covers the sphere.
 bool require_delaunay(const Mesh& mesh) {
-  const Check found = require_surface(mesh);
+  const CheckReport found = require_surface(mesh);
   if (const std::int64_t edges = count_edges(mesh).not_delaunay; edges > 0)
     refuse(message("{} edges are not Delaunay, so that the mesh has no Voronoi cells; "
                    "triangulate the points anew",

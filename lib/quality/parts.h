@@ -48,7 +48,7 @@ struct Tally {
     sum += other.sum;
     count += other.count;
   }
-  Range range(double scale = 1) const {
+  ValueRange range(double scale = 1) const {
     if (count == 0)
       return {};
     return {scale * min, scale * sum / static_cast<double>(count), scale * max};

@@ -28,7 +28,7 @@ constexpr double sphere_area = 4 * std::numbers::pi;
 double require_cells(const Mesh& mesh) {
   if (!mesh.surface.is_sphere())
     require_finite_plane(mesh.surface);
-  const Check found = require_voronoi_mesh(mesh);
+  const CheckReport found = require_voronoi_mesh(mesh);
   if (!mesh.surface.is_sphere())
     require_inside(mesh.points, mesh.surface);
   else
@@ -89,7 +89,7 @@ Quality measure(const ClosedMesh& closed, const Density& density) {
 
 /// \param cells whether the Voronoi cells are measured, too.
 Quality quality_of_open(const Mesh& mesh, bool cells) {
-  const Check found = require_surface(mesh);
+  const CheckReport found = require_surface(mesh);
   const bool on_sphere = mesh.surface.is_sphere();
   std::optional<Mesh> unit;
   if (on_sphere)

@@ -10,8 +10,8 @@ namespace calotte::quality_detail {
 
 /// \returns what check_surface() finds, which passed.
 /// \throws Error invalid_argument.
-inline Check require_surface(const Mesh& mesh) {
-  Check found = check_surface(mesh);
+inline CheckReport require_surface(const Mesh& mesh) {
+  CheckReport found = check_surface(mesh);
   require(found.passed(), "the triangles do not form a surface: {}; triangulate the points anew",
           found.failure);
   return found;
@@ -22,8 +22,8 @@ inline Check require_surface(const Mesh& mesh) {
 /// \param mesh of the sphere or the plane.
 /// \returns what check() or, with such diagonals, check_surface() finds.
 /// \throws Error invalid_argument.
-inline Check require_voronoi_mesh(const Mesh& mesh) {
-  Check found = check(mesh);
+inline CheckReport require_voronoi_mesh(const Mesh& mesh) {
+  CheckReport found = check(mesh);
   if (found.passed())
     return found;
   const std::string failure = found.failure;

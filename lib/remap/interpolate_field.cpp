@@ -59,7 +59,7 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
   using namespace remap_detail;
   const Weights& matrix = weights.weights;
   const std::int64_t count = field.count();
-  require(field.location == Location::cells,
+  require(field.location == FieldLocation::cells,
           "the field {} is not at cells; give one at cells or of a raster", field.name);
   require(field.values.size() == matrix.cols() * count,
           "the field {} has {} values for {} cells of the source; give {} for each", field.name,

@@ -171,7 +171,7 @@ Triangles far_triangles(const Points3& points, std::vector<std::int32_t> ring) {
 } // namespace
 
 Mesh hull_of(const Mesh& mesh) {
-  if (const Check found = check_surface(mesh); !found.passed())
+  if (const CheckReport found = check_surface(mesh); !found.passed())
     refuse_boundary(-1, found.failure);
   std::vector<std::int32_t> ring = boundary_of(mesh);
   require_convex(mesh, ring);

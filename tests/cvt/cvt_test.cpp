@@ -115,7 +115,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     std::vector<CvtState> states;
     const auto keep = [&](const Progress& now) {
       states.push_back(now.run->state);
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     const Cvt whole = make_grid(recipe, {.progress = keep});
     CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
@@ -157,7 +157,7 @@ TEST_CASE("a state that no run has left is refused") {
   CvtState good;
   const auto keep = [&](const Progress& now) {
     good = now.run->state;
-    return Next::stop;
+    return ProgressReply::stop;
   };
   make_grid(recipe, {.progress = keep});
   CHECK_NOTHROW(make_grid(recipe, {.state = good}));
@@ -379,7 +379,7 @@ TEST_CASE("bad input is refused in one line") {
   Points3 half = start;
   half.row(2) = half.row(2).cwiseAbs();
   CHECK(code({.start = {.points = half}}) == ErrorCode::too_few_sites);
-  const auto refusal = [&](int bisections, const Stop& stop, Method method = Method::automatic) {
+  const auto refusal = [&](int bisections, const CvtStop& stop, Method method = Method::automatic) {
     return refusal_of([&] {
       plan({.start = {.points = start, .bisections = bisections}, .stop = stop, .method = method});
     });
@@ -422,7 +422,7 @@ TEST_CASE("a schedule that plan() has not made is refused") {
   CvtState state;
   const auto keep = [&](const Progress& now) {
     state = now.run->state;
-    return Next::stop;
+    return ProgressReply::stop;
   };
   make_grid(recipe, {.progress = keep});
   for (const Schedule& schedule : bad) {

@@ -142,7 +142,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
     std::vector<CvtState> states;
     const auto keep = [&](const Progress& now) {
       states.push_back(now.run->state);
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     make_grid(recipe, {.progress = keep});
     for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {
@@ -317,7 +317,7 @@ TEST_CASE("fixed generators in the plane: free ones start where these leave room
   for (const Surface& domain : {rectangle({0, 0}, {4, 3}), Surface::periodic({4, 3})}) {
     const Points3 grid = make_grid({.cells = 600,
                                     .surface = domain,
-                                    .start = {.kind = Start::Kind::random},
+                                    .start = {.kind = CvtStart::Kind::random},
                                     .stop = {.tolerance = 1e-3}})
                              .mesh.points;
     std::vector<Eigen::Index> kept;

@@ -32,7 +32,7 @@ namespace {
 Points3 with_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
   return make_grid({.cells = n,
                     .resolution = density,
-                    .start = {.kind = Start::Kind::density},
+                    .start = {.kind = CvtStart::Kind::density},
                     .stop = {.tolerance = 1e-4},
                     .seed = seed})
       .mesh.points;
@@ -42,7 +42,7 @@ Points3 with_dislocations(std::int64_t n, const Density& density, std::uint64_t 
 Points3 with_few_dislocations(std::int64_t n, const Density& density, std::uint64_t seed) {
   return make_grid({.cells = n,
                     .resolution = density,
-                    .start = {.kind = Start::Kind::multilevel},
+                    .start = {.kind = CvtStart::Kind::multilevel},
                     .stop = {.tolerance = 1e-4, .well_centred = false},
                     .seed = seed})
       .mesh.points;

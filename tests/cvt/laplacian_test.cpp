@@ -30,11 +30,11 @@ Points3 near_optimum(const Density& density, std::int64_t cells) {
   Points3 points;
   const auto keep = [&](const Progress& now) {
     points = State::of(now.run->state).points;
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   make_grid({.cells = cells,
              .resolution = density,
-             .start = {.kind = Start::Kind::continuation},
+             .start = {.kind = CvtStart::Kind::continuation},
              .stop = {.tolerance = 1e-2}},
             {.progress = keep});
   return points;

@@ -48,7 +48,7 @@ TEST_CASE("the same if edges flip at every step, and if a run stops at any itera
     const auto until_last = [&](const Progress& now) {
       const std::vector<CvtIteration>& iterations = now.run->report.iterations;
       changed = changed || iterations.back().flips > 0 || iterations.back().rebuilt;
-      return iterations.size() == last ? Next::stop : Next::proceed;
+      return iterations.size() == last ? ProgressReply::stop : ProgressReply::proceed;
     };
     const Cvt grid = make_grid(recipe, {.progress = until_last});
     CAPTURE(last);

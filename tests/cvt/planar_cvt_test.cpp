@@ -303,7 +303,7 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
       const auto keep = [&](const Progress& now) {
         if (now.run->report.iterations.size() % 7 == 3)
           states.push_back(now.run->state);
-        return Next::proceed;
+        return ProgressReply::proceed;
       };
       const Cvt reference = make_grid(recipe, {.partition = {.regions = 1}, .progress = keep});
       for (const int regions : {2, 9, 50})
@@ -330,7 +330,7 @@ TEST_CASE("a state may have generators outside of a periodic box, but not 2^30 p
   CvtState state;
   const auto keep = [&](const Progress& now) {
     state = now.run->state;
-    return Next::stop;
+    return ProgressReply::stop;
   };
   make_grid(recipe, {.progress = keep});
   State::of(state).points(0, 7) += 1;

@@ -114,7 +114,7 @@ TEST_CASE("region: generators that start in a corner spread over all of it") {
 TEST_CASE("region: a pure CVT converges near the limit of hexagons") {
   const Surface region = circle(direction(10, 20), 30 * degree);
   const Cvt grid =
-      make_grid({.cells = 300, .surface = region, .start = {.kind = Start::Kind::random}});
+      make_grid({.cells = 300, .surface = region, .start = {.kind = CvtStart::Kind::random}});
   CHECK(grid.report.converged);
   const double whole = region.area(), hexagons = 5 / (18 * std::sqrt(3.0)) * whole * whole / 300,
                energy = grid.report.iterations.back().energy;
@@ -162,7 +162,7 @@ TEST_CASE(
   std::vector<CvtState> states;
   const auto keep = [&](const Progress& now) {
     states.push_back(now.run->state);
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   make_grid(recipe, {.progress = keep});
   for (std::size_t k = 5; k < states.size(); k += states.size() / 4) {

@@ -34,7 +34,7 @@ namespace {
 
 /// A graded run that a model could use.
 Recipe graded(std::int64_t cells, const Density& density) {
-  return {.cells = cells, .resolution = density, .start = {.kind = Start::Kind::multilevel}};
+  return {.cells = cells, .resolution = density, .start = {.kind = CvtStart::Kind::multilevel}};
 }
 
 Points3 random_start(std::int64_t n, const Density& density, std::uint64_t seed = 1) {
@@ -107,13 +107,13 @@ TEST_CASE("stages: insertion reaches any number of cells, from any start") {
 
 // Slow: two descents to 4 000 cells.
 TEST_CASE("stages: insertion finds a better minimum than descents alone [slow]") {
-  const Stop stop{.tolerance = 1e-4, .well_centred = false};
+  const CvtStop stop{.tolerance = 1e-4, .well_centred = false};
   Recipe recipe = graded(4000, x8());
   recipe.stop = stop;
   const double with = excess(make_grid(recipe), x8());
   const Cvt plain = make_grid({.cells = 4002,
                                .resolution = x8(),
-                               .start = {.kind = Start::Kind::density, .bisections = 2},
+                               .start = {.kind = CvtStart::Kind::density, .bisections = 2},
                                .stop = stop});
   CHECK(with < 0.85 * excess(plain, x8()));
   CHECK(with > 0);
@@ -199,7 +199,7 @@ TEST_CASE("stages: a run resumes to the same bits within each stage") {
   std::vector<CvtState> states;
   const auto keep = [&](const Progress& now) {
     states.push_back(now.run->state);
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   const Cvt whole = make_grid(recipe, {.progress = keep});
   REQUIRE(cvt_detail::State::of(states.back()).in_polish());
@@ -273,7 +273,7 @@ TEST_CASE("stages: a round after a descent of more than 25 evaluations counts fo
         ++count;
       }
       evaluations = now.iterations_of_descent;
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     make_grid(recipe, {.progress = follow});
     CHECK(left == 0);

@@ -198,7 +198,7 @@ TEST_CASE("subdomains: the numbers of triangles have no effect") {
 TEST_CASE("subdomains: a polish leaves fewer shapes beyond the limits") {
   const Points3 pure = make_grid({.cells = 4000,
                                   .resolution = x8(),
-                                  .start = {.kind = Start::Kind::density},
+                                  .start = {.kind = CvtStart::Kind::density},
                                   .stop = {.tolerance = 1e-3},
                                   .seed = 3})
                            .mesh.points;

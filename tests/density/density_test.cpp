@@ -23,7 +23,8 @@ using Long3 = Eigen::Matrix<long double, 3, 1>;
 
 constexpr double roundoff = 0x1p-53;
 
-Density of_bumps(const std::vector<Bump>& bumps, Density::Kind kind = Density::Kind::maximum) {
+Density of_bumps(const std::vector<DensityBump>& bumps,
+                 Density::Kind kind = Density::Kind::maximum) {
   Density density;
   density.kind = kind;
   density.bumps = bumps;
@@ -47,7 +48,7 @@ struct Reference {
 /// centre, 3 of the point, 2 ulp of the arc sine on up to pi/2 twice, and pi's own. E is good to
 /// that times 2/alpha, three roundings of 2 y, and 4 of its own; what else is added or divided
 /// takes 8.
-Reference reference(const Bump& bump, const Eigen::Vector3d& at) {
+Reference reference(const DensityBump& bump, const Eigen::Vector3d& at) {
   const Long3 x = at.cast<long double>().normalized(),
               c = bump.centre.cast<long double>().normalized();
   Long3 major = Long3::Zero();
@@ -68,7 +69,7 @@ Reference reference(const Bump& bump, const Eigen::Vector3d& at) {
 }
 
 /// Random points, and points close to the centre, to its antipode and to its edge, on all sides.
-Points3 places(const Bump& bump) {
+Points3 places(const DensityBump& bump) {
   test::Random random(17);
   const Eigen::Vector3d c = bump.centre.normalized();
   std::vector<Eigen::Vector3d> out{c, -c};
@@ -95,8 +96,8 @@ Points3 places(const Bump& bump) {
 
 /// Directions off the axes, widths from a ten-thousandth to beyond the sphere, floors from almost 0
 /// to almost 1, and an ellipse of each.
-std::vector<Bump> bumps() {
-  std::vector<Bump> out;
+std::vector<DensityBump> bumps() {
+  std::vector<DensityBump> out;
   for (const Eigen::Vector3d& centre :
        {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(-3, 4, 12), Eigen::Vector3d(1e-3, -1, 1e-9)})
     for (const double beta : {1e-3, 0.5, 3.0, 100.0})
@@ -120,7 +121,7 @@ std::string message_of(const Density& density) {
 } // namespace
 
 TEST_CASE("a bump is as printed, in any place and of any shape") {
-  for (const Bump& bump : bumps()) {
+  for (const DensityBump& bump : bumps()) {
     CAPTURE(bump.centre.transpose());
     CAPTURE(bump.beta);
     CAPTURE(bump.alpha);
@@ -138,7 +139,7 @@ TEST_CASE("a bump is as printed, in any place and of any shape") {
 }
 
 TEST_CASE("the paper's x8 bump is good to 1e-14, against its formula in long doubles") {
-  const Bump bump{{0, -0.8, 0.6}, 0.5235987755982988, 0.2, 1.0 / 4096};
+  const DensityBump bump{{0, -0.8, 0.6}, 0.5235987755982988, 0.2, 1.0 / 4096};
   const Points3 x = places(bump);
   const Eigen::VectorXd rho =
       evaluate(tanh_bump(bump.centre, bump.beta, bump.alpha, bump.gamma), x);
@@ -153,12 +154,12 @@ TEST_CASE("the paper's x8 bump is good to 1e-14, against its formula in long dou
 }
 
 TEST_CASE("bumps join by their maximum or their sum") {
-  const std::vector<Bump> three{{{0, 0, 1}, 0.5, 0.1, 0.01},
-                                {{1, 0, 0.2}, 0.3, 0.2, 0.1, 3, {0, 1, 0}},
-                                {{-1, 1, 0}, 1, 0.5, 0.9}};
+  const std::vector<DensityBump> three{{{0, 0, 1}, 0.5, 0.1, 0.01},
+                                       {{1, 0, 0.2}, 0.3, 0.2, 0.1, 3, {0, 1, 0}},
+                                       {{-1, 1, 0}, 1, 0.5, 0.9}};
   const Points3 x = random_sphere(2000, 5);
   Eigen::VectorXd greatest = Eigen::VectorXd::Zero(x.cols()), sum = greatest;
-  for (const Bump& bump : three) {
+  for (const DensityBump& bump : three) {
     const Eigen::VectorXd rho = evaluate(of_bumps({bump}), x);
     greatest = greatest.cwiseMax(rho);
     sum += rho;
@@ -169,8 +170,8 @@ TEST_CASE("bumps join by their maximum or their sum") {
 }
 
 TEST_CASE("an ellipse is a circle across its axis and reaches so much farther along it") {
-  const Bump round{{0, 0, 1}, 0.01, 0.01, 0.01};
-  Bump ellipse = round;
+  const DensityBump round{{0, 0, 1}, 0.01, 0.01, 0.01};
+  DensityBump ellipse = round;
   ellipse.stretch = 10;
   ellipse.major = {0, 2, 5}; // of which only the tangential part counts
   const double d = 0.02;
@@ -203,7 +204,7 @@ TEST_CASE("the bits of a value do not depend on the other points of a call") {
 
 TEST_CASE("bounds of bumps hold within their reach and close in on the value") {
   for (const Density::Kind kind : {Density::Kind::maximum, Density::Kind::sum})
-    for (const Bump& bump : bumps()) {
+    for (const DensityBump& bump : bumps()) {
       CAPTURE(bump.centre.transpose());
       CAPTURE(bump.beta);
       CAPTURE(bump.alpha);
@@ -230,7 +231,7 @@ TEST_CASE("bounds of bumps hold within their reach and close in on the value") {
 
 TEST_CASE("an ill-formed density is one line that names the bump and the remedy") {
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-  const std::vector<Bump> bad{
+  const std::vector<DensityBump> bad{
       {{0, 0, 0}},
       {{0, nan, 1}},
       {{0, 0, 1}, -1},
@@ -245,7 +246,7 @@ TEST_CASE("an ill-formed density is one line that names the bump and the remedy"
   };
   for (std::size_t b = 0; b < bad.size(); ++b) {
     CAPTURE(b);
-    const std::string message = message_of(of_bumps({Bump{}, bad[b]}));
+    const std::string message = message_of(of_bumps({DensityBump{}, bad[b]}));
     CHECK(message.find("bump") != std::string::npos);
     CHECK(message.find('\n') == std::string::npos);
   }
@@ -255,7 +256,7 @@ TEST_CASE("an ill-formed density is one line that names the bump and the remedy"
   no_kind.kind = Density::Kind::uniform; // what a caller has who sets the callable alone
   CHECK(message_of(no_kind) ==
         "the density is uniform, but has bumps, widths or a callable; set its kind, too");
-  CHECK(message_of(of_bumps({Bump{}}, Density::Kind::uniform)) == message_of(no_kind));
+  CHECK(message_of(of_bumps({DensityBump{}}, Density::Kind::uniform)) == message_of(no_kind));
   for (const double value : {-1e-300, nan, infinite, -infinite}) {
     const Density density = of([=](const auto& x, Eigen::Ref<Eigen::VectorXd> rho) {
       rho.setOnes();

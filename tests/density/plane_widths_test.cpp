@@ -85,7 +85,7 @@ TEST_CASE("widths of a plane: rules combine, and are limited exactly where they 
 TEST_CASE("widths of a plane: within a part, blended from its boundary, of a raster") {
   const Surface bay = rectangle({2, 2}, {6, 6});
   const Widths inside = Widths::where(bay, 0.5, 2);
-  const Widths blend = Widths::blend(2, 0.5, Share(bay, {{{-1, 1}, {1, 0}}}));
+  const Widths blend = Widths::blend(2, 0.5, WidthShare(bay, {{{-1, 1}, {1, 0}}}));
   const Raster raster{DoubleVector{{0, 20}}, DoubleVector{{0, 10}}, DoubleMatrix{{1, 1}, {3, 3}},
                       true};
   const Points2 places{{4, 8, 6, 2.5}, {4, 4, 4, 4}};
@@ -112,7 +112,7 @@ TEST_CASE("widths of a plane: distances go across periods, numbers hold everywhe
 
 TEST_CASE("widths of a plane: what says nothing has no mean with a width") {
   const Widths rock = Widths::around({line_of({{10, 5}})}, 0.5, 2, lake);
-  const Widths blend = Widths::blend(2, rock, Share(lake, {{{-10, 0.5}}}));
+  const Widths blend = Widths::blend(2, rock, WidthShare(lake, {{{-10, 0.5}}}));
   const DoubleVector widths = evaluate(blend, Points2{{10, 1}, {5, 5}});
   CHECK(widths[0] == doctest::Approx(1.25));
   CHECK(widths[1] == Widths::no_demand);

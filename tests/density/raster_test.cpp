@@ -118,7 +118,7 @@ TEST_CASE("rasters are taken for what they are, and refused by the node otherwis
     bad.values(1, 2) = -1;
     refuses([&] { interpolated_density(bad); }, "value (1, 2) is not 0 or positive");
     bad.values(1, 2) = 1.5;
-    refuses([&] { Share{bad}; }, "is not a fraction from 0 to 1");
+    refuses([&] { WidthShare{bad}; }, "is not a fraction from 0 to 1");
     bad.values.conservativeResize(2, 2);
     refuses([&] { evaluate(bad, Points3(Eigen::Vector3d(0, 0, 1))); }, "give one for each node");
     bad = raster;

@@ -61,7 +61,7 @@ std::vector<Named> rules() {
       {"nested", nested()},
       {"zones", zones},
       {"region", Widths::where(region, 20, 120)},
-      {"blend", Widths::blend(zones, 60, Share(region, {{{-600, 0}, {900, 1}}}))},
+      {"blend", Widths::blend(zones, 60, WidthShare(region, {{{-600, 0}, {900, 1}}}))},
       {"shore", Widths::by_distance(shore, {{{0, 15}, {2000, 150}}})},
       {"around", Widths::minimum({Widths::around(shore, 25, 80), 140.0})},
       {"depth",
@@ -201,7 +201,7 @@ TEST_CASE("cells and gradients of nodes that follow the rule are those of a fine
   const Raster raster = sampled(zones, {}, 0.1);
   CHECK(implied_cells(field) == doctest::Approx(implied_cells(raster)).epsilon(2e-3));
   CHECK(field.nodes() < raster.values.size() / 10);
-  const Gradient by_tiles = largest_gradient(field), by_raster = largest_gradient(raster);
+  const WidthGradient by_tiles = largest_gradient(field), by_raster = largest_gradient(raster);
   CHECK(by_tiles.slope == doctest::Approx(by_raster.slope).epsilon(0.1));
   CHECK(largest_gradient(field, earth_radius_km / 2).slope > 1.5 * by_tiles.slope);
 }
@@ -237,7 +237,7 @@ TEST_CASE("of too many nodes all are thinned alike, and a nest stays") {
 
 TEST_CASE("in a part of the sphere nodes are dense in it alone, and where no rule holds refused") {
   const Surface part = circle(direction(20, 50), 0.05);
-  const Widths fine = Widths::blend(20.0, 60.0, Share(part, {{{-300, 0}, {5000, 1}}}));
+  const Widths fine = Widths::blend(20.0, 60.0, WidthShare(part, {{{-300, 0}, {5000, 1}}}));
   const WidthField field = width_field(fine, part);
   CHECK(3 * field.nodes() < 2 * width_field(fine).nodes());
   const Points3 inside = random_points(500, part);

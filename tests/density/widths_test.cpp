@@ -125,8 +125,8 @@ TEST_CASE("two rules blend by the distance from a region") {
   const DoubleVector sharp = evaluate(Widths::blend(a, b, region), places);
   CHECK(sharp == evaluate(Widths::where(region, b, a), places));
   const WidthProfile falls{{{-500, 1}, {1000, 0}}};
-  const DoubleVector blend = evaluate(Widths::blend(a, b, Share(region, falls)), places),
-                     where = evaluate(Widths::where(Share(region, falls), b, a), places);
+  const DoubleVector blend = evaluate(Widths::blend(a, b, WidthShare(region, falls)), places),
+                     where = evaluate(Widths::where(WidthShare(region, falls), b, a), places);
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const double distance = earth_radius_km * (angle(centre, places.col(i)) - 0.3),
                  t = std::clamp((1000 - distance) / 1500, 0.0, 1.0);
@@ -279,11 +279,11 @@ TEST_CASE("widths that are none are refused by name") {
   CHECK(message([] { Widths::minimum({}); }) == "there are no widths to combine; give one or more");
   const Surface region = circle({1, 0, 0}, 0.5);
   CHECK(message([&] {
-          Share(region, {{{0, 1}, {9, -1}}});
+          WidthShare(region, {{{0, 1}, {9, -1}}});
         }) == "node 1 of a profile of a distance has the share -1, which is not a fraction from 0 "
               "to 1; correct it");
   CHECK(message([] {
-          Share(Surface::sphere(), {{{0, 1}, {9, 0}}});
+          WidthShare(Surface::sphere(), {{{0, 1}, {9, 0}}});
         }) == "a surface without a boundary has none to be distant from; give a region");
   CHECK(message([] { sampled(Widths(1.0), {}, 20); }) ==
         "the step 20 of a raster is out of range; give 0.01 to 10 degrees");

@@ -23,7 +23,7 @@ std::string sample() {
   const std::string path = fuzz::scratch_file("sample", nullptr, 0);
   make_grid(recipe(), {.progress = [&](const Progress& now) {
               write_checkpoint(path, now.run->state, "run");
-              return Next::stop;
+              return ProgressReply::stop;
             }});
   return read_file(path);
 }

@@ -45,7 +45,7 @@ Raster widths(double poles) {
   return table;
 }
 
-Recipe with(Start::Kind kind, std::int64_t cells, const Surface& surface = {}) {
+Recipe with(CvtStart::Kind kind, std::int64_t cells, const Surface& surface = {}) {
   Recipe recipe;
   recipe.cells = cells;
   recipe.surface = surface;
@@ -69,34 +69,34 @@ TEST_CASE("plan: the start follows from density, surface and fixed generators") 
   Recipe recipe;
   recipe.cells = 500;
   const auto kind = [](const Recipe& of) { return plan(of).recipe.start.kind; };
-  CHECK(kind(recipe) == Start::Kind::continuation);
-  CHECK(plan(recipe).first == Start::Kind::geodesic);
+  CHECK(kind(recipe) == CvtStart::Kind::continuation);
+  CHECK(plan(recipe).first == CvtStart::Kind::geodesic);
   for (const Surface& plane : {box, rectangle({0, 0}, {2, 1})}) {
     recipe.surface = plane;
-    CHECK(kind(recipe) == Start::Kind::multilevel);
+    CHECK(kind(recipe) == CvtStart::Kind::multilevel);
     CHECK(plan(recipe).recipe.stop.well_centred == true);
   }
   recipe.stop.iterations = 20;
-  CHECK(kind(recipe) == Start::Kind::density);
+  CHECK(kind(recipe) == CvtStart::Kind::density);
   recipe.stop.iterations = {};
   recipe.surface = part();
-  CHECK(kind(recipe) == Start::Kind::multilevel);
+  CHECK(kind(recipe) == CvtStart::Kind::multilevel);
   recipe.start.bisections = 1;
-  CHECK(kind(recipe) == Start::Kind::density);
+  CHECK(kind(recipe) == CvtStart::Kind::density);
   recipe = {};
   recipe.cells = 500;
   recipe.fixed = random_sphere(3);
-  CHECK(kind(recipe) == Start::Kind::multilevel);
+  CHECK(kind(recipe) == CvtStart::Kind::multilevel);
   CHECK(last_rounds(plan(recipe)) == 3);
   recipe.stop.iterations = 20;
-  CHECK(kind(recipe) == Start::Kind::density);
+  CHECK(kind(recipe) == CvtStart::Kind::density);
   recipe = {};
   recipe.cells = 2562;
   recipe.resolution = test::x8();
-  CHECK(kind(recipe) == Start::Kind::multilevel);
+  CHECK(kind(recipe) == CvtStart::Kind::multilevel);
   recipe.cells = 0;
   recipe.start.points = random_sphere(100);
-  CHECK(kind(recipe) == Start::Kind::points);
+  CHECK(kind(recipe) == CvtStart::Kind::points);
   CHECK(plan(recipe).actions.front().cells == 100);
 }
 
@@ -136,8 +136,8 @@ TEST_CASE("plan: actions lead from a coarse grid to the number of cells") {
   CHECK(actions.end()[-3].tolerance == 1e-4);
   CHECK(actions.end()[-2].kind == Kind::polish);
   CHECK(actions.back().kind == Kind::raise);
-  CHECK(plan(with(Start::Kind::icosahedron, 642)).actions.size() == 1);
-  recipe = with(Start::Kind::icosahedron, 642);
+  CHECK(plan(with(CvtStart::Kind::icosahedron, 642)).actions.size() == 1);
+  recipe = with(CvtStart::Kind::icosahedron, 642);
   recipe.start.bisections = 2;
   const Schedule bisected = plan(recipe);
   REQUIRE(bisected.actions.size() == 3);
@@ -222,44 +222,44 @@ TEST_CASE("plan: walls widen the box") {
 TEST_CASE("plan: recipes that do not fit together are refused, with the remedy") {
   Recipe recipe;
   CHECK(message_of(recipe).find("there is no number of cells; give one, or cell widths") == 0);
-  CHECK(message_of(with(Start::Kind::automatic, 11)) ==
+  CHECK(message_of(with(CvtStart::Kind::automatic, 11)) ==
         "the number of cells is 11; give a number from 12 to 1073741824");
-  CHECK(has(message_of(with(Start::Kind::automatic, 3, part())), "number from 4"));
-  CHECK(has(message_of(with(Start::Kind::spiral, 100, part())), "the whole sphere only"));
-  CHECK(has(message_of(with(Start::Kind::hexagonal, 100)), "the plane only"));
-  CHECK(has(message_of(with(Start::Kind::geodesic, 100, Surface::periodic({1, 1}))),
+  CHECK(has(message_of(with(CvtStart::Kind::automatic, 3, part())), "number from 4"));
+  CHECK(has(message_of(with(CvtStart::Kind::spiral, 100, part())), "the whole sphere only"));
+  CHECK(has(message_of(with(CvtStart::Kind::hexagonal, 100)), "the plane only"));
+  CHECK(has(message_of(with(CvtStart::Kind::geodesic, 100, Surface::periodic({1, 1}))),
             "the sphere only"));
-  CHECK(message_of(with(Start::Kind::icosahedron, 100)) ==
+  CHECK(message_of(with(CvtStart::Kind::icosahedron, 100)) ==
         "the start icosahedron makes 10 x 4^k + 2 cells, not 100; the nearest numbers are 42 and "
         "162");
-  CHECK(has(message_of(with(Start::Kind::points, 100)), "no points"));
-  recipe = with(Start::Kind::random, 100);
+  CHECK(has(message_of(with(CvtStart::Kind::points, 100)), "no points"));
+  recipe = with(CvtStart::Kind::random, 100);
   recipe.start.bisections = 1;
   CHECK(message_of(recipe) ==
         "1 bisection does not lead to 100 cells; the nearest numbers are 98 and 102");
   recipe.start.bisections = 14;
   CHECK(message_of(recipe) == "the number of bisections is 14; give 0 to 13");
-  recipe = with(Start::Kind::automatic, 100, Surface::plane());
+  recipe = with(CvtStart::Kind::automatic, 100, Surface::plane());
   CHECK(has(message_of(recipe), "a plane that has no end"));
-  recipe = with(Start::Kind::automatic, 100);
+  recipe = with(CvtStart::Kind::automatic, 100);
   recipe.fixed = random_sphere(120);
   CHECK(message_of(recipe) == "fixed point 99 leaves no free one of the 100 cells; give more cells "
                               "or fewer fixed points @99");
-  recipe = with(Start::Kind::automatic, 0);
+  recipe = with(CvtStart::Kind::automatic, 0);
   recipe.resolution = widths(8e5);
   CHECK(has(message_of(recipe), "a grid has 12 to 1073741824"));
   recipe.resolution = {};
   recipe.cells = 100;
   recipe.limited_area = true;
   CHECK(has(message_of(recipe), "give the rings that bound it"));
-  recipe = with(Start::Kind::automatic, 100);
+  recipe = with(CvtStart::Kind::automatic, 100);
   recipe.resolution = tanh_bump({0, 0, 1}, 0.5, -1, 0.1);
   CHECK(has(message_of(recipe), "alpha"));
 }
 
 TEST_CASE("plan: values out of range are refused before any work") {
   const auto refused = [](const auto& change, const std::string& words) {
-    Recipe recipe = with(Start::Kind::automatic, 100);
+    Recipe recipe = with(CvtStart::Kind::automatic, 100);
     change(recipe);
     CAPTURE(words);
     CHECK(has(message_of(recipe), words));
@@ -292,7 +292,7 @@ TEST_CASE("make_grid: a run that is stopped goes on from its state to the same b
   std::optional<CvtState> state;
   stopping.progress = [&](const Progress& now) {
     state = now.run->state;
-    return now.run->report.iterations.size() >= 20 ? Next::stop : Next::proceed;
+    return now.run->report.iterations.size() >= 20 ? ProgressReply::stop : ProgressReply::proceed;
   };
   CHECK_FALSE(make_grid(recipe, stopping).report.converged);
   REQUIRE(state);
@@ -301,7 +301,7 @@ TEST_CASE("make_grid: a run that is stopped goes on from its state to the same b
   CHECK(make_grid(recipe, going).mesh.points == whole.mesh.points);
   recipe.cells = 900;
   CHECK_THROWS_AS(make_grid(recipe, going), Error);
-  stopping.progress = [](const Progress&) { return Next::cancel; };
+  stopping.progress = [](const Progress&) { return ProgressReply::cancel; };
   CHECK(test::code_of([&] { make_grid(recipe, stopping); }) == ErrorCode::cancelled);
 }
 
@@ -317,7 +317,7 @@ TEST_CASE("make_grid: a run goes on to the same bits after each of its actions")
     if (before && before->report().done.size() != report.done.size())
       ends.push_back(*before);
     before = now.run->state;
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   const Cvt whole = make_grid(recipe, watching);
   ends.push_back(*before);
@@ -346,7 +346,7 @@ TEST_CASE("make_grid: a mesh that leaves the boundary where it is narrow says by
   Recipe recipe;
   recipe.cells = 60;
   recipe.boundary = Boundary::generators;
-  recipe.start.kind = Start::Kind::random;
+  recipe.start.kind = CvtStart::Kind::random;
   recipe.surface = Surface::sphere().within({wall});
   CHECK(make_grid(recipe).report.off_boundary > 0);
   recipe.surface = part();

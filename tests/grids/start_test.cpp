@@ -103,10 +103,10 @@ TEST_CASE("continuation refuses what it cannot reach in one line") {
 
 TEST_CASE("drawn starts of a peaked density span the sphere, and converge") {
   for (const std::int64_t cells : {643, 2000, 2571}) {
-    Recipe recipe = test::recipe_of(Start::Kind::continuation, cells, test::x8(), 1);
+    Recipe recipe = test::recipe_of(CvtStart::Kind::continuation, cells, test::x8(), 1);
     recipe.stop.tolerance = 1e-3;
     const Cvt grid = make_grid(recipe);
-    CHECK(plan(recipe).first != Start::Kind::icosahedron);
+    CHECK(plan(recipe).first != CvtStart::Kind::icosahedron);
     CHECK(grid.report.converged);
     CHECK(grid.mesh.points.cols() == cells);
   }
@@ -118,7 +118,7 @@ TEST_CASE("continuation: uniform grids of any number of cells have 12 defects af
     numbers.push_back(cells);
   for (const std::int64_t cells : numbers) {
     CAPTURE(cells);
-    const Cvt grid = make_grid(test::recipe_of(Start::Kind::continuation, cells, {}, 1));
+    const Cvt grid = make_grid(test::recipe_of(CvtStart::Kind::continuation, cells, {}, 1));
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() <= 40);
     REQUIRE(grid.mesh.points.cols() == cells);
@@ -155,7 +155,7 @@ TEST_CASE(
       const test::FirstGenerators from = test::multilevel(3000, {}, steep(ratio), seed);
       CHECK(from.start.cols() >= 160);
       CHECK(delaunay(from.start).closed());
-      Recipe recipe = test::recipe_of(Start::Kind::multilevel, 3000, steep(ratio), seed);
+      Recipe recipe = test::recipe_of(CvtStart::Kind::multilevel, 3000, steep(ratio), seed);
       recipe.stop = {.tolerance = 1e-2, .well_centred = false};
       const Cvt grid = make_grid(recipe);
       CHECK(grid.mesh.closed());

@@ -226,7 +226,7 @@ void check_for_atmosphere(const std::string& path, int euler) {
 }
 
 WriteOptions for_model(const std::string& word) {
-  const Model* const model = find_model(word);
+  const ModelNeeds* const model = find_model(word);
   REQUIRE(model != nullptr);
   return {.format = model->format,
           .sphere_radius = model->sphere_radius,

@@ -340,7 +340,7 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
   const Field ramp = [](double, double latitude) {
     return 100 + 3 * std::clamp(latitude, 0.0, 30.0);
   };
-  const Gradient up = largest_gradient(sampled_field(ramp, 36, 36));
+  const WidthGradient up = largest_gradient(sampled_field(ramp, 36, 36));
   CHECK(up.slope == doctest::Approx(3 / (degree * earth_radius_km)).epsilon(1e-12));
   CHECK(up.latitude >= -1e-9);
   CHECK(up.latitude <= 30 + 1e-9);
@@ -351,7 +351,7 @@ TEST_CASE("the largest gradient is the largest mean over a cell, where it is") {
     Raster noise = sampled_field([&](double, double) { return scale * random.real(1, 2); }, 24, 24);
     for (const Eigen::Index row : {0, 1, 23, 24})
       noise.values.col(row).setConstant(1.5 * scale);
-    const Gradient most = largest_gradient(noise);
+    const WidthGradient most = largest_gradient(noise);
     CHECK(most.slope ==
           doctest::Approx(largest_mean_gradient(noise, earth_radius_km)).epsilon(1e-3));
     CHECK(largest_gradient(noise, 2 * earth_radius_km).slope > 0.4 * most.slope);
@@ -369,7 +369,7 @@ TEST_CASE("the gradient of sampled widths is theirs, not that of the tips of the
     const Eigen::Vector3d x = points_at({{longitude, latitude}}).col(0);
     return 60 + 0.05 * earth_radius_km * std::atan2(x.cross(tip).norm(), x.dot(tip));
   };
-  const Gradient fine = largest_gradient(sampled_field(cone, 720, 360));
+  const WidthGradient fine = largest_gradient(sampled_field(cone, 720, 360));
   CHECK(fine.slope > 0.0499);
   CHECK(fine.slope < 0.0535); // 1.08 at most: four sampled edges of a box allow no more
   // Nodes 20 cells apart: there the interpolated widths are steeper, over whole cells.

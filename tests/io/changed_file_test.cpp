@@ -36,7 +36,7 @@ MeshFile global_file() {
                          .values = DoubleVector::LinSpaced(2 * x.cols(), 0, 1),
                          .dimensions = {{"two", 2}}});
   file.fields.push_back({.name = "corner",
-                         .location = Location::vertices,
+                         .location = FieldLocation::vertices,
                          .values = DoubleVector::Zero(file.mesh->triangles.cols())});
   return file;
 }

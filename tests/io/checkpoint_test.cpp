@@ -212,9 +212,9 @@ TEST_CASE("a run resumes from its checkpoint to the same bits, on every level") 
     CAPTURE(last);
     const auto saved = [&](const Progress& now) {
       if (now.run->report.iterations.size() != last)
-        return Next::proceed;
+        return ProgressReply::proceed;
       write_checkpoint(scratch.path, now.run->state, configuration);
-      return Next::stop;
+      return ProgressReply::stop;
     };
     make_grid(recipe, {.progress = saved});
     const Cvt resumed = make_grid(recipe, {.state = read_checkpoint(scratch.path, configuration)});
@@ -240,7 +240,7 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
     std::vector<CvtState> states; // after each step
     const auto kept = [&](const Progress& now) {
       states.push_back(now.run->state);
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     const Cvt whole = make_grid(recipe, {.progress = kept});
     REQUIRE(states.size() > 10);

@@ -289,7 +289,9 @@ TEST_CASE("a cull that fails leaves no file, whichever output fails") {
   CHECK(leaves_nothing(out / "ocean.nc", bad));
   CHECK(leaves_nothing(out / "absent/ocean.nc", options));
   int calls = 0;
-  options.progress = [&](const Progress&) { return ++calls == 3 ? Next::cancel : Next::proceed; };
+  options.progress = [&](const Progress&) {
+    return ++calls == 3 ? ProgressReply::cancel : ProgressReply::proceed;
+  };
   CHECK(leaves_nothing(out / "ocean.nc", options));
   options.progress = {};
   for (const rlim_t bytes :

@@ -342,7 +342,7 @@ TEST_CASE("a cancelled run leaves no file") {
   const std::ptrdiff_t files = scratch.files();
   CutOptions options;
   options.progress = [](const Progress& progress) {
-    return progress.fraction > 0.3 ? Next::cancel : Next::proceed;
+    return progress.fraction > 0.3 ? ProgressReply::cancel : ProgressReply::proceed;
   };
   options.rings = 3;
   const Error error = error_of([&] { cut(source, target, within_angle(0.5), options); });

@@ -72,7 +72,7 @@ MeshFile ragged(int sites, double share, std::uint64_t seed) {
   file.density = Eigen::VectorXd::LinSpaced(n, 1, 2);
   file.fields.push_back({.name = "z", .values = file.mesh->points.row(2)});
   file.fields.push_back({.name = "lowest",
-                         .location = Location::vertices,
+                         .location = FieldLocation::vertices,
                          .values = triangles.row(0).cast<double>()});
   return file;
 }

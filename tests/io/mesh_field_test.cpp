@@ -22,8 +22,8 @@
 
 using calotte::ErrorCode;
 using calotte::FieldChoice;
+using calotte::FieldLocation;
 using calotte::Format;
-using calotte::Location;
 using calotte::Mesh;
 using calotte::MeshField;
 using calotte::MeshFile;
@@ -282,7 +282,7 @@ TEST_CASE("UGRID tells where each field is") {
   calotte::WriteOptions options{.format = Format::ugrid};
   options.fields = {
       {.name = "c", .values = Eigen::VectorXd::Ones(6)},
-      {.name = "v", .location = Location::vertices, .values = Eigen::VectorXd::Ones(8)}};
+      {.name = "v", .location = FieldLocation::vertices, .values = Eigen::VectorXd::Ones(8)}};
   const auto location = [&](const char* name) {
     int id = -1, v = -1;
     char text[8] = "";
@@ -372,7 +372,7 @@ TEST_CASE("fields that do not fit are refused by name") {
   field.dimensions = {{"levels", 2}};
   field.leading = 2;
   CHECK(problem(field, mesh).starts_with("the field f has 1 dimensions, of which 2"));
-  field = {.name = "e", .location = Location::edges, .values = Eigen::VectorXd::Ones(11)};
+  field = {.name = "e", .location = FieldLocation::edges, .values = Eigen::VectorXd::Ones(11)};
   CHECK(problem(field, mesh) == "the field e has 11 values; give one for each of 12");
   CHECK(problem(field, open_meshes()[0].mesh) ==
         "the field e is at edges, which only closed meshes number; leave it out");

@@ -23,8 +23,8 @@
 #include <vector>
 
 using calotte::ErrorCode;
+using calotte::FieldLocation;
 using calotte::Format;
-using calotte::Location;
 using calotte::Mesh;
 using calotte::MeshFile;
 using calotte::Points3;
@@ -219,7 +219,7 @@ TEST_CASE("values at the corners of cells that are no Voronoi cells go along") {
   const Scratch scratch;
   MeshFile file = file_of(cube_of_quads(3));
   file.fields = {{.name = "height",
-                  .location = Location::vertices,
+                  .location = FieldLocation::vertices,
                   .values = file.polygons->corners.row(2).transpose()},
                  {.name = "part",
                   .values = Eigen::VectorXd::LinSpaced(file.polygons->size(), 0, 53),
@@ -281,7 +281,7 @@ TEST_CASE("fields and densities go from format to format in the order of the cel
   options.site_density = 1 + mesh.points.row(0).transpose().array();
   options.fields = {{.name = "height", .units = "m", .values = mesh.points.row(1).transpose()},
                     {.name = "turning",
-                     .location = Location::vertices,
+                     .location = FieldLocation::vertices,
                      .values = calotte::voronoi(mesh).vertices.row(2).transpose()}};
   const auto check_values = [&](const MeshFile& file, double scale) {
     const Points3& points = file.mesh->points;

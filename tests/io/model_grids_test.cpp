@@ -552,7 +552,7 @@ TEST_CASE("the mesh of Voronoi cells is found without a triangulation, and of no
     const auto mesh_of = [&](Points3 sites, const calotte::Polygons& polygons) {
       std::vector<MeshField> fields{
           {.name = "t",
-           .location = Location::vertices,
+           .location = FieldLocation::vertices,
            .values = Eigen::VectorXd::LinSpaced(polygons.corners.cols(), 0, 1)}};
       const Points3 given = sites;
       std::optional<Mesh> mesh = io_detail::mesh_of_cells(sites, polygons, 0, fields);

@@ -25,8 +25,8 @@ using namespace calotte::test;
 
 namespace {
 
-const Model& model(const std::string& word) {
-  const Model* const found = find_model(word);
+const ModelNeeds& model(const std::string& word) {
+  const ModelNeeds* const found = find_model(word);
   REQUIRE(found != nullptr);
   return *found;
 }
@@ -80,14 +80,14 @@ std::vector<std::string> deviating(const std::string& path) {
 } // namespace
 
 TEST_CASE("the file that a model's options make suits it alone") {
-  for (const Model& of : models())
-    for (const Model& other : models()) {
+  for (const ModelNeeds& of : models())
+    for (const ModelNeeds& other : models()) {
       CAPTURE(of.word);
       CAPTURE(other.word);
       CHECK(suits(other, of.format, of.sphere_radius, of.vertex_order, of.dimensions) ==
             (of.word == other.word));
     }
-  const Model& ocean = model("mpas-ocean");
+  const ModelNeeds& ocean = model("mpas-ocean");
   const VertexOrder before = VertexOrder::before_edges, after = VertexOrder::after_edges;
   CHECK(suits(ocean, Format::mpas, 6371229, after));
   CHECK(suits(ocean, Format::mpas, 3390e3, after)); // Mars

@@ -218,7 +218,7 @@ TEST_CASE("a field at corners goes where the format holds it, and is left out by
                               file_of(patch(5, 4, 170, -30, 5, true))};
   for (MeshFile& file : files) {
     file.fields = {{.name = "depth",
-                    .location = Location::vertices,
+                    .location = FieldLocation::vertices,
                     .values = file.polygons->corners.row(2).transpose()}};
     for (const FormatFile& target : {targets[0], targets[2], targets[3], targets[4]}) {
       CAPTURE(target.name);

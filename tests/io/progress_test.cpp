@@ -42,7 +42,7 @@ struct Telling {
         stages.emplace_back(progress.stage);
       fractions.push_back(progress.fraction);
       --inside;
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
   }
 };
@@ -74,7 +74,7 @@ void check_cancelled(const Work& work, const std::vector<std::string>& stages,
         called_again = called_again || cancelled;
         cancelled =
             cancelled || (progress.stage == stage && progress.fraction < 1 && ++calls == wanted);
-        return cancelled ? Next::cancel : Next::proceed;
+        return cancelled ? ProgressReply::cancel : ProgressReply::proceed;
       };
       try {
         work(callback);
@@ -141,7 +141,7 @@ TEST_CASE("an exception of the callback reaches the caller") {
     const auto callback = [&](const Progress& progress) {
       if (progress.stage == stage)
         throw std::out_of_range("mine");
-      return Next::proceed;
+      return ProgressReply::proceed;
     };
     CHECK_THROWS_WITH_AS(delaunay(points, {}, with(callback)), "mine", std::out_of_range);
   }
@@ -149,9 +149,9 @@ TEST_CASE("an exception of the callback reaches the caller") {
 
 TEST_CASE("check reports progress and can be cancelled") {
   const Mesh mesh = delaunay(random_sphere(100'000, 4));
-  const Check alone = check(mesh);
+  const CheckReport alone = check(mesh);
   const Work work = [&](const ProgressCallback& progress) {
-    const Check watched = check(mesh, progress);
+    const CheckReport watched = check(mesh, progress);
     CHECK(watched.passed());
     CHECK(watched.area == alone.area);
   };
@@ -186,7 +186,7 @@ TEST_CASE("write reports progress; if cancelled, it leaves no file") {
 
 TEST_CASE("outside of make_grid() stop is as cancel") {
   const auto stop = [](const Progress& progress) {
-    return progress.fraction > 0.1 ? Next::stop : Next::proceed;
+    return progress.fraction > 0.1 ? ProgressReply::stop : ProgressReply::proceed;
   };
   const Points3 points = random_sphere(20'000, 4);
   CHECK(code_of([&] { delaunay(points, {}, with(stop)); }) == ErrorCode::cancelled);
@@ -201,7 +201,7 @@ TEST_CASE("write of a file that is there leaves it as it was when cancelled") {
   const Scratch scratch;
   test::write_text(scratch / "a.nc", "older");
   const auto cancel = [](const Progress& progress) {
-    return progress.stage == "write" ? Next::cancel : Next::proceed;
+    return progress.stage == "write" ? ProgressReply::cancel : ProgressReply::proceed;
   };
   CHECK(code_of([&] { write(scratch / "a.nc", mesh, told(cancel)); }) == ErrorCode::cancelled);
   CHECK(scratch.files() == 1);

@@ -33,7 +33,7 @@ TEST_CASE("Voronoi cells are what they are on each surface, and parts of them ha
   const Polygons sphere = cells_on(Surface::sphere(), 300);
   CHECK(not_voronoi(sphere).fault == CellFault::none);
   CHECK(not_voronoi(sphere).text().empty());
-  const Check found = check(sphere);
+  const CheckReport found = check(sphere);
   CHECK(found.failure.empty());
   CHECK(found.sites == 300);
   CHECK(found.area == doctest::Approx(4 * std::numbers::pi));

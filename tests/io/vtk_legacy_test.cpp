@@ -17,8 +17,8 @@
 #include <vector>
 
 using calotte::ErrorCode;
+using calotte::FieldLocation;
 using calotte::Format;
-using calotte::Location;
 using calotte::Mesh;
 using calotte::MeshFile;
 using namespace calotte::test;
@@ -155,7 +155,7 @@ TEST_CASE("legacy VTK: attributes of one component are fields, all others are pa
     check_equal(*file.mesh, mesh);
     std::string names;
     for (const calotte::MeshField& f : file.fields)
-      names += f.name + (f.location == Location::cells ? "@cells " : "@vertices ");
+      names += f.name + (f.location == FieldLocation::cells ? "@cells " : "@vertices ");
     CHECK(names == "first1@cells next 1@cells first5@vertices next 5@vertices area@vertices ");
     CHECK(values_of(file.density) == counted(3, points));
     CHECK(values_of(file.fields[1].values) == counted(2, points));

@@ -18,7 +18,7 @@
 #include <vector>
 
 using calotte::ErrorCode;
-using calotte::Location;
+using calotte::FieldLocation;
 using calotte::Mesh;
 using calotte::MeshFile;
 using calotte::Points3;
@@ -126,7 +126,7 @@ TEST_CASE("VTK: arrays of one component are fields at the cells or at the vertic
       CHECK(values_of(file.density) == count(2, mesh.points.cols()));
       std::string names;
       for (const calotte::MeshField& field : file.fields)
-        names += field.name + (field.location == Location::cells ? "@cells " : "@vertices ");
+        names += field.name + (field.location == FieldLocation::cells ? "@cells " : "@vertices ");
       CHECK(names == "height@cells mask@cells flux@vertices flag@vertices area@vertices ");
       CHECK(values_of(file.fields[0].values) == count(1, mesh.points.cols()));
       CHECK(values_of(file.fields[2].values) == count(5, mesh.triangles.cols()));
@@ -139,8 +139,8 @@ TEST_CASE("VTK: arrays of one component are fields at the cells or at the vertic
                                  [&](VtkText& text) { text.array("Int32", "p", count(3, 10)); },
                                  [&](VtkText& text) { text.array("Int32", "c", count(4, 7)); }));
   REQUIRE(cells.fields.size() == 2);
-  CHECK(cells.fields[0].location == Location::vertices);
-  CHECK(cells.fields[1].location == Location::cells);
+  CHECK(cells.fields[0].location == FieldLocation::vertices);
+  CHECK(cells.fields[1].location == FieldLocation::cells);
 }
 
 TEST_CASE("VTK: cells that calotte writes come back with density and fields") {
@@ -155,8 +155,8 @@ TEST_CASE("VTK: cells that calotte writes come back with density and fields") {
       calotte::WriteOptions options;
       options.format = format;
       options.site_density = cells;
-      options.fields = {{.name = "c", .location = Location::cells, .values = cells},
-                        {.name = "v", .location = Location::vertices, .values = vertices}};
+      options.fields = {{.name = "c", .location = FieldLocation::cells, .values = cells},
+                        {.name = "v", .location = FieldLocation::vertices, .values = vertices}};
       calotte::write(scratch / name, mesh, options);
       const MeshFile file = calotte::read_mesh_file(scratch / name);
       check_equal(*file.mesh, mesh);

@@ -138,11 +138,12 @@ TEST_CASE("a rule for a part says nothing elsewhere") {
   CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"") ==
         evaluate(Widths::where(island, 20.0, 60.0), sample_points()));
   CHECK(rules.widths("blend = [60, 20]\nshare = \"island.geojson\"\nover = 3000") ==
-        evaluate(Widths::blend(60.0, 20.0, Share(island, {{{0, 1}, {3000, 0}}})), sample_points()));
-  CHECK(
-      rules.widths(
-          "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
-      evaluate(Widths::blend(60.0, 20.0, Share(island, {{{-500, 1}, {0, 0.5}}})), sample_points()));
+        evaluate(Widths::blend(60.0, 20.0, WidthShare(island, {{{0, 1}, {3000, 0}}})),
+                 sample_points()));
+  CHECK(rules.widths(
+            "blend = [60, 20]\nshare = \"island.geojson\"\nprofile = [[-500, 1], [0, 0.5]]") ==
+        evaluate(Widths::blend(60.0, 20.0, WidthShare(island, {{{-500, 1}, {0, 0.5}}})),
+                 sample_points()));
   CHECK(rules.refused("[cell-width]\nblend = [60, 20, 5]\nshare = \"half.nc\"") ==
         " line 2: blend holds 3 rules; give [A, B]");
   CHECK(rules.refused("[cell-width]\nblend = [60, 20]\nshare = 1") ==

@@ -27,7 +27,7 @@ using namespace calotte::test;
 namespace {
 
 bool fails_with(const Mesh& mesh, const std::string& words) {
-  const Check result = check(mesh);
+  const CheckReport result = check(mesh);
   INFO("failure: ", result.failure);
   CHECK_FALSE(result.passed());
   CHECK(result.failure.find('\n') == std::string::npos);
@@ -73,7 +73,7 @@ TEST_CASE("meshes made by the definition pass, closed and open") {
       continue;
     CAPTURE(cloud.name);
     const Mesh mesh = oracle::delaunay(cloud.points);
-    const Check result = check(mesh);
+    const CheckReport result = check(mesh);
     CHECK(result.failure == "");
     CHECK(result.sites == mesh.points.cols());
     CHECK(result.triangles == mesh.triangles.cols());
@@ -96,7 +96,7 @@ TEST_CASE("triangles that are hemispheres up to rounding have positive areas") {
     }
     points(2, 2) = -5e-324;
     points(2, 6) = 1;
-    const Check result = check(delaunay(points));
+    const CheckReport result = check(delaunay(points));
     CHECK(result.failure == "");
     if (result.boundary_edges == 0)
       CHECK(result.area == doctest::Approx(4 * std::numbers::pi).epsilon(1e-9));
@@ -311,7 +311,7 @@ TEST_CASE("arrays of nonsense do not crash") {
     Mesh wrong = mesh;
     for (int k = 0; k < 20; ++k)
       exchange_sites(wrong.points, random.integer(0, 19), random.integer(0, 19));
-    const Check result = check(wrong);
+    const CheckReport result = check(wrong);
     CHECK((!result.passed() || wrong.points == mesh.points));
   }
 }
@@ -414,7 +414,7 @@ Mesh channel(bool along_x) {
 TEST_CASE("planar meshes pass, open and periodic, and their areas are known") {
   for (const Mesh& mesh : planar_meshes()) {
     CAPTURE(mesh.points.cols());
-    const Check result = check(mesh);
+    const CheckReport result = check(mesh);
     CHECK(result.failure == "");
     CHECK(result.sites == mesh.points.cols());
     CHECK(result.area == doctest::Approx(result.expected_area).epsilon(1e-12));
@@ -430,7 +430,7 @@ TEST_CASE("channels pass between straight walls, along x and y, and their area i
   for (const bool along_x : {true, false}) {
     const Mesh mesh = channel(along_x);
     CAPTURE(along_x);
-    const Check result = check(mesh);
+    const CheckReport result = check(mesh);
     CHECK(result.failure == "");
     CHECK(result.triangles == 2 * mesh.points.cols() - 16);
     CHECK(result.boundary_edges == 16);

@@ -106,7 +106,7 @@ TEST_CASE("shares of a raster are linear between its nodes") {
   CHECK(evaluate(Widths::where(raster, 20.0, 100.0), places)[2] == 20);
   CHECK(evaluate(Widths::where(raster, 20.0, 100.0), places)[3] == 100);
   raster.values(0, 0) = 1.5;
-  CHECK(error_of([&] { Share{raster}; }).what() ==
+  CHECK(error_of([&] { WidthShare{raster}; }).what() ==
         std::string("shares: value (0, 0) is not a fraction from 0 to 1; correct it"));
 }
 

@@ -94,7 +94,7 @@ std::vector<std::pair<std::string, Widths>> rules(double u = 1) {
       {"times", channels.times(1.7)},
       {"sum", Widths::sum({zones, lines})},
       {"where", Widths::where(region, u * 115.0, zones)},
-      {"blend", Widths::blend(zones, lines, Share(region, {{{u * -300, 1}, {u * 300, 0}}}))}};
+      {"blend", Widths::blend(zones, lines, WidthShare(region, {{{u * -300, 1}, {u * 300, 0}}}))}};
 }
 
 DoubleVector in_arena(int threads, const Widths& widths, const Points3& places) {

@@ -67,7 +67,7 @@ TEST_CASE("rotated rules give rotated widths") {
     return Widths::by_channel(two_islands(r), {.cells = 4, .least = 20});
   };
   const auto blend = [&](const Rotation& r) {
-    return Widths::blend(lines_rule(r), 200.0, Share(region(r), {{{-100, 1}, {900, 0}}}));
+    return Widths::blend(lines_rule(r), 200.0, WidthShare(region(r), {{{-100, 1}, {900, 0}}}));
   };
   CHECK(change(lines_rule) < 1e-9);
   CHECK(change(coast_rule) < 1e-9);

@@ -258,7 +258,7 @@ TEST_CASE("a callback ends the call, and so does an exception of the visitor") {
   PartitionOptions options;
   options.progress = [](const Progress& progress) {
     CHECK(progress.stage == "partition");
-    return Next::cancel;
+    return ProgressReply::cancel;
   };
   CHECK(test::code_of([&] { partition(graph, counts, options, [](const CellParts&) {}); }) ==
         ErrorCode::cancelled);

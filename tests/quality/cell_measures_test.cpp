@@ -23,8 +23,8 @@ using namespace calotte::test;
 namespace {
 
 /// Of the values that are numbers.
-Range range_of(const Eigen::VectorXd& values) {
-  Range range{HUGE_VAL, 0, -HUGE_VAL};
+ValueRange range_of(const Eigen::VectorXd& values) {
+  ValueRange range{HUGE_VAL, 0, -HUGE_VAL};
   std::int64_t count = 0;
   for (const double value : values)
     if (!std::isnan(value)) {
@@ -37,9 +37,9 @@ Range range_of(const Eigen::VectorXd& values) {
   return range;
 }
 
-void check_range(const char* what, const Eigen::VectorXd& values, const Range& expected) {
+void check_range(const char* what, const Eigen::VectorXd& values, const ValueRange& expected) {
   CAPTURE(what);
-  const Range range = range_of(values);
+  const ValueRange range = range_of(values);
   constexpr double epsilon = 1e-11;
   CHECK(std::abs(range.min - expected.min) <= epsilon * std::abs(expected.max));
   CHECK(std::abs(range.mean - expected.mean) <= epsilon * std::abs(expected.max));

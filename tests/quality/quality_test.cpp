@@ -58,7 +58,7 @@ std::vector<Case> cases() {
 /// All measures that are no counts, except off-centring.
 std::vector<double> measures(const Quality& q) {
   std::vector<double> out{q.residual, q.energy, q.cells_area, q.triangles_area};
-  for (const Range& range :
+  for (const ValueRange& range :
        {q.spacing, q.sigma, q.cell_quality, q.cell_area, q.triangle_quality, q.angles})
     out.insert(out.end(), {range.min, range.mean, range.max});
   return out;
@@ -90,7 +90,7 @@ void check_same(const Quality& a, const Quality& b) {
 // ---- The measures by their definitions, in long doubles
 
 /// Smallest, mean and largest.
-Range range_of(const std::vector<Real>& values) {
+ValueRange range_of(const std::vector<Real>& values) {
   if (values.empty())
     return {};
   Real sum = 0;
@@ -257,13 +257,13 @@ TEST_CASE("laws: Euler's counts, areas of the sphere, means within their bounds"
     CHECK(q.cell_area.mean == doctest::Approx(4 * pi / static_cast<double>(q.cells)));
     CHECK(q.angles.mean == doctest::Approx(60));
     CHECK((q.obtuse > 0) == (q.angles.max > 90 + 1e-6));
-    for (const Range& range : {q.spacing, q.sigma, q.cell_quality, q.cell_area, q.triangle_quality,
-                               q.angles, q.off_centring}) {
+    for (const ValueRange& range : {q.spacing, q.sigma, q.cell_quality, q.cell_area,
+                                    q.triangle_quality, q.angles, q.off_centring}) {
       CHECK(range.min >= 0);
       CHECK(range.min <= range.mean * (1 + 1e-14));
       CHECK(range.mean <= range.max * (1 + 1e-14));
     }
-    for (const Range& range : {q.sigma, q.cell_quality, q.triangle_quality})
+    for (const ValueRange& range : {q.sigma, q.cell_quality, q.triangle_quality})
       CHECK(range.max <= 1 + 1e-14);
   }
 }
@@ -272,7 +272,7 @@ TEST_CASE("the icosahedron is perfect") {
   const Quality q = quality(delaunay(bisected_icosahedron(0)));
   CHECK(q.degrees == std::vector<std::int64_t>{0, 0, 0, 0, 0, 12});
   CHECK(q.obtuse == 0);
-  const auto check_all = [](const Range& range, double value) {
+  const auto check_all = [](const ValueRange& range, double value) {
     for (const double v : {range.min, range.mean, range.max})
       CHECK(std::abs(v - value) < 1e-13);
   };

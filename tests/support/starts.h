@@ -22,10 +22,10 @@ inline FirstGenerators first_generators(const Recipe& recipe) {
   return {grids_detail::free_generators(schedule),
           static_cast<int>(
               std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind)),
-          schedule.first == Start::Kind::icosahedron};
+          schedule.first == CvtStart::Kind::icosahedron};
 }
 
-inline Recipe recipe_of(Start::Kind kind, std::int64_t cells, const Density& density,
+inline Recipe recipe_of(CvtStart::Kind kind, std::int64_t cells, const Density& density,
                         std::uint64_t seed) {
   Recipe recipe;
   recipe.cells = cells;
@@ -37,13 +37,13 @@ inline Recipe recipe_of(Start::Kind kind, std::int64_t cells, const Density& den
 
 inline FirstGenerators continuation(std::int64_t cells, const Density& density,
                                     std::uint64_t seed = 1) {
-  return first_generators(recipe_of(Start::Kind::continuation, cells, density, seed));
+  return first_generators(recipe_of(CvtStart::Kind::continuation, cells, density, seed));
 }
 
 inline FirstGenerators multilevel(std::int64_t cells, const Surface& surface,
                                   const Density& density, std::uint64_t seed = 1,
                                   const Points3& fixed = Points3(3, 0)) {
-  Recipe recipe = recipe_of(Start::Kind::multilevel, cells, density, seed);
+  Recipe recipe = recipe_of(CvtStart::Kind::multilevel, cells, density, seed);
   recipe.surface = surface;
   recipe.fixed = fixed;
   return first_generators(recipe);

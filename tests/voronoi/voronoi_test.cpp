@@ -392,7 +392,7 @@ TEST_CASE("quality() gives the same spacings, areas, degrees and shapes") {
     const Voronoi v = voronoi(mesh);
     const CellFields fields = cell_fields(v);
     const Quality q = quality(mesh);
-    const auto check_range = [](const Eigen::VectorXd& values, const Range& range) {
+    const auto check_range = [](const Eigen::VectorXd& values, const ValueRange& range) {
       CHECK(std::abs(values.minCoeff() - range.min) < 1e-12);
       CHECK(std::abs(values.mean() - range.mean) < 1e-12);
       CHECK(std::abs(values.maxCoeff() - range.max) < 1e-12);

@@ -80,9 +80,9 @@ json parse(const std::string& path) {
   }
 }
 
-template <class Value> Value value_of(const Part& part, std::span<const Word<Value>> words) {
+template <class Value> Value value_of(const Part& part, std::span<const NamedValue<Value>> words) {
   std::vector<std::string> known;
-  for (const Word<Value>& word : words) {
+  for (const NamedValue<Value>& word : words) {
     known.emplace_back(word.word);
     if (part.value == known.back())
       return word.value;

@@ -219,10 +219,10 @@ std::string distinct_from(double other, double value) {
   return text;
 }
 
-Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::optional<double> limit,
-                     double scale) {
+WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
+                          std::optional<double> limit, double scale) {
   // Widths that are larger on a sphere have the gradient of the same on a smaller one.
-  Gradient steepest = largest_gradient(widths, words.radius / scale);
+  WidthGradient steepest = largest_gradient(widths, words.radius / scale);
   constexpr double at_tips =
       1.5; // between nodes, at the tip of a cone, the field is that much steeper
   if (limit && steepest.slope < at_tips * *limit * scale)
@@ -239,7 +239,7 @@ std::string remedy_of(const WidthWords& words, bool scaled) {
          (words.transition ? ", or increase --transition" : "");
 }
 
-std::string place_of(const Gradient& gradient) {
+std::string place_of(const WidthGradient& gradient) {
   return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
@@ -274,7 +274,7 @@ std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& wo
   if (std::abs(scale - 1) > 0.01)
     notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
                      formatted("%.3g", scale) + " times as large";
-  const Gradient gradient = steepest_of(widths, words, limit, scale);
+  const WidthGradient gradient = steepest_of(widths, words, limit, scale);
   const std::string usual = shortest(steepest_width),
                     slope = distinct_from(steepest_width, gradient.slope);
   notes.front() += "; largest gradient " + slope + " km per km";

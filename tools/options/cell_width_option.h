@@ -59,11 +59,11 @@ std::string width_configuration(const WidthWords& words);
 
 /// The largest gradient of widths times a scale: that of a limit of the widths, but for a jump that
 /// the limit left.
-Gradient steepest_of(const WidthField& widths, const WidthWords& words, std::optional<double> limit,
-                     double scale);
+WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
+                          std::optional<double> limit, double scale);
 
 /// "12.5 E 48.2 S".
-std::string place_of(const Gradient& gradient);
+std::string place_of(const WidthGradient& gradient);
 
 /// A summary of widths in km before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.

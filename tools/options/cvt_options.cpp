@@ -25,10 +25,10 @@ namespace {
 
 /// The words of an option's values but some.
 template <class Value>
-std::vector<std::string> words_of(std::span<const Word<Value>> words,
+std::vector<std::string> words_of(std::span<const NamedValue<Value>> words,
                                   const std::set<std::string_view>& but = {}) {
   std::vector<std::string> names;
-  for (const Word<Value>& word : words)
+  for (const NamedValue<Value>& word : words)
     if (!but.contains(word.word))
       names.emplace_back(word.word);
   return names;

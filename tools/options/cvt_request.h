@@ -36,7 +36,7 @@ struct CvtRequest {
   std::optional<std::string> stop;     ///< default: see Stop
   std::optional<double> least_spacing; ///< of a run that ends well-centred
   std::optional<double> given_tolerance;
-  int max_iterations = Stop{}.max_iterations;
+  int max_iterations = CvtStop{}.max_iterations;
   std::optional<int> iterations;
   std::shared_ptr<PartitionWords> partition;
 

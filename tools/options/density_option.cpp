@@ -152,12 +152,12 @@ Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
   return turn.x() * north + turn.y() * east;
 }
 
-Bump bump_of(const std::string& text) {
+DensityBump bump_of(const std::string& text) {
   const BumpWords words = parse_bump(text, on_sphere);
   const double longitude = degrees_of(words, "lon"), latitude = degrees_of(words, "lat");
   if (std::abs(latitude) > 90)
     refuse_value(words, "lat", "is outside -90 to 90; give degrees north");
-  Bump bump;
+  DensityBump bump;
   bump.centre = direction_at(longitude, latitude);
   bump.beta = positive_angle(words, "beta");
   bump.alpha = positive_angle(words, "alpha");
@@ -183,9 +183,9 @@ double length_of(const BumpWords& words, const std::string& key) {
   return value;
 }
 
-Bump planar_bump_of(const std::string& text) {
+DensityBump planar_bump_of(const std::string& text) {
   const BumpWords words = parse_bump(text, in_plane);
-  Bump bump;
+  DensityBump bump;
   bump.centre = {number_of(words, "x"), number_of(words, "y"), 0};
   bump.beta = length_of(words, "beta");
   bump.alpha = length_of(words, "alpha");

@@ -53,7 +53,8 @@ DoubleVector bottom_of(const std::string& name, const MeshFile& file) {
   if (const std::optional<double> flat = parse_number(name))
     return DoubleVector::Constant(sites, *flat);
   for (const MeshField& field : file.fields)
-    if (field.name == name && field.location == Location::cells && field.values.size() == sites)
+    if (field.name == name && field.location == FieldLocation::cells &&
+        field.values.size() == sites)
       return depths_of(field.values);
   refuse("--depth " + name +
          ": the input has no field of that name with a number for each cell; give another, or "

@@ -25,7 +25,7 @@ Format chosen_format(const FormatWords& words, const std::string& path) {
   for (const FormatInfo& info : formats())
     if (words.format == info.word)
       given = info.format;
-  const Model* const model = model_of(words.model);
+  const ModelNeeds* const model = model_of(words.model);
   const Format format = calotte::format_of(path, given);
   if (model != nullptr && model->format != format)
     refuse(path + ": --for " + model->word + " writes the format " + info_of(model->format).word +
@@ -110,7 +110,7 @@ std::string help_of_output() {
 WriteOptions options_of(const FormatWords& words, const std::string& path) {
   WriteOptions options;
   options.format = chosen_format(words, path);
-  const Model* const model = model_of(words.model);
+  const ModelNeeds* const model = model_of(words.model);
   options.sphere_radius = words.sphere_radius.value_or(options.sphere_radius);
   require_radius(options.sphere_radius, options.format, path);
   if (model != nullptr) {

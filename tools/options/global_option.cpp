@@ -24,7 +24,8 @@ void require_mpas_name(const std::string& output) {
 }
 
 void require_mpas_model(const std::optional<std::string>& model) {
-  if (const Model* const known = model_of(model); known != nullptr && known->format != Format::mpas)
+  if (const ModelNeeds* const known = model_of(model);
+      known != nullptr && known->format != Format::mpas)
     refuse("--for " + known->word +
            ": the grid is an MPAS file; leave the option out, and convert the grid with "
            "calotte convert GRID.nc nod2d.out");

@@ -11,7 +11,7 @@ namespace calotte::tools {
 
 CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
   std::vector<std::string> known;
-  for (const Model& model : models())
+  for (const ModelNeeds& model : models())
     known.push_back(model.word);
   return command
       .add_option("--for", word,
@@ -24,11 +24,11 @@ CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word) {
       ->check(CLI::IsMember(known));
 }
 
-const Model* model_of(const std::optional<std::string>& word) {
+const ModelNeeds* model_of(const std::optional<std::string>& word) {
   return word ? find_model(*word) : nullptr;
 }
 
-std::optional<double> radius_for(const Model* model, std::optional<double> given) {
+std::optional<double> radius_for(const ModelNeeds* model, std::optional<double> given) {
   if (model == nullptr)
     return given;
   if (given && !suits(*model, model->format, *given, model->vertex_order, model->dimensions))
@@ -43,7 +43,7 @@ std::string suited_models(const std::string& path, const WriteOptions& options) 
     return "";
   const VertexOrder order = options.vertex_order.value_or(VertexOrder::after_edges);
   std::vector<std::string> names;
-  for (const Model& model : models())
+  for (const ModelNeeds& model : models())
     if (suits(model, options.format, options.sphere_radius, order, options.dimensions))
       names.push_back(model.name);
   const std::string radius = options.sphere_radius == 1

@@ -15,13 +15,13 @@ namespace calotte::tools {
 CLI::Option* add_model(CLI::App& command, std::optional<std::string>& word);
 
 /// The model of a word; null without one.
-const Model* model_of(const std::optional<std::string>& word);
+const ModelNeeds* model_of(const std::optional<std::string>& word);
 
 /// The radius of a file for a model.
 /// \param given value of --sphere-radius, which stays.
 /// \returns nothing without a radius and without a model.
 /// \throws Error invalid_argument, for a radius that the model cannot use.
-std::optional<double> radius_for(const Model* model, std::optional<double> given);
+std::optional<double> radius_for(const ModelNeeds* model, std::optional<double> given);
 
 /// A line on the models that an MPAS file of the sphere suits; "" for other formats.
 /// \param options with which it was written; their format is not by_name.

@@ -12,18 +12,18 @@ namespace {
 
 std::string start_of(const CvtRequest& request, const CvtInput& input, const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
-  const Start::Kind kind = recipe.start.kind;
+  const CvtStart::Kind kind = recipe.start.kind;
   std::string text = "start " + std::string(word_of(kind)) + "\n" + input.points;
-  if (kind != Start::Kind::points)
+  if (kind != CvtStart::Kind::points)
     text += "cells " + std::to_string(recipe.cells) + "\n";
   if (is_drawn(kind))
     text += "seed " + std::to_string(recipe.seed) + "\n";
   text += input.fixed;
   if (schedule.on_boundary > 0)
     text += "boundary generators\n";
-  if (kind == Start::Kind::multilevel)
+  if (kind == CvtStart::Kind::multilevel)
     text += "insertion-rounds " + std::to_string(*recipe.start.insertion_rounds) + "\n";
-  else if (kind != Start::Kind::continuation) // whose bisections follow from cells and density
+  else if (kind != CvtStart::Kind::continuation) // whose bisections follow from cells and density
     text += "bisections " + std::to_string(recipe.start.bisections.value_or(0)) + "\n";
   if (planar(request))
     text += domain_configuration(*request.domain);
@@ -32,7 +32,7 @@ std::string start_of(const CvtRequest& request, const CvtInput& input, const Sch
   return text;
 }
 
-std::string stopping_rule(const CvtRequest& request, const Stop& stop) {
+std::string stopping_rule(const CvtRequest& request, const CvtStop& stop) {
   if (stop.iterations)
     return "iterations " + std::to_string(*stop.iterations) + "\n";
   const std::string spacing =
@@ -57,7 +57,7 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
   return text;
 }
 
-std::string history_of(const CvtRequest& request, const Stop& stop,
+std::string history_of(const CvtRequest& request, const CvtStop& stop,
                        const std::string& configuration, const CvtReport& report) {
   std::istringstream lines(configuration + stopping_rule(request, stop));
   std::string history, fact;

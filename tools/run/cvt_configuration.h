@@ -17,7 +17,7 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
 
 /// The same and the stopping rule on one line, as provenance in output files: equal runs have equal
 /// lines. A run that did not converge says so.
-std::string history_of(const CvtRequest& request, const Stop& stop,
+std::string history_of(const CvtRequest& request, const CvtStop& stop,
                        const std::string& configuration, const CvtReport& report);
 
 } // namespace calotte::tools

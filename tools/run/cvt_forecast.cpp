@@ -144,7 +144,7 @@ std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& 
 }
 
 std::string describe(const CvtProgress& progress, const Schedule& schedule) {
-  const Stop& stop = schedule.recipe.stop;
+  const CvtStop& stop = schedule.recipe.stop;
   const CvtIteration& last = progress.report.iterations.back();
   std::string text = std::to_string(last.cells) + " cells, iteration " +
                      std::to_string(progress.iterations_of_descent);

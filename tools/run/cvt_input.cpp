@@ -60,12 +60,12 @@ void read_fixed(const CvtRequest& request, CvtInput& input) {
 
 // ---- The recipe
 
-Start::Kind start_named(const std::string& word) {
-  return std::ranges::find(start_words(), word, &Word<Start::Kind>::word)->value;
+CvtStart::Kind start_named(const std::string& word) {
+  return std::ranges::find(start_words(), word, &NamedValue<CvtStart::Kind>::word)->value;
 }
 
-Start start_of(const CvtRequest& request) {
-  Start start;
+CvtStart start_of(const CvtRequest& request) {
+  CvtStart start;
   if (request.start)
     start.kind = start_named(*request.start);
   start.bisections = request.bisections;
@@ -73,9 +73,9 @@ Start start_of(const CvtRequest& request) {
   return start;
 }
 
-Stop stop_of(const CvtRequest& request) {
-  Stop stop;
-  stop.norm = std::ranges::find(norm_words(), request.norm, &Word<Norm>::word)->value;
+CvtStop stop_of(const CvtRequest& request) {
+  CvtStop stop;
+  stop.norm = std::ranges::find(norm_words(), request.norm, &NamedValue<Norm>::word)->value;
   stop.tolerance = request.given_tolerance;
   stop.max_iterations = request.max_iterations;
   stop.iterations = request.iterations;
@@ -155,7 +155,8 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.start = start_of(request);
   recipe.stop = stop_of(request);
   recipe.seed = request.seed.value_or(recipe.seed);
-  recipe.method = std::ranges::find(method_words(), request.method, &Word<Method>::word)->value;
+  recipe.method =
+      std::ranges::find(method_words(), request.method, &NamedValue<Method>::word)->value;
   const DelaunayOptions merging = options_of(*request.partition);
   recipe.duplicates = merging.duplicates;
   recipe.merge_within = merging.merge_within;
@@ -217,8 +218,8 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
                     " free ones: " + std::to_string(cells) + " cells");
   const auto bisections = static_cast<std::size_t>(
       std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind));
-  if (schedule.recipe.start.kind == Start::Kind::continuation &&
-      schedule.first == Start::Kind::density)
+  if (schedule.recipe.start.kind == CvtStart::Kind::continuation &&
+      schedule.first == CvtStart::Kind::density)
     notes.push_back(std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " +
                     std::to_string(schedule.actions.front().cells) +
                     " points drawn from the density" +

@@ -40,9 +40,9 @@ struct CvtInput {
 };
 
 /// Whether points of a start depend on the seed.
-inline bool is_drawn(Start::Kind kind) {
-  return kind == Start::Kind::multilevel || kind == Start::Kind::continuation ||
-         kind == Start::Kind::random || kind == Start::Kind::density;
+inline bool is_drawn(CvtStart::Kind kind) {
+  return kind == CvtStart::Kind::multilevel || kind == CvtStart::Kind::continuation ||
+         kind == CvtStart::Kind::random || kind == CvtStart::Kind::density;
 }
 
 /// Validates the options of the start before any work. \throws Error invalid_argument.

@@ -67,7 +67,7 @@ template <class List> Json array_of(const List& list) {
 std::string to_json(const CvtRequest& request, const Schedule& schedule, const CvtReport& report,
                     std::int64_t cells, double area, int threads,
                     const std::vector<KeptState>& states) {
-  const Stop& stop = schedule.recipe.stop;
+  const CvtStop& stop = schedule.recipe.stop;
   Json json;
   json["calotte"] = CALOTTE_VERSION;
   json["density"] = density_names(*request.density);
@@ -101,7 +101,7 @@ std::string residual_words(const CvtRequest& request, const CvtReport& report) {
   return request.iterations ? "" : request.norm + " " + formatted("%.3g", report.residual);
 }
 
-std::string summary(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+std::string summary(const CvtRequest& request, const CvtStop& stop, const CvtReport& report,
                     std::int64_t cells, double area, std::int64_t before) {
   const auto iterations = std::ssize(report.iterations);
   std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";

@@ -22,7 +22,7 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
 /// One line without a line end.
 /// \param before iterations of the earlier parts of a resumed run.
 /// \param area area of a planar domain, by whose square the energy is divided; 1 for the sphere.
-std::string summary(const CvtRequest& request, const Stop& stop, const CvtReport& report,
+std::string summary(const CvtRequest& request, const CvtStop& stop, const CvtReport& report,
                     std::int64_t cells, double area, std::int64_t before);
 
 /// "l2-scaled 1.2e-05", or "" for a run of a number of iterations.

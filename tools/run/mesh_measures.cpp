@@ -17,13 +17,13 @@
 namespace calotte::tools {
 namespace {
 
-Range scaled(const Range& range, double factor) {
+ValueRange scaled(const ValueRange& range, double factor) {
   return {range.min * factor, range.mean * factor, range.max * factor};
 }
 
-double ratio(const Range& range) { return range.max / range.min; }
+double ratio(const ValueRange& range) { return range.max / range.min; }
 
-nlohmann::ordered_json to_json(const Range& range) {
+nlohmann::ordered_json to_json(const ValueRange& range) {
   return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
 }
 
@@ -41,7 +41,7 @@ void add_shapes(const Quality& quality, nlohmann::ordered_json& json) {
   json["short_voronoi_edges"] = quality.short_edges;
 }
 
-void add_areas(const Range& areas, nlohmann::ordered_json& json) {
+void add_areas(const ValueRange& areas, nlohmann::ordered_json& json) {
   json["cell_area"] = to_json(areas);
   json["area_ratio"] = ratio(areas);
 }
@@ -122,7 +122,7 @@ public:
     out_ << std::left << std::setw(22) << name << std::setprecision(6) << std::setw(14) << min
          << std::setw(14) << mean << max << "\n";
   }
-  void row(const std::string& name, const Range& range) {
+  void row(const std::string& name, const ValueRange& range) {
     row(name, range.min, range.mean, range.max);
   }
   /// Two lines: the names of the percentiles, and their values.
@@ -145,7 +145,7 @@ private:
 };
 
 /// \param of_whole the areas of whole cells, where those of all are not known.
-void add_area_row(const Measured& measured, const Range& of_whole, Table& table) {
+void add_area_row(const Measured& measured, const ValueRange& of_whole, Table& table) {
   table.row(measured.domain_area ? "cell area" : "cell area, " + measured.unit.area,
             scaled(measured.areas.value_or(of_whole), measured.unit.of_steradian));
 }

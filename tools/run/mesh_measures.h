@@ -25,7 +25,7 @@ struct Measured {
   bool cells = true; ///< false for a mesh without Voronoi cells: its triangles alone are measured
   std::optional<OperatorErrors> operators; ///< if they are asked for
   std::optional<EdgeCounts> open;   ///< of an open mesh; its whole cells are measured if `cells`
-  std::optional<Range> areas;       ///< of all cells of an open mesh, if the file has them
+  std::optional<ValueRange> areas;  ///< of all cells of an open mesh, if the file has them
   double cells_area = 0;            ///< their sum / 4 pi
   std::vector<std::int64_t> masks;  ///< cells by bdyMaskCell, if the file has it
   std::vector<std::string> changes; ///< what the reader changed in the mesh, one line each

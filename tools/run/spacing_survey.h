@@ -17,7 +17,7 @@ DoubleVector spacings_of(const Density& density, double unit, const Points3& x);
 struct SpacingSurvey {
   double unit = 0;                ///< spacing where the density is 1
   double least = 0, greatest = 0; ///< over the sphere or the region
-  Gradient steepest; ///< of the spacing, radians per radian; of widths, the mean over a cell
+  WidthGradient steepest; ///< of the spacing, radians per radian; of widths, the mean over a cell
 };
 
 /// Surveys a density by its values on a lattice of points 0.5 degrees apart, and finer ones around

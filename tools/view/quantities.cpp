@@ -186,7 +186,7 @@ std::vector<Quantity> quantities_of(const Polygons& cells, const Unit& unit) {
 }
 
 Quantity quantity_of(const MeshField& field) {
-  const bool on_triangles = field.location == Location::vertices;
+  const bool on_triangles = field.location == FieldLocation::vertices;
   Quantity quantity{.name = (on_triangles ? "triangle_field:" : "field:") + field.name,
                     .label = field.name,
                     .unit = is_unit(field.units) ? field.units : "",

@@ -46,9 +46,9 @@ Density density_of(const MeshFile& file, const ViewChoice& choice) {
 /// A site with duplicates has the value of the first.
 DoubleVector values_of(const MeshField& field, const MeshFile& file) {
   const std::int64_t n = cells_of(file);
-  if (field.count() != 1 || field.location == Location::edges)
+  if (field.count() != 1 || field.location == FieldLocation::edges)
     return {};
-  if (field.location == Location::vertices)
+  if (field.location == FieldLocation::vertices)
     return field.values.size() == triangles_of(file) ? field.values : DoubleVector();
   if (field.values.size() == n)
     return field.values;
@@ -82,9 +82,9 @@ Quantity shown(const MeshField& field, DoubleVector values) {
 std::string why_not(const MeshFile& file, const std::string& name) {
   for (const MeshField& field : file.fields)
     if (field.name == name)
-      return values_of(field, file).size() > 0   ? ""
-             : field.location == Location::edges ? "it is a field at edges"
-                                                 : "it does not have one number for each cell";
+      return values_of(field, file).size() > 0        ? ""
+             : field.location == FieldLocation::edges ? "it is a field at edges"
+                                                      : "it does not have one number for each cell";
   return "the file has no such field, or one with several numbers for each place";
 }
 

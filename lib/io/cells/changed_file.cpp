@@ -169,7 +169,7 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
   for (const MeshField& field : fields) {
     if (field.name == map_name || is_derived_mask(field.name, fields))
       continue;
-    if (field.location != Location::cells || !has_values_for(field, cells)) {
+    if (field.location != FieldLocation::cells || !has_values_for(field, cells)) {
       out.left_out.push_back(field.name);
       continue;
     }
@@ -294,7 +294,8 @@ void require_fields(const MeshFile& file, const FieldMethods& methods) {
     for (const std::string& name : *names)
       require(std::ranges::any_of(file.fields,
                                   [&](const MeshField& field) {
-                                    return field.name == name && field.location == Location::cells;
+                                    return field.name == name &&
+                                           field.location == FieldLocation::cells;
                                   }),
               "the file has no field \"{}\" at cells; give the name of one", name);
   for (const std::string& name : methods.conservative)

@@ -39,7 +39,7 @@ void select_corners(std::int64_t corners, const Ids& used, std::vector<MeshField
   if (used.size() == corners)
     return;
   for (MeshField& field : fields)
-    if (field.location == Location::vertices && has_values_for(field, corners))
+    if (field.location == FieldLocation::vertices && has_values_for(field, corners))
       select_values(field, {used.data(), static_cast<std::size_t>(used.size())});
 }
 

@@ -48,14 +48,14 @@ std::vector<std::int32_t> triangles_without_ears(const Mesh& mesh) {
 
 void select_fields(const Mesh& mesh, const Submesh& part, std::vector<MeshField>& fields) {
   std::erase_if(fields, [&](const MeshField& field) {
-    return field.location == Location::edges ||
-           !io_detail::has_values_for(field, field.location == Location::cells
+    return field.location == FieldLocation::edges ||
+           !io_detail::has_values_for(field, field.location == FieldLocation::cells
                                                  ? mesh.points.cols()
                                                  : mesh.triangles.cols());
   });
   for (MeshField& field : fields)
     io_detail::select_values(field,
-                             field.location == Location::cells ? part.sites : part.triangles);
+                             field.location == FieldLocation::cells ? part.sites : part.triangles);
 }
 
 } // namespace

@@ -28,7 +28,7 @@ void set_pair(Pairs& pairs, Eigen::Index column, std::uint64_t key) {
 std::vector<std::string> edge_fields(const std::vector<MeshField>& fields, bool directed) {
   std::vector<std::string> names;
   for (const MeshField& field : fields)
-    if (field.location == Location::edges && field.directed == directed)
+    if (field.location == FieldLocation::edges && field.directed == directed)
       names.push_back(field.name);
   return names;
 }
@@ -45,9 +45,10 @@ std::string line_of(const EdgeOrder& order, const std::vector<MeshField>& fields
 
 void ignore_edge_fields(std::vector<MeshField>& fields, std::vector<std::string>& ignored) {
   for (const MeshField& field : fields)
-    if (field.location == Location::edges && !is_derived_mask(field.name, fields))
+    if (field.location == FieldLocation::edges && !is_derived_mask(field.name, fields))
       ignored.push_back(field.name);
-  std::erase_if(fields, [](const MeshField& field) { return field.location == Location::edges; });
+  std::erase_if(fields,
+                [](const MeshField& field) { return field.location == FieldLocation::edges; });
 }
 
 } // namespace
@@ -67,7 +68,7 @@ void move_values(MeshField& field, std::span<const std::int32_t> place) {
 
 void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int32_t> place) {
   for (MeshField& field : fields)
-    if (field.location == Location::vertices && has_values_for(field, std::ssize(place)))
+    if (field.location == FieldLocation::vertices && has_values_for(field, std::ssize(place)))
       move_values(field, place);
 }
 
@@ -123,7 +124,9 @@ void move_edge_values(MeshField& field, const EdgeOrder& order) {
 void settle_edge_fields(const Triangles& triangles, const Pairs& pairs,
                         std::vector<MeshField>& fields, std::vector<std::string>& changes,
                         std::vector<std::string>& ignored) {
-  const auto is_at_edges = [](const MeshField& field) { return field.location == Location::edges; };
+  const auto is_at_edges = [](const MeshField& field) {
+    return field.location == FieldLocation::edges;
+  };
   if (std::none_of(fields.begin(), fields.end(), is_at_edges))
     return;
   const bool may_be = pairs.cols() > 0 && 2 * pairs.cols() == triangles.size();

@@ -26,7 +26,7 @@ void move_vertex_values(std::vector<MeshField>& fields, std::span<const std::int
 /// \param from by new place: the old one.
 void select_values(MeshField& field, std::span<const std::int32_t> from);
 
-/// The edges of a closed mesh, the lower site first, in the order of Location::edges.
+/// The edges of a closed mesh, the lower site first, in the order of FieldLocation::edges.
 /// \pre triangles counter-clockwise, two at each edge.
 Pairs edges_of(const Triangles& triangles);
 

@@ -11,7 +11,7 @@ namespace calotte::io_detail {
 namespace {
 
 bool is_cell_mask(const MeshField& field) {
-  return field.name == cell_mask && field.location == Location::cells && field.integer &&
+  return field.name == cell_mask && field.location == FieldLocation::cells && field.integer &&
          field.count() == 1;
 }
 

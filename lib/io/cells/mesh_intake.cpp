@@ -128,7 +128,8 @@ void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* pol
 void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
                        std::vector<MeshField>& fields) {
   const auto is_by_corner = [&](const MeshField& field) {
-    return field.location == Location::vertices && has_values_for(field, polygons.corners.cols());
+    return field.location == FieldLocation::vertices &&
+           has_values_for(field, polygons.corners.cols());
   };
   if (std::none_of(fields.begin(), fields.end(), is_by_corner))
     return;
@@ -154,9 +155,9 @@ void require_one_site_each(const std::string& name, const Mesh& mesh) {
 
 void ignore_other_fields(MeshFile& file) {
   std::erase_if(file.fields, [&](const MeshField& field) {
-    if (field.location != Location::cells)
+    if (field.location != FieldLocation::cells)
       file.ignored.push_back(field.name);
-    return field.location != Location::cells;
+    return field.location != FieldLocation::cells;
   });
 }
 
@@ -191,7 +192,7 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
   if (file.density.size() == columns)
     file.density = DoubleVector(file.density(lowest));
   for (MeshField& field : file.fields)
-    if (field.location == Location::cells && has_values_for(field, columns))
+    if (field.location == FieldLocation::cells && has_values_for(field, columns))
       select_values(field, lowest);
 }
 

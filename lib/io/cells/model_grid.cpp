@@ -141,14 +141,14 @@ void NetcdfGridFile::commit() {
 }
 
 bool is_mask(const MeshField& field) {
-  return field.location == Location::cells && field.count() == 1 &&
+  return field.location == FieldLocation::cells && field.count() == 1 &&
          std::find(mask_names.begin(), mask_names.end(), field.name) != mask_names.end();
 }
 
 namespace {
 
 bool is_area(const MeshField& field) {
-  return field.location == Location::cells && field.count() == 1 &&
+  return field.location == FieldLocation::cells && field.count() == 1 &&
          (field.name == "grid_area" || field.name == "elementArea" || field.name == "cell_area");
 }
 

@@ -24,13 +24,14 @@ std::set<std::string> mesh_dimensions(const NetcdfReader& file, const NetcdfMesh
   return dimensions;
 }
 
-std::optional<Location> location_of(const NetcdfMeshNames& names, const std::string& dimension) {
+std::optional<FieldLocation> location_of(const NetcdfMeshNames& names,
+                                         const std::string& dimension) {
   if (dimension == names.cells)
-    return Location::cells;
+    return FieldLocation::cells;
   if (!names.edges.empty() && dimension == names.edges)
-    return Location::edges;
+    return FieldLocation::edges;
   if (!names.vertices.empty() && dimension == names.vertices)
-    return Location::vertices;
+    return FieldLocation::vertices;
   return std::nullopt;
 }
 
@@ -42,7 +43,7 @@ std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshName
   MeshField field{.name = name};
   bool located = false;
   for (const std::string& dimension : file.dimensions_of(name)) {
-    const std::optional<Location> location = location_of(names, dimension);
+    const std::optional<FieldLocation> location = location_of(names, dimension);
     const std::int64_t size = file.dimension(dimension);
     if (location && !located) {
       field.location = *location;
@@ -143,7 +144,7 @@ void read_values(const NetcdfReader& file, const std::vector<std::size_t>& place
   field.attributes = meaning_of(file, field.name);
   for (FieldDimension& dimension : field.dimensions)
     dimension.unlimited = file.is_unlimited(dimension.name);
-  field.directed = field.location == Location::edges && is_directed(file, field.name);
+  field.directed = field.location == FieldLocation::edges && is_directed(file, field.name);
 }
 
 /// Where dimensions stand among those of a variable; none unless it has each once.

@@ -130,14 +130,14 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
   }
 }
 
-Range range_of(const DoubleVector& values) {
+ValueRange range_of(const DoubleVector& values) {
   if (values.size() == 0)
     return {};
   return {values.minCoeff(), values.mean(), values.maxCoeff()};
 }
 
 /// The areas of the polygons that are known.
-Range area_range(const Polygons& polygons, const DoubleVector& areas) {
+ValueRange area_range(const Polygons& polygons, const DoubleVector& areas) {
   DoubleVector known(areas.size());
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < areas.size(); ++i)
@@ -153,7 +153,7 @@ double centre_distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
 }
 
 /// Between the centres of polygons that share a side.
-Range spacing_of(const Polygons& polygons) {
+ValueRange spacing_of(const Polygons& polygons) {
   if (polygons.centres.cols() == 0)
     return {};
   const Sides sides(polygons);

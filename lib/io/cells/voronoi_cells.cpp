@@ -167,10 +167,10 @@ NotVoronoi not_voronoi(const Polygons& polygons) {
   return cells.problem;
 }
 
-Check check(const Polygons& polygons) {
+CheckReport check(const Polygons& polygons) {
   using namespace io_detail;
   const DoubleVector areas = areas_of(polygons);
-  Check found;
+  CheckReport found;
   found.sites = polygons.size();
   found.area = areas.sum();
   found.expected_area = cover_sphere(polygons) ? 4 * std::numbers::pi : 0;

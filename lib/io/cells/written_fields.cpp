@@ -54,10 +54,10 @@ NetcdfAttribute attribute_of_fill(NetcdfType type) {
   return {"_FillValue", NetcdfValues{type, {reinterpret_cast<const char*>(&value), sizeof value}}};
 }
 
-const FieldPlace& place_of(const FieldPlaces& places, Location location) {
-  return location == Location::cells   ? places.cells
-         : location == Location::edges ? places.edges
-                                       : places.vertices;
+const FieldPlace& place_of(const FieldPlaces& places, FieldLocation location) {
+  return location == FieldLocation::cells   ? places.cells
+         : location == FieldLocation::edges ? places.edges
+                                            : places.vertices;
 }
 
 bool is_name_of_mesh(const NetcdfMeshNames& names, const std::string& name) {
@@ -119,9 +119,9 @@ void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<i
 }
 
 bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
-  const bool has_place = field.location == Location::cells   ? !names.cells.empty()
-                         : field.location == Location::edges ? !names.edges.empty()
-                                                             : !names.vertices.empty();
+  const bool has_place = field.location == FieldLocation::cells   ? !names.cells.empty()
+                         : field.location == FieldLocation::edges ? !names.edges.empty()
+                                                                  : !names.vertices.empty();
   return has_place && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
 }
 

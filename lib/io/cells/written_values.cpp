@@ -77,13 +77,13 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
     require_depths(path, options, mesh.sites);
   for (const MeshField& field : options.fields) {
     require_dimensions(path, field);
-    const bool at_edges = field.location == Location::edges;
+    const bool at_edges = field.location == FieldLocation::edges;
     if (at_edges && !mesh.closed)
       refuse_path(path, "the field {} is at edges, which only closed meshes number; leave it out",
                   field.name);
-    const std::int64_t places = field.location == Location::cells ? mesh.sites
-                                : at_edges                        ? 3 * mesh.triangles / 2
-                                                                  : mesh.triangles;
+    const std::int64_t places = field.location == FieldLocation::cells ? mesh.sites
+                                : at_edges                             ? 3 * mesh.triangles / 2
+                                                                       : mesh.triangles;
     require_size(path, "the field " + field.name, field.values.size(), field.count() * places);
   }
 }
@@ -98,17 +98,17 @@ void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
   mesh_detail::CanonicalPlaces places;
   EdgeOrder edges;
   for (MeshField& field : options.fields) {
-    if (field.location == Location::vertices && places.place.size() == 0) {
+    if (field.location == FieldLocation::vertices && places.place.size() == 0) {
       Triangles renumbered;
       places = mesh_detail::order_triangles(mesh.triangles, new_site, renumbered);
     }
-    if (field.location == Location::edges && edges.place.empty())
+    if (field.location == FieldLocation::edges && edges.place.empty())
       edges = order_of(renamed(edges_of(mesh.triangles), new_site));
-    if (field.location == Location::edges)
+    if (field.location == FieldLocation::edges)
       move_edge_values(field, edges);
     else
       move_values(field,
-                  field.location == Location::cells
+                  field.location == FieldLocation::cells
                       ? new_site
                       : std::span<const std::int32_t>(places.place.begin(), places.place.end()));
   }

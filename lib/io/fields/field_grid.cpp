@@ -233,7 +233,7 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
   grid.fields = std::move(grid.mesh.fields);
   grid.ignored = std::move(grid.mesh.ignored);
   std::erase_if(grid.fields, [&](const MeshField& field) {
-    if (field.location == Location::cells)
+    if (field.location == FieldLocation::cells)
       return false;
     grid.ignored.push_back(field.name);
     return true;

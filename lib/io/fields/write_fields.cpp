@@ -190,7 +190,8 @@ void write_fields(const std::string& path, const FieldGrid& grid,
                   const std::string& source) {
   using namespace io_detail;
   for (const MeshField& field : fields)
-    require(field.location == Location::cells && field.values.size() == grid.size() * field.count(),
+    require(field.location == FieldLocation::cells &&
+                field.values.size() == grid.size() * field.count(),
             "the field {} does not have a value for each of {} cells; interpolate it to {}",
             field.name, grid.size(), grid.name);
   WriteOptions options;

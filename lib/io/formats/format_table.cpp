@@ -89,7 +89,7 @@ Points3 vertex_lines(const InputFile& file) { return read_points(file.path); }
 
 bool in_mpas(const MeshField& field) { return can_hold(mpas_names(), field); }
 bool in_minimal_mpas(const MeshField& field) {
-  return field.location != Location::edges && in_mpas(field);
+  return field.location != FieldLocation::edges && in_mpas(field);
 }
 bool in_ugrid(const MeshField& field) { return can_hold(ugrid_names(true), field); }
 bool in_ugrid_triangles(const MeshField& field) { return can_hold(ugrid_names(false), field); }
@@ -102,13 +102,13 @@ bool in_exodus(const MeshField& field) { return can_hold(exodus_names(), field);
 bool is_own_property(const std::string& name) { return name == "area" || name == "site"; }
 
 bool in_vtk(const MeshField& field) {
-  return field.location != Location::edges && field.count() == 1 &&
-         !(field.location == Location::cells && is_own_property(field.name));
+  return field.location != FieldLocation::edges && field.count() == 1 &&
+         !(field.location == FieldLocation::cells && is_own_property(field.name));
 }
 
 bool in_geojson(const MeshField& field) {
   const std::string& name = field.name;
-  return field.location == Location::cells && field.count() == 1 && !is_own_property(name) &&
+  return field.location == FieldLocation::cells && field.count() == 1 && !is_own_property(name) &&
          name != "id" && name != "x" && name != "y" && name != "z";
 }
 

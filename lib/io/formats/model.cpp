@@ -5,8 +5,8 @@
 
 namespace calotte {
 
-const std::vector<Model>& models() {
-  static const std::vector<Model> all{
+const std::vector<ModelNeeds>& models() {
+  static const std::vector<ModelNeeds> all{
       {.word = "mpas-atmosphere",
        .name = "MPAS-Atmosphere",
        .format = Format::mpas,
@@ -24,13 +24,13 @@ const std::vector<Model>& models() {
   return all;
 }
 
-const Model* find_model(std::string_view word) {
+const ModelNeeds* find_model(std::string_view word) {
   const auto found = std::find_if(models().begin(), models().end(),
-                                  [&](const Model& model) { return model.word == word; });
+                                  [&](const ModelNeeds& model) { return model.word == word; });
   return found == models().end() ? nullptr : &*found;
 }
 
-bool suits(const Model& model, Format format, double sphere_radius, VertexOrder vertex_order,
+bool suits(const ModelNeeds& model, Format format, double sphere_radius, VertexOrder vertex_order,
            const std::vector<FieldDimension>& dimensions) {
   constexpr double smallest_planet = 1e4; // metres
   const auto is_there = [&](const FieldDimension& wanted) {

@@ -83,13 +83,14 @@ void require_triangles_of_cells(const std::string& name, const PolyData& poly_da
 
 // ---- Fields
 
-void add_field(DataArray& array, Location location, std::set<std::string>& names, RawMesh& raw) {
-  if (location == Location::cells && is_derived(array.name))
+void add_field(DataArray& array, FieldLocation location, std::set<std::string>& names,
+               RawMesh& raw) {
+  if (location == FieldLocation::cells && is_derived(array.name))
     return;
   const bool first = names.insert(array.name).second;
   if (!first)
     raw.ignored.push_back(std::move(array.name));
-  else if (location == Location::cells && array.name == "density")
+  else if (location == FieldLocation::cells && array.name == "density")
     raw.density = std::move(array.values);
   else
     raw.fields.push_back(
@@ -103,7 +104,8 @@ void add_fields(PolyData& poly_data, bool polygons_are_cells, RawMesh& raw) {
   for (DataArray& array : poly_data.arrays)
     if (array.components == 1 && array.values.size() > 0)
       add_field(array,
-                array.of_polygons == polygons_are_cells ? Location::cells : Location::vertices,
+                array.of_polygons == polygons_are_cells ? FieldLocation::cells
+                                                        : FieldLocation::vertices,
                 names, raw);
     else if (array.name != site_name && array.name != triangle_name && !polygons_are_cells)
       raw.ignored.push_back(array.name);

@@ -43,12 +43,12 @@ void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
   head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});
   contents.emplace_back(
       [&](Writer& out) { out.text(bytes_of(mesh.triangles.data(), mesh.triangles.size())); });
-  add_fields("PointData", options.fields, Location::vertices, head, contents);
+  add_fields("PointData", options.fields, FieldLocation::vertices, head, contents);
   add_field_arrays("CellData", head.cells, head);
   add_field_contents(fields, contents);
   head.arrays.push_back({cell_data, "Float64", "site", head.cells, 3});
   contents.push_back(content_of(mesh.points));
-  add_fields(cell_data, options.fields, Location::cells, head, contents);
+  add_fields(cell_data, options.fields, FieldLocation::cells, head, contents);
   add_shapes(corners, cells, head, contents);
   put_vtk(sink, head, contents);
 }
@@ -58,14 +58,14 @@ void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOption
   const DoubleVector areas = areas_of(polygons);
   VtkHead head{flavour, polygons.corners.cols(), polygons.size(), {}};
   std::vector<VtkContent> contents;
-  add_fields("PointData", options.fields, Location::vertices, head, contents);
+  add_fields("PointData", options.fields, FieldLocation::vertices, head, contents);
   const std::vector<MeshField> own{{.name = "area", .values = areas}};
-  add_fields("CellData", own, Location::cells, head, contents);
+  add_fields("CellData", own, FieldLocation::cells, head, contents);
   if (polygons.centres.cols() > 0) {
     head.arrays.push_back({"CellData", "Float64", "site", head.cells, 3});
     contents.push_back(content_of(polygons.centres));
   }
-  add_fields("CellData", options.fields, Location::cells, head, contents);
+  add_fields("CellData", options.fields, FieldLocation::cells, head, contents);
   add_shapes(polygons.corners, polygons, head, contents);
   put_vtk(sink, head, contents);
 }

@@ -26,8 +26,8 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
     add_field_contents(fields, contents);
   }
   add_fields(head.arrays.empty() ? "PointData" : "PointData Scalars=\"spacing\"", options.fields,
-             Location::cells, head, contents);
-  add_fields("CellData", options.fields, Location::vertices, head, contents);
+             FieldLocation::cells, head, contents);
+  add_fields("CellData", options.fields, FieldLocation::vertices, head, contents);
   add_points(head.points, head);
   add_cells(3 * head.cells, head);
   contents.push_back(content_of(mesh.points));

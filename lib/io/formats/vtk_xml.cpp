@@ -82,8 +82,8 @@ void add_field_contents(const CellFields& fields, std::vector<VtkContent>& conte
       [&fields](Writer& out) { out.text(bytes_of(fields.degree.data(), fields.degree.size())); });
 }
 
-void add_fields(const std::string& element, const std::vector<MeshField>& fields, Location location,
-                VtkHead& head, std::vector<VtkContent>& contents) {
+void add_fields(const std::string& element, const std::vector<MeshField>& fields,
+                FieldLocation location, VtkHead& head, std::vector<VtkContent>& contents) {
   const auto is_taken = [&head](const std::string& name) {
     return std::any_of(head.arrays.begin(), head.arrays.end(),
                        [&](const VtkArray& array) { return array.name == name; });

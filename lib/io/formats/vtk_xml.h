@@ -47,8 +47,8 @@ void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& h
 void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
 /// Fields of one location as Float64 arrays of an element, and their contents; those that have the
 /// name of an array before them are left out. The fields must outlive these.
-void add_fields(const std::string& element, const std::vector<MeshField>& fields, Location location,
-                VtkHead& head, std::vector<VtkContent>& contents);
+void add_fields(const std::string& element, const std::vector<MeshField>& fields,
+                FieldLocation location, VtkHead& head, std::vector<VtkContent>& contents);
 /// Points Float64, which stay where they are until they are put.
 void add_points(std::int64_t points, VtkHead& head);
 VtkContent content_of(const Points3& points);

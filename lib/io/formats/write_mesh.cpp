@@ -155,7 +155,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   resolved.progress = rest_of(options.progress, 0);
   if (surface.is_bounded() && info_of(resolved.format).cells) {
     std::erase_if(resolved.fields,
-                  [](const MeshField& field) { return field.location != Location::cells; });
+                  [](const MeshField& field) { return field.location != FieldLocation::cells; });
     write_cells(path, voronoi(mesh), resolved);
   } else {
     row_of(resolved.format).write_mesh(path, {mesh}, resolved);

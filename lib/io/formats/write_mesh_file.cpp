@@ -68,8 +68,8 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
 /// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, and
 /// in a periodic plane, at their corners.
 bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
-  return field.location == Location::cells ||
-         (field.location == Location::vertices && format != Format::mpas &&
+  return field.location == FieldLocation::cells ||
+         (field.location == FieldLocation::vertices && format != Format::mpas &&
           !(polygons.surface.period().maxCoeff() > 0) &&
           has_values_for(field, polygons.corners.cols()));
 }
@@ -136,7 +136,7 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
 
 /// Whether a field stands at the corners of the file's cells, of which only some are triangles.
 bool is_at_corners(const MeshFile& file, const MeshField& field) {
-  return field.location == Location::vertices && file.mesh && file.polygons &&
+  return field.location == FieldLocation::vertices && file.mesh && file.polygons &&
          !has_values_for(field, file.mesh->triangles.cols());
 }
 
@@ -148,7 +148,7 @@ std::vector<std::string> dropped_fields(const MeshFile& file, Format format, boo
   const auto is_held = [&](const MeshField& field) {
     if (format == Format::mpas && is_derived_mask(field.name, file.fields))
       return true;
-    return holds_field(format, field) && !(clipped && field.location != Location::cells) &&
+    return holds_field(format, field) && !(clipped && field.location != FieldLocation::cells) &&
            !(polygons && !is_of(*file.polygons, field, format)) &&
            !(!polygons && is_at_corners(file, field));
   };

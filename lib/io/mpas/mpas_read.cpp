@@ -110,7 +110,7 @@ Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
 
 void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int32_t>& vertices) {
   for (MeshField& field : fields)
-    if (field.location == Location::vertices)
+    if (field.location == FieldLocation::vertices)
       select_values(field, vertices);
 }
 
@@ -132,7 +132,7 @@ void wrap(Points3& places, const Eigen::Vector2d& period) {
 
 bool has_edge_fields(const RawMesh& raw) {
   return std::any_of(raw.fields.begin(), raw.fields.end(),
-                     [](const MeshField& field) { return field.location == Location::edges; });
+                     [](const MeshField& field) { return field.location == FieldLocation::edges; });
 }
 
 /// The cells of the edges, which fields need that are at edges.

@@ -316,22 +316,22 @@ private:
   }
 
   /// Of such a part, or of a raster.
-  Share share_in(const std::string& path) const {
+  WidthShare share_in(const std::string& path) const {
     if (surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc")
       return read_raster(path, {.quantity = RasterQuantity::land_fraction});
     return part_in(path);
   }
 
-  Share share(RuleTable& table) {
+  WidthShare share(RuleTable& table) {
     const std::string path = file(table, "share");
     if (table.has("variable"))
       return read_raster(path, {.variable = table.text("variable", "its name"),
                                 .quantity = RasterQuantity::land_fraction});
     if (table.has("profile"))
-      return Share(part_in(path), table.pairs("profile"));
+      return WidthShare(part_in(path), table.pairs("profile"));
     if (table.take("over") != nullptr) {
       const double over = table.number("over");
-      return Share(part_in(path), {{{0, 1}, {over, 0}}, table.smooth()});
+      return WidthShare(part_in(path), {{{0, 1}, {over, 0}}, table.smooth()});
     }
     return share_in(path);
   }

@@ -25,7 +25,7 @@ using namespace calotte::tools;
 
 namespace {
 
-Bump bump(const std::string& words) {
+DensityBump bump(const std::string& words) {
   const Density density = density_of(DensityWords{{"tanh:" + words}});
   REQUIRE(density.bumps.size() == 1);
   return density.bumps[0];
@@ -47,7 +47,7 @@ std::string refused_density(const std::string& words) {
 } // namespace
 
 TEST_CASE("a bump has the numbers of its words, in any order") {
-  const Bump b = bump("gamma=x8,lon=270,lat=30,alpha=0.20,beta=30deg");
+  const DensityBump b = bump("gamma=x8,lon=270,lat=30,alpha=0.20,beta=30deg");
   CHECK(b.gamma == 1.0 / 4096);
   CHECK(b.alpha == 0.2);
   CHECK(b.beta == doctest::Approx(std::numbers::pi / 6).epsilon(1e-15));
@@ -75,7 +75,7 @@ TEST_CASE("the long axis of an ellipse points clockwise from north") {
   CHECK(major("lon=0,lat=90", "0") == Eigen::Vector3d(-1, 0, 0)); // where all is south
   CHECK(major("lon=0,lat=-90", "0") == Eigen::Vector3d(1, 0, 0));
   for (const std::string place : {"lon=12,lat=34", "lon=200,lat=-56"}) {
-    const Bump b = bump(place + rest + "71");
+    const DensityBump b = bump(place + rest + "71");
     CHECK(b.major.dot(b.centre) == doctest::Approx(0).epsilon(1e-15));
     CHECK(b.major.norm() == doctest::Approx(1).epsilon(1e-15));
     // The component towards north is cos 71, and north is where z rises.
@@ -92,9 +92,9 @@ TEST_CASE("several bumps are joined; without bumps the density is uniform") {
   CHECK(density_of(DensityWords{{one}}).kind == Density::Kind::maximum);
   CHECK(density_of(DensityWords{{one, one}, "sum"}).kind == Density::Kind::sum);
   CHECK(density_of(DensityWords{{one, one}}).bumps.size() == 2);
-  const Bump usual =
+  const DensityBump usual =
       density_of(DensityWords{{"tanh:lon=270,lat=30,beta=30deg,alpha=0.2,gamma=x4"}}).bumps[0];
-  const Bump small = density_of(DensityWords{{"x4"}}).bumps[0];
+  const DensityBump small = density_of(DensityWords{{"x4"}}).bumps[0];
   CHECK(small.centre == usual.centre);
   CHECK(small.beta == usual.beta);
   CHECK(small.alpha == usual.alpha);

@@ -100,7 +100,7 @@ TEST_CASE("a field that is a ratio has no unit") {
     return quantity_of({.name = "a",
                         .long_name = "",
                         .units = units,
-                        .location = Location::cells,
+                        .location = FieldLocation::cells,
                         .values = Eigen::VectorXd::Ones(3)})
         .unit;
   };

@@ -26,8 +26,9 @@ int main(int argc, char** argv) {
   options.progress = [limit](const calotte::Progress& now) { // one thread at a time
     const calotte::CvtReport& report = now.run->report;
     std::cerr << report.iterations.size() << " evaluations, residual " << report.residual << '\n';
-    // Next::stop would end the run with the grid as it is.
-    return report.iterations.size() < limit ? calotte::Next::proceed : calotte::Next::cancel;
+    // ProgressReply::stop would end the run with the grid as it is.
+    return report.iterations.size() < limit ? calotte::ProgressReply::proceed
+                                            : calotte::ProgressReply::cancel;
   };
   try {
     const calotte::Cvt grid = calotte::make_grid({.cells = 1000, .resolution = density}, options);

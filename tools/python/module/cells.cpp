@@ -14,10 +14,10 @@ namespace calotte::python {
 namespace {
 
 void add_ranges(py::module_& module) {
-  py::class_<Range> range(module, "Range", "Extremes and mean of a quantity.");
-  add_members(range, Member{"min", &Range::min, "The least value."},
-              Member{"mean", &Range::mean, "The mean."},
-              Member{"max", &Range::max, "The greatest value."});
+  py::class_<ValueRange> range(module, "Range", "Extremes and mean of a quantity.");
+  add_members(range, Member{"min", &ValueRange::min, "The least value."},
+              Member{"mean", &ValueRange::mean, "The mean."},
+              Member{"max", &ValueRange::max, "The greatest value."});
   py::class_<Percentiles> percentiles(
       module, "Percentiles", "Extremes of a quantity, and values that a percentage is not above.");
   add_members(percentiles, Member{"min", &Percentiles::min, "The least value."},

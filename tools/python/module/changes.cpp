@@ -53,7 +53,7 @@ MeshFile file_of(const MeshFile& content, const py::object& mesh) {
 py::tuple run(Change* change, const py::object& mesh, const py::object& content,
               const WidthDemand& demand, RefineOptions options, const FieldMethods& methods,
               py::object progress) {
-  options.progress = callback_of(std::move(progress), Next::cancel);
+  options.progress = callback_of(std::move(progress), ProgressReply::cancel);
   std::optional<MeshFile> file;
   if (!content.is_none())
     file = file_of(content.cast<const MeshFile&>(), mesh);

@@ -81,7 +81,7 @@ void add_cell_width(py::module_& module) {
       .def_property_readonly("of_plane", &WidthField::of_plane, "True for those of a plane.");
   py::implicitly_convertible<Raster, WidthField>();
   module.def("largest_gradient", [](const WidthField& widths, double radius_km) {
-    const Gradient gradient = call([&] { return largest_gradient(widths, radius_km); });
+    const WidthGradient gradient = call([&] { return largest_gradient(widths, radius_km); });
     return std::tuple(gradient.slope, gradient.longitude, gradient.latitude);
   });
 }

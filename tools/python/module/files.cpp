@@ -47,7 +47,7 @@ py::dict fields_of(py::object self) {
   const auto& content = self.cast<const MeshFile&>();
   py::dict fields;
   for (const MeshField& field : content.fields) {
-    if (field.location != Location::cells)
+    if (field.location != FieldLocation::cells)
       continue;
     std::vector<py::ssize_t> shape{field.values.size() / field.count()};
     for (const FieldDimension& dimension : field.dimensions)
@@ -97,7 +97,7 @@ MeshField field_of(const py::tuple& state) {
   MeshField field{.name = state[0].cast<std::string>(),
                   .long_name = state[1].cast<std::string>(),
                   .units = state[2].cast<std::string>(),
-                  .location = static_cast<Location>(state[3].cast<int>()),
+                  .location = static_cast<FieldLocation>(state[3].cast<int>()),
                   .values = state[4].cast<Eigen::VectorXd>(),
                   .leading = state[6].cast<int>(),
                   .integer = state[7].cast<bool>(),
@@ -235,12 +235,12 @@ struct Output {
 /// \throws Error invalid_argument for a word of no model, and for a format or a radius that it
 ///         cannot use.
 template <class Options>
-const Model& set_model(const std::string& word, Format format, std::optional<double> radius,
-                       Options& options) {
-  const Model* const model = find_model(word);
+const ModelNeeds& set_model(const std::string& word, Format format, std::optional<double> radius,
+                            Options& options) {
+  const ModelNeeds* const model = find_model(word);
   if (model == nullptr) {
     std::string words;
-    for (const Model& known : models())
+    for (const ModelNeeds& known : models())
       words += (words.empty() ? "" : ", ") + known.word;
     throw Error(ErrorCode::invalid_argument, "no model " + word + "; give one of: " + words);
   }
@@ -265,7 +265,7 @@ WriteOptions options_of(const Output& output) {
   options.numbering = output.numbering;
   options.sphere_radius = output.radius.value_or(1);
   if (output.model) {
-    const Model& model =
+    const ModelNeeds& model =
         set_model(*output.model, format_of(output.path, output.format), output.radius, options);
     if (output.numbering == Numbering::by_format)
       options.numbering = model.numbering;

@@ -41,7 +41,7 @@ DelaunayOptions options_of(double merge_within, bool merge, std::optional<int> r
   options.progress = [](const Progress&) { // ^C reaches the thread that Python's main code runs in
     const py::gil_scoped_acquire locked;
     check_interrupt();
-    return Next::proceed;
+    return ProgressReply::proceed;
   };
   return options;
 }
@@ -118,17 +118,18 @@ void add_meshes(py::module_& module) {
       .def(py::pickle(&state_of_mesh, &mesh_of_state));
   module.def("delaunay", &delaunay);
   module.def("within", &within);
-  py::class_<Check> check(module, "Check", "What check() found; true if all laws hold.");
-  add_members(check,
-              Member{"failure", &Check::failure, "The first law that does not hold, or empty."},
-              Member{"sites", &Check::sites, "Number of points."},
-              Member{"triangles", &Check::triangles, "Number of triangles."},
-              Member{"boundary_edges", &Check::boundary_edges, "Number of edges of one triangle."},
-              Member{"area", &Check::area,
-                     "Sum of the triangles' areas; steradians, in the plane the square of the "
-                     "points' unit."});
-  check.def_property_readonly("passed", &Check::passed, "True if all laws hold.")
-      .def("__bool__", &Check::passed);
+  py::class_<CheckReport> check(module, "Check", "What check() found; true if all laws hold.");
+  add_members(
+      check,
+      Member{"failure", &CheckReport::failure, "The first law that does not hold, or empty."},
+      Member{"sites", &CheckReport::sites, "Number of points."},
+      Member{"triangles", &CheckReport::triangles, "Number of triangles."},
+      Member{"boundary_edges", &CheckReport::boundary_edges, "Number of edges of one triangle."},
+      Member{"area", &CheckReport::area,
+             "Sum of the triangles' areas; steradians, in the plane the square of the "
+             "points' unit."});
+  check.def_property_readonly("passed", &CheckReport::passed, "True if all laws hold.")
+      .def("__bool__", &CheckReport::passed);
   module.def("check", [](const Mesh& mesh) { return call([&] { return calotte::check(mesh); }); });
 }
 

@@ -9,6 +9,6 @@ namespace calotte::python {
 
 /// Calls a function, if it is not None, with a dict after each accepted iteration. ^C ends the run.
 /// \param end what follows where the function returns True.
-ProgressCallback callback_of(pybind11::object function, Next end);
+ProgressCallback callback_of(pybind11::object function, ProgressReply end);
 
 } // namespace calotte::python

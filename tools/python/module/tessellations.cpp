@@ -28,16 +28,17 @@ namespace {
 
 // ---- The recipe
 
-constexpr std::array<Word<Boundary>, 2> boundaries{
+constexpr std::array<NamedValue<Boundary>, 2> boundaries{
     {{"clip", Boundary::clip}, {"generators", Boundary::generators}}};
-constexpr std::array<Word<Duplicates>, 2> duplicates{
+constexpr std::array<NamedValue<Duplicates>, 2> duplicates{
     {{"merge", Duplicates::merge}, {"refuse", Duplicates::refuse}}};
 
 /// \throws Error invalid_argument, with the words that there are.
 template <class Value>
-Value named(std::span<const Word<Value>> words, const std::string& word, const std::string& what) {
+Value named(std::span<const NamedValue<Value>> words, const std::string& word,
+            const std::string& what) {
   std::string names;
-  for (const Word<Value>& known : words) {
+  for (const NamedValue<Value>& known : words) {
     if (known.word == word)
       return known.value;
     names += (names.empty() ? "" : ", ") + std::string(known.word);
@@ -45,8 +46,8 @@ Value named(std::span<const Word<Value>> words, const std::string& word, const s
   throw Error(ErrorCode::invalid_argument, "no " + what + " " + word + "; give one of: " + names);
 }
 
-template <class Value> std::string word_in(std::span<const Word<Value>> words, Value value) {
-  return std::string(std::ranges::find(words, value, &Word<Value>::value)->word);
+template <class Value> std::string word_in(std::span<const NamedValue<Value>> words, Value value) {
+  return std::string(std::ranges::find(words, value, &NamedValue<Value>::value)->word);
 }
 
 /// A field of a recipe, or of a part of it, as an attribute.
@@ -63,7 +64,7 @@ void add_field(py::class_<Recipe>& type, const char* name, const Field& field) {
 /// \param what it is, in messages.
 template <class Value, class Field>
 void add_word(py::class_<Recipe>& type, const char* name, const std::string& what,
-              std::span<const Word<Value>> words, const Field& field) {
+              std::span<const NamedValue<Value>> words, const Field& field) {
   type.def_property(
       name, [=](const Recipe& recipe) { return word_in(words, field(recipe)); },
       [=](Recipe& recipe, const std::string& word) { field(recipe) = named(words, word, what); });
@@ -106,21 +107,21 @@ void add_recipe(py::module_& module) {
       .def_readwrite("limited_area", &Recipe::limited_area)
       .def_readwrite("seed", &Recipe::seed)
       .def_readwrite("merge_within", &Recipe::merge_within);
-  const auto of_start = [&](const char* name, auto Start::*field) {
+  const auto of_start = [&](const char* name, auto CvtStart::*field) {
     add_field(
         type, name, [field](auto& recipe) -> auto& { return recipe.start.*field; });
   };
-  of_start("bisections", &Start::bisections);
-  of_start("insertion_rounds", &Start::insertion_rounds);
-  const auto of_stop = [&](const char* name, auto Stop::*field) {
+  of_start("bisections", &CvtStart::bisections);
+  of_start("insertion_rounds", &CvtStart::insertion_rounds);
+  const auto of_stop = [&](const char* name, auto CvtStop::*field) {
     add_field(
         type, name, [field](auto& recipe) -> auto& { return recipe.stop.*field; });
   };
-  of_stop("tolerance", &Stop::tolerance);
-  of_stop("max_iterations", &Stop::max_iterations);
-  of_stop("iterations", &Stop::iterations);
-  of_stop("well_centred", &Stop::well_centred);
-  of_stop("least_spacing", &Stop::least_spacing);
+  of_stop("tolerance", &CvtStop::tolerance);
+  of_stop("max_iterations", &CvtStop::max_iterations);
+  of_stop("iterations", &CvtStop::iterations);
+  of_stop("well_centred", &CvtStop::well_centred);
+  of_stop("least_spacing", &CvtStop::least_spacing);
   add_points_field(
       type, "points", [](auto& recipe) -> auto& { return recipe.start.points; });
   add_points_field(
@@ -140,10 +141,11 @@ void add_recipe(py::module_& module) {
       type, "method", "method", method_words(),
       [](auto& recipe) -> auto& { return recipe.method; });
   add_word(
-      type, "boundary", "boundary", std::span<const Word<Boundary>>(boundaries),
+      type, "boundary", "boundary", std::span<const NamedValue<Boundary>>(boundaries),
       [](auto& recipe) -> auto& { return recipe.boundary; });
   add_word(
-      type, "duplicates", "rule for duplicates", std::span<const Word<Duplicates>>(duplicates),
+      type, "duplicates", "rule for duplicates",
+      std::span<const NamedValue<Duplicates>>(duplicates),
       [](auto& recipe) -> auto& { return recipe.duplicates; });
 }
 
@@ -227,7 +229,7 @@ MeshFile between_walls(const Recipe& asked, const Density& density, const Mesh& 
 /// \param schedule of the recipe.
 py::tuple run(const Recipe& recipe, const Schedule& schedule, std::optional<int> regions,
               py::object function) {
-  const ProgressCallback callback = callback_of(std::move(function), Next::stop);
+  const ProgressCallback callback = callback_of(std::move(function), ProgressReply::stop);
   auto cells = std::make_shared<MeshFile>();
   Cvt grid = call([&] {
     Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .progress = callback});
@@ -244,12 +246,12 @@ py::tuple run(const Recipe& recipe, const Schedule& schedule, std::optional<int>
 
 } // namespace
 
-ProgressCallback callback_of(py::object function, Next end) {
+ProgressCallback callback_of(py::object function, ProgressReply end) {
   return [f = Callable(std::move(function)), end](const Progress& now) {
     const py::gil_scoped_acquire locked;
     check_interrupt();
     const bool stops = !f.none() && f(progress_of(*now.run)).is(py::bool_(true));
-    return stops ? end : Next::proceed;
+    return stops ? end : ProgressReply::proceed;
   };
 }
 

@@ -150,22 +150,24 @@ void add_widths(py::module_& module) {
   module.def("widths_times", [](const Widths& widths, double factor) {
     return call([&] { return widths.times(factor); });
   });
-  py::class_<Share>(module, "Share", "A share from 0 to 1 for every place, of one of two rules.");
+  py::class_<WidthShare>(module, "Share",
+                         "A share from 0 to 1 for every place, of one of two rules.");
   module.def("share_of_region",
-             [](const Surface& region) { return call([&] { return Share(region); }); });
+             [](const Surface& region) { return call([&] { return WidthShare(region); }); });
   module.def("share_by_distance", [](const Surface& region, const Doubles& nodes, bool smooth) {
-    return call([&, of = profile(nodes, smooth)] { return Share(region, of); });
+    return call([&, of = profile(nodes, smooth)] { return WidthShare(region, of); });
   });
   module.def("share_of_raster", [](const std::string& path, const std::string& variable) {
     return call([&] {
-      return Share(
+      return WidthShare(
           read_raster(path, {.variable = variable, .quantity = RasterQuantity::land_fraction}));
     });
   });
-  module.def("widths_where", [](const Share& share, const Widths& inside, const Widths& outside) {
-    return call([&] { return Widths::where(share, inside, outside); });
-  });
-  module.def("widths_blend", [](const Widths& a, const Widths& b, const Share& share) {
+  module.def("widths_where",
+             [](const WidthShare& share, const Widths& inside, const Widths& outside) {
+               return call([&] { return Widths::where(share, inside, outside); });
+             });
+  module.def("widths_blend", [](const Widths& a, const Widths& b, const WidthShare& share) {
     return call([&] { return Widths::blend(a, b, share); });
   });
 }
