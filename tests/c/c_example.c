@@ -432,12 +432,17 @@ static void refused_recipes(void) {
   REFUSES(widths, fixed, "widths_x and widths_y");
   REFUSES(widths_nx, 2, "null pointer");
 #undef REFUSES
+  double
+      twice[45]; /* the corners of a cube, and of an octahedron, the last of which is there twice */
+  for (int i = 0; i < 24; ++i)
+    twice[i] = (i / 3) >> (i % 3) & 1 ? 1 : -1;
+  memcpy(twice + 24, octahedron, 21 * sizeof *twice);
   recipe = recipe_of(0);
-  recipe.start_points = octahedron;
-  recipe.start_count = 7;
+  recipe.start_points = twice;
+  recipe.start_count = 15;
   recipe.refuse_duplicates = 1;
   expect(calotte_make_grid(&recipe, NULL, NULL, &mesh, NULL, &error) == CALOTTE_DUPLICATE &&
-             error.index == 6,
+             error.index == 14,
          "equal points are refused");
   expect(mesh == NULL, "outputs stay unchanged");
 }

@@ -26,9 +26,8 @@ int main(int argc, char** argv) {
   options.progress = [limit](const calotte::Progress& now) { // one thread at a time
     const calotte::CvtReport& report = now.run->report;
     std::cerr << report.iterations.size() << " evaluations, residual " << report.residual << '\n';
-    // ProgressReply::stop would end the run with the grid as it is.
-    return report.iterations.size() < limit ? calotte::ProgressReply::proceed
-                                            : calotte::ProgressReply::cancel;
+    using Reply = calotte::ProgressReply; // Reply::stop would end the run with the grid as it is
+    return report.iterations.size() < limit ? Reply::proceed : Reply::cancel;
   };
   try {
     const calotte::Cvt grid = calotte::make_grid({.cells = 1000, .resolution = density}, options);
