@@ -58,7 +58,7 @@ struct Workload {
 Competitor library(std::string name, const std::string& set, int threads,
                    std::optional<int> regions = {}) {
   DelaunayOptions options;
-  options.partition.regions = regions;
+  options.decomposition.regions = regions;
   const Surface surface = in_plane(set) ? Surface::plane() : Surface::sphere();
   return {std::move(name),
           [=](const Points3& points) { return run_calotte(points, surface, threads, options); },

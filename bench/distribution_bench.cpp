@@ -22,8 +22,9 @@ namespace calotte::bench {
 
 namespace {
 
-const std::map<std::string, Overlap> sorts = {
-    {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
+const std::map<std::string, RegionOverlap> sorts = {{"halo", RegionOverlap::halo},
+                                                    {"distance", RegionOverlap::distance},
+                                                    {"voronoi", RegionOverlap::voronoi}};
 
 struct Options : RoundOptions {
   std::vector<std::string> works = {"iteration", "triangulation"};
@@ -76,8 +77,8 @@ Points3 centres_of(const std::string& decomposition, int regions) {
       .mesh.points;
 }
 
-Partition partition_of(const Cut& cut) {
-  Partition options;
+Decomposition partition_of(const Cut& cut) {
+  Decomposition options;
   options.overlap = sorts.at(cut.sort);
   if (cut.regions > 0)
     options.regions = cut.regions;
@@ -90,9 +91,9 @@ using Lists = std::map<std::string, std::vector<double>>;
 
 /// Adds the number of sites that each region would receive in an iteration of a distributed run,
 /// and the number of bytes of positions that it would send.
-void count_halos(const Points3& points, const Partition& partition, Lists& lists) {
+void count_halos(const Points3& points, const Decomposition& decomposition, Lists& lists) {
   const delaunay_detail::Sites sites = delaunay_detail::make_sites(points, Duplicates::merge, 0);
-  const delaunay_detail::Regions regions = delaunay_detail::divide(sites, partition);
+  const delaunay_detail::Regions regions = delaunay_detail::divide(sites, decomposition);
   std::vector<double>& halo = lists["halo"];
   std::vector<double>& sent = lists["sent"];
   halo.resize(regions.centres.size());
@@ -116,9 +117,9 @@ Sample sample_of(const std::vector<double>& seconds,
 }
 
 /// Iterations of Lloyd's method.
-Sample run_iterations(Points3 points, const Density& density, const Partition& partition) {
-  const std::unique_ptr<cvt_detail::RunFunctional> functional =
-      cvt_detail::make_functional(points, Surface::sphere(), density, {.partition = partition});
+Sample run_iterations(Points3 points, const Density& density, const Decomposition& decomposition) {
+  const std::unique_ptr<cvt_detail::RunFunctional> functional = cvt_detail::make_functional(
+      points, Surface::sphere(), density, {.decomposition = decomposition});
   cvt_detail::Evaluation evaluation;
   std::vector<CvtRegion> regions = functional->regions();
   std::vector<double> seconds;
@@ -139,16 +140,16 @@ Sample run_iterations(Points3 points, const Density& density, const Partition& p
   Lists lists;
   for (const CvtRegion& region : regions)
     lists["owned"].push_back(static_cast<double>(region.sites));
-  count_halos(points, partition, lists);
+  count_halos(points, decomposition, lists);
   return sample_of(seconds, by_region, std::move(lists));
 }
 
 /// Triangulations. A region's seconds are those to gather, project, triangulate, cull and certify.
 /// Regions start far apart, because the first one finds the caches cold. The centres are given; the
 /// time to choose them is not measured.
-Sample run_triangulations(const Points3& points, Partition partition) {
+Sample run_triangulations(const Points3& points, Decomposition decomposition) {
   const auto centres = delaunay_detail::make_centres(
-      delaunay_detail::make_sites(points, Duplicates::merge, 0), partition);
+      delaunay_detail::make_sites(points, Duplicates::merge, 0), decomposition);
   const std::size_t count = centres.size();
   std::vector<double> seconds;
   std::vector<std::vector<double>> by_region(count);
@@ -160,9 +161,9 @@ Sample run_triangulations(const Points3& points, Partition partition) {
     Points3 rotated(3, count);
     for (std::size_t k = 0; k < count; ++k)
       base_detail::set_column(rotated, static_cast<std::int64_t>(k), centres[(first + k) % count]);
-    partition.given_centres = rotated;
+    decomposition.given_centres = rotated;
     const DelaunayReport report =
-        triangulate(points, Surface::sphere(), {.partition = partition}).report;
+        triangulate(points, Surface::sphere(), {.decomposition = decomposition}).report;
     if (i < first_triangulation)
       continue;
     seconds.push_back(report.seconds.total);
@@ -186,9 +187,9 @@ std::vector<Row> rows(const std::string& set, std::int64_t n, const Options& opt
       *points = generators(density, n);
     Sample sample;
     on_threads(1, [&] {
-      const Partition partition = partition_of(cut);
-      sample = cut.work == "iteration" ? run_iterations(*points, density, partition)
-                                       : run_triangulations(*points, partition);
+      const Decomposition decomposition = partition_of(cut);
+      sample = cut.work == "iteration" ? run_iterations(*points, density, decomposition)
+                                       : run_triangulations(*points, decomposition);
     });
     return sample;
   };

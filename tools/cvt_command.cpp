@@ -173,7 +173,7 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   outcome.before = run.state ? run.state->report().iterations.size() : 0;
   Keeper keeper(request, run.configuration, outcome.before);
   KeptStates states(request, run.schedule.recipe.surface, outcome.before);
-  RunOptions options{options_of(*request.partition).partition,
+  RunOptions options{options_of(*request.delaunay).decomposition,
                      [&](const calotte::Progress& now) {
                        return after_iteration(*now.run, run.schedule, keeper, states, progress,
                                               outcome);
@@ -181,7 +181,7 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
                      std::move(run.state)};
   progress.stage("making the start");
   try {
-    with_threads(request.partition->threads, [&] {
+    with_threads(request.delaunay->threads, [&] {
       outcome.threads = tbb::this_task_arena::max_concurrency();
       Cvt grid = make_grid(run.schedule, std::move(options));
       outcome.mesh = std::move(grid.mesh);

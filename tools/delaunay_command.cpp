@@ -3,11 +3,11 @@
 #include "help/help.h"
 #include "io/command.h"
 #include "options/config_option.h"
+#include "options/delaunay_options.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
-#include "options/partition_options.h"
 #include "options/point_file.h"
 #include "run/progress.h"
 #include "text/text.h"
@@ -35,7 +35,7 @@ struct DelaunayRequest {
   std::string points, mesh, report;
   bool lonlat = false, plane = false;
   std::optional<std::string> periodic;
-  std::shared_ptr<PartitionWords> partition;
+  std::shared_ptr<DelaunayWords> delaunay;
   std::shared_ptr<FormatWords> format;
   std::shared_ptr<std::string> config;
 };
@@ -62,7 +62,7 @@ Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
                           const DelaunayOptions& options) {
   Triangulation result;
   try {
-    with_threads(request.partition->threads, [&] {
+    with_threads(request.delaunay->threads, [&] {
       result = calotte::triangulate(std::move(input.points), surface_of(request), options);
     });
   } catch (const Error& error) {
@@ -74,9 +74,8 @@ Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
 WriteOptions write_options(const DelaunayRequest& request, std::int64_t points) {
   WriteOptions options = options_of(*request.format, request.mesh);
   options.history = "calotte " CALOTTE_VERSION " delaunay: " + request.points + ", " +
-                    std::to_string(points) + " points; duplicates " +
-                    request.partition->duplicates + "; merge-within " +
-                    shortest(request.partition->merge_within);
+                    std::to_string(points) + " points; duplicates " + request.delaunay->duplicates +
+                    "; merge-within " + shortest(request.delaunay->merge_within);
   return options;
 }
 
@@ -182,7 +181,7 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
 
 void run(const DelaunayRequest& request) {
   require_request(request);
-  std::cout << triangulate_file(request, options_of(*request.partition));
+  std::cout << triangulate_file(request, options_of(*request.delaunay));
 }
 
 } // namespace
@@ -211,7 +210,7 @@ void add_delaunay(CLI::App& app) {
                      "mesh is .vtp, .vtu, .off, .ply, .msh, .txt or .tri")
           ->excludes(lonlat);
   add_periodic(*command, request->periodic)->needs(plane);
-  request->partition = add_partition_options(*command);
+  request->delaunay = add_delaunay_options(*command);
   request->format = add_format(*command);
   command->add_option("--report", request->report, "Write times and counts to this JSON file")
       ->type_name("FILE");

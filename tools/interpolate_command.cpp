@@ -3,9 +3,9 @@
 #include "help/help.h"
 #include "help/nearest_name.h"
 #include "options/choice.h"
+#include "options/delaunay_options.h"
 #include "options/files.h"
 #include "options/numbers.h"
-#include "options/partition_options.h"
 #include "run/progress.h"
 #include "text/text.h"
 

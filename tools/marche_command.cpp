@@ -2,8 +2,8 @@
 #include "commands.h"
 #include "help/help.h"
 #include "io/command.h"
+#include "options/delaunay_options.h"
 #include "options/jig_file.h"
-#include "options/partition_options.h"
 #include "run/progress.h"
 #include "text/text.h"
 

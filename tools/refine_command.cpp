@@ -4,11 +4,11 @@
 #include "io/command.h"
 #include "options/cell_width_option.h"
 #include "options/config_option.h"
+#include "options/delaunay_options.h"
 #include "options/domain_option.h"
 #include "options/files.h"
 #include "options/format_options.h"
 #include "options/mesh_source.h"
-#include "options/partition_options.h"
 #include "options/region_option.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
@@ -66,7 +66,7 @@ struct RefineRequest {
   const Verb* verb = nullptr;
   std::shared_ptr<MeshSource> source;
   std::shared_ptr<FormatWords> format;
-  std::shared_ptr<PartitionWords> partition;
+  std::shared_ptr<DelaunayWords> delaunay;
   std::shared_ptr<std::string> config;
   std::shared_ptr<DomainWords> domain;
   WidthWords widths;
@@ -127,7 +127,7 @@ RefineOptions options_of(const RefineRequest& request, Progress& progress) {
   RefineOptions options;
   options.tolerance = request.tolerance;
   options.gradient = request.gradient.value_or(options.gradient);
-  options.partition = options_of(*request.partition).partition;
+  options.decomposition = options_of(*request.delaunay).decomposition;
   options.progress = [&progress](const calotte::Progress& now) {
     if (now.run != nullptr)
       progress.stage(std::to_string(now.run->report.iterations.back().cells) +
@@ -247,7 +247,7 @@ void run(const RefineRequest& request) {
     const WidthDemand demand = demand_of(request, base);
     progress.stage("finding the patches");
     const double change = seconds_of([&] {
-      with_threads(request.partition->threads, [&] {
+      with_threads(request.delaunay->threads, [&] {
         changed = request.verb->change(*base.mesh, demand, options_of(request, progress));
       });
     });
@@ -326,7 +326,7 @@ void add(CLI::App& app, const Verb& verb) {
   command->get_option("--order")->excludes(map); // the maps have the order that refine() gives
   command->add_option("--report", request->report, "Write counts and times to this JSON file")
       ->type_name("FILE");
-  request->partition = add_partition_options(*command);
+  request->delaunay = add_delaunay_options(*command);
   request->config = add_config(*command);
   const std::string name = verb.name;
   set_help(*command,

@@ -17,7 +17,7 @@ namespace calotte {
 
 /// The sites that a region triangulates besides its own. The choice affects time and memory, not
 /// the result.
-enum class Overlap {
+enum class RegionOverlap {
   halo,     ///< those within a thin strip around its coarse Voronoi cell; the default
   distance, ///< those closer to its centre than the farthest neighbouring centre (Jacobsen et al.,
             ///< 2013, Sect. 2.1.1)
@@ -25,7 +25,7 @@ enum class Overlap {
 };
 
 /// Where the centres of the regions are placed.
-enum class Centres {
+enum class RegionCentres {
   /// A coarse CVT of a sample of the sites, so that regions hold about equal work; the default.
   sample,
   /// A Fibonacci lattice on the sphere, or in the plane over the bounding box of the sites. It
@@ -38,16 +38,16 @@ enum class Centres {
 ///
 /// A function that takes them throws Error invalid_argument for an option out of range; for a
 /// centre that is out of range, index() is its column.
-struct Partition {
+struct Decomposition {
   /// Number of regions; >= 1. The library uses at most one per site. Default: 1 for fewer than 4096
   /// sites, otherwise one per 16384 sites, but at least 12.
   std::optional<int> regions = {};
-  Centres centres = Centres::sample; ///< no effect if given_centres is set
+  RegionCentres centres = RegionCentres::sample; ///< no effect if given_centres is set
   /// The centres of the regions, at least one column; overrides the two options above. On the
   /// sphere 3 x k finite, non-zero directions of any norm. In the plane 2 x k finite points in the
   /// unit of the points, or 3 x k, whose third row is ignored. Default: none.
   std::optional<DoubleMatrix> given_centres = {};
-  Overlap overlap = Overlap::halo; ///< no effect if there is one region
+  RegionOverlap overlap = RegionOverlap::halo; ///< no effect if there is one region
 };
 
 /// What happens to points of equal direction, in the plane of equal position, and to points that
@@ -65,7 +65,7 @@ struct DelaunayOptions {
   /// 1e-15. In the plane a distance in the unit of the points, not measured across the edge of a
   /// periodic box.
   double merge_within = 0;
-  Partition partition = {}; ///< affects time and memory, not the result
+  Decomposition decomposition = {}; ///< affects time and memory, not the result
   /// Stages: sites, regions, triangulate, unite; in a periodic box it may repeat the last three.
   /// Default: none.
   ProgressCallback progress = {};
@@ -135,12 +135,12 @@ struct Triangulation {
 /// \param surface where the points live. Default: the sphere.
 /// \param options merge_within is an angle in radians on the sphere, in the plane a distance.
 /// \throws Error invalid_argument: another number of rows, more than 2^30 points, an option out of
-///         range (see DelaunayOptions and Partition); with its index a point that has a z in the
-///         plane or is outside the box; a plane with one period, whose meshes come from make_grid()
-///         or a file. Also not_finite, zero_vector (on the sphere), duplicate (when refused);
-///         too_few_sites, for fewer than 3 distinct points, and if a circle wider than half of the
-///         box holds none; degenerate, for points on one great circle or line; cancelled by
-///         options.progress.
+///         range (see DelaunayOptions and Decomposition); with its index a point that has a z in
+///         the plane or is outside the box; a plane with one period, whose meshes come from
+///         make_grid() or a file. Also not_finite, zero_vector (on the sphere), duplicate (when
+///         refused); too_few_sites, for fewer than 3 distinct points, and if a circle wider than
+///         half of the box holds none; degenerate, for points on one great circle or line;
+///         cancelled by options.progress.
 Triangulation triangulate(const PointsRef& points, const Surface& surface = {},
                           const DelaunayOptions& options = {});
 

@@ -41,7 +41,7 @@ Schedule plan(Recipe recipe);
 
 /// What affects a run's course, but not its result, and where it goes on.
 struct RunOptions {
-  Partition partition = {};           ///< see Partition
+  Decomposition decomposition = {};   ///< see Decomposition
   ProgressCallback progress = {};     ///< called after each accepted iteration
   std::optional<CvtState> state = {}; ///< of an earlier run of the same recipe, which goes on
 };

@@ -38,8 +38,8 @@ struct RefineOptions {
   /// those that stay beside coarser ones; 0.001 to 1. Models take up to 0.12 of a cell's width from
   /// one cell to the next.
   double gradient = 0.05;
-  Partition partition = {};       ///< affects time and memory, not the result
-  ProgressCallback progress = {}; ///< stage: descend
+  Decomposition decomposition = {}; ///< affects time and memory, not the result
+  ProgressCallback progress = {};   ///< stage: descend
 };
 
 /// A part of a mesh that changed.

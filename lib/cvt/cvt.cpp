@@ -149,7 +149,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   const double before = state.report.seconds;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<RunFunctional> functional = make_functional(
-      state.points, recipe.surface, run.density, {run.execution.partition, options.quadrature},
+      state.points, recipe.surface, run.density, {run.execution.decomposition, options.quadrature},
       recipe.boundary, std::move(level));
   ShapeLimits limits = shape_limits;
   limits.least_spacing = recipe.stop.least_spacing;

@@ -182,7 +182,7 @@ template <Space S> class FunctionalOver final : public RunFunctional {
 public:
   FunctionalOver(Cells<S> cells, const Points3& points, const Density& density,
                  const Execution& execution, Level&& level)
-      : tessellation_(std::move(cells), points, execution.partition, std::move(level)),
+      : tessellation_(std::move(cells), points, execution.decomposition, std::move(level)),
         density_(density),
         coarse_(make_integrand(density, execution.quadrature.rule, execution.quadrature.divisions)),
         fine_(make_integrand(density, execution.quadrature.final_rule,

@@ -19,7 +19,7 @@ struct Quadrature {
 
 /// How the schedule of a run is executed.
 struct Execution {
-  Partition partition = {}; ///< affects time and memory, not the result
+  Decomposition decomposition = {}; ///< affects time and memory, not the result
   /// Of the last descent and of a polish; coarser at a loose tolerance, and in other descents, see
   /// descent_of().
   Quadrature quadrature = {};

@@ -19,14 +19,14 @@ constexpr std::int64_t sampled =
 
 /// One sort and one division serve both the triangulation and the tasks of the regions.
 template <Space S>
-Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points, const Partition& partition,
-                              Level&& level)
-    : cells_(std::move(cells)), generators_(points.cols()), partition_(partition) {
+Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points,
+                              const Decomposition& decomposition, Level&& level)
+    : cells_(std::move(cells)), generators_(points.cols()), decomposition_(decomposition) {
   cells_.move(points);
   Sites sites = level.sites ? std::move(*level.sites) : cells_.sites();
   if (sites.size() != generators_) // two points have met
     cells_.triangulate();          // which says it
-  Regions regions = delaunay_detail::divide(sites, partition_);
+  Regions regions = delaunay_detail::divide(sites, decomposition_);
   Owners owners = owners_of(sites, regions);
   if (!level.mesh) {
     mesh_ = cells_.triangulate(std::move(sites), std::move(regions));
@@ -63,7 +63,7 @@ template <Space S> void Tessellation<S>::divide() {
   division_.patches.clear(); // sorting takes as much memory
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
-    owners = owners_of(sites, delaunay_detail::divide(sites, partition_));
+    owners = owners_of(sites, delaunay_detail::divide(sites, decomposition_));
   // If two points coincide, the old regions stay; a new triangulation will report the error.
   adopt(owners ? std::move(*owners)
                : Owners{std::move(division_.ownership.owner),

@@ -67,7 +67,8 @@ template <Space S> class Tessellation {
 public:
   /// \param points 3 x n.
   /// \throws Error as Cells::triangulate().
-  Tessellation(Cells<S> cells, const Points3& points, const Partition& partition, Level&& level);
+  Tessellation(Cells<S> cells, const Points3& points, const Decomposition& decomposition,
+               Level&& level);
 
   /// Moves the points.
   void move(const Points3& points) { cells_.move(points); }
@@ -135,7 +136,7 @@ private:
 
   Cells<S> cells_;
   std::int64_t generators_;
-  Partition partition_;
+  Decomposition decomposition_;
   Connectivity mesh_;
   Division division_;
   Array<Vec3> sample_; ///< sampled points, as they were when the regions were chosen

@@ -162,16 +162,17 @@ int default_region_count(std::int64_t sites) {
   return static_cast<int>(std::max(least, sites / a_region));
 }
 
-std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition) {
-  if (partition.given_centres) {
-    require(partition.given_centres->cols() > 0, "no region centre is given; give at least one");
-    return columns(*partition.given_centres, sites.frame);
+std::vector<Vec3> make_centres(const Sites& sites, const Decomposition& decomposition) {
+  if (decomposition.given_centres) {
+    require(decomposition.given_centres->cols() > 0,
+            "no region centre is given; give at least one");
+    return columns(*decomposition.given_centres, sites.frame);
   }
-  const int regions = partition.regions.value_or(default_region_count(sites.size()));
+  const int regions = decomposition.regions.value_or(default_region_count(sites.size()));
   require(regions >= 1, "the number of regions is {}: give at least 1", regions);
   // More regions than sites would own no sites; their centres would only cost time and memory.
   const auto useful = static_cast<int>(std::min<std::int64_t>(regions, sites.size()));
-  if (partition.centres == Centres::fibonacci)
+  if (decomposition.centres == RegionCentres::fibonacci)
     return sites.frame ? plane_lattice(*sites.frame, useful)
                        : columns(fibonacci_sphere(useful), std::nullopt);
   return sampled_centres(sites, useful);

@@ -18,6 +18,6 @@ int default_region_count(std::int64_t sites);
 /// The centres that the options give, or as many as the number of regions, but at most one per
 /// site.
 /// \throws Error invalid_argument (fewer than one region, centres without a direction).
-std::vector<Vec3> make_centres(const Sites& sites, const Partition& partition);
+std::vector<Vec3> make_centres(const Sites& sites, const Decomposition& decomposition);
 
 } // namespace calotte::delaunay_detail

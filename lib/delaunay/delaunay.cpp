@@ -240,12 +240,12 @@ IdLists adjacent_centres(const std::vector<Vec3>& centres, bool planar) {
 
 } // namespace
 
-Regions divide(const Sites& sites, const Partition& partition) {
-  std::vector<Vec3> centres = make_centres(sites, partition);
+Regions divide(const Sites& sites, const Decomposition& decomposition) {
+  std::vector<Vec3> centres = make_centres(sites, decomposition);
   if (centres.size() == 1)
     return {std::move(centres), {}, {}, {}};
   const IdLists adjacent = adjacent_centres(centres, sites.frame.has_value());
-  return make_regions(sites, std::move(centres), adjacent, partition.overlap);
+  return make_regions(sites, std::move(centres), adjacent, decomposition.overlap);
 }
 
 namespace {
@@ -276,12 +276,12 @@ Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& repor
 }
 
 template <class Chart>
-Mesh triangulate(Sites&& sites, const Partition& partition, DelaunayReport& report,
+Mesh triangulate(Sites&& sites, const Decomposition& decomposition, DelaunayReport& report,
                  Monitor& monitor) {
   Clock::time_point mark = Clock::now();
   empty_pools_of_many(sites.size());
   monitor.begin("regions", divided, 1);
-  Regions regions = divide(sites, partition);
+  Regions regions = divide(sites, decomposition);
   report.seconds.regions = lap(mark);
   return triangulate_regions<Chart>(std::move(sites), std::move(regions), report, monitor);
 }
@@ -306,7 +306,7 @@ Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, Delauna
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
   Sites sites = sites_of<SphereChart>(std::forward<Points>(points), options, report, monitor);
-  Mesh mesh = triangulate<SphereChart>(std::move(sites), options.partition, report, monitor);
+  Mesh mesh = triangulate<SphereChart>(std::move(sites), options.decomposition, report, monitor);
   report.seconds.total = lap(start);
   monitor.finish();
   return mesh;
@@ -328,7 +328,7 @@ Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
   Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
-  Mesh mesh = triangulate<PlaneChart>(std::move(sites), options.partition, report, monitor);
+  Mesh mesh = triangulate<PlaneChart>(std::move(sites), options.decomposition, report, monitor);
   report.seconds.total = lap(start);
   monitor.finish();
   return mesh;
@@ -345,7 +345,7 @@ Mesh mesh_of_box(const Points2Ref& points, const Surface& box, const DelaunayOpt
     report.sites_per_region.clear();
     report.owned_per_region.clear();
     report.seconds_per_region.clear();
-    return triangulate<PlaneChart>(std::move(copies), options.partition, report, monitor);
+    return triangulate<PlaneChart>(std::move(copies), options.decomposition, report, monitor);
   };
   Mesh mesh = triangulate_periodic(sites.points, box, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);

@@ -11,6 +11,6 @@ namespace calotte::delaunay_detail {
 /// Divides sites into regions by the options: centres, owners and members. A single region has no
 /// lists of owners and members.
 /// \throws Error invalid_argument.
-Regions divide(const Sites& sites, const Partition& partition);
+Regions divide(const Sites& sites, const Decomposition& decomposition);
 
 } // namespace calotte::delaunay_detail

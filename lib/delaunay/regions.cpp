@@ -350,18 +350,18 @@ std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<cha
 }
 
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres, const IdLists& adjacent,
-                     Overlap overlap) {
+                     RegionOverlap overlap) {
   Regions regions;
   regions.centres = std::move(centres);
   regions.owner = owners(sites.cells, sites.unit, regions.centres);
-  if (overlap == Overlap::halo)
+  if (overlap == RegionOverlap::halo)
     regions.covered = halo_half_spaces(sites, regions, adjacent);
-  if (overlap == Overlap::distance)
+  if (overlap == RegionOverlap::distance)
     regions.covered = distance_half_spaces(sites, regions, adjacent);
-  if (overlap == Overlap::voronoi)
+  if (overlap == RegionOverlap::voronoi)
     regions.covered = voronoi_half_spaces(regions, adjacent);
-  regions.members = overlap == Overlap::voronoi ? members_of_neighbours(regions, adjacent)
-                                                : members_inside(sites, regions);
+  regions.members = overlap == RegionOverlap::voronoi ? members_of_neighbours(regions, adjacent)
+                                                      : members_inside(sites, regions);
   return regions;
 }
 

@@ -36,7 +36,7 @@ struct Regions {
 /// \param adjacent for each region its neighbours: regions whose coarse Voronoi cells meet its own.
 ///         Too many neighbours cost time; too few make halos larger than necessary.
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres, const IdLists& adjacent,
-                     Overlap overlap);
+                     RegionOverlap overlap);
 
 /// Merges regions whose caps cannot certify their sites: those that share members become one, which
 /// holds all sites of a cap around theirs.

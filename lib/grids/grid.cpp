@@ -110,7 +110,7 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
   require_schedule(schedule);
-  const Execution execution{.partition = run.partition};
+  const Execution execution{.decomposition = run.decomposition};
   const CvtCallback callback = callback_of(run.progress);
   Cvt grid = run.state ? cvt(std::move(*run.state), schedule, execution, callback)
                        : cvt(generators(schedule), schedule, execution, callback);

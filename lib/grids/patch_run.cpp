@@ -256,7 +256,7 @@ Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const Dou
       schedule_of(surface, density, count_of(patch, own, wanted), fixed,
                   with_midpoints(local, surface, fixed, density, width.minCoeff()));
   RunOptions run;
-  run.partition = options.partition;
+  run.decomposition = options.decomposition;
   run.progress = options.progress;
   Cvt grid = make_grid(schedule, std::move(run));
   const std::int64_t added = grid.mesh.points.cols() - fixed;

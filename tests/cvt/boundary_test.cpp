@@ -175,7 +175,7 @@ TEST_CASE("boundary: the same bits for all threads and regions [slow]") {
   const Recipe recipe = ending_at_generators(cases().back(), 900);
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions}}).mesh;
+    return make_grid(recipe, {.decomposition = {.regions = regions}}).mesh;
   };
   const Mesh one = with(1, 1), many = with(4, 12);
   CHECK(one.points == many.points);
@@ -233,7 +233,7 @@ TEST_CASE("boundary: in the plane the same bits for all threads and regions") {
   recipe.cells = 400;
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions}}).mesh;
+    return make_grid(recipe, {.decomposition = {.regions = regions}}).mesh;
   };
   const Mesh one = with(1, 1), many = with(4, 12);
   CHECK(one.points == many.points);

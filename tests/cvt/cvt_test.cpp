@@ -46,17 +46,17 @@ void check_random_start(const Density& density, Method method) {
                       .start = {.points = random_sphere(1700, 4)},
                       .stop = {.max_iterations = iterations},
                       .method = method};
-  const auto with = [&](std::size_t threads, int regions, Overlap overlap) {
+  const auto with = [&](std::size_t threads, int regions, RegionOverlap overlap) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions, .overlap = overlap}});
+    return make_grid(recipe, {.decomposition = {.regions = regions, .overlap = overlap}});
   };
-  const Cvt one = with(1, 1, Overlap::halo);
+  const Cvt one = with(1, 1, RegionOverlap::halo);
   CHECK(!one.report.converged);
   CHECK(one.report.iterations.size() >= iterations);
   CHECK(check(one.mesh).failure == "");
   check_descent(one.report, 2e-13);
-  for (const Cvt& other : {with(4, 12, Overlap::halo), with(2, 42, Overlap::distance),
-                           with(3, 2, Overlap::voronoi), with(2, 300, Overlap::halo)}) {
+  for (const Cvt& other : {with(4, 12, RegionOverlap::halo), with(2, 42, RegionOverlap::distance),
+                           with(3, 2, RegionOverlap::voronoi), with(2, 300, RegionOverlap::halo)}) {
     CHECK((one.mesh.points == other.mesh.points));
     CHECK((one.mesh.triangles == other.mesh.triangles));
     for (std::size_t k = 0; k < one.report.iterations.size(); ++k) {
@@ -231,8 +231,9 @@ TEST_CASE("the gradient is the energy's slope") {
 
 TEST_CASE("the report counts the regions' sites and their seconds") {
   const Recipe recipe{.start = {.points = bisected_icosahedron(5)}, .stop = {.iterations = 3}};
-  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
-    const CvtReport report = make_grid(recipe, {.partition = {.overlap = overlap}}).report;
+  for (const RegionOverlap overlap :
+       {RegionOverlap::halo, RegionOverlap::distance, RegionOverlap::voronoi}) {
+    const CvtReport report = make_grid(recipe, {.decomposition = {.overlap = overlap}}).report;
     std::int64_t sites = 0;
     for (const CvtRegion& region : report.regions) {
       sites += region.sites;
@@ -368,7 +369,7 @@ TEST_CASE("directions that are equal only when they are normalised twice are two
   const Cvt result = make_grid(recipe); // once it did not end
   CHECK(check(result.mesh).passed());
   // Some cells are smaller than rounding: slivers of other regions.
-  CHECK(make_grid(recipe, {.partition = {.regions = 5}}).mesh.points == result.mesh.points);
+  CHECK(make_grid(recipe, {.decomposition = {.regions = 5}}).mesh.points == result.mesh.points);
 }
 
 TEST_CASE("bad input is refused in one line") {

@@ -134,7 +134,7 @@ TEST_CASE("fixed generators: the same bits for all threads and regions, and resu
     const Recipe recipe = graded_with_fixed(1200, region, 3e-4);
     const auto with = [&](std::size_t threads, int regions) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      return make_grid(recipe, {.partition = {.regions = regions}});
+      return make_grid(recipe, {.decomposition = {.regions = regions}});
     };
     const Cvt one = with(1, 1);
     CHECK(identical(one.mesh, with(2, 12).mesh));

@@ -82,10 +82,11 @@ struct Glided {
 };
 
 Glided glided(const Points3& points, const Density& density,
-              const std::vector<std::uint8_t>& fixed = {}, const Partition& partition = {}) {
+              const std::vector<std::uint8_t>& fixed = {},
+              const Decomposition& decomposition = {}) {
   Glided result{points, 0, std::nullopt};
   const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), density,
-                                                      {.partition = partition});
+                                                      {.decomposition = decomposition});
   functional->hold(fixed);
   result.steps = functional->glide(result.points, cvt_detail::shape_limits);
   result.mesh = functional->take_mesh(result.points);

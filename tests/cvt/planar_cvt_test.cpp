@@ -238,7 +238,7 @@ TEST_CASE("the quadrature is exact for polynomials of its degree") {
   }
 }
 
-TEST_CASE("moments have the same bits for any partition") {
+TEST_CASE("moments have the same bits for any regions") {
   Density bump = tanh_bump({0.3, 0.4, 0}, 0.2, 0.1, 0.01);
   for (const Surface& domain : {lake(), Surface::periodic({2, 1.5})})
     for (const Density& density : {Density{}, surface_density(bump, domain)}) {
@@ -257,7 +257,7 @@ TEST_CASE("a periodic lattice of regular hexagons is a fixed point, with the hex
   for (const Method method : all_methods) {
     const Cvt grid =
         make_grid({.surface = box, .start = {.points = lattice.points}, .method = method},
-                  {.partition = {.regions = 4}});
+                  {.decomposition = {.regions = 4}});
     CHECK(grid.report.converged);
     CHECK(grid.report.iterations.size() == 1);
     CHECK(grid.report.iterations.back().flips == 0);
@@ -279,7 +279,7 @@ TEST_CASE("every method brings the energy down, in every kind of domain") {
              .start = {.points = with_z(random_start(domain, 300, 11))},
              .stop = {.max_iterations = 25},
              .method = method},
-            {.partition = {.regions = 4}});
+            {.decomposition = {.regions = 4}});
         check_descent(grid.report, 1e-12);
         CHECK(grid.report.iterations.back().energy < 0.85 * grid.report.iterations.front().energy);
         REQUIRE(grid.mesh.points.cols() == 300);
@@ -305,18 +305,18 @@ TEST_CASE("the same bits for any threads and regions, and after any interruption
           states.push_back(now.run->state);
         return ProgressReply::proceed;
       };
-      const Cvt reference = make_grid(recipe, {.partition = {.regions = 1}, .progress = keep});
+      const Cvt reference = make_grid(recipe, {.decomposition = {.regions = 1}, .progress = keep});
       for (const int regions : {2, 9, 50})
         for (const int threads : {1, 4}) {
           tbb::task_arena arena(threads);
-          const Cvt other =
-              arena.execute([&] { return make_grid(recipe, {.partition = {.regions = regions}}); });
+          const Cvt other = arena.execute(
+              [&] { return make_grid(recipe, {.decomposition = {.regions = regions}}); });
           REQUIRE(other.mesh.points == reference.mesh.points);
           REQUIRE(other.mesh.triangles == reference.mesh.triangles);
         }
       REQUIRE(!states.empty());
       for (const CvtState& state : states)
-        REQUIRE(make_grid(recipe, {.partition = {.regions = 50}, .state = state}).mesh.points ==
+        REQUIRE(make_grid(recipe, {.decomposition = {.regions = 50}, .state = state}).mesh.points ==
                 reference.mesh.points);
     }
 }
@@ -433,7 +433,7 @@ TEST_CASE(
                                 .start = {.points = start},
                                 .stop = {.tolerance = 1e-7},
                                 .method = Method::lbfgs_laplacian},
-                               {.partition = {.regions = 4}});
+                               {.decomposition = {.regions = 4}});
     CHECK(grid.report.converged);
     CHECK(scaled_energy(grid.report, box.area()) == doctest::Approx(hexagons).epsilon(1e-9));
     evaluations.push_back(grid.report.iterations.size());
@@ -474,7 +474,7 @@ TEST_CASE("clusters, and domains far from the origin or of any size") {
           (scale * (offset == 0 ? cluster : random_start(unit_square(), 200, 6))).colwise() + low;
       const Cvt grid = make_grid(
           {.surface = domain, .start = {.points = with_z(start)}, .stop = {.tolerance = 1e-4}},
-          {.partition = {.regions = 4}});
+          {.decomposition = {.regions = 4}});
       CHECK(grid.report.converged);
       CHECK(scaled_energy(grid.report, domain.area()) == doctest::Approx(hexagons).epsilon(0.08));
     }

@@ -107,7 +107,7 @@ TEST_CASE("Australia: the cells' areas sum to the region's, and generators stay 
       .surface = australia, .start = {.points = start}, .stop = {.max_iterations = 25}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions}});
+    return make_grid(recipe, {.decomposition = {.regions = regions}});
   };
   const Cvt grid = with(1, 1);
   CHECK(std::abs(sum_of_cells(australia, grid.mesh.points) / whole - 1) < 1e-12);
@@ -128,7 +128,7 @@ TEST_CASE("Australia: a graded grid has the same bits for all threads and region
       .cells = 1500, .resolution = density, .surface = australia, .stop = {.tolerance = 3e-4}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions}});
+    return make_grid(recipe, {.decomposition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);

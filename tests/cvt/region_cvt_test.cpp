@@ -149,7 +149,7 @@ TEST_CASE(
       .cells = 1500, .resolution = density, .surface = region, .stop = {.tolerance = 3e-4}};
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(recipe, {.partition = {.regions = regions}});
+    return make_grid(recipe, {.decomposition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.mesh.points.cols() == 1500);

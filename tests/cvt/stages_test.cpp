@@ -182,7 +182,7 @@ TEST_CASE("stages: a density is evaluated at the sites only where cells are smal
 TEST_CASE("stages: threads and regions have no effect on insertion and finish") {
   const auto with = [&](std::size_t threads, int regions) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return make_grid(graded(2800, x8()), {.partition = {.regions = regions}});
+    return make_grid(graded(2800, x8()), {.decomposition = {.regions = regions}});
   };
   const Cvt one = with(1, 1);
   CHECK(one.report.converged);

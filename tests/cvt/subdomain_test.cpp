@@ -35,7 +35,7 @@ struct Moving {
   Moving(const Points3& start, const Density& rho, std::vector<std::uint8_t> held = {})
       : points(start), density(rho), integrand(integrals_detail::make_integrand(rho, 3, 1)),
         fixed(std::move(held)),
-        tessellation(Cells<Sphere>(Surface::sphere()), points, Partition{}, Level{}) {}
+        tessellation(Cells<Sphere>(Surface::sphere()), points, Decomposition{}, Level{}) {}
 
   LocalInput input() const { return {density, integrand, fixed}; }
 

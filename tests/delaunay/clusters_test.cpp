@@ -41,17 +41,17 @@ Points3 beside(const Points3& a, const Points3& b) {
   return both;
 }
 
-DelaunayOptions regions(int count, Overlap overlap = Overlap::halo) {
+DelaunayOptions regions(int count, RegionOverlap overlap = RegionOverlap::halo) {
   DelaunayOptions options;
-  options.partition.regions = count;
-  options.partition.overlap = overlap;
+  options.decomposition.regions = count;
+  options.decomposition.overlap = overlap;
   return options;
 }
 
 const Eigen::Vector3d here = Eigen::Vector3d(1, 2, 3).normalized();
 
 /// The mesh of one region, from caps.
-void check_caps(const Points3& points, int count, Overlap overlap = Overlap::halo) {
+void check_caps(const Points3& points, int count, RegionOverlap overlap = RegionOverlap::halo) {
   CAPTURE(count);
   CAPTURE(static_cast<int>(overlap));
   const auto [mesh, report] = triangulate(points, {}, regions(count, overlap));
@@ -74,7 +74,7 @@ TEST_CASE("a cluster within one region or over several does not make the run ser
                   many = beside(others, cluster(here, 3000, width));
     check_caps(few, 12);
     check_caps(many, 42);
-    check_caps(many, 42, Overlap::distance);
+    check_caps(many, 42, RegionOverlap::distance);
   }
 }
 

@@ -39,7 +39,7 @@ struct Setting {
 
 DelaunayOptions with_centres(const Points3& centres) {
   DelaunayOptions options;
-  options.partition.given_centres = centres;
+  options.decomposition.given_centres = centres;
   return options;
 }
 
@@ -49,11 +49,13 @@ std::vector<Setting> settings(const Points3& points, const std::vector<int>& num
   std::vector<Setting> out;
   for (const int regions : numbers) {
     const std::string count = std::to_string(regions) + " regions, ";
-    out.push_back({count + "distance", with_regions(regions, Overlap::distance)});
-    out.push_back({count + "voronoi", with_regions(regions, Overlap::voronoi)});
-    out.push_back({count + "fibonacci", with_regions(regions, Overlap::halo, Centres::fibonacci)});
+    out.push_back({count + "distance", with_regions(regions, RegionOverlap::distance)});
+    out.push_back({count + "voronoi", with_regions(regions, RegionOverlap::voronoi)});
+    out.push_back({count + "fibonacci",
+                   with_regions(regions, RegionOverlap::halo, RegionCentres::fibonacci)});
   }
-  out.push_back({"voronoi, fibonacci", with_regions(12, Overlap::voronoi, Centres::fibonacci)});
+  out.push_back(
+      {"voronoi, fibonacci", with_regions(12, RegionOverlap::voronoi, RegionCentres::fibonacci)});
   out.push_back({"octahedron", with_centres(octahedron())});
   const Eigen::Index few = std::min<Eigen::Index>(points.cols(), 9);
   out.push_back({"centres on sites", with_centres(points.leftCols(few))});
@@ -175,19 +177,19 @@ DelaunayOptions random_options(Random& random, const Points3& points) {
   const auto count = static_cast<int>(std::min<Eigen::Index>(points.cols(), 8));
   const Points3 some = points.leftCols(random.integer(1, count));
   DelaunayOptions options = with_regions(random.integer(2, random.integer(2, 60)));
-  options.partition.overlap = static_cast<Overlap>(random.integer(0, 2));
+  options.decomposition.overlap = static_cast<RegionOverlap>(random.integer(0, 2));
   switch (random.integer(0, 4)) {
   case 0:
-    options.partition.centres = Centres::fibonacci;
+    options.decomposition.centres = RegionCentres::fibonacci;
     break;
   case 1:
-    options.partition.given_centres = some;
+    options.decomposition.given_centres = some;
     break;
   case 2:
-    options.partition.given_centres = Points3(-some);
+    options.decomposition.given_centres = Points3(-some);
     break;
   case 3:
-    options.partition.given_centres =
+    options.decomposition.given_centres =
         random_sphere(some.cols(), static_cast<std::uint64_t>(random.integer(1, 1000)));
     break;
   default:
@@ -438,14 +440,15 @@ TEST_CASE("regression: bisecting 162 icosahedral sites over 12 regions gives 642
   REQUIRE(coarse.cols() == 162);
   for (const DelaunayOptions& options :
        {with_regions(12), with_centres(bisected_icosahedron(0)),
-        with_regions(12, Overlap::distance), with_regions(12, Overlap::voronoi)})
+        with_regions(12, RegionOverlap::distance), with_regions(12, RegionOverlap::voronoi)})
     CHECK(bisect(delaunay(coarse, {}, options)).cols() == 642);
 }
 
 TEST_CASE("regression: 642 icosahedral sites over 12 icosahedral centres (MPI-SCVT: 1172)") {
-  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi}) {
+  for (const RegionOverlap overlap :
+       {RegionOverlap::halo, RegionOverlap::distance, RegionOverlap::voronoi}) {
     DelaunayOptions options = with_centres(bisected_icosahedron(0));
-    options.partition.overlap = overlap;
+    options.decomposition.overlap = overlap;
     CHECK(delaunay(bisected_icosahedron(3), {}, options).triangles.cols() == 1280);
   }
 }

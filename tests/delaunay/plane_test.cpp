@@ -205,18 +205,18 @@ TEST_CASE("any regions, sorts, centres and threads give the same planar mesh") {
         });
         CHECK(identical(again, mesh));
       }
-    for (const Overlap overlap : {Overlap::distance, Overlap::voronoi})
+    for (const RegionOverlap overlap : {RegionOverlap::distance, RegionOverlap::voronoi})
       CHECK(identical(delaunay(cloud.points, Surface::plane(), with_regions(12, overlap)), mesh));
     CHECK(identical(delaunay(cloud.points, Surface::plane(),
-                             with_regions(12, Overlap::halo, Centres::fibonacci)),
+                             with_regions(12, RegionOverlap::halo, RegionCentres::fibonacci)),
                     mesh));
     DelaunayOptions options;
-    options.partition.given_centres = Points3(3, 3);
-    *options.partition.given_centres << cloud.points.leftCols(3), 7, 8, 9;
+    options.decomposition.given_centres = Points3(3, 3);
+    *options.decomposition.given_centres << cloud.points.leftCols(3), 7, 8, 9;
     CHECK(identical(delaunay(cloud.points, Surface::plane(), options), mesh));
     const double beyond = 20 * cloud.points.cwiseAbs().maxCoeff(); // all far outside
-    *options.partition.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond, 0,
-        0, 0;
+    *options.decomposition.given_centres << beyond, beyond, beyond / 2, beyond, beyond / 2, beyond,
+        0, 0, 0;
     CHECK(identical(delaunay(cloud.points, Surface::plane(), options), mesh));
   }
 }

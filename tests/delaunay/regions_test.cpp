@@ -27,11 +27,11 @@ template <class Next> IdLists lists_of(std::int64_t count, std::int64_t each, co
   return lists;
 }
 
-Regions regions_of(const Sites& sites, int count, Centres centres, Overlap overlap) {
-  Partition partition;
-  partition.regions = count;
-  partition.centres = centres;
-  return make_regions(sites, make_centres(sites, partition),
+Regions regions_of(const Sites& sites, int count, RegionCentres centres, RegionOverlap overlap) {
+  Decomposition decomposition;
+  decomposition.regions = count;
+  decomposition.centres = centres;
+  return make_regions(sites, make_centres(sites, decomposition),
                       lists_of(count, count - 1, [](auto k, auto m) { return k + m + 1; }),
                       overlap);
 }
@@ -39,7 +39,7 @@ Regions regions_of(const Sites& sites, int count, Centres centres, Overlap overl
 /// For the sampled regions, the largest number of owned sites over the mean.
 double fullest(const Points3& points, int count) {
   const Sites sites = make_sites(points, Duplicates::merge, 0);
-  const Regions regions = regions_of(sites, count, Centres::sample, Overlap::halo);
+  const Regions regions = regions_of(sites, count, RegionCentres::sample, RegionOverlap::halo);
   std::vector<std::int64_t> owned(static_cast<std::size_t>(count), 0);
   for (const std::int32_t k : regions.owner)
     ++owned[static_cast<std::size_t>(k)];
@@ -62,7 +62,7 @@ Points3 crowded_cap() {
 TEST_CASE("each site is owned by the nearest centre, by brute force") {
   const Sites sites = make_sites(random_sphere(5000, 8), Duplicates::merge, 0);
   for (const int count : {2, 12, 100}) {
-    const Regions regions = regions_of(sites, count, Centres::sample, Overlap::halo);
+    const Regions regions = regions_of(sites, count, RegionCentres::sample, RegionOverlap::halo);
     for (std::int64_t r = 0; r < sites.size(); ++r) {
       const auto squared = [&](std::int32_t k) {
         const Vec3 apart = sites.unit[r] - regions.centres[static_cast<std::size_t>(k)];
@@ -79,9 +79,10 @@ TEST_CASE("each site is owned by the nearest centre, by brute force") {
 TEST_CASE(
     "members ascend, hold all owned sites and all sites of the covered part, for every overlap") {
   const Sites sites = make_sites(random_sphere(4000, 9), Duplicates::merge, 0);
-  for (const Overlap overlap : {Overlap::halo, Overlap::distance, Overlap::voronoi})
+  for (const RegionOverlap overlap :
+       {RegionOverlap::halo, RegionOverlap::distance, RegionOverlap::voronoi})
     for (const int count : {2, 12, 60}) {
-      const Regions regions = regions_of(sites, count, Centres::fibonacci, overlap);
+      const Regions regions = regions_of(sites, count, RegionCentres::fibonacci, overlap);
       for (std::size_t k = 0; k < regions.members.size(); ++k) {
         std::vector<bool> member(static_cast<std::size_t>(sites.size()), false);
         std::int32_t end = 0;
@@ -112,12 +113,12 @@ TEST_CASE("what the voronoi overlap calls covered is, though centres stand too c
   for (Eigen::Index k = 0; k < centres.cols(); ++k)
     centres.col(k) = middle + 3e-12 * centres.col(k);
   const Sites sites = make_sites(points, Duplicates::merge, 0);
-  Partition partition;
-  partition.given_centres = centres;
+  Decomposition decomposition;
+  decomposition.given_centres = centres;
   const IdLists adjacent = // only a few: most owners are no members
       lists_of(40, 2, [](auto k, auto m) { return k + (m == 0 ? 39 : 1); });
   const Regions regions =
-      make_regions(sites, make_centres(sites, partition), adjacent, Overlap::voronoi);
+      make_regions(sites, make_centres(sites, decomposition), adjacent, RegionOverlap::voronoi);
   for (std::size_t k = 0; k < 40; ++k)
     for (std::int64_t r = 0; r < sites.size(); ++r) {
       const auto in = [&](const HalfSpace& h) { return dot(sites.unit[r], h.normal) <= h.offset; };
@@ -131,12 +132,12 @@ TEST_CASE("what the voronoi overlap calls covered is, though centres stand too c
 
 TEST_CASE("there are no more placed centres than sites, and halos stay thin with one each") {
   const Sites sites = make_sites(random_sphere(1000, 5), Duplicates::merge, 0);
-  Partition partition;
-  partition.regions = 1000000000;
-  CHECK(make_centres(sites, partition).size() == 1000);
-  partition.centres = Centres::fibonacci;
-  CHECK(make_centres(sites, partition).size() == 1000);
-  const Regions regions = regions_of(sites, 1000, Centres::sample, Overlap::halo);
+  Decomposition decomposition;
+  decomposition.regions = 1000000000;
+  CHECK(make_centres(sites, decomposition).size() == 1000);
+  decomposition.centres = RegionCentres::fibonacci;
+  CHECK(make_centres(sites, decomposition).size() == 1000);
+  const Regions regions = regions_of(sites, 1000, RegionCentres::sample, RegionOverlap::halo);
   std::int64_t members = 0;
   for (const std::vector<Run>& runs : regions.members)
     for (const Run& run : runs)
@@ -153,10 +154,10 @@ TEST_CASE("regions of sampled centres hold nearly equal numbers of sites") {
 
 TEST_CASE("centres need a number and directions") {
   const Sites sites = make_sites(random_sphere(50), Duplicates::merge, 0);
-  Partition partition;
-  partition.regions = 0;
-  CHECK_THROWS_WITH_AS(make_centres(sites, partition),
+  Decomposition decomposition;
+  decomposition.regions = 0;
+  CHECK_THROWS_WITH_AS(make_centres(sites, decomposition),
                        "the number of regions is 0: give at least 1", Error);
-  partition.given_centres = Points3::Zero(3, 2);
-  CHECK_THROWS_AS(make_centres(sites, partition), Error);
+  decomposition.given_centres = Points3::Zero(3, 2);
+  CHECK_THROWS_AS(make_centres(sites, decomposition), Error);
 }

@@ -18,12 +18,12 @@ template <class Call> auto with_threads(int threads, const Call& call) {
   return arena.execute(call);
 }
 
-inline DelaunayOptions with_regions(int regions, Overlap overlap = Overlap::halo,
-                                    Centres centres = Centres::sample) {
+inline DelaunayOptions with_regions(int regions, RegionOverlap overlap = RegionOverlap::halo,
+                                    RegionCentres centres = RegionCentres::sample) {
   DelaunayOptions options;
-  options.partition.regions = regions;
-  options.partition.overlap = overlap;
-  options.partition.centres = centres;
+  options.decomposition.regions = regions;
+  options.decomposition.overlap = overlap;
+  options.decomposition.centres = centres;
   return options;
 }
 

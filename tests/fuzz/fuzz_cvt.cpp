@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const Cvt result = make_grid(recipe);
     require(check(result.mesh).passed());
-    const Cvt again = make_grid(recipe, {.partition = {.regions = 5}});
+    const Cvt again = make_grid(recipe, {.decomposition = {.regions = 5}});
     require(again.mesh.points == result.mesh.points &&
             again.mesh.triangles == result.mesh.triangles);
     const CvtIteration* before = nullptr;

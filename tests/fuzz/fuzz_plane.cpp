@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Points2 places = bytes.columns(2, 300);
   check_laws(
       [&](int count) {
-        const DelaunayOptions options{.partition = {.regions = count}};
+        const DelaunayOptions options{.decomposition = {.regions = count}};
         return periodic ? delaunay(places, Surface::periodic(period), options)
                         : delaunay(places, Surface::plane(), options);
       },

@@ -19,9 +19,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int regions = bytes.integer(2, 40), shift = bytes.integer(1, 200);
   const Points3 points = bytes.columns(3, 300);
   try {
-    const Mesh mesh = delaunay(points, {}, {.partition = {.regions = 1}});
+    const Mesh mesh = delaunay(points, {}, {.decomposition = {.regions = 1}});
     require(check(mesh).passed());
-    const Mesh other = delaunay(points, {}, {.partition = {.regions = regions}});
+    const Mesh other = delaunay(points, {}, {.decomposition = {.regions = regions}});
     require(mesh.triangles == other.triangles && mesh.neighbours == other.neighbours);
     Points3 turned(3, points.cols()); // the same points from another one on
     for (Eigen::Index i = 0; i < points.cols(); ++i)

@@ -418,7 +418,7 @@ TEST_CASE("the same bits on any number of threads and for any number of regions 
   const ChangedMesh expected = refine(base, demand, options);
   for (const int threads : {1, 4}) {
     tbb::task_arena arena(threads);
-    options.partition.regions = 5 * threads;
+    options.decomposition.regions = 5 * threads;
     const ChangedMesh other = arena.execute([&] { return refine(base, demand, options); });
     CHECK(other.mesh.points == expected.mesh.points);
     CHECK(other.mesh.triangles == expected.mesh.triangles);

@@ -51,7 +51,7 @@ std::vector<Call> calls_on_sphere() {
           {"evaluate cell widths", [](const PointsRef& x) { evaluate(wide_cells(), x); }},
           {"given centres", [](const PointsRef& x) {
              DelaunayOptions options;
-             options.partition.given_centres = x;
+             options.decomposition.given_centres = x;
              delaunay(random_sphere(100), {}, options);
            }}};
 }
@@ -226,7 +226,7 @@ TEST_CASE("any kind of matrix gives the same mesh of the plane") {
 TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   const Points3 points = random_sphere(2000, 3);
   DelaunayOptions options;
-  options.partition.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
+  options.decomposition.given_centres = Eigen::MatrixXd(random_sphere(9, 4));
   const Triangulation sphere = triangulate(points, {}, options);
   CHECK(identical(sphere.mesh, delaunay(points)));
   CHECK(sphere.report.regions == 9);
@@ -234,7 +234,7 @@ TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   for (const Eigen::Index rows : {2, 3}) {
     Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
     centres.topRows(2) = random_points(9, unit_square(), {}, 4).topRows<2>();
-    options.partition.given_centres = centres;
+    options.decomposition.given_centres = centres;
     const Triangulation plane = triangulate(places, Surface::plane(), options);
     CHECK(identical_planes(plane.mesh, delaunay(places, Surface::plane())));
     CHECK(plane.report.regions == 9);

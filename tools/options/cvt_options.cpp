@@ -229,7 +229,7 @@ std::shared_ptr<CvtRequest> add_cvt_options(CLI::App& command) {
   }
   const OptionGroup group(command, "Output");
   add_files(command, *request);
-  request->partition = add_partition_options(command);
+  request->delaunay = add_delaunay_options(command);
   add_saved(command, *request);
   return request;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/delaunay_options.h"
 #include "options/density_option.h"
 #include "options/domain_option.h"
 #include "options/format_options.h"
-#include "options/partition_options.h"
 #include "options/region_option.h"
 
 #include <calotte/grid.h>
@@ -38,7 +38,7 @@ struct CvtRequest {
   std::optional<double> given_tolerance;
   int max_iterations = CvtStop{}.max_iterations;
   std::optional<int> iterations;
-  std::shared_ptr<PartitionWords> partition;
+  std::shared_ptr<DelaunayWords> delaunay;
 
   std::shared_ptr<FormatWords> format;
   std::string mesh, report;

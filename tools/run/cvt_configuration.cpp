@@ -52,8 +52,8 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
   };
   text += density_configuration(*request.density);
   add("method", request.method);
-  add("duplicates", request.partition->duplicates);
-  add("merge-within", shortest(request.partition->merge_within));
+  add("duplicates", request.delaunay->duplicates);
+  add("merge-within", shortest(request.delaunay->merge_within));
   return text;
 }
 

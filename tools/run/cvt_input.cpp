@@ -157,7 +157,7 @@ CvtInput read_input(const CvtRequest& request) {
   recipe.seed = request.seed.value_or(recipe.seed);
   recipe.method =
       std::ranges::find(method_words(), request.method, &NamedValue<Method>::word)->value;
-  const DelaunayOptions merging = options_of(*request.partition);
+  const DelaunayOptions merging = options_of(*request.delaunay);
   recipe.duplicates = merging.duplicates;
   recipe.merge_within = merging.merge_within;
   if (!request.points.empty())

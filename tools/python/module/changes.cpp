@@ -102,9 +102,9 @@ void add_changes(py::module_& module) {
       .def_readwrite("tolerance", &RefineOptions::tolerance)
       .def_readwrite("gradient", &RefineOptions::gradient)
       .def_property(
-          "regions", [](const RefineOptions& options) { return options.partition.regions; },
+          "regions", [](const RefineOptions& options) { return options.decomposition.regions; },
           [](RefineOptions& options, std::optional<int> regions) {
-            options.partition.regions = regions;
+            options.decomposition.regions = regions;
           });
   py::class_<FieldMethods>(module, "FieldMethods")
       .def(py::init<>())

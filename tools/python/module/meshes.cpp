@@ -37,7 +37,7 @@ DelaunayOptions options_of(double merge_within, bool merge, std::optional<int> r
   DelaunayOptions options;
   options.merge_within = merge_within;
   options.duplicates = merge ? Duplicates::merge : Duplicates::refuse;
-  options.partition.regions = regions;
+  options.decomposition.regions = regions;
   options.progress = [](const Progress&) { // ^C reaches the thread that Python's main code runs in
     const py::gil_scoped_acquire locked;
     check_interrupt();

@@ -232,7 +232,7 @@ py::tuple run(const Recipe& recipe, const Schedule& schedule, std::optional<int>
   const ProgressCallback callback = callback_of(std::move(function), ProgressReply::stop);
   auto cells = std::make_shared<MeshFile>();
   Cvt grid = call([&] {
-    Cvt made = make_grid(schedule, {.partition = {.regions = regions}, .progress = callback});
+    Cvt made = make_grid(schedule, {.decomposition = {.regions = regions}, .progress = callback});
     if (recipe.walls.x || recipe.walls.y)
       *cells = between_walls(recipe, schedule.density, made.mesh);
     return made;

@@ -13,16 +13,16 @@
 namespace calotte::tools {
 
 /// The values of the options for regions and threads.
-struct PartitionWords {
+struct DelaunayWords {
   std::optional<int> threads, regions;
   std::string centres = "sample", sort = "halo", duplicates = "merge";
   double merge_within = 0;
 };
 
 /// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
-std::shared_ptr<PartitionWords> add_partition_options(CLI::App& command);
+std::shared_ptr<DelaunayWords> add_delaunay_options(CLI::App& command);
 
-DelaunayOptions options_of(const PartitionWords& words);
+DelaunayOptions options_of(const DelaunayWords& words);
 
 /// Runs the work with that number of threads, or with all.
 void with_threads(std::optional<int> threads, const std::function<void()>& work);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "options/partition_options.h"
+#include "options/delaunay_options.h"
 
 #include "help/help.h"
 #include "options/numbers.h"
@@ -13,8 +13,8 @@
 #include <map>
 
 namespace calotte::tools {
-std::shared_ptr<PartitionWords> add_partition_options(CLI::App& command) {
-  auto words = std::make_shared<PartitionWords>();
+std::shared_ptr<DelaunayWords> add_delaunay_options(CLI::App& command) {
+  auto words = std::make_shared<DelaunayWords>();
   const OptionGroup group(command, "Parallel");
   command.add_option("--threads", words->threads, "Number of threads, 1 to 4096; default: all")
       ->transform(whole_number(1, 4096));
@@ -46,15 +46,17 @@ std::shared_ptr<PartitionWords> add_partition_options(CLI::App& command) {
   return words;
 }
 
-DelaunayOptions options_of(const PartitionWords& words) {
-  static const std::map<std::string, Overlap> sorts{
-      {"halo", Overlap::halo}, {"distance", Overlap::distance}, {"voronoi", Overlap::voronoi}};
+DelaunayOptions options_of(const DelaunayWords& words) {
+  static const std::map<std::string, RegionOverlap> sorts{{"halo", RegionOverlap::halo},
+                                                          {"distance", RegionOverlap::distance},
+                                                          {"voronoi", RegionOverlap::voronoi}};
   DelaunayOptions options;
-  options.partition.regions = words.regions;
-  options.partition.overlap = sorts.at(words.sort);
+  options.decomposition.regions = words.regions;
+  options.decomposition.overlap = sorts.at(words.sort);
   options.duplicates = words.duplicates == "merge" ? Duplicates::merge : Duplicates::refuse;
   options.merge_within = words.merge_within;
-  options.partition.centres = words.centres == "sample" ? Centres::sample : Centres::fibonacci;
+  options.decomposition.centres =
+      words.centres == "sample" ? RegionCentres::sample : RegionCentres::fibonacci;
   return options;
 }
 
