@@ -221,6 +221,10 @@ TEST_CASE("an edge that is none of the mesh is told alone") {
   REQUIRE(found.size() == 1);
   CHECK(found[0].variable == "cellsOnEdge");
   CHECK(found[0].index == 8);
+  file.at("dcEdge", 20) *= 2;
+  file.at("edgesOnVertex", 7, 1) = 1;
+  file.write(path);
+  CHECK(deviations_of(path).size() == 3); // other rows are compared, too
 }
 
 TEST_CASE("a deviation names the variable, the place, both values and the rule") {

@@ -34,6 +34,7 @@ TEST_CASE("an edge of an open mesh may have its only cell as the second") {
   const Scratch scratch;
   const std::string path = scratch / "open.nc";
   Cut file = open_file(scratch, fibonacci_sphere(300), -0.3);
+  const Cut before = file;
   std::vector<bool> turned(file.count("nEdges"));
   for (std::size_t e = 0; e < turned.size(); ++e)
     turned[e] = e % 3 == 0 && file.at("cellsOnEdge", e, 1) == 0;
@@ -50,10 +51,14 @@ TEST_CASE("an edge of an open mesh may have its only cell as the second") {
   REQUIRE(std::ranges::count(turned, true) > 10);
   file.create(path, NC_DOUBLE, put_attributes);
   check_none(path);
-  const auto e = static_cast<std::size_t>(std::ranges::find(turned, true) - turned.begin());
-  file.at("angleEdge", e) += open_mpas::pi;
-  file.create(path, NC_DOUBLE, put_attributes);
-  CHECK(deviations_of(path).at(0).variable == "angleEdge");
+  for (const std::string name : {"angleEdge", "weightsOnEdge"}) { // those before it was turned
+    CAPTURE(name);
+    Cut spoilt = file;
+    spoilt.variables.at(name) = before.variables.at(name);
+    spoilt.create(path, NC_DOUBLE, put_attributes);
+    REQUIRE(deviations_of(path).size() == 1);
+    CHECK(deviations_of(path)[0].variable == name);
+  }
 }
 
 TEST_CASE("a variable of an open MPAS file that is spoilt alone is found") {

@@ -87,9 +87,9 @@ Fault mpas_fault(const MpasCheck& check, const std::string& variable);
 
 // ---- Checks
 
-/// Numbers the edges and vertices as the file does, and starts lists where it does. What the file
-/// does not tell, or tells wrongly, keeps its numbers, and has_edges or has_vertices is false.
-void take_numbering(const MpasNumbering& numbering, MpasCheck& check);
+/// Numbers the edges and vertices as the file does, and starts lists where it does. If it does not
+/// tell, they keep their numbers, and has_edges or has_vertices is false.
+void take_numbering(MpasNumbering&& numbering, MpasCheck& check);
 
 /// Compares each variable with the writer's; those of cells alone where the tessellation has no
 /// more.

@@ -18,6 +18,9 @@ namespace {
 bool is_comparable(const MpasCheck& check, const MpasVariable& variable) {
   if (variable.name == mpas::boundary_vertex && check.closed)
     return true; // 0, whatever the vertices are
+  if (check.closed &&
+      (variable.name == mpas::cells_on_edge || variable.name == mpas::cells_on_vertex))
+    return false; // by which numbering_of() found edges and vertices
   const bool is_list = variable.numbers == MpasNumbers::cells ||
                        variable.numbers == MpasNumbers::edges ||
                        variable.numbers == MpasNumbers::vertices;

@@ -49,7 +49,9 @@ void number_edges(const MpasNumbering& numbering, Voronoi& out) {
 }
 
 void number_vertices(const MpasNumbering& numbering, Voronoi& out) {
-  const auto turned = [&](std::int64_t v, int j) { return (numbering.vertex_start[v] + j) % 3; };
+  const auto turned = [&](std::int64_t v, int j) {
+    return (std::max<int>(numbering.vertex_start[v], 0) + j) % 3;
+  };
   reorder(numbering.vertex, turned, out.cells_on_vertex);
   reorder(numbering.vertex, turned, out.edges_on_vertex);
   rename(numbering.file_vertex, out.vertices_on_edge);
@@ -97,16 +99,28 @@ void start_lists(MpasCheck& check) {
   take_starts(mpas::cells_on_cell, of.cells_on_cell, 0, check);
 }
 
-template <class Ids> bool are_known(const Ids& ids) {
-  return ids.size() > 0 && std::all_of(ids.begin(), ids.end(), [](auto id) { return id >= 0; });
+/// Rows of a file that are none of the mesh, or come again, stand for what no row has, so that all
+/// other rows and variables are compared, too.
+/// \param of_row those of the mesh by row; \param row_of the reverse; -1: none.
+void complete(Array<std::int32_t>& of_row, Array<std::int32_t>& row_of) {
+  std::int32_t free = 0;
+  for (std::int32_t row = 0; row < of_row.size(); ++row) {
+    if (of_row[row] >= 0 && row_of[of_row[row]] == row)
+      continue;
+    while (row_of[free] >= 0)
+      ++free;
+    of_row[row] = free;
+    row_of[free] = row;
+  }
 }
 
 } // namespace
 
-void take_numbering(const MpasNumbering& numbering, MpasCheck& check) {
-  check.has_edges = are_known(numbering.edge);
-  check.has_vertices = are_known(numbering.vertex) && are_known(numbering.vertex_start) &&
-                       are_known(numbering.file_vertex);
+void take_numbering(MpasNumbering&& numbering, MpasCheck& check) {
+  complete(numbering.edge, numbering.file_edge);
+  complete(numbering.vertex, numbering.file_vertex);
+  check.has_edges = numbering.edge.size() > 0;
+  check.has_vertices = numbering.vertex.size() > 0;
   if (check.has_edges)
     number_edges(numbering, check.voronoi);
   if (check.has_vertices)
