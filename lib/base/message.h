@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <initializer_list>
 #include <iterator>
 #include <string>
@@ -16,14 +15,11 @@
 /// The text of messages.
 namespace calotte::base_detail {
 
-/// A number with six digits at most.
-inline std::string shortly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+/// A number as it was given, if nine digits hold it, else with six. So a value that misses a bound
+/// by little does not look like the bound.
+std::string shortly(double value);
 
-/// A value as messages show it: numbers that are not whole with six digits at most.
+/// A value as messages show it, see shortly().
 template <class Value> std::string shown(const Value& value) {
   if constexpr (std::integral<Value>) {
     static_assert(!std::same_as<Value, bool> && !std::same_as<Value, char>, "say it in words");

@@ -21,6 +21,8 @@ TEST_CASE("a message has its values in place") {
   CHECK(message("site {} of {}", std::int64_t{1} << 40, 7U) == "site 1099511627776 of 7");
   CHECK(message("{}{} km", -1.5, std::string("!")) == "-1.5! km");
   CHECK(message("{}, {}", 1.0 / 3, std::numeric_limits<double>::infinity()) == "0.333333, inf");
+  CHECK(message("{} is above {}", 90.000001, 90.0) == "90.000001 is above 90");
+  CHECK(message("{}, {}, {}", 10000001.0, 1e30, -0.1) == "10000001, 1e+30, -0.1");
   CHECK(message("give [{...}, {}]", "{}") == "give [{...}, {}]"); // no value is a pattern
   CHECK(message("{} {}", std::string_view("{}"), "b") == "{} b");
 }
