@@ -241,8 +241,8 @@ TEST_CASE("files of rules that are none are refused with their line") {
   CHECK(rules.refused("width = 60") ==
         ": a file of widths has one table, [cell-width]; see calotte help widths");
   CHECK(rules.refused("[cell-width]\nwidths = 60") ==
-        " line 1: a rule has one of the keys minimum, maximum, sum, blend, by-latitude, "
-        "by-distance, around, by-channel, by-depth, raster, polygons, width");
+        " line 2: a rule has one of the keys minimum, maximum, sum, blend, by-latitude, "
+        "by-distance, around, by-channel, by-depth, raster, polygons, width; this one has widths");
   CHECK(rules.refused("[cell-width]\nwidth = -60") ==
         " line 2: width is not a positive number; give one");
   CHECK(rules.refused("[cell-width]\n\nminimum = [60,\n {width = 5, over = 3}]") ==

@@ -38,7 +38,7 @@ def test_files_name_rules_as_functions_do(tmp_path):
     path = written(tmp_path, "w.toml", "[cell-width]\nnone = 1")
     with pytest.raises(calotte.Error) as caught:
         widths.rule(path)
-    keys = re.search("one of the keys (.*)", str(caught.value))[1].replace("-", "_").split(", ")
+    keys = re.search("one of the keys (.*); this one has none", str(caught.value))[1].replace("-", "_").split(", ")
     values = {"width", "raster", "polygons"}  # a rule is one of them, or a function
     of_shares = {"where", "share"}  # "within" and "share" of a file
     assert set(keys) - values == set(widths.__all__) - {"Widths", "rule"} - of_shares

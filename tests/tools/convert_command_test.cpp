@@ -460,7 +460,7 @@ TEST_CASE("cull: an ocean grid, and what became of its cells") {
 --land land.geojson --passage land.geojson | 2 | Polygon
 --land land.geojson --seed 10,10 | 2 | seed 0 is on land
 --sea-below 1 | 2 | --field
---raster global.nc | 2 | 0 variables are rasters
+--raster global.nc | 2 | no variable is a raster
 --raster-variable z --land land.geojson | 2 | --raster
 --raster-values height --land land.geojson | 2 | --raster
 --raster global.nc --raster-variable z | 2 | no variable z

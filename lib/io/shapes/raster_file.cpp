@@ -199,9 +199,12 @@ std::string only_raster(const NetcdfReader& file, bool of_plane) {
     if (file.is_numeric(name) &&
         (of_plane ? file.dimensions_of(name).size() == 2 : axes_of(file, name).has_value()))
       found.push_back(name);
-  if (found.size() != 1)
-    file.fail("{} variables are rasters of {}; name one, or give a file with one", found.size(),
-              of_plane ? "x and y" : "latitudes and longitudes");
+  const std::string axes = of_plane ? "x and y" : "latitudes and longitudes";
+  if (found.empty())
+    file.fail("no variable is a raster of {}; give a file with one", axes);
+  if (found.size() > 1)
+    file.fail("{} variables are rasters of {}: {}; name one, or give a file with one", found.size(),
+              axes, listed(found));
   return found.front();
 }
 

@@ -231,8 +231,13 @@ private:
         return known;
       keys.push_back(known.name);
     }
-    fail_at(path_, rule.source().begin.line,
-            message("a rule has one of the keys {}", listed(keys)));
+    if (rule.empty())
+      fail_at(path_, rule.source().begin.line,
+              message("a rule has one of the keys {}", listed(keys)));
+    const toml::key& other = rule.begin()->first;
+    fail_at(path_, other.source().begin.line,
+            message("a rule has one of the keys {}; this one has {}", listed(keys),
+                    std::string_view(other.str())));
   }
 
   /// Of the rules of a minimum, or of the one rule: "by-distance coast.geojson".
