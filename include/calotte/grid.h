@@ -3,20 +3,12 @@
 
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
-#include <calotte/density.h>
 #include <calotte/export.h>
-#include <calotte/mesh.h>
 #include <calotte/progress.h>
-#include <calotte/raster.h>
-#include <calotte/surface.h>
-#include <calotte/widths.h>
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <variant>
-#include <vector>
 
 /// Grids: the schedule that follows from a recipe, and its run.
 ///
@@ -41,9 +33,11 @@ Schedule plan(Recipe recipe);
 
 /// What affects a run's course, but not its result, and where it goes on.
 struct RunOptions {
-  Decomposition decomposition = {};   ///< see Decomposition
-  ProgressCallback progress = {};     ///< called after each accepted iteration
-  std::optional<CvtState> state = {}; ///< of an earlier run of the same recipe, which goes on
+  Decomposition decomposition = {}; ///< see Decomposition
+  ProgressCallback progress = {};   ///< called after each accepted iteration
+  /// Of an earlier run of the same recipe, which goes on. Its actions and its number of fixed
+  /// generators are compared; that the density and the surface are the same is the caller's care.
+  std::optional<CvtState> state = {};
 };
 
 /// A centroidal Voronoi tessellation as a recipe asks for it: plan(), the points of the start, and

@@ -186,6 +186,10 @@ void renew_actions(const Schedule& schedule, State& state) {
   require(std::ranges::equal(state.report.actions, schedule.actions, same),
           "the state is of a run with other actions; give the recipe that it was made with, or no "
           "state");
+  require(state.fixed == schedule.recipe.fixed.cols(),
+          "the state is of a run with {} fixed generators, not {}; give the recipe that it was "
+          "made with, or no state",
+          state.fixed, schedule.recipe.fixed.cols());
   state.report.actions = schedule.actions;
 }
 
@@ -247,7 +251,7 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
   }
 }
 
-Cvt cvt(Points3 start, const Schedule& schedule, const Execution& execution,
+Cvt cvt(Points3 start, const Schedule& schedule, const cvt_detail::Execution& execution,
         const CvtCallback& callback) {
   using namespace cvt_detail;
   const auto run = run_of(schedule, execution);
@@ -257,7 +261,7 @@ Cvt cvt(Points3 start, const Schedule& schedule, const Execution& execution,
   return executed(run, State::wrapped(std::move(begun.state)), std::move(begun.level), callback);
 }
 
-Cvt cvt(CvtState state, const Schedule& schedule, const Execution& execution,
+Cvt cvt(CvtState state, const Schedule& schedule, const cvt_detail::Execution& execution,
         const CvtCallback& callback) {
   using namespace cvt_detail;
   const auto run = run_of(schedule, execution);

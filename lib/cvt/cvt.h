@@ -43,13 +43,13 @@ using CvtCallback = std::function<bool(const CvtProgress&)>;
 ///         sphere, or when they leave a hemisphere empty or meet; degenerate for fewer in the
 ///         plane; invalid_argument with the index of a generator outside the surface, or for a
 ///         density that is ill-formed, negative or NaN somewhere, or zero over a whole cell.
-Cvt cvt(Points3 start, const Schedule& schedule, const Execution& execution = {},
+Cvt cvt(Points3 start, const Schedule& schedule, const cvt_detail::Execution& execution = {},
         const CvtCallback& callback = {});
 
 /// Continues from a state of a run of the same actions; the ends of their descents may be others.
 /// With the same schedule the result has the bits of an uninterrupted run.
 /// \throws Error as above; invalid_argument for an incomplete state, and for other actions.
-Cvt cvt(CvtState state, const Schedule& schedule, const Execution& execution = {},
+Cvt cvt(CvtState state, const Schedule& schedule, const cvt_detail::Execution& execution = {},
         const CvtCallback& callback = {});
 
 } // namespace calotte

@@ -6,7 +6,7 @@
 #include <calotte/cvt.h>
 #include <calotte/delaunay.h>
 
-namespace calotte {
+namespace calotte::cvt_detail {
 
 /// Quadrature of a density over a cell, see make_integrand(). No effect for a uniform one.
 struct Quadrature {
@@ -25,8 +25,6 @@ struct Execution {
   Quadrature quadrature = {};
 };
 
-namespace cvt_detail {
-
 /// How a descent goes, and where it ends.
 struct DescentOptions {
   Method method = Method::automatic;
@@ -37,5 +35,4 @@ struct DescentOptions {
   bool may_creep = false; ///< ends also where it creeps, see creeps()
 };
 
-} // namespace cvt_detail
-} // namespace calotte
+} // namespace calotte::cvt_detail

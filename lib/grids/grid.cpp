@@ -82,17 +82,26 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
 
 /// Throws, before any work, for what plan() has not made.
 void require_schedule(const Schedule& schedule) {
-  const auto good = [](const CvtAction& action) {
-    const bool ends = action.norm == Norm::none || action.kind >= CvtAction::Kind::polish ||
-                      (action.tolerance > 0 && std::isfinite(action.tolerance));
-    return ends && action.cells >= 1 && action.cells <= base_detail::most_points &&
-           action.times >= 0 && action.max_iterations >= 0;
-  };
+  using Kind = CvtAction::Kind;
   const std::vector<CvtAction>& actions = schedule.actions;
-  base_detail::require(!actions.empty() && actions.front().kind == CvtAction::Kind::start &&
-                           std::ranges::all_of(actions, good) &&
-                           schedule.recipe.stop.least_spacing >= 0,
-                       "the schedule lacks choices; give one of plan()");
+  const std::int64_t fixed = schedule.recipe.fixed.cols();
+  bool good = !actions.empty() && actions.front().kind == Kind::start &&
+              schedule.recipe.stop.least_spacing >= 0 && schedule.recipe.stop.least_spacing <= 0.95;
+  for (std::size_t k = 0; good && k < actions.size(); ++k) {
+    const CvtAction& action = actions[k];
+    const bool polishes = action.kind == Kind::polish || action.kind == Kind::raise,
+               follows =
+                   k == 0 || (action.kind != Kind::start &&
+                              action.kind >= (polishes ? actions[k - 1].kind : Kind::bisect) &&
+                              (polishes || actions[k - 1].kind < Kind::converge));
+    const bool ends = action.norm == Norm::none || polishes ||
+                      (action.tolerance > 0 && std::isfinite(action.tolerance));
+    good = follows && action.kind <= Kind::raise && action.norm <= Norm::none && ends &&
+           action.cells >= std::max<std::int64_t>(fixed, 1) &&
+           action.cells <= base_detail::most_points && action.times >= 0 &&
+           action.max_iterations >= (polishes ? 1 : 0);
+  }
+  base_detail::require(good, "the schedule lacks choices; give one of plan()");
 }
 
 CvtCallback callback_of(const ProgressCallback& progress) {
@@ -110,7 +119,7 @@ CvtCallback callback_of(const ProgressCallback& progress) {
 
 Cvt make_grid(const Schedule& schedule, RunOptions run) {
   require_schedule(schedule);
-  const Execution execution{.decomposition = run.decomposition};
+  const cvt_detail::Execution execution{.decomposition = run.decomposition};
   const CvtCallback callback = callback_of(run.progress);
   Cvt grid = run.state ? cvt(std::move(*run.state), schedule, execution, callback)
                        : cvt(generators(schedule), schedule, execution, callback);

@@ -328,15 +328,19 @@ void require_room(const Recipe& recipe, const FirstLevel& first) {
     throw Error(
         ErrorCode::too_few_sites,
         base_detail::message("there are {} generators: give at least {}", first.cells, fewest));
-  const auto cells_after = [&](int bisections) {
-    return bisected(recipe.surface, first.cells, bisections);
-  };
-  int most = 0;
-  while (most < most_bisections && cells_after(most + 1) <= most_points)
-    ++most;
-  require(first.bisections <= most, "{} bisections of {} generators are too many; give at most {}",
-          first.bisections, first.cells, most);
-  const std::int64_t cells = std::max(recipe.cells, cells_after(first.bisections));
+  std::int64_t cells = recipe.cells; // which rounds of insertion lead to
+  if (!recipe.start.insertion_rounds) {
+    const auto cells_after = [&](int bisections) {
+      return bisected(recipe.surface, first.cells, bisections);
+    };
+    int most = 0;
+    while (most < most_bisections && cells_after(most + 1) <= most_points)
+      ++most;
+    require(first.bisections <= most,
+            "{} bisections of {} generators are too many; give at most {}", first.bisections,
+            first.cells, most);
+    cells = cells_after(first.bisections);
+  }
   require(recipe.method != Method::lbfgs_laplacian || cells <= cvt_detail::most_laplacian_rows,
           "{} generators are too many for the method lbfgs_laplacian, which takes at most {}; give "
           "the method lbfgs or lloyd",

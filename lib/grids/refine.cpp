@@ -310,7 +310,7 @@ std::int64_t nowhere_as_wide(const DoubleVector& own, const DoubleVector& demand
 }
 
 /// The new sites whose cells are beyond the limits of shapes, whatever the spacing demanded.
-std::int64_t misshapen(const ChangedMesh& changed) {
+std::int64_t bad_shapes(const ChangedMesh& changed) {
   using namespace cvt_detail;
   return in_space_of(changed.mesh.surface, [&]<Space S>(const S& space) {
     const Mesh& mesh = changed.mesh;
@@ -374,7 +374,7 @@ ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
   // What the later run made better does not count against the whole.
   const bool was_bad = std::ranges::any_of(
       first.patches, [](const ChangedPatch& patch) { return !patch.report.well_centred; });
-  const bool is_good = was_bad && misshapen(out) == 0;
+  const bool is_good = was_bad && bad_shapes(out) == 0;
   for (ChangedPatch& patch : first.patches) {
     if (is_good) {
       patch.report.well_centred = true;

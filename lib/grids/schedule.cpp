@@ -65,7 +65,7 @@ std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first)
   }
   if (rounds > 0)
     add(Kind::converge, end, cells);
-  if (*stop.well_centred) {
+  if (*stop.well_centred && end.max_iterations > 0) { // which begins where a descent ended
     const CvtAction polish{.norm = end.norm, .max_iterations = course::polish_iterations};
     add(Kind::polish, polish, cells);
     add(Kind::raise, polish, cells, course::most_raised);

@@ -120,7 +120,7 @@ TEST_CASE("a run continues from any of its states to the same bits") {
     const Cvt whole = make_grid(recipe, {.progress = keep});
     CHECK(whole.mesh.points.cols() == 4 * 300 - 6);
     if (method != Method::lloyd) // smaller than before
-      CHECK(whole.report.iterations.back().rule == Quadrature().final_rule);
+      CHECK(whole.report.iterations.back().rule == cvt_detail::Quadrature().final_rule);
     for (std::size_t k = 0; k < states.size(); k += test::sanitized ? 27 : 9) {
       const Cvt rest = make_grid(recipe, {.state = states[k]});
       CAPTURE(k);
@@ -308,7 +308,7 @@ TEST_CASE("x8: the default rule's centroids are right to 1e-8 of the spacing [sl
   const double h = std::sqrt(4 * pi / 10242);
   CHECK(grid.mesh.points.cols() == 10242);
   CHECK(grid.report.converged);
-  const Moments rule = mesh_moments(grid.mesh, x8(), Quadrature().final_rule);
+  const Moments rule = mesh_moments(grid.mesh, x8(), cvt_detail::Quadrature().final_rule);
   const Moments exact = mesh_moments(grid.mesh, x8(), 6, 8);
   double squares = 0;
   for (std::int64_t i = 0; i < 10242; ++i) {
@@ -410,7 +410,7 @@ TEST_CASE("bad input is refused in one line") {
 
 TEST_CASE("a schedule that plan() has not made is refused") {
   const Recipe recipe{.cells = 50};
-  std::vector<Schedule> bad(9, plan(recipe));
+  std::vector<Schedule> bad(16, plan(recipe));
   bad[0].actions = {};
   bad[1].actions[0].tolerance = -1;
   bad[2].actions[0].tolerance = 0;
@@ -420,6 +420,14 @@ TEST_CASE("a schedule that plan() has not made is refused") {
   bad[6].actions[0].times = -1;
   bad[7].actions[0].max_iterations = -1;
   bad[8] = {};
+  bad[9].actions.push_back(bad[9].actions[0]); // starts twice
+  bad[10].actions[0].norm = static_cast<Norm>(99);
+  bad[11].actions.push_back({.kind = static_cast<CvtAction::Kind>(99), .cells = 50});
+  for (const CvtAction::Kind kind : {CvtAction::Kind::polish, CvtAction::Kind::insert})
+    bad[12].actions.push_back({.kind = kind, .cells = 50, .tolerance = 1, .max_iterations = 9});
+  bad[13].recipe.stop.least_spacing = 5;
+  bad[14].recipe.fixed = fibonacci_sphere(51);
+  bad[15].actions.push_back({.kind = CvtAction::Kind::polish, .cells = 50}); // of no evaluation
   CvtState state;
   const auto keep = [&](const Progress& now) {
     state = now.run->state;
@@ -432,4 +440,19 @@ TEST_CASE("a schedule that plan() has not made is refused") {
       CHECK(refusal_of([&] { make_grid(schedule, {.state = from}); }) ==
             "the schedule lacks choices; give one of plan()");
   }
+  Schedule fixing = plan(recipe);
+  fixing.recipe.fixed = fibonacci_sphere(3);
+  CHECK(refusal_of([&] {
+          make_grid(fixing, {.state = state});
+        }).starts_with("the state is of a run with 0 fixed generators, not 3"));
+}
+
+TEST_CASE("a run of no evaluation keeps the start, also where a polish is asked for") {
+  const Cvt grid = make_grid({.resolution = x8(),
+                              .start = {.points = random_sphere(300, x8())},
+                              .stop = {.max_iterations = 0, .well_centred = true}});
+  CHECK(grid.mesh.points.cols() == 300);
+  CHECK(grid.report.iterations.empty());
+  CHECK_FALSE(grid.report.well_centred);
+  CHECK_FALSE(grid.report.converged);
 }

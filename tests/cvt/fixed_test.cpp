@@ -49,7 +49,8 @@ Points3 centroids(const Points3& points, const Recipe& recipe) {
                               .start = {.points = points},
                               .stop = {.iterations = 1},
                               .method = Method::lloyd});
-  return cvt(points, once, {.quadrature = {.rule = Quadrature().final_rule}}).mesh.points;
+  return cvt(points, once, {.quadrature = {.rule = cvt_detail::Quadrature().final_rule}})
+      .mesh.points;
 }
 
 /// The fixed generators keep their bits; the others are centroids within the tolerance of the run.

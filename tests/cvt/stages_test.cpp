@@ -141,7 +141,7 @@ TEST_CASE("stages: in each descent every accepted step lowers the energy") {
   int descents = 0, steps = 0;
   double before = 0;
   std::tuple<int, int, int, int> rule_and_stage;
-  const Execution execution{.quadrature = {.divisions = 2}};
+  const cvt_detail::Execution execution{.quadrature = {.divisions = 2}};
   cvt(random_start(190, x8()), plan(graded(3000, x8())), execution, [&](const CvtProgress& now) {
     const CvtIteration& here = now.report.iterations.back();
     const cvt_detail::State& state = cvt_detail::State::of(now.state);

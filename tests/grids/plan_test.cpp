@@ -257,6 +257,14 @@ TEST_CASE("plan: recipes that do not fit together are refused, with the remedy")
   CHECK(has(message_of(recipe), "alpha"));
 }
 
+TEST_CASE("plan: rounds of insertion lead to any number of cells") {
+  for (const std::int64_t cells : {std::int64_t{1'073'000'000}, std::int64_t{1} << 30}) {
+    Recipe recipe = with(CvtStart::Kind::multilevel, cells);
+    recipe.resolution = test::x8();
+    CHECK(plan(recipe).actions.back().cells == cells);
+  }
+}
+
 TEST_CASE("plan: values out of range are refused before any work") {
   const auto refused = [](const auto& change, const std::string& words) {
     Recipe recipe = with(CvtStart::Kind::automatic, 100);
