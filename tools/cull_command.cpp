@@ -255,7 +255,7 @@ void add_sea(CLI::App& command, CullRequest& request) {
 
 void add_cull(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "cull", "Makes an ocean grid: leaves the cells of land out of a global MPAS file.");
+      "cull", "Makes an ocean grid: removes the land cells from a global MPAS file.");
   auto request = std::make_shared<CullRequest>();
   add_global(*command, request->source);
   add_land(*command, *request);

@@ -155,7 +155,7 @@ struct CullReport {
   std::vector<std::string> left_out; ///< variables, as CutReport::left_out
 };
 
-/// Leaves the cells of land out of an MPAS file of the sphere, see sea_cells(), and carries all
+/// Removes the land cells from an MPAS file of the sphere, see sea_cells(), and carries all
 /// fields along, as cut() does. The new file holds the sea's cells, with every edge and vertex that
 /// touches one, in the order of the source. As MPAS-Tools leaves them:
 ///

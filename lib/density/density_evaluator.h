@@ -27,7 +27,8 @@ struct Profile {
   double beta, slope, height, gamma; ///< slope -2/(alpha ln(2))
 };
 
-/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of Bump.
+/// rho = gamma + 1 / ((1 - gamma) (1 + exp(-2 (beta - d)/alpha))), which is the tanh of
+/// DensityBump.
 CALOTTE_INLINE double value_at(const Profile& bump, double distance) {
   return bump.gamma + bump.height * logistic((bump.beta - distance) * bump.slope);
 }

@@ -31,7 +31,7 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 /// Tolerance for angles that are exactly 0 or 90 degrees in lattices.
 inline constexpr double rounding_of_lattices = 1e-9;
 
-/// An accumulator for a Range.
+/// An accumulator for a ValueRange.
 struct Tally {
   double min = std::numeric_limits<double>::infinity(), max = -min, sum = 0;
   std::int64_t count = 0;

@@ -37,9 +37,8 @@ std::string stopping_rule(const CvtRequest& request, const CvtStop& stop) {
     return "iterations " + std::to_string(*stop.iterations) + "\n";
   const std::string spacing =
       request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "";
-  return "norm " + request.norm + "\nstop " + (*stop.well_centred ? "well-centred" : "tolerance") +
-         spacing + "\ntolerance " + shortest(*stop.tolerance) + "\nmax-iterations " +
-         std::to_string(stop.max_iterations) + "\n";
+  return "norm " + request.norm + spacing + "\ntolerance " + shortest(*stop.tolerance) +
+         "\nmax-iterations " + std::to_string(stop.max_iterations) + "\n";
 }
 
 } // namespace
@@ -52,6 +51,8 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
   };
   text += density_configuration(*request.density);
   add("method", request.method);
+  if (const CvtStop& stop = schedule.recipe.stop; !stop.iterations)
+    add("stop", *stop.well_centred ? "well-centred" : "tolerance");
   add("duplicates", request.delaunay->duplicates);
   add("merge-within", shortest(request.delaunay->merge_within));
   return text;

@@ -196,7 +196,7 @@ void merge_values(const Mesh& mesh, MeshFile& file) {
       select_values(field, lowest);
 }
 
-MeshFile rest_of(const std::string& format, RawMesh& raw) {
+MeshFile mesh_file_without_mesh(const std::string& format, RawMesh& raw) {
   MeshFile file;
   file.format = format;
   file.has_cells = raw.has_cells || raw.polygons.size() > 0;
@@ -288,7 +288,7 @@ double radius_of(const Points3& points) {
 
 MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
   require_points(name, raw);
-  MeshFile file = rest_of(format, raw);
+  MeshFile file = mesh_file_without_mesh(format, raw);
   const bool sphere = raw.surface.is_sphere(), has_cells = raw.polygons.size() > 0,
              has_triangles = raw.triangles.cols() > 0 || !raw.surface.period().isZero(0);
   if (has_cells)

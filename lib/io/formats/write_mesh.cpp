@@ -39,7 +39,7 @@ Numbering numbering_of(const WriteOptions& options) {
   return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
 }
 
-ProgressCallback rest_of(const ProgressCallback& progress, double from) {
+ProgressCallback progress_from(const ProgressCallback& progress, double from) {
   if (!progress)
     return {};
   return [&progress, from](const Progress& part) {
@@ -106,7 +106,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
   const Numbering numbering = numbering_of(resolved);
   const bool stays = numbering == Numbering::input ||
                      (numbering == Numbering::curve && is_in_curve_order(mesh.mesh));
-  resolved.progress = rest_of(options.progress, stays ? 0 : numbered);
+  resolved.progress = progress_from(options.progress, stays ? 0 : numbered);
   const FormatRow& format = row_of(resolved.format);
   if (stays) {
     format.write_mesh(path, mesh, resolved);
@@ -152,7 +152,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   require_values(path, sizes_of(mesh), resolved);
   if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
-  resolved.progress = rest_of(options.progress, 0);
+  resolved.progress = progress_from(options.progress, 0);
   if (surface.is_bounded() && info_of(resolved.format).cells) {
     std::erase_if(resolved.fields,
                   [](const MeshField& field) { return field.location != FieldLocation::cells; });

@@ -29,6 +29,6 @@ void put_file(const std::string& path, const WriteOptions& options, std::int64_t
 }
 
 /// A caller's callback for the part of a run from one fraction on.
-ProgressCallback rest_of(const ProgressCallback& progress, double from);
+ProgressCallback progress_from(const ProgressCallback& progress, double from);
 
 } // namespace calotte::io_detail

@@ -1284,7 +1284,7 @@ def cull(source: Path, target: Path, *, land: Path | Sequence[Path] | None = Non
          barriers: Path | Sequence[Path] | None = None, fill: bool = True, seeds: ArrayLike = (),
          mask: Path | None = None, cell_map: Path | None = None,
          sphere_radius: float | None = None, model: str | None = None) -> dict[str, Any]:
-    """Leaves the cells of land out of an MPAS file; all fields go along. Returns a dict of counts.
+    """Removes the land cells from an MPAS file; all fields go along. Returns a dict of counts.
 
     land: GeoJSON of land, or a binned file of GSHHG; one or several. coast: an older name of it.
     raster: a NetCDF raster of latitudes and longitudes, whose raster_values are "height" (below 0 is
