@@ -80,20 +80,20 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   return std::max(away, std::abs(outer - schedule.on_boundary));
 }
 
-/// Throws, before any work, for what plan() has not made.
+/// Throws, before any work, for what plan() has not made: actions in another order than in
+/// cvt/stages.h, or a value out of range.
 void require_schedule(const Schedule& schedule) {
   using Kind = CvtAction::Kind;
-  const std::vector<CvtAction>& actions = schedule.actions;
+  const std::vector<CvtAction>& all = schedule.actions;
   const std::int64_t fixed = schedule.recipe.fixed.cols();
-  bool good = !actions.empty() && actions.front().kind == Kind::start &&
+  bool good = !all.empty() && all.front().kind == Kind::start &&
               schedule.recipe.stop.least_spacing >= 0 && schedule.recipe.stop.least_spacing <= 0.95;
-  for (std::size_t k = 0; good && k < actions.size(); ++k) {
-    const CvtAction& action = actions[k];
+  for (std::size_t k = 0; good && k < all.size(); ++k) {
+    const CvtAction& action = all[k];
     const bool polishes = action.kind == Kind::polish || action.kind == Kind::raise,
-               follows =
-                   k == 0 || (action.kind != Kind::start &&
-                              action.kind >= (polishes ? actions[k - 1].kind : Kind::bisect) &&
-                              (polishes || actions[k - 1].kind < Kind::converge));
+               follows = k == 0 || (action.kind != Kind::start &&
+                                    action.kind >= (polishes ? all[k - 1].kind : Kind::bisect) &&
+                                    (polishes || all[k - 1].kind < Kind::converge));
     const bool ends = action.norm == Norm::none || polishes ||
                       (action.tolerance > 0 && std::isfinite(action.tolerance));
     good = follows && action.kind <= Kind::raise && action.norm <= Norm::none && ends &&
