@@ -221,12 +221,11 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
       inner_mesh(mesh_of_run(state, recipe.surface, std::move(ending.mesh)), recipe.boundary);
   if (!state.site_of_input.empty())
     result.mesh.site_of_input = std::move(state.site_of_input);
+  const bool polishes = has(state, CvtAction::Kind::polish);
   result.report = std::move(state.report);
   CvtReport& report = result.report;
   if (!next) // the others were left out
     report.done.resize(report.actions.size());
-  const bool polishes =
-      std::ranges::count(report.actions, CvtAction::Kind::polish, &CvtAction::kind) > 0;
   report.well_centred = !next && state.in_polish() && report.converged;
   report.converged = !next && (polishes ? state.polish.descended : report.converged);
   report.seconds = before + lap(mark);

@@ -28,6 +28,9 @@ struct ShapeLimits {
 };
 inline constexpr ShapeLimits shape_limits;
 
+/// Whether a run may have it as its CvtStop::least_spacing.
+inline bool is_least_spacing(double spacing) { return spacing >= 0 && spacing <= 0.95; }
+
 // How far beyond its limit the worst cotangent or ratio may be:
 inline constexpr double polished_excess = 0.02;  ///< where a polish ends
 inline constexpr double accepted_excess = 0.03;  ///< in a well-centred mesh

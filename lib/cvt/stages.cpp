@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace calotte::cvt_detail {
@@ -70,12 +71,34 @@ bool is_due(const State& state, const Cursor& cursor) {
          last_accepted(state).shape_excess < reachable_excess;
 }
 
-bool has(const State& state, Kind kind) {
-  return std::ranges::find(state.report.actions, kind, &CvtAction::kind) !=
-         state.report.actions.end();
+bool inserts(const State& state) { return has(state, Kind::insert); }
+
+/// See stages.h. \param before of the action before; none of the first.
+bool may_follow(std::optional<Kind> before, Kind kind) {
+  switch (kind) {
+  case Kind::start:
+    return !before;
+  case Kind::bisect:
+  case Kind::insert:
+    return before && *before <= Kind::insert;
+  case Kind::converge:
+    return before == Kind::insert;
+  case Kind::polish:
+    return before && *before <= Kind::converge;
+  case Kind::raise:
+    return before && *before >= Kind::polish;
+  }
+  return false;
 }
 
-bool inserts(const State& state) { return has(state, Kind::insert); }
+bool has_good_values(const CvtAction& action, std::int64_t fixed) {
+  const bool polishes = action.kind >= Kind::polish;
+  return (action.norm == Norm::none || polishes ||
+          (action.tolerance > 0 && std::isfinite(action.tolerance))) &&
+         action.norm <= Norm::none && action.cells >= std::max<std::int64_t>(fixed, 1) &&
+         action.cells <= most_points && action.times >= 0 &&
+         action.max_iterations >= (polishes ? 1 : 0);
+}
 
 /// One time more of the action at the cursor.
 void count_action(State& state) {
@@ -145,6 +168,20 @@ bool is_resolved(const State& state, const Surface& surface, const Density& dens
 }
 
 } // namespace
+
+bool are_actions(const std::vector<CvtAction>& actions, std::int64_t fixed) {
+  std::optional<Kind> before;
+  for (const CvtAction& action : actions)
+    if (!may_follow(std::exchange(before, action.kind), action.kind) ||
+        !has_good_values(action, fixed))
+      return false;
+  return !actions.empty();
+}
+
+bool has(const State& state, Kind kind) {
+  return std::ranges::find(state.report.actions, kind, &CvtAction::kind) !=
+         state.report.actions.end();
+}
 
 const CvtIteration& last_accepted(const State& state) {
   const std::vector<CvtIteration>& all = state.report.iterations;

@@ -26,6 +26,13 @@
 /// polish.h.
 namespace calotte::cvt_detail {
 
+/// Whether the actions are in that order, and the values of each are within their range.
+/// \param fixed number of generators that stay.
+bool are_actions(const std::vector<CvtAction>& actions, std::int64_t fixed);
+
+/// Whether a state's run has an action of a kind.
+bool has(const State& state, CvtAction::Kind kind);
+
 /// The last evaluation of the run that was accepted. \pre there is one.
 const CvtIteration& last_accepted(const State& state);
 

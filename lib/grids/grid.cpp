@@ -3,12 +3,13 @@
 
 #include "base/require.h"
 #include "cvt/cvt.h"
+#include "cvt/shape.h"
+#include "cvt/stages.h"
 #include "domain/surface.h"
 #include "grids/start.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -80,28 +81,12 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   return std::max(away, std::abs(outer - schedule.on_boundary));
 }
 
-/// Throws, before any work, for what plan() has not made: actions in another order than in
-/// cvt/stages.h, or a value out of range.
+/// Throws, before any work, for what plan() has not made.
 void require_schedule(const Schedule& schedule) {
-  using Kind = CvtAction::Kind;
-  const std::vector<CvtAction>& all = schedule.actions;
-  const std::int64_t fixed = schedule.recipe.fixed.cols();
-  bool good = !all.empty() && all.front().kind == Kind::start &&
-              schedule.recipe.stop.least_spacing >= 0 && schedule.recipe.stop.least_spacing <= 0.95;
-  for (std::size_t k = 0; good && k < all.size(); ++k) {
-    const CvtAction& action = all[k];
-    const bool polishes = action.kind == Kind::polish || action.kind == Kind::raise,
-               follows = k == 0 || (action.kind != Kind::start &&
-                                    action.kind >= (polishes ? all[k - 1].kind : Kind::bisect) &&
-                                    (polishes || all[k - 1].kind < Kind::converge));
-    const bool ends = action.norm == Norm::none || polishes ||
-                      (action.tolerance > 0 && std::isfinite(action.tolerance));
-    good = follows && action.kind <= Kind::raise && action.norm <= Norm::none && ends &&
-           action.cells >= std::max<std::int64_t>(fixed, 1) &&
-           action.cells <= base_detail::most_points && action.times >= 0 &&
-           action.max_iterations >= (polishes ? 1 : 0);
-  }
-  base_detail::require(good, "the schedule lacks choices; give one of plan()");
+  const Recipe& recipe = schedule.recipe;
+  base_detail::require(cvt_detail::are_actions(schedule.actions, recipe.fixed.cols()) &&
+                           cvt_detail::is_least_spacing(recipe.stop.least_spacing),
+                       "the schedule lacks choices; give one of plan()");
 }
 
 CvtCallback callback_of(const ProgressCallback& progress) {

@@ -3,6 +3,7 @@
 #include "base/require.h"
 #include "cvt/laplacian.h"
 #include "cvt/levels.h"
+#include "cvt/shape.h"
 #include "domain/surface.h"
 #include "generators/boundary.h"
 #include "grids/schedule.h"
@@ -61,7 +62,7 @@ void require_values(const Recipe& recipe) {
           "the tolerance is {}; give a positive number such as 1e-6", tolerance);
   require(stop.max_iterations >= 0, "the number of iterations is {}; give 0 or more",
           stop.max_iterations);
-  require(stop.least_spacing >= 0 && stop.least_spacing <= 0.95,
+  require(cvt_detail::is_least_spacing(stop.least_spacing),
           "least_spacing is {}; give a share of the demanded spacing, 0 to 0.95",
           stop.least_spacing);
 }
@@ -69,11 +70,13 @@ void require_values(const Recipe& recipe) {
 /// \throws Error with the index of a fixed generator that is no point of the surface's kind.
 void require_fixed_points(const Recipe& recipe) {
   for (Eigen::Index i = 0; i < recipe.fixed.cols(); ++i) {
-    const std::string name = base_detail::message("fixed generator {}", i);
     if (!recipe.fixed.col(i).allFinite())
-      throw Error(ErrorCode::not_finite, name + " is not finite; give finite coordinates", i);
+      throw Error(
+          ErrorCode::not_finite,
+          base_detail::message("fixed generator {} is not finite; give finite coordinates", i), i);
     if (recipe.surface.is_sphere() && recipe.fixed.col(i).isZero(0))
-      throw Error(ErrorCode::zero_vector, name + " is 0 0 0; give a direction", i);
+      throw Error(ErrorCode::zero_vector,
+                  base_detail::message("fixed generator {} is 0 0 0; give a direction", i), i);
   }
 }
 
