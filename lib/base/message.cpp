@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/message.h"
 
-#include <cstdio>
-#include <cstdlib>
+#include <charconv>
 
 namespace calotte::base_detail {
 
 std::string shortly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  if (std::strtod(text, nullptr) != value)
-    std::snprintf(text, sizeof text, "%g", value);
-  return text;
+  const auto with = [value](int digits) {
+    char text[32]; // to_chars() is the same in any locale
+    const auto end =
+        std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+    return std::string(text, end.ptr);
+  };
+  const std::string nine = with(9);
+  double read = 0;
+  std::from_chars(nine.data(), nine.data() + nine.size(), read);
+  return read == value ? nine : with(6);
 }
 
 std::string filled(std::string_view pattern, std::initializer_list<std::string> texts) {

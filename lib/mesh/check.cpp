@@ -135,7 +135,7 @@ struct OnSphere : mesh_detail::Faces {
   static std::string area_failure(const Area& area, const CheckReport& result) {
     if (result.boundary_edges > 0 || std::abs(result.expected_area - area.value) <= 2 * area.error)
       return {};
-    return message("the areas sum to {} instead of 4 pi", std::to_string(area.value));
+    return message("the areas sum to {} instead of 4 pi", area.value);
   }
 };
 

@@ -205,8 +205,7 @@ struct InPlane : mesh_detail::Faces {
     if (std::abs(all.value - area.value) <= 2 * (area.error + all.error))
       return {};
     const char* const covered = is_box() ? "periodic box" : periodic() ? "channel" : "hull";
-    return message("the areas sum to {} of the area of the {}",
-                   std::to_string(area.value / all.value), covered);
+    return message("the areas sum to {} of the area of the {}", area.value / all.value, covered);
   }
 };
 

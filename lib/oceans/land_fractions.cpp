@@ -281,7 +281,7 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
   require(beyond <= 1e-6,
           "the land covers cell {} {} times, as its polygons overlap or cross themselves; give "
           "polygons that do not",
-          cell, std::to_string(fractions[cell]));
+          cell, fractions[cell]);
   return fractions.cwiseMax(0).cwiseMin(1);
 }
 

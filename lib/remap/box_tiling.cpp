@@ -26,7 +26,7 @@ constexpr double slack =
 constexpr double widest = 180; ///< degrees, of a box; excluded
 
 std::string named_value(const std::string& name, Eigen::Index i, double value) {
-  return message("{}[{}] = {}", name, i, std::to_string(value));
+  return message("{}[{}] = {}", name, i, value);
 }
 
 /// \param sign 1 for values that ascend, -1 if they descend.
@@ -36,7 +36,7 @@ void require_order(const DoubleVector& values, const std::string& name, double s
       refuse(named_value(name, i, values[i]) + " is not finite; correct it");
     if (i > 0 && !(sign * values[i] > sign * values[i - 1]))
       refuse(message("{} does not follow {}; sort the raster along it",
-                     named_value(name, i, values[i]), std::to_string(values[i - 1])));
+                     named_value(name, i, values[i]), values[i - 1]));
   }
 }
 
@@ -71,7 +71,7 @@ DoubleVector meridians_around(const DoubleVector& nodes) {
   const double gap = nodes[0] + 360 - nodes[n - 1];
   const double rounding = 0.01 * step;
   require(gap > -rounding, "the longitudes of a raster span {} degrees; give at most 360",
-          std::to_string(nodes[n - 1] - nodes[0]));
+          nodes[n - 1] - nodes[0]);
   if (gap < rounding) { // the first meridian is repeated, up to the rounding of floats
     sides[0] = nodes[0];
     sides[n] = nodes[0] + 360;
@@ -234,11 +234,10 @@ void require_boxes(const LonLatBoxes& boxes) {
   require_latitudes(parallels, "parallel");
   require(meridians[columns] - meridians[0] <= 360 + slack,
           "the meridians of a raster span {} degrees; give at most 360",
-          std::to_string(meridians[columns] - meridians[0]));
+          meridians[columns] - meridians[0]);
   for (Eigen::Index i = 0; i < columns; ++i)
     if (const double width = meridians[i + 1] - meridians[i]; !(width < widest))
-      refuse(message("box {} of a raster is {} degrees wide; give boxes below 180", i,
-                     std::to_string(width)));
+      refuse(message("box {} of a raster is {} degrees wide; give boxes below 180", i, width));
   require_order(boxes.longitudes, "longitude", 1);
   require_latitudes(boxes.latitudes, "latitude");
 }

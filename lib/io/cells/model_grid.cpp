@@ -178,7 +178,7 @@ LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats 
     if (!std::isfinite(places.longitudes[i]) || !(std::abs(latitude) <= pole))
       file.fail("{} hold no place on the sphere at index {} (0-based): longitude {}, latitude {} "
                 "degrees; make the file again",
-                variables, i, std::to_string(places.longitudes[i]), std::to_string(latitude));
+                variables, i, places.longitudes[i], latitude);
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
   return places;

@@ -285,8 +285,7 @@ PolygonFault overlap_in(const Polygons& polygons) {
   constexpr double whole = 4 * std::numbers::pi, rounding = 1e-6;
   const double area = areas_of(polygons).sum();
   if (area > whole * (1 + rounding))
-    return {message("the cells overlap: their areas sum to {} times the sphere's",
-                    std::to_string(area / whole))};
+    return {message("the cells overlap: their areas sum to {} times the sphere's", area / whole)};
   return {};
 }
 

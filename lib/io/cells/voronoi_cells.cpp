@@ -140,14 +140,14 @@ std::string NotVoronoi::text() const {
     return message(
         "a corner of cell {} is {} mean cell widths away from that of the Voronoi cell of "
         "its centre",
-        cells[0], std::to_string(distance));
+        cells[0], distance);
   case CellFault::not_circumcentres:
     return "they are a part of the sphere, and their corners are not the circumcentres of three "
            "centres each";
   case CellFault::common_corner:
     return message("the common corner of cells {}, {} and {} is {} cell widths away from the "
                    "circumcentre of their centres",
-                   cells[0], cells[1], cells[2], std::to_string(distance));
+                   cells[0], cells[1], cells[2], distance);
   case CellFault::no_triangulation:
   case CellFault::no_tessellation:
     break;

@@ -42,12 +42,12 @@ void require_depths(const std::string& path, const WriteOptions& options, std::i
       refuse_path(path,
                   "level {} of the depths is {} m; each lies deeper than the one before, and none "
                   "deeper than 11000 m",
-                  k, std::to_string(options.depth_levels[k]));
+                  k, options.depth_levels[k]);
   require_size(path, "the depth of the bottom", options.site_depth.size(), sites);
   for (Eigen::Index i = 0; i < options.site_depth.size(); ++i)
     if (!(std::abs(options.site_depth[i]) <= deepest))
       refuse_path(path, "the bottom is {} m deep at site {}; give metres, at most 11000",
-                  std::to_string(options.site_depth[i]), i);
+                  options.site_depth[i], i);
 }
 
 void require_dimensions(const std::string& path, const MeshField& field) {

@@ -37,9 +37,11 @@ void compare(Entry entry, const Closeness& within, Differences& out) {
     return out.note(entry.at, entry.stored, entry.derived, 1);
   if (!std::isfinite(entry.stored))
     return out.note(entry.at, entry.stored, entry.derived, std::numeric_limits<double>::infinity());
-  if (const double turns = std::round((entry.stored - entry.derived) / within.period);
-      within.period > 0 && std::abs(turns) <= 2) // others are no longitudes that anyone writes
-    entry.derived += within.period * turns;
+  if (within.period > 0) {
+    const double turns = std::round((entry.stored - entry.derived) / within.period);
+    if (std::abs(turns) <= 2) // with more, it is no longitude that anyone writes
+      entry.derived += within.period * turns;
+  }
   out.compare(entry.at, entry.stored, entry.derived, within.scale, within.tolerance);
 }
 

@@ -43,7 +43,7 @@ double radius_of(const NetcdfReader& file) {
     file.fail(
         "the first cell is {} from the centre of the sphere, but the attribute sphere_radius is "
         "{}; correct it",
-        std::to_string(norm), std::to_string(radius));
+        norm, radius);
   return radius;
 }
 

@@ -252,7 +252,7 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
     const double latitude = file.points(1, i) * degrees;
     if (std::abs(latitude) > 90.001)
       fail_file(name, i, "latitude {} of point {} is not an angle in radians from -pi/2 to pi/2",
-                std::to_string(file.points(1, i)), i);
+                file.points(1, i), i);
     const Vec3 p = from_lonlat(file.points(0, i) * degrees, std::clamp(latitude, -90.0, 90.0));
     points.col(i) << p.x, p.y, p.z;
   }

@@ -128,7 +128,7 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
         network.neighbours[static_cast<std::size_t>(chain.front())] != 2)
       fail_file(path,
                 "rings of edges touch at the point {} {}; let each ring have corners of its own",
-                std::to_string(line(0, 0)), std::to_string(line(1, 0)));
+                line(0, 0), line(1, 0));
     rings.emplace_back(line.topLeftCorner(2, line.cols() - 1));
   }
   if (rings.empty())
