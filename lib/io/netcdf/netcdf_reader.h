@@ -20,9 +20,13 @@ namespace calotte::io_detail {
 std::string in_words(const std::vector<std::int64_t>& shape);
 
 /// An open NetCDF file of any kind. The header is read once; what it says needs no lock. Threads
-/// may read values at once: those of a classic file from the file itself, which the C library would
-/// read one after another; those of HDF5 through the C library. Names are the file's; messages name
-/// path and variable. Every method \throws Error parse, file.
+/// may read values at once: those of a classic file from the file itself, those of HDF5 through the
+/// C library. Names are the file's; messages name path and variable. Every method \throws Error
+/// parse, file.
+///
+/// Through the C library, which reads one variable after another, `calotte check` of an MPAS file
+/// of 655 362 cells takes 1.18 times as long, `info` 1.10, `convert` 1.03 (two cores, medians of
+/// three interleaved runs).
 ///
 ///     const NetcdfReader file("mesh.nc");
 ///     const std::int64_t n = file.dimension("nCells");
