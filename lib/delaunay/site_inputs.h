@@ -73,10 +73,12 @@ struct Places {
     return {std::clamp(q.x, -1.0, 1.0), std::clamp(q.y, -1.0, 1.0), 0};
   }
   double distance(double within) const { return within * frame.scale / frame.half; }
-  /// Halved, so that differences do not overflow.
+  /// Halved, so that differences do not overflow, and in units of `within`, so that squares do not
+  /// vanish.
   bool are_within(std::int64_t i, std::int64_t j, double within) const {
-    return std::hypot(points(0, i) / 2 - points(0, j) / 2, points(1, i) / 2 - points(1, j) / 2) <
-           within / 2;
+    const double dx = (points(0, i) / 2 - points(0, j) / 2) / (within / 2),
+                 dy = (points(1, i) / 2 - points(1, j) / 2) / (within / 2);
+    return dx * dx + dy * dy < 1;
   }
 };
 

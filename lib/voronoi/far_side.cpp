@@ -195,7 +195,8 @@ void measure_far(const Mesh& hull, std::int64_t triangle, Voronoi& out) {
                &q = corner[static_cast<std::size_t>(next_vertex(v))],
                &r = corner[static_cast<std::size_t>(previous_vertex(v))];
     const double length = norm(r - q), sine = length * dot(q - p, r - p);
-    const double rise = length / (2 + norm(q + r)) * (std::hypot(sine, height) + height);
+    const double rise =
+        length / (2 + norm(q + r)) * (std::sqrt(sine * sine + height * height) + height);
     half[static_cast<std::size_t>(v)] =
         2 * (is_far(hull, hull.neighbours(v, triangle)) ? std::atan2(-sine, rise)
                                                         : std::atan2(rise, sine));

@@ -23,7 +23,7 @@ struct TurnedPlace {
 
 using TurnedRing = std::vector<TurnedPlace>;
 
-bool at_pole(const Vec3& p) { return std::hypot(p.x, p.y) < 1e-12 * std::abs(p.z); }
+bool at_pole(const Vec3& p) { return norm(Vec3{p.x, p.y, 0}) < 1e-12 * std::abs(p.z); }
 
 /// Longitudes that continue beyond 180 degrees, along the ring from its first place back to it.
 class Unrolled {

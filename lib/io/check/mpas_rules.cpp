@@ -89,8 +89,8 @@ double circumradius(const Voronoi& voronoi, std::int64_t v) {
   const auto nearest = [](double way, double period) {
     return period > 0 ? std::remainder(way, period) : way;
   };
-  return std::hypot(nearest(apart.x, voronoi.surface.period()[0]),
-                    nearest(apart.y, voronoi.surface.period()[1]));
+  return norm(Vec3{nearest(apart.x, voronoi.surface.period()[0]),
+                   nearest(apart.y, voronoi.surface.period()[1]), 0});
 }
 
 /// \param reach of a row: the scale of its place's error.
@@ -104,7 +104,7 @@ void add_places(const MpasCheck& check, const MpasKind& kind, const Points3& poi
                of_longitude = exact + turn * check.rounding(kind.longitude());
   rules[kind.latitude()] = rule([=](const Entry&) { return Closeness{1, of_latitude}; });
   rules[kind.longitude()] = rule([=, &points](const Entry& entry) {
-    const double across = std::hypot(points(0, entry.row), points(1, entry.row));
+    const double across = norm(Vec3{points(0, entry.row), points(1, entry.row), 0});
     return Closeness{1, of_longitude / across, turn}; // any at a pole
   });
   for (int k = 0; k < 3; ++k) {
@@ -126,7 +126,8 @@ MpasRule angle_rule(const MpasCheck& check) {
       [&check, digits](Entry& entry) {
         const Voronoi& voronoi = check.voronoi;
         entry.derived += check.is_flipped(entry.row) ? std::numbers::pi : 0;
-        const double across = std::hypot(voronoi.edges(0, entry.row), voronoi.edges(1, entry.row)),
+        const double across =
+                         norm(Vec3{voronoi.edges(0, entry.row), voronoi.edges(1, entry.row), 0}),
                      of_east = voronoi.surface.is_sphere() ? 1 / across : 0,
                      free = digits * (of_east + 1 / voronoi.dc[entry.row]);
         return Closeness{1, rounding_of_others + free, turn};

@@ -34,16 +34,16 @@ void require_lists(const NetcdfReader& file) {
 
 /// \throws Error parse, unless the generators are on the sphere of the attribute.
 double radius_of(const NetcdfReader& file) {
-  std::array<double, 3> place{};
+  std::array<double, 3> x{};
   for (std::size_t k = 0; k < 3; ++k)
-    file.rows(mpas_cell.axis(k), 0, 1, &place[k]);
-  const double norm = std::hypot(place[0], place[1], place[2]),
-               radius = file.number("", "sphere_radius", norm);
-  if (!(std::abs(radius - norm) <= 1e-3 * norm))
+    file.rows(mpas_cell.axis(k), 0, 1, &x[k]);
+  const double distance = norm(Vec3{x[0], x[1], x[2]}),
+               radius = file.number("", "sphere_radius", distance);
+  if (!(std::abs(radius - distance) <= 1e-3 * distance))
     file.fail(
         "the first cell is {} from the centre of the sphere, but the attribute sphere_radius is "
         "{}; correct it",
-        norm, radius);
+        distance, radius);
   return radius;
 }
 
