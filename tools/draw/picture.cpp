@@ -16,14 +16,6 @@
 #include <memory>
 #include <string>
 
-#ifdef __SANITIZE_ADDRESS__
-// Fontconfig leaks some memory that it keeps for the life of a process.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
-extern "C" const char* __lsan_default_options();
-extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
-#endif
-
 namespace calotte::tools {
 
 namespace {

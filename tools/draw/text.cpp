@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "draw/text.h"
 
+#include "draw/font.h"
 #include "text/text.h"
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,6 @@ namespace calotte::tools {
 
 namespace {
 
-constexpr const char* family = "sans-serif";
 constexpr double small_letters = 0.72; ///< of raised and lowered ones, of the others' size
 
 /// A piece of marked text.
@@ -48,10 +48,7 @@ std::vector<Piece> pieces_of(const std::string& text) {
 
 /// Sets the font of the piece and returns its length.
 double select_for(cairo_t* context, const Piece& piece, double size) {
-  cairo_select_font_face(context, family,
-                         piece.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL,
-                         CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, piece.level == 0 ? size : small_letters * size);
+  set_font(context, piece.level == 0 ? size : small_letters * size, piece.italic);
   return text_width(context, piece.text);
 }
 
@@ -74,8 +71,7 @@ void select_font(cairo_t* context, double size) {
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_set_font_options(context, options);
   cairo_font_options_destroy(options);
-  cairo_select_font_face(context, family, CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
+  set_font(context, size);
 }
 
 double text_width(cairo_t* context, const std::string& text) {
