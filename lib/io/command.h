@@ -16,8 +16,8 @@
 #include <string_view>
 #include <vector>
 
-/// What the library knows of files and formats for its command. The header is not installed; of lib
-/// it and io/toml.h are all that tools includes.
+/// Functions on files and formats that the command uses. The header is not installed. Tools include
+/// only this header and io/toml.h from lib/.
 CALOTTE_API_BEGIN
 namespace calotte {
 
@@ -32,11 +32,11 @@ void write_file(const std::string& path, std::string_view bytes);
 /// The text files of MPAS-Tools' culler with option -c. Forward has a line for each cell of a
 /// source: the 0-based id in the new mesh, or -1. Backward has one for each cell of the new mesh.
 struct CellMapPaths {
-  std::string forward, backward; ///< empty for no folder
+  std::string forward, backward; ///< both empty if no folder is given
 };
 CellMapPaths cell_map_paths(const std::string& folder);
 
-/// Both, complete under temporary names until they are committed.
+/// Both files. They are complete under temporary names until commit() renames them.
 class CellMapFiles {
 public:
   /// \throws Error file.
@@ -56,7 +56,7 @@ private:
 /// \throws Error file.
 bool is_netcdf_file(const std::string& path);
 
-/// Whether the format of a file that was read is one of NetCDF, where lengths are in metres.
+/// Whether a file was read from a NetCDF format. Lengths are in metres there.
 bool is_netcdf(const MeshFile& file);
 
 /// Throws unless write() supports meshes of a plane in the format.
@@ -65,25 +65,27 @@ bool is_netcdf(const MeshFile& file);
 /// \throws Error invalid_argument.
 void require_planar_format(const std::string& path, const Surface& plane, Format format);
 
-/// The lines of a GeoJSON file, as read_lines() has them; none of another path, and of a file of
-/// other geometries. \throws Error parse, also for lines beside other geometries; file.
+/// The lines of a GeoJSON file, as read_lines() returns them. None for a path of another format,
+/// and for a file without lines.
+/// \throws Error parse, also for a file that mixes lines with other geometries; file.
 std::vector<Points3> lines_in(const std::string& path, const Surface& surface);
 
-/// Whether a file of cell widths holds rules, by its suffix, .toml in any case.
-bool holds_rules(const std::string& path);
+/// Whether a file of cell widths contains rules: its suffix is .toml, in any case.
+bool has_rules(const std::string& path);
 
-/// The files that a file of rules names, read by itself. \throws Error parse; file.
+/// Paths of the files that a file of rules names.
+/// \throws Error parse; file.
 std::vector<std::string> files_of_rules(const std::string& path);
 
 // ---- Files of JIGSAW (.msh), whose lengths have one unit of any kind
 
-/// What a mesh is made of.
+/// The input geometry of a mesh.
 struct JigsawGeometry {
   Surface surface;   ///< the sphere, or the part of a plane between the closed rings of its edges
   double radius = 1; ///< of the sphere
-  double extent = 2; ///< the mean side of the box around it
-  /// Its other edges and points, which the mesh follows: on the sphere directions, in a plane x y
-  /// 0.
+  double extent = 2; ///< mean side of the bounding box
+  /// The other edges and points, which the mesh follows: directions on the sphere, x y 0 in a
+  /// plane.
   std::vector<Points3> lines;
 };
 
@@ -92,14 +94,14 @@ struct JigsawGeometry {
 ///         read_domain(); file.
 JigsawGeometry read_jigsaw_geometry(const std::string& path);
 
-/// How widths of a file are taken: times a factor, then within bounds.
+/// The conversion of widths in a file: they are multiplied by a factor, then clamped to bounds.
 struct JigsawSizes {
   double scale = 1;
   double least = 0, most = 0; ///< least <= most
 };
 
-/// Reads cell widths, which may be 0 where the least one is not. \throws Error as
-/// read_cell_width().
+/// Reads cell widths. A width of 0 is accepted if `least` is positive.
+/// \throws Error as read_cell_width().
 Raster read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes,
                           const Surface& surface);
 
@@ -109,13 +111,14 @@ struct JigsawPoints {
   std::vector<bool> fixed;
 };
 
-/// \param plane whether they are x y of a plane, and not directions.
+/// \param plane whether the points are x y of a plane; otherwise they are directions.
 /// \throws Error parse; file.
 JigsawPoints read_jigsaw_points(const std::string& path, bool plane);
 
-/// Lowers the values of a grid to the largest ones whose gradient is at most its SLOPE, which is
-/// one number, see limit_gradient(), and writes the file anew, with the same nodes. \param radius
-/// of the sphere, if the file gives none. \throws Error parse; file.
+/// Limits the gradients of a grid's values to its SLOPE, which is one number; see limit_gradient().
+/// Writes the result to the same file, with the same nodes.
+/// \param radius of the sphere, if the file gives none.
+/// \throws Error parse; file.
 void limit_jigsaw_values(const std::string& path, double radius);
 
 } // namespace calotte

@@ -13,9 +13,9 @@
 CALOTTE_API_BEGIN
 namespace calotte {
 
-/// Reads a file of TOML.
-/// \throws Error parse for a text that is none, or would take much memory or stack, with its line;
-///         file.
+/// Reads a TOML file.
+/// \throws Error parse, with the line, for text that is not TOML or would take too much memory or
+/// stack; file.
 toml::table read_toml(const std::string& path);
 
 } // namespace calotte

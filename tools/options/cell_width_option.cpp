@@ -103,7 +103,7 @@ WidthRules read_as_given(const WidthWords& words, const Surface& surface) {
   require_polygons(words);
   if (words.uniform)
     return {.widths = *words.uniform};
-  if (holds_rules(words.file))
+  if (has_rules(words.file))
     return read_width_rules(words.file, surface, words.radius);
   return {.widths = read_cell_width(words.file, polygons_of(words), surface)};
 }
@@ -193,7 +193,7 @@ std::string width_configuration(const WidthWords& words) {
     return "density-raster of " + checksum_of(words.raster) + "\n";
   std::string text =
       "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
-  if (holds_rules(words.file))
+  if (has_rules(words.file))
     for (const std::string& named : files_of_rules(words.file))
       text += "rules of " + checksum_of(named) + "\n";
   const auto add = [&](const std::string& name, const std::optional<double>& value) {

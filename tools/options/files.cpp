@@ -46,7 +46,7 @@ namespace {
 std::vector<std::string> with_named(const std::vector<std::string>& inputs) {
   std::vector<std::string> all = inputs;
   for (const std::string& input : inputs)
-    if (holds_rules(input))
+    if (has_rules(input))
       for (std::string& named : files_of_rules(input))
         all.push_back(std::move(named));
   return all;

@@ -30,7 +30,8 @@ std::int64_t Base64Reader::most() const {
   return end_ - begin_ + 3 * (static_cast<std::int64_t>(rest_.size()) / 4);
 }
 
-/// Four digits, of which the last one or two may be padding. False if there are none.
+/// Decodes four digits, of which the last one or two may be padding. Returns false if the text does
+/// not continue with four digits.
 bool Base64Reader::decode_group() {
   while (!rest_.empty() && is_space(rest_.front()))
     rest_.remove_prefix(1);

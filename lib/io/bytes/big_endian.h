@@ -8,8 +8,8 @@
 /// The classic formats of NetCDF store numbers with the most significant byte first.
 namespace calotte::io_detail {
 
-/// Converts values of 1, 2, 4 or 8 bytes each between the machine's order of bytes and that of the
-/// file; the same function converts both ways.
+/// Converts values of 1, 2, 4 or 8 bytes between the machine's byte order and big-endian order, in
+/// either direction.
 /// \param out need not be aligned; may be `values`.
 void swap_big_endian(const char* values, std::int64_t count, std::int64_t size, char* out);
 

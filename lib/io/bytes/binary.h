@@ -36,9 +36,9 @@ private:
   std::string name_;
 };
 
-template <class T> T load(const char* place) {
+template <class T> T load(const char* bytes) {
   T value;
-  std::memcpy(&value, place, sizeof value);
+  std::memcpy(&value, bytes, sizeof value);
   return value;
 }
 

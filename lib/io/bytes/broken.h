@@ -19,7 +19,7 @@ inline Verdict verdict_of(bool holds) { return holds ? Verdict::keeps : Verdict:
 struct Broken {
   std::int64_t count = 0, tested = 0, first = -1;
   bool any() const { return count > 0; }
-  /// Most items keep the law, so that it is one of this grid.
+  /// Whether most tested items keep the law. Then it is a law of this grid.
   bool is_law() const { return 2 * (tested - count) >= tested; }
   /// "3 of 120".
   std::string of_all() const { return message("{} of {}", count, tested); }

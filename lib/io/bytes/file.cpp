@@ -38,9 +38,9 @@ std::string describe_error(int error) {
   }
 }
 
-bool renameable(const fs::path& place) {
+bool renameable(const fs::path& target) {
   std::error_code absent;
-  const fs::file_status status = fs::status(place, absent);
+  const fs::file_status status = fs::status(target, absent);
   return !fs::exists(status) || fs::is_regular_file(status);
 }
 
@@ -48,13 +48,13 @@ fs::path follow_links(const std::string& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error))
     return path;
-  const fs::path place = fs::weakly_canonical(path, error);
-  return error ? fs::path(path) : place;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error ? fs::path(path) : target;
 }
 
 /// Smallest block for direct output; smaller blocks gain nothing from it.
 constexpr std::int64_t least_direct = 1 << 18;
-/// Number of spare blocks; more than wait for the disk and are being filled.
+/// Maximum number of spare blocks; more than are being filled or written at once.
 constexpr std::size_t most_spare = 64;
 /// Size of a block of appended bytes.
 constexpr std::int64_t tail_bytes = 1 << 22;
@@ -71,14 +71,14 @@ OutputBlock::OutputBlock(std::int64_t offset, std::int64_t size, Array<char> mem
       memory_.begin() + (page_before(start + page - 1) - start) + (offset - page_before(offset));
 }
 
-OutputFile::OutputFile(const std::string& path) : name_(path), place_(follow_links(path)) {
-  if (std::error_code error; fs::is_directory(place_, error))
+OutputFile::OutputFile(const std::string& path) : name_(path), target_(follow_links(path)) {
+  if (std::error_code error; fs::is_directory(target_, error))
     fail(EISDIR);
-  if (!renameable(place_)) {
-    file_ = Descriptor::to_write(place_);
+  if (!renameable(target_)) {
+    file_ = Descriptor::to_write(target_);
     require(file_ ? 0 : errno);
   } else {
-    TemporaryFile file = open_temporary(place_);
+    TemporaryFile file = open_temporary(target_);
     require(file.error);
     file_ = std::move(file.file), lock_ = std::move(file.lock);
     temporary_ = std::move(file.path);
@@ -209,7 +209,7 @@ void OutputFile::finish() {
 void OutputFile::commit() {
   finish();
   if (!temporary_.empty())
-    require(rename_file(temporary_, place_));
+    require(rename_file(temporary_, target_));
   temporary_.clear();
 }
 

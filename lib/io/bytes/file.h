@@ -26,7 +26,7 @@ public:
   OutputBlock() = default;
   /// The bytes are not initialised.
   /// \param offset offset of the first byte in the file.
-  /// \param memory used if it is large enough.
+  /// \param memory reused if it is large enough.
   OutputBlock(std::int64_t offset, std::int64_t size, Array<char> memory = {});
 
   std::int64_t offset() const { return offset_; }
@@ -49,7 +49,7 @@ class OutputQueue;
 /// A file that appears under its name only when it is complete: it is written under a temporary
 /// name in the same folder, synchronised and renamed. A temporary file that a killed process left
 /// is removed when its target is written again. A target that cannot be renamed, such as a device
-/// or a pipe, is written in place.
+/// or a pipe, is opened and written directly.
 class OutputFile {
 public:
   /// \throws Error file.
@@ -66,8 +66,8 @@ public:
   /// \throws Error file, at once or from commit().
   void append(std::string_view bytes);
 
-  /// Announces the size of the file, unless it is written in place. This detects a full disk early
-  /// and allocates contiguous blocks.
+  /// Announces the size of the file; no effect if the target is written directly. This detects a
+  /// full disk early and allocates contiguous blocks.
   /// \throws Error file.
   void reserve(std::int64_t size);
 
@@ -81,7 +81,8 @@ public:
   /// \throws Error file, immediately, from a later call or from commit().
   void put(OutputBlock block);
 
-  /// The temporary name, so that others may write to the file; empty if it is written in place.
+  /// The temporary name, so that others may write to the file; empty if the target is written
+  /// directly.
   const std::string& temporary() const { return temporary_; }
 
   /// Completes and synchronises the file, also data that others wrote to temporary(). Nothing can
@@ -107,17 +108,17 @@ private:
   ProgressCallback progress_;
   std::unique_ptr<Monitor> monitor_; ///< null without a callback
   std::string name_;                 ///< as the caller wrote it, for messages
-  std::string place_;                ///< where the file shall be: symbolic links are followed
-  std::string temporary_; ///< where it is until it is whole; empty when it is written in place
+  std::string target_;               ///< final path; symbolic links are resolved
+  std::string temporary_; ///< path until commit(); empty if the target is written directly
   Descriptor file_;
-  Descriptor lock_;   ///< holds the lock of the temporary file until it has its name
+  Descriptor lock_;   ///< keeps the lock of the temporary file until it is renamed
   Descriptor direct_; ///< writes past the page cache; none if the file system does not support it
   OutputBlock tail_;  ///< appended bytes that are not yet put
   std::int64_t tail_size_ = 0;
   std::mutex spare_mutex_;
-  std::vector<Array<char>> spare_; ///< of large blocks that are written
+  std::vector<Array<char>> spare_; ///< memory of large blocks that are written
   std::once_flag queue_started_;
-  std::unique_ptr<OutputQueue> queue_; ///< of blocks for direct_; null where it is none
+  std::unique_ptr<OutputQueue> queue_; ///< writes blocks to direct_; null without it
 };
 
 /// Throws for an output that cannot be written at random offsets.
@@ -133,21 +134,24 @@ void require_no_folder(const std::string& path);
 /// \throws Error file.
 std::ifstream open_input(const std::string& path);
 
-/// The bytes from here to the end of a stream; 0 where it cannot tell, as a pipe.
+/// The number of bytes from the current position to the end of a stream; 0 for a stream that cannot
+/// tell it, such as a pipe.
 std::size_t bytes_left(std::istream& in);
 
-/// Ends the reading of a file. \throws Error file if fewer bytes were read than it had at first.
+/// Checks the number of bytes after reading a file.
+/// \throws Error file if it is smaller than `at_first`, the size at the start.
 void require_whole(std::size_t read, std::size_t at_first, const std::string& name);
 
 /// Reads up to `size` bytes; in.gcount() is their number.
 /// \throws Error file for an error of the disk; the end of the stream is none.
 void read_some(std::istream& in, char* bytes, std::int64_t size, const std::string& name);
 
-/// Throws for the first bytes of a file of another format, with the file's name.
+/// Throws if a file starts as files of another format do. The message starts with `name`.
 using StartCheck = void (*)(std::string_view start, const std::string& name);
 
-/// The rest of a stream. \throws Error file.
-/// \param check_start sees up to a MiB. If it throws, the rest has taken no time and memory.
+/// Reads the rest of a stream.
+/// \param check_start receives up to 1 MiB. If it throws, the rest is not read.
+/// \throws Error file.
 std::string read_all(std::istream& in, const std::string& name, StartCheck check_start = nullptr);
 
 } // namespace calotte::io_detail

@@ -41,7 +41,7 @@ template <class Value, class... Values>
   fail_file(name, index, message(pattern, value, values...));
 }
 
-/// The same of a file that its writer has not completed.
+/// The same for a file that its writer has not completed.
 template <class... Values>
 [[noreturn]] void fail_damaged(const std::string& name,
                                std::type_identity_t<Pattern<Values...>> pattern,
@@ -64,7 +64,7 @@ template <class... Values>
   throw Error(ErrorCode::file, "cannot write " + path + ": " + why);
 }
 
-/// \throws Error invalid_argument: what a file of that path cannot hold.
+/// \throws Error invalid_argument: what a file with that path cannot contain.
 [[noreturn]] inline void refuse_path(const std::string& path, const std::string& problem) {
   throw Error(ErrorCode::invalid_argument, path + ": " + problem);
 }
@@ -75,7 +75,7 @@ template <class Value, class... Values>
   refuse_path(path, message(pattern, value, values...));
 }
 
-/// Calls a function whose errors are those of a file.
+/// Calls a function. Prefixes the messages of its errors with a file's name.
 template <class Call> auto named(const std::string& name, const Call& call) -> decltype(call()) {
   try {
     return call();

@@ -27,12 +27,13 @@ std::string suffix_of(const std::string& path);
 /// Whether a name ends in .geojson or .json.
 bool is_geojson(const std::string& path);
 
-/// Refuses a file of a kind that this library does not read, but other programs convert: shapes,
-/// images and GRIB, by the suffix. \throws Error parse, with the command that converts it.
+/// Refuses a file that this library does not read but other programs convert: shapes, images and
+/// GRIB, by the suffix.
+/// \throws Error parse, with the command that converts it.
 void refuse_foreign(const std::string& path);
 
-/// Replaces the start `stem` of the file name by `other`; none if the name does not start with
-/// `stem`.
+/// Replaces the start `stem` of the file name by `other`. Returns none if the name starts
+/// otherwise.
 std::optional<std::string> sibling(const std::string& path, std::string_view stem,
                                    std::string_view other);
 

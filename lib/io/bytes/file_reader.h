@@ -17,9 +17,9 @@ public:
   explicit FileReader(const std::string& path);
 
   const std::string& path() const { return path_; }
-  std::int64_t size() const { return size_; } ///< bytes when it was opened
+  std::int64_t size() const { return size_; } ///< size in bytes when the file was opened
 
-  /// \throws Error file for an error of the disk, and if the file ends before.
+  /// \throws Error file for a disk error, and if the file ends earlier.
   void read(std::int64_t offset, std::int64_t bytes, char* out) const;
 
   /// \throws Error file if the file is smaller than when it was opened.

@@ -44,7 +44,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<OutputBlock> waiting_;
-  int writing_ = 0; ///< threads that do
+  int writing_ = 0; ///< number of threads that are writing
   bool ended_ = false;
   int error_ = 0;
   std::vector<std::thread> threads_;

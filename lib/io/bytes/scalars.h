@@ -56,15 +56,15 @@ template <class Visit> auto with_type(Scalar type, const Visit& visit) {
   }
 }
 
-/// Bytes of a number.
+/// Size of a number in bytes.
 inline std::int64_t size_of(Scalar type) {
   return with_type(type, [](auto zero) { return static_cast<std::int64_t>(sizeof zero); });
 }
 
 inline bool is_float(Scalar type) { return type == Scalar::float32 || type == Scalar::float64; }
 
-/// A number as another type. An integer type gives -1 for a value that it cannot hold and for a
-/// fraction: no id, offset or count is negative.
+/// Converts a number to another type. An integer type gives -1 for a fraction and for a value out
+/// of its range: no id, offset or count is negative.
 template <class To, class From> To number_as(From value) {
   if constexpr (std::is_floating_point_v<To>) {
     return static_cast<To>(value);
@@ -73,9 +73,9 @@ template <class To, class From> To number_as(From value) {
     return value >= 0 && value < end && value == std::floor(value) ? static_cast<To>(value)
                                                                    : To{-1};
   } else {
-    const bool holds = value >= 0 && static_cast<std::uint64_t>(value) <=
-                                         static_cast<std::uint64_t>(std::numeric_limits<To>::max());
-    return holds ? static_cast<To>(value) : To{-1};
+    const bool fits = value >= 0 && static_cast<std::uint64_t>(value) <=
+                                        static_cast<std::uint64_t>(std::numeric_limits<To>::max());
+    return fits ? static_cast<To>(value) : To{-1};
   }
 }
 
@@ -90,27 +90,28 @@ template <class T> T with_bytes_reversed(T value) {
     return value;
 }
 
-/// A number in a file. \param swapped its bytes are in the other order than this machine's.
-template <class T> T stored(const char* place, bool swapped) {
+/// Loads a number.
+/// \param swapped whether its byte order is not this machine's.
+template <class T> T stored(const char* bytes, bool swapped) {
   T value;
-  std::memcpy(&value, place, sizeof value);
+  std::memcpy(&value, bytes, sizeof value);
   return swapped ? with_bytes_reversed(value) : value;
 }
 
-/// One number of any type.
-template <class To> To stored_as(const char* place, Scalar type, bool swapped) {
+/// Loads a number of any type.
+template <class To> To stored_as(const char* bytes, Scalar type, bool swapped) {
   return with_type(
-      type, [&](auto zero) { return number_as<To>(stored<decltype(zero)>(place, swapped)); });
+      type, [&](auto zero) { return number_as<To>(stored<decltype(zero)>(bytes, swapped)); });
 }
 
-/// Consecutive numbers of any type.
+/// Loads consecutive numbers of any type.
 template <class To>
-void copy_numbers(const char* place, std::int64_t count, Scalar type, bool swapped, To* out) {
+void copy_numbers(const char* bytes, std::int64_t count, Scalar type, bool swapped, To* out) {
   with_type(type, [&](auto zero) {
     using From = decltype(zero);
     for (std::int64_t i = 0; i < count; ++i)
       out[i] =
-          number_as<To>(stored<From>(place + i * static_cast<std::int64_t>(sizeof(From)), swapped));
+          number_as<To>(stored<From>(bytes + i * static_cast<std::int64_t>(sizeof(From)), swapped));
   });
 }
 
@@ -118,7 +119,8 @@ void copy_numbers(const char* place, std::int64_t count, Scalar type, bool swapp
 
 inline bool is_space(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
 
-/// Takes the next word from a text: what stands between white space. Empty at the end.
+/// Removes the next word from a text. White space separates words. Returns an empty word at the
+/// end.
 inline std::string_view take_word(std::string_view& text) {
   const auto* const begin = std::find_if_not(text.begin(), text.end(), is_space);
   const auto* const end = std::find_if(begin, text.end(), is_space);
@@ -127,7 +129,7 @@ inline std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// Reads all of a word as a number of a type. False if it is none.
+/// Parses a whole word as a number of a type. Returns false if it is not one.
 template <class To> bool parse_number(std::string_view word, Scalar type, To& out) {
   if (word.size() > 1 && word[0] == '+')
     word.remove_prefix(1);

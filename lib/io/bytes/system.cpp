@@ -17,8 +17,9 @@ namespace {
 
 int error_of(int result) { return result == 0 ? 0 : errno; }
 
-/// Repeats a call until it has taken or given all bytes, or gives none.
-/// \param call takes the number of those done, and returns that of further ones.
+/// Repeats a call until all bytes are transferred, or until a call transfers none.
+/// \param call receives the number of bytes that are done, and returns how many more it
+///        transferred.
 template <class Call> int transfer(std::int64_t bytes, std::int64_t& done, const Call& call) {
   for (done = 0; done < bytes;) {
     const ssize_t more = call(done);

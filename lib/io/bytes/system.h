@@ -8,15 +8,16 @@
 #include <string>
 #include <string_view>
 
-/// All calls of the operating system about files: those of POSIX, and some of Linux. An error is an
-/// errno; 0 is none.
+/// All system calls for files: those of POSIX, and some of Linux. Errors are errno values; 0 means
+/// success.
 namespace calotte::io_detail {
 
 /// An open file.
 class Descriptor {
 public:
   Descriptor() = default;
-  // Each opens a file, or is false and leaves the errno.
+  // Each function opens a file. After a failure the result converts to false, and errno has the
+  // reason.
   static Descriptor to_read(const std::string& path);
   static Descriptor to_write(const std::string& path);        ///< one that exists
   static Descriptor to_write_new(const std::string& path);    ///< one that does not exist yet
@@ -31,19 +32,21 @@ public:
   explicit operator bool() const { return descriptor_ >= 0; }
 
   std::int64_t size() const; ///< bytes; -1 for a pipe
-  /// Reads bytes from an offset on, as many as there are. \param count receives their number.
+  /// Reads up to `bytes` bytes from an offset on.
+  /// \param count receives their number.
   int read(std::int64_t offset, std::int64_t bytes, char* out, std::int64_t& count) const;
   int write(std::int64_t offset, std::string_view bytes) const;
   int append(std::string_view bytes) const;
-  /// Allocates the space of a file of that size. Many file systems do so when bytes are written; of
-  /// these it says nothing.
+  /// Allocates disk space for a file of that size. Has no effect on file systems that allocate
+  /// space only when bytes are written.
   int reserve(std::int64_t size) const;
   int synchronise() const;
-  int close(); ///< an error may be one of bytes written before
+  int close(); ///< may report the error of an earlier write
 
-  /// Locks the file against other processes; false where one of them has, or there are no locks.
+  /// Locks the file against other processes. Returns false if another process has the lock, or if
+  /// the file system has no locks.
   bool lock() const;
-  /// Whether the path names this file, still.
+  /// Whether the path still names this file.
   bool is_named(const std::string& path) const;
 
 private:
@@ -52,10 +55,10 @@ private:
   int descriptor_ = -1;
 };
 
-/// Gives a file another name, and takes it from the one that has it.
+/// Renames a file. Replaces a file that has the new name.
 int rename_file(const std::string& from, const std::string& to);
 void remove_file(const std::string& path); ///< if there is one
-/// Calls for the name of each file in a folder; "" is the current one.
+/// Calls `visit` with the name of each file in a folder; "" is the current folder.
 void for_each_name(const std::string& folder, const std::function<void(std::string_view)>& visit);
 std::int64_t process_id();
 

@@ -22,11 +22,11 @@ bool is_number_pair(std::string_view text) {
          text.find_first_not_of("0123456789", dash + 1) == std::string_view::npos;
 }
 
-/// The temporary files of a place, of any process.
-std::vector<std::string> temporaries_of(const fs::path& place) {
-  const std::string start = place.filename().string().append(suffix);
+/// Finds the temporary files of a target, of any process.
+std::vector<std::string> find_temporaries(const fs::path& target) {
+  const std::string start = target.filename().string().append(suffix);
   std::vector<std::string> found;
-  const fs::path folder = place.parent_path();
+  const fs::path folder = target.parent_path();
   for_each_name(folder, [&](std::string_view name) {
     if (name.starts_with(start) && is_number_pair(name.substr(start.size())))
       found.push_back(folder / name);
@@ -42,13 +42,13 @@ void remove_unless_locked(const std::string& path) {
 
 } // namespace
 
-TemporaryFile open_temporary(const std::string& place) {
-  for (const std::string& path : temporaries_of(place))
+TemporaryFile open_temporary(const std::string& target) {
+  for (const std::string& path : find_temporaries(target))
     remove_unless_locked(path);
   // Another process may write a file of the same name: never write into it.
   for (int attempt = 0; attempt < 100; ++attempt) {
     std::string path =
-        place + std::string(suffix) + std::to_string(process_id()) + "-" + std::to_string(attempt);
+        target + std::string(suffix) + std::to_string(process_id()) + "-" + std::to_string(attempt);
     Descriptor file = Descriptor::to_write_new(path);
     if (!file && errno != EEXIST)
       return {.error = errno};

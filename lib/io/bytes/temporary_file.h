@@ -8,7 +8,7 @@
 
 namespace calotte::io_detail {
 
-/// A file named PLACE.partPID-K, in the folder of its place. It is locked (flock) until both
+/// A file named TARGET.partPID-K, in the folder of its target. It is locked (flock) until both
 /// descriptors are closed.
 struct TemporaryFile {
   std::string path = {};
@@ -17,8 +17,8 @@ struct TemporaryFile {
   int error = 0;        ///< errno of a failure
 };
 
-/// Creates a file of a new name. First removes the temporary files of the same place that nobody
-/// has locked, which killed processes left.
-TemporaryFile open_temporary(const std::string& place);
+/// Creates a file of a new name. First removes the temporary files of the same target that killed
+/// processes left: nobody has locked them.
+TemporaryFile open_temporary(const std::string& target);
 
 } // namespace calotte::io_detail

@@ -146,7 +146,7 @@ Columned parse_columns(std::string_view line, int count, std::int64_t* values) {
   return parse(line, count, values);
 }
 
-std::optional<std::vector<double>> numbers_of(std::string_view text) {
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   constexpr std::string_view blanks = " \t";
   const char *at = text.data(), *const end = text.data() + text.size();
@@ -183,7 +183,7 @@ void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t p
   }
 }
 
-bool holds_number(std::string_view line) {
+bool has_number(std::string_view line) {
   const char* const end = line.data() + line.size();
   for (const char* p = line.data(); p != end;) {
     const char* const stop = column_end(p, end);

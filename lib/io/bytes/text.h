@@ -62,14 +62,14 @@ enum class Outcome {
   ok,
   too_few,      ///< the line ends before `count` columns
   no_number,    ///< a column is not a number, or empty
-  out_of_range, ///< a column is a number that the type cannot hold
+  out_of_range, ///< a column is a number out of the range of the type
 };
 
 /// The first invalid column, or the number of columns read.
 struct Columned {
   Outcome outcome = Outcome::ok;
   int columns = 0;       ///< read so far
-  std::string_view text; ///< of the offending column
+  std::string_view text; ///< text of the invalid column
 };
 
 /// Reads the first `count` columns of a line: blanks and tabs, and at most one of comma, semicolon
@@ -77,17 +77,17 @@ struct Columned {
 Columned parse_columns(std::string_view line, int count, double* values);
 Columned parse_columns(std::string_view line, int count, std::int64_t* values);
 
-/// All of a text as finite numbers with blanks, or one of comma, semicolon and bar, between; none
-/// for any other text.
-std::optional<std::vector<double>> numbers_of(std::string_view text);
+/// Parses a whole text as finite numbers. Blanks, or one of comma, semicolon and bar, separate
+/// them. Returns none for any other text.
+std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
-/// Appends ids of one line of text, which count from `first` there and from 0 in `faces`.
+/// Appends the ids of one line of text. They count from `first` in the text and from 0 in `faces`.
 /// \throws Error parse for an id that is not one of the points.
 void parse_ids(const LineReader& reader, const std::int64_t* ids, std::int64_t points,
                std::vector<std::int32_t>& faces, std::int64_t first = 0, std::int64_t count = 3);
 
 /// True if one of the line's columns is a number.
-bool holds_number(std::string_view line);
+bool has_number(std::string_view line);
 
 /// Text from a file as one short printable line within quotes.
 std::string in_quotes(std::string_view text);
@@ -96,16 +96,18 @@ std::string in_quotes(std::string_view text);
 /// \pre the outcome is not ok.
 std::string describe(const Columned& read);
 
-/// The next line that has content. \param awaited names what it holds.
+/// Reads the next line that has content.
+/// \param awaited its expected content, for the message.
 /// \throws Error parse, where the stream ends.
 std::string_view line_with(LineReader& reader, const std::string& awaited);
 
-/// \throws Error parse, where that many columns were not read.
+/// \throws Error parse, unless `count` columns were read.
 void require_columns(const LineReader& reader, const Columned& read, int count);
-/// The same. \param awaited names what they hold.
+/// The same.
+/// \param awaited expected content of the columns, for the message.
 void require_columns(const LineReader& reader, const Columned& read, const std::string& awaited);
 
-/// The first `count` columns of the current line, all of them numbers.
+/// Reads the first `count` columns of the current line as numbers.
 /// \throws Error parse.
 template <class T>
 void take_columns(const LineReader& reader, std::string_view line, int count, T* values) {
@@ -117,7 +119,7 @@ void take_columns(const LineReader& reader, std::string_view line, int count, T*
   require_columns(reader, parse_columns(line, count, values), awaited);
 }
 
-/// The same of the next line that has content.
+/// The same for the next line that has content.
 template <class T>
 void take_columns(LineReader& reader, int count, T* values, const std::string& awaited) {
   take_columns(reader, line_with(reader, awaited), count, values, awaited);

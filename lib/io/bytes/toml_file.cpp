@@ -16,7 +16,8 @@
 namespace calotte {
 namespace {
 
-/// The parser's tables call themselves for each part of a key such as a.b.c; here two do for all.
+/// Finds dotted keys of too many parts, such as a.b.c...: toml++ recurses once for each part. In
+/// files of options two parts suffice.
 class KeyParts {
 public:
   static constexpr int most = 32;
@@ -53,7 +54,7 @@ public:
   }
 
 private:
-  /// Past the quote that ends the text which begins there.
+  /// The offset behind the closing quote of the string that begins at `begin`.
   static std::size_t end_of_text(std::string_view text, std::size_t begin) {
     const char quote = text[begin];
     const std::string_view three = text.substr(begin, 3);

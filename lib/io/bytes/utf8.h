@@ -10,7 +10,7 @@
 /// Text of files.
 namespace calotte::io_detail {
 
-/// Bytes of the UTF-8 character of more than one byte at the start of a text; 0 if there is none.
+/// Size in bytes of the multi-byte UTF-8 character at the start of a text; 0 if there is none.
 inline std::size_t bytes_of_character(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const std::size_t size = lead >= 0xf0 && lead < 0xf5   ? 4

@@ -12,8 +12,10 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr std::size_t parse_bytes = std::size_t{1} << 20; ///< given to the parser at once
-/// Bytes of a tag or a comment. The parser scans each from its begin with every piece of the text.
+constexpr std::size_t parse_bytes = std::size_t{1}
+                                    << 20; ///< size of the pieces that the parser receives
+/// Maximum size in bytes of a tag or a comment. The parser scans each from its start again with
+/// every piece of the text.
 constexpr std::int64_t longest_tag = 2 * parse_bytes;
 constexpr std::size_t most_elements = 20'000; ///< so that memory stays in proportion to the file
 
@@ -96,10 +98,10 @@ std::string XmlElement::attribute(std::string_view key, std::string_view otherwi
 
 std::vector<const XmlElement*> children(const XmlDocument& document, const XmlElement& parent,
                                         std::string_view name) {
-  const auto place = static_cast<int>(&parent - document.data());
+  const auto index = static_cast<int>(&parent - document.data());
   std::vector<const XmlElement*> found;
   for (const XmlElement& element : document)
-    if (element.parent == place && (name.empty() || element.name == name))
+    if (element.parent == index && (name.empty() || element.name == name))
       found.push_back(&element);
   return found;
 }

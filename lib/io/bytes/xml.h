@@ -14,7 +14,7 @@ namespace calotte::io_detail {
 struct XmlElement {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::string text; ///< directly in it, without that of its children
+  std::string text; ///< text of the element itself, without that of its children
   int parent = -1;  ///< index in the document; -1 for the root
 
   /// The value of an attribute, or `otherwise`.
@@ -24,12 +24,13 @@ struct XmlElement {
 /// Elements in the order of their start tags; the first is the root.
 using XmlDocument = std::vector<XmlElement>;
 
-/// The children of an element, of a name if one is given.
+/// The children of an element. If a name is given, only those of that name.
 std::vector<const XmlElement*> children(const XmlDocument& document, const XmlElement& parent,
                                         std::string_view name = {});
 
-/// Parses a document, which has no document type declaration.
-/// \param parts of its text, one after the other. \param name of the file, for messages.
+/// Parses a document. A document type declaration is refused.
+/// \param parts consecutive parts of its text.
+/// \param name of the file, for messages.
 /// \throws Error parse.
 XmlDocument parse_xml(const std::vector<std::string_view>& parts, const std::string& name);
 

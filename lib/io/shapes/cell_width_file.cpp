@@ -17,7 +17,7 @@ namespace calotte {
 Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
                        const Surface& surface) {
   using namespace io_detail;
-  if (holds_rules(path))
+  if (has_rules(path))
     return named(path, [&, widths = read_widths(path, polygons, surface)] {
       return sampled(widths, surface);
     });

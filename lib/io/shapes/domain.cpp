@@ -62,7 +62,7 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
     line = line.substr(0, line.find('#'));
     if (is_blank_line(line))
       continue;
-    if (rings.corners.empty() && !header && !holds_number(line)) {
+    if (rings.corners.empty() && !header && !has_number(line)) {
       header = true;
       continue;
     }

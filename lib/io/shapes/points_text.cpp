@@ -289,7 +289,7 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
                               ? parse_named(line, *names, format.columns, values)
                               : io_detail::parse_columns(line, format.columns, values);
     if (read.outcome != Outcome::ok) {
-      if (header || !coordinates.empty() || io_detail::holds_number(line))
+      if (header || !coordinates.empty() || io_detail::has_number(line))
         refuse_line(reader, read, format);
       header = true;
       if (const std::optional<Header> found = header_of(line, columns))

@@ -95,7 +95,7 @@ private:
   }
 
   double number(const Quantity& quantity, std::string_view text) const {
-    const auto read = numbers_of(text);
+    const auto read = parse_numbers(text);
     if (!read || read->size() != 1 || !((*read)[0] >= quantity.low) ||
         !((*read)[0] <= quantity.high))
       reader_.fail("{} is no {}; write a number of {} from {} to {}, without the unit",
@@ -105,7 +105,7 @@ private:
   }
 
   Vec3 place(std::string_view text) const {
-    const auto read = numbers_of(text);
+    const auto read = parse_numbers(text);
     if (!read || read->size() != 2 || !(std::abs((*read)[0]) <= 90) ||
         !(std::abs((*read)[1]) <= 720))
       reader_.fail("{} is no place; write latitude (-90 to 90) and longitude, in degrees",

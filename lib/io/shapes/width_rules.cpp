@@ -418,7 +418,7 @@ private:
   /// Rules within rules could name each other without an end.
   std::string file_of_no_rules(RuleTable& table, const std::string& key) {
     std::string path = file(table, key);
-    if (holds_rules(path))
+    if (has_rules(path))
       table.refuse(key, "is a file of rules; write its rules in this file");
     return path;
   }
@@ -446,14 +446,14 @@ private:
 
 } // namespace
 
-bool holds_rules(const std::string& path) { return io_detail::suffix_of(path) == ".toml"; }
+bool has_rules(const std::string& path) { return io_detail::suffix_of(path) == ".toml"; }
 
 WidthRules read_width_rules(const std::string& path, const Surface& surface, double radius_km) {
   return RuleReader(path, surface, radius_km).rules();
 }
 
 Widths read_widths(const std::string& path, const PolygonWidths& polygons, const Surface& surface) {
-  if (!holds_rules(path))
+  if (!has_rules(path))
     return read_cell_width(path, polygons, surface);
   return read_width_rules(path, surface, polygons.radius_km).widths;
 }
