@@ -100,7 +100,7 @@ Kept named(const Ids& ids, std::int64_t bound, std::vector<std::uint8_t>& cells_
     if (id >= 0 && count[static_cast<std::size_t>(id)] < 3)
       count[static_cast<std::size_t>(id)] = std::max<std::int8_t>(
           static_cast<std::int8_t>(count[static_cast<std::size_t>(id)] + 1), 1);
-  Kept kept = kept_of(count);
+  Kept kept = select_kept(count);
   cells_at.resize(static_cast<std::size_t>(kept.count()));
   for (std::int64_t k = 0; k < kept.count(); ++k)
     cells_at[static_cast<std::size_t>(k)] =
@@ -199,7 +199,7 @@ Voronoi tessellation_of(const MpasSource& source) {
 
 MpasPart part_of(const MpasSource& source, const Ids& keep) {
   MpasPart part;
-  part.cells = kept_of(keep);
+  part.cells = select_kept(keep);
   part.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges(), part.cells);
   part.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices(), part.cells);
   part.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells(), part.cells);

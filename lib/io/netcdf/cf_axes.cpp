@@ -10,9 +10,10 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The units of the conventions end in "_east", "_E" or "E".
-bool says(const NetcdfReader& file, const std::string& name, const std::string& short_name,
-          const std::string& standard_name, const std::string& direction, char letter) {
+/// Whether a variable is a longitude or latitude by its name, its standard_name or its units. Units
+/// of the CF conventions end in "_east", "_E" or "E".
+bool is_geographic(const NetcdfReader& file, const std::string& name, const std::string& short_name,
+                   const std::string& standard_name, const std::string& direction, char letter) {
   if (!file.is_numeric(name))
     return false;
   const std::string units = file.text(name, "units");
@@ -21,8 +22,8 @@ bool says(const NetcdfReader& file, const std::string& name, const std::string& 
          (units.starts_with("degree") && units.back() == letter);
 }
 
-/// The first variables of one dimension of which that holds.
-template <class Is> RasterAxes axes_where(const NetcdfReader& file, const Is& is_axis) {
+/// Finds the first variables of one dimension for which is_axis(variable, dimension) is true.
+template <class Is> RasterAxes find_axes(const NetcdfReader& file, const Is& is_axis) {
   RasterAxes axes;
   for (const std::string& name : file.variable_names()) {
     const std::vector<std::string> dimensions = file.dimensions_of(name);
@@ -44,21 +45,21 @@ bool are_two(const NetcdfReader& file, const RasterAxes& axes) {
 } // namespace
 
 bool is_longitude(const NetcdfReader& file, const std::string& variable) {
-  return says(file, variable, "lon", "longitude", "_east", 'E');
+  return is_geographic(file, variable, "lon", "longitude", "_east", 'E');
 }
 bool is_latitude(const NetcdfReader& file, const std::string& variable) {
-  return says(file, variable, "lat", "latitude", "_north", 'N');
+  return is_geographic(file, variable, "lat", "latitude", "_north", 'N');
 }
 
 std::optional<RasterAxes> raster_axes(const NetcdfReader& file) {
   const RasterAxes axes =
-      axes_where(file, [](const std::string& name, const std::string& dimension) {
+      find_axes(file, [](const std::string& name, const std::string& dimension) {
         return name == dimension;
       });
   return are_two(file, axes) ? std::optional(axes) : std::nullopt;
 }
 
-std::optional<RasterAxes> axes_of(const NetcdfReader& file, const std::string& variable) {
+std::optional<RasterAxes> variable_axes(const NetcdfReader& file, const std::string& variable) {
   const std::vector<std::string> dimensions = file.dimensions_of(variable);
   const auto has = [&](const std::string& dimension) {
     return std::ranges::find(dimensions, dimension) != dimensions.end();
@@ -69,7 +70,7 @@ std::optional<RasterAxes> axes_of(const NetcdfReader& file, const std::string& v
   if (const std::optional<RasterAxes> axes = raster_axes(file);
       axes && has(axes->longitude) && has(axes->latitude))
     return axes;
-  const RasterAxes axes = axes_where(file, on_it);
+  const RasterAxes axes = find_axes(file, on_it);
   return are_two(file, axes) ? std::optional(axes) : std::nullopt;
 }
 
@@ -83,7 +84,7 @@ double degrees_per_unit(const NetcdfReader& file, const std::string& variable) {
             variable, in_quotes(units));
 }
 
-std::vector<double> degrees_of(const NetcdfReader& file, const std::string& axis) {
+std::vector<double> read_degrees_of_axis(const NetcdfReader& file, const std::string& axis) {
   std::vector<double> values = cf_values(file, axis, {-1});
   scale(values, degrees_per_unit(file, axis));
   return values;

@@ -14,7 +14,7 @@
 /// (CF conventions 1.11, 4.1 and 4.2.)
 namespace calotte::io_detail {
 
-/// Named lon or longitude, or what its standard_name or units say.
+/// Whether the name (lon or longitude), the standard_name or the units say so.
 bool is_longitude(const NetcdfReader& file, const std::string& variable);
 bool is_latitude(const NetcdfReader& file, const std::string& variable);
 
@@ -23,18 +23,20 @@ struct RasterAxes {
   std::string longitude, latitude;
 };
 
-/// Those of a file, each of the dimension of its own name; none where it is no raster.
+/// The axes of a file, where each axis has one dimension of its own name. None if the file is no
+/// raster.
 std::optional<RasterAxes> raster_axes(const NetcdfReader& file);
 
-/// Those on two dimensions of a variable; none where it has no such dimensions.
-std::optional<RasterAxes> axes_of(const NetcdfReader& file, const std::string& variable);
+/// The axes on two dimensions of a variable. None if it has no such dimensions.
+std::optional<RasterAxes> variable_axes(const NetcdfReader& file, const std::string& variable);
 
 /// The factor from a variable's unit to degrees: 1 without a unit, or for one that starts with
 /// "deg"; 180 / pi for one that starts with "rad". \throws Error parse, for others.
 double degrees_per_unit(const NetcdfReader& file, const std::string& variable);
 
-/// All numbers of an axis, see cf_values(), in degrees. \throws Error parse, file.
-std::vector<double> degrees_of(const NetcdfReader& file, const std::string& axis);
+/// Reads all numbers of an axis, see cf_values(), and converts them to degrees.
+/// \throws Error parse, file.
+std::vector<double> read_degrees_of_axis(const NetcdfReader& file, const std::string& axis);
 
 void scale(std::vector<double>& values, double factor);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// What the C library fills in; none for types whose every value is in use.
+/// The default fill value of the C library; none for types whose values are all in use.
 double default_fill(NetcdfType type) {
   switch (type) {
   case NetcdfType::int16:
@@ -35,9 +35,9 @@ double default_fill(NetcdfType type) {
   }
 }
 
-/// How the stored numbers of a variable are to be taken.
+/// The conversion of the stored numbers of a variable.
 struct Meaning {
-  double wrap = 0; ///< added to negative ones, which are unsigned
+  double wrap = 0; ///< added to negative numbers, which stand for unsigned ones
   std::vector<double> missing;
   double least = -std::numeric_limits<double>::infinity(),
          most = std::numeric_limits<double>::infinity(), factor = 1, offset = 0;
@@ -52,7 +52,7 @@ struct Meaning {
   }
 };
 
-Meaning meaning_of(const NetcdfReader& file, const std::string& variable) {
+Meaning read_meaning(const NetcdfReader& file, const std::string& variable) {
   Meaning out;
   const std::optional<NetcdfType> type =
       file.variables()[static_cast<std::size_t>(file.find(variable))].type;
@@ -88,7 +88,7 @@ Meaning meaning_of(const NetcdfReader& file, const std::string& variable) {
 std::vector<double> cf_values(const NetcdfReader& file, const std::string& variable,
                               const std::vector<std::int64_t>& shape) {
   std::vector<double> values = file.doubles(variable, shape);
-  const Meaning meaning = meaning_of(file, variable);
+  const Meaning meaning = read_meaning(file, variable);
   std::transform(values.begin(), values.end(), values.begin(), meaning);
   return values;
 }

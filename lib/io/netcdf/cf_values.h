@@ -10,13 +10,14 @@
 
 namespace calotte::io_detail {
 
-/// All numbers of a variable as its attributes say what they mean: unpacked by scale_factor and
-/// add_offset, unsigned where _Unsigned says so, and NaN where they are missing: equal to
-/// _FillValue or one of missing_value, beyond valid_min, valid_max or valid_range, or, without
-/// _FillValue, equal to the value that the C library fills in, which bytes do not have. Limits and
-/// missing values are those of the stored numbers. (CF conventions 1.11, 2.5 and 8.1; NetCDF Users'
-/// Guide, attribute conventions.)
-/// \param shape -1 for any size of a dimension. \throws Error parse, file.
+/// Reads all numbers of a variable and interprets them by its attributes (CF conventions 1.11, 2.5
+/// and 8.1; NetCDF Users' Guide, attribute conventions):
+/// - scale_factor and add_offset unpack them. _Unsigned makes them unsigned.
+/// - They are NaN where they are missing: equal to _FillValue or to one of missing_value, or
+///   outside of valid_min, valid_max or valid_range. Without _FillValue, the fill value of the C
+///   library is missing, too, except for bytes. Limits and missing values refer to stored numbers.
+/// \param shape -1 for any size of a dimension.
+/// \throws Error parse, file.
 std::vector<double> cf_values(const NetcdfReader& file, const std::string& variable,
                               const std::vector<std::int64_t>& shape);
 

@@ -25,13 +25,14 @@ enum Tag : std::int64_t {
   attributes_follow = 12
 };
 
-/// Of all lists: dimensions, variables and attributes. An entry takes more memory than bytes of the
-/// file.
+/// Maximum number of entries of all lists: dimensions, variables and attributes. In memory an entry
+/// is larger than in the file.
 constexpr std::int64_t most_entries = 200'000;
 
 std::int64_t padded(std::int64_t bytes) { return (bytes + 3) / 4 * 4; }
 
-/// A variable's bytes in one record, or in all where it has none; -1 past 64 bits.
+/// The size of a variable in bytes: of one record, or of all values if it has no records; -1 if it
+/// exceeds 64 bits.
 struct Shape {
   std::int64_t bytes = 0;
   bool of_records = false;
@@ -52,7 +53,7 @@ public:
     read_dimensions(header.dimensions);
     header.attributes = attributes();
     std::vector<Shape> shapes;
-    const std::int64_t variables = list_of(variables_follow, "variables");
+    const std::int64_t variables = take_list_size(variables_follow, "variables");
     std::set<std::string> names;
     for (std::int64_t v = 0; v < variables; ++v) {
       header.variables.push_back({.name = new_name(names)});
@@ -80,7 +81,7 @@ private:
       fail("it is cut short: its header is incomplete");
   }
 
-  /// The next bytes, small ones from a window of the file.
+  /// Reads the next bytes. Few bytes come from a window of the file.
   void take(std::int64_t bytes, char* out) {
     constexpr std::int64_t most = 1 << 16;
     require_left(bytes);
@@ -100,7 +101,7 @@ private:
 
   std::int64_t count_size() const { return version_ == 5 ? 8 : 4; }
 
-  /// A number of 4 or 8 bytes.
+  /// Reads a number of 4 or 8 bytes.
   std::int64_t number(std::int64_t bytes) {
     std::array<char, 8> text{};
     take(bytes, text.data());
@@ -112,7 +113,7 @@ private:
   }
   std::int64_t count() { return number(count_size()); }
 
-  /// Bytes and those that fill up their last 4.
+  /// Reads a text and the padding that follows it, up to a multiple of 4 bytes.
   std::string text(std::int64_t bytes) {
     require_left(padded(bytes));
     std::string text(static_cast<std::size_t>(bytes), '\0');
@@ -136,8 +137,8 @@ private:
     return text;
   }
 
-  /// The number of entries of a list that begins with a tag.
-  std::int64_t list_of(Tag tag, const std::string& what) {
+  /// Reads the tag of a list and the number of its entries.
+  std::int64_t take_list_size(Tag tag, const std::string& what) {
     const std::int64_t found = number(4), entries = count();
     require(found == tag || (found == absent && entries == 0), "does not follow a list of " + what);
     require_left(entries); // each takes a byte at least
@@ -161,7 +162,7 @@ private:
   }
 
   void read_dimensions(std::vector<NetcdfDimension>& dimensions) {
-    const std::int64_t entries = list_of(dimensions_follow, "dimensions");
+    const std::int64_t entries = take_list_size(dimensions_follow, "dimensions");
     std::set<std::string> names;
     bool unlimited = false;
     for (std::int64_t d = 0; d < entries; ++d) {
@@ -174,7 +175,7 @@ private:
   }
 
   NetcdfAttributes attributes() {
-    const std::int64_t entries = list_of(attributes_follow, "attributes");
+    const std::int64_t entries = take_list_size(attributes_follow, "attributes");
     std::set<std::string> names;
     NetcdfAttributes attributes;
     for (std::int64_t a = 0; a < entries; ++a) {
@@ -192,7 +193,7 @@ private:
     return attributes;
   }
 
-  /// Of the next variable, after its name and up to its offset. The size that the file gives is
+  /// Reads the dimensions, attributes, type and size of a variable. The size in the file is
   /// redundant, and too small for large variables.
   Shape read_shape(const std::vector<NetcdfDimension>& dimensions, NetcdfVariable& variable) {
     const std::int64_t rank = count();
@@ -220,7 +221,7 @@ private:
     return shape;
   }
 
-  /// Ends are limited to the range of 64 bits, which no file exceeds.
+  /// Sets the ends of the variables, limited to the range of 64 bits, which no file exceeds.
   void add_ends(const std::vector<Shape>& shapes, std::vector<NetcdfVariable>& variables) const {
     std::int64_t record = 0, record_variables = 0;
     bool overflow = false;
@@ -252,7 +253,7 @@ private:
   std::string window_; ///< bytes of the file
   std::int64_t window_begin_ = 0;
   std::int64_t position_ = 0, records_ = 0;
-  std::int64_t entries_ = 0; ///< of all lists
+  std::int64_t entries_ = 0; ///< number of entries of all lists so far
   int version_ = 0;
 };
 

@@ -10,13 +10,13 @@
 #include <variant>
 #include <vector>
 
-/// What the header of a NetCDF file says.
+/// The header of a NetCDF file.
 namespace calotte::io_detail {
 
 class FileReader;
 
-/// The types of the classic formats, with the codes that files give them; the last five exist in
-/// CDF-5 only.
+/// The types of the classic formats. The values are the codes in files. The last five types exist
+/// in CDF-5 only.
 enum class NetcdfType {
   int8 = 1,
   text, ///< characters
@@ -31,13 +31,13 @@ enum class NetcdfType {
   uint64
 };
 
-/// The type of a code; none for other codes, which HDF5 files have.
+/// The type with a code; none for other codes, which HDF5 files have.
 std::optional<NetcdfType> netcdf_type(std::int64_t code);
 
-/// Bytes of a value.
+/// Size of a value in bytes.
 std::int64_t size_of(NetcdfType type);
 
-/// The type of values that stand in memory as double, std::int32_t or std::int8_t.
+/// The NetCDF type of double, std::int32_t or std::int8_t.
 template <class T>
 inline constexpr NetcdfType type_in_memory = std::is_same_v<T, double>         ? NetcdfType::float64
                                              : std::is_same_v<T, std::int32_t> ? NetcdfType::int32
@@ -63,13 +63,13 @@ struct NetcdfDimension {
 
 struct NetcdfVariable {
   std::string name;
-  std::optional<NetcdfType> type = {}; ///< none for strings and types of users
+  std::optional<NetcdfType> type = {}; ///< none for strings and user-defined types
   std::vector<int> dimensions = {};    ///< the slowest first
-  NetcdfAttributes attributes = {};    ///< those of numbers and text
+  NetcdfAttributes attributes = {};    ///< only attributes of numbers or text
 
-  // Of a classic file:
+  // In a classic file:
   std::int64_t begin = 0;  ///< the offset of its first byte
-  std::int64_t end = 0;    ///< that behind its last one
+  std::int64_t end = 0;    ///< the offset behind its last byte
   std::int64_t stride = 0; ///< bytes from a record to the next; 0 without records
 };
 
@@ -78,21 +78,21 @@ struct NetcdfHeader {
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfVariable> variables;
   NetcdfAttributes attributes;          ///< of the file
-  std::int64_t bytes = 0;               ///< of a classic file's header
-  std::vector<std::string> groups = {}; ///< of an HDF5 file, whose variables are not read
+  std::int64_t bytes = 0;               ///< size of a classic file's header
+  std::vector<std::string> groups = {}; ///< names of groups in an HDF5 file, which are not read
 };
 
 /// Whether a file begins as CDF-1, -2 or -5 does. \throws Error file.
 bool is_classic_netcdf(const FileReader& file);
 
-/// Reads the header of a classic file (NetCDF Classic Format Specification, Unidata). Whether the
-/// file holds all values remains to be checked.
+/// Reads the header of a classic file (NetCDF Classic Format Specification, Unidata). Does not
+/// check that the file contains all values.
 /// \pre is_classic_netcdf().
-/// \throws Error parse for a header that is cut short or damaged, with its byte;
-/// file.
+/// \throws Error parse for a header that is cut short or damaged, with its byte; file.
 NetcdfHeader classic_header(const FileReader& file);
 
-/// Whether one of the variables, of so many bytes each, is too large for the 64-bit offset format.
+/// Whether a variable is too large for the 64-bit offset format.
+/// \param variable_bytes sizes of the variables in bytes.
 bool needs_cdf5(const std::vector<std::int64_t>& variable_bytes);
 
 } // namespace calotte::io_detail

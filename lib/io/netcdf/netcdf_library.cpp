@@ -16,7 +16,8 @@
 namespace calotte::io_detail {
 namespace {
 
-/// Returns if a result code of the C library says that the file is damaged, or none.
+/// Throws for a result code that reports an error of the system. Returns for success and for a
+/// damaged file.
 /// \throws Error file for an error of the system; std::bad_alloc without memory.
 void require_system(const std::string& path, int code) {
   if (code == NC_ENOMEM || code == ENOMEM)
@@ -49,14 +50,14 @@ NetcdfLibraryFile::~NetcdfLibraryFile() {
   nc_close(id_);
 }
 
-/// Of opening the file and of its dimensions and variables.
+/// Requires success of calls that open the file or read its dimensions and variables.
 void NetcdfLibraryFile::require(int code) const {
   if (!is_found(code))
     fail_file(file_.path(),
               "it is not a NetCDF file, or is cut short; give another or make it again");
 }
 
-/// True for a result code of success, false where what was asked for is not there.
+/// Whether a result code reports success. False if the requested item does not exist.
 /// \throws std::bad_alloc; Error file.
 bool NetcdfLibraryFile::is_found(int code) const {
   require_system(file_.path(), code);
@@ -103,7 +104,8 @@ std::vector<std::string> NetcdfLibraryFile::read_groups() const {
   return names;
 }
 
-/// \param ids receives those of the library, which leave out the dimensions of groups.
+/// \param ids receives the library's ids, which are not consecutive: dimensions of groups are left
+///        out.
 std::vector<NetcdfDimension> NetcdfLibraryFile::read_dimensions(std::vector<int>& ids) const {
   int count = 0, unlimited = 0;
   require(nc_inq_dimids(id_, &count, nullptr, 0));
@@ -124,8 +126,8 @@ std::vector<NetcdfDimension> NetcdfLibraryFile::read_dimensions(std::vector<int>
   return dimensions;
 }
 
-/// The attributes of a variable, or of the file; those of users' types and those that cannot be
-/// read are left out.
+/// Reads the attributes of a variable, or of the file. Leaves out attributes of user-defined types
+/// and those that cannot be read.
 NetcdfAttributes NetcdfLibraryFile::read_attributes(int variable, int count) const {
   NetcdfAttributes attributes;
   for (int a = 0; a < count; ++a) {

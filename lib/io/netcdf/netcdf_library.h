@@ -20,10 +20,11 @@ std::mutex& netcdf_mutex();
 /// and skips leading blanks.
 std::string netcdf_path(const std::string& path);
 
-/// A file that the C library has open for reading. Its methods hold the lock.
+/// A file that the C library has open for reading. Its methods take the lock.
 class NetcdfLibraryFile {
 public:
-  /// \param file the same, open: the library reads zeros where it became shorter.
+  /// \param file the open file. Its size is watched, because the library reads zeros behind the end
+  ///        of a truncated file.
   /// \throws Error parse for a file that the library does not read; file.
   explicit NetcdfLibraryFile(const FileReader& file);
   NetcdfLibraryFile(const NetcdfLibraryFile&) = delete;
@@ -33,8 +34,9 @@ public:
   /// \throws Error parse, file.
   NetcdfHeader header() const;
 
-  /// The part of a variable that starts at the indices `start` and has `count` of each dimension,
-  /// converted; as bytes it keeps the file's type, in the machine's order.
+  /// Reads the part of a variable that starts at the indices `start` and has `count` entries along
+  /// each dimension. Values are converted; as bytes they keep the type of the file, in the byte
+  /// order of the machine.
   /// \throws Error parse, file.
   void get(int variable, const std::vector<std::size_t>& start,
            const std::vector<std::size_t>& count, double* out) const;

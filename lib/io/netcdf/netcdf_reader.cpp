@@ -117,8 +117,8 @@ NetcdfReader::NetcdfReader(const std::string& path) : file_(path) {
   });
 }
 
-/// Throws unless a classic file holds all values, in the order of the variables: those of records
-/// follow the others. The C library reads no other files.
+/// Throws unless a classic file contains all values, in the order of the variables, those with
+/// records last. The C library reads no other files.
 void NetcdfReader::require_values() const {
   for (const NetcdfVariable& variable : variables())
     if (variable.begin < header_.bytes || variable.end > file_.size())
@@ -136,7 +136,7 @@ void NetcdfReader::require_values() const {
     }
 }
 
-/// Throws unless 64 bits hold the bytes of each variable, and of each part of one.
+/// Throws unless the size in bytes of each variable, and of each part of one, is within 64 bits.
 void NetcdfReader::require_sizes() const {
   for (const NetcdfVariable& variable : variables()) {
     std::int64_t bytes = sizeof(double);
@@ -206,7 +206,7 @@ std::int64_t NetcdfReader::product(int variable, std::size_t first, std::size_t 
   return product;
 }
 
-/// Of a variable of records.
+/// Size in bytes of one record of a variable; 0 without records.
 std::int64_t NetcdfReader::record_bytes(int variable) const {
   const NetcdfVariable& of = variables()[static_cast<std::size_t>(variable)];
   return of.stride == 0 ? 0 : product(variable, 1, of.dimensions.size()) * size_of(*of.type);
@@ -318,7 +318,7 @@ std::vector<T> NetcdfReader::get_all(const std::string& variable,
     fail("{} has the shape {} instead of {}; make the file again", variable, in_words(has),
          in_words(shape));
   const std::int64_t count = product(find(variable), 0, has.size());
-  // What deflate can reach, for a file that stores something of each value.
+  // The largest compression ratio of deflate, for a file that stores each value in some form.
   constexpr std::int64_t most_compressed = 1032, least = std::int64_t{1} << 24;
   if (count > least && count / most_compressed > file_.size() / std::int64_t{sizeof(T)})
     fail("{} has more values than a file of its size can hold; make the file again", variable);
@@ -348,7 +348,7 @@ void NetcdfReader::get_rows(int variable, std::int64_t first, std::int64_t count
     return file_.require_whole();
   }
   if constexpr (std::is_same_v<T, std::int32_t>)
-    if (is_floating(of.type)) { // the library would cut off fractions, and knows no integer for NaN
+    if (is_floating(of.type)) { // the library would truncate fractions, and has no integer for NaN
       std::vector<double> values(static_cast<std::size_t>(count * row));
       get_rows(variable, first, count, values.data());
       return require_converted(
@@ -364,7 +364,7 @@ void NetcdfReader::get_rows(int variable, std::int64_t first, std::int64_t count
   library_->get(variable, start, counts, out);
 }
 
-/// Of a classic file: so many values from the first one on, block by block.
+/// Reads `count` values of a variable of a classic file, from value `first` on, block by block.
 template <class T>
 void NetcdfReader::get_values(int variable, std::int64_t first, std::int64_t count, T* out) const {
   constexpr std::int64_t block_values = 1 << 17;
@@ -405,8 +405,8 @@ void NetcdfReader::stored_rows(int variable, std::size_t axis, std::int64_t firs
   swap_big_endian(out, count * values, size, out);
 }
 
-/// Of a classic file: the variable's bytes, in the order of its values. Records that lie near each
-/// other are read at once, with what lies between them.
+/// Reads bytes of a variable of a classic file, in the order of its values. Records that are close
+/// to each other are read in one call, together with the bytes between them.
 void NetcdfReader::read_bytes(int variable, std::int64_t begin, std::int64_t size,
                               char* out) const {
   constexpr std::int64_t most_read = 1 << 20, near = 8; // times the bytes of a record

@@ -16,17 +16,17 @@
 /// NetCDF files that are read.
 namespace calotte::io_detail {
 
-/// A shape, or a place in one, as messages show it: "(3, 120)"; "any" stands for a negative size.
+/// A shape, or an index in it, as messages show it: "(3, 120)"; "any" stands for a negative size.
 std::string in_words(const std::vector<std::int64_t>& shape);
 
-/// An open NetCDF file of any kind. The header is read once; what it says needs no lock. Threads
-/// may read values at once: those of a classic file from the file itself, those of HDF5 through the
-/// C library. Names are the file's; messages name path and variable. Every method \throws Error
-/// parse, file.
+/// An open NetCDF file of any kind. The header is read once; it is then available without a lock.
+/// Several threads may read values at once: values of a classic file come from the file itself,
+/// because the C library would serialise the calls; those of HDF5 come from the C library.
+/// Arguments are names in the file; messages contain the path and the variable. Every method
+/// \throws Error parse, file.
 ///
-/// Through the C library, which reads one variable after another, `calotte check` of an MPAS file
-/// of 655 362 cells takes 1.18 times as long, `info` 1.10, `convert` 1.03 (two cores, medians of
-/// three interleaved runs).
+/// Through the C library, `calotte check` of an MPAS file of 655 362 cells takes 1.18 times as long,
+/// `info` 1.10, `convert` 1.03 (two cores, medians of three interleaved runs).
 ///
 ///     const NetcdfReader file("mesh.nc");
 ///     const std::int64_t n = file.dimension("nCells");
@@ -52,8 +52,9 @@ public:
 
   /// The index of a variable; -1 if there is none of that name.
   int find(const std::string& variable) const;
-  /// The same. \throws Error parse where there is none, with the remedy; with another for files
-  /// that have groups.
+  /// The same.
+  /// \throws Error parse if there is none, with the remedy; files with groups have a remedy of
+  /// their own.
   int require_variable(const std::string& name,
                        const std::string& remedy = "give a file that has") const;
   std::vector<std::string> variable_names() const;
@@ -65,38 +66,39 @@ public:
   /// The size of a dimension, -1 where the file has none of that name.
   std::int64_t dimension(const std::string& name) const;
   bool is_unlimited(const std::string& dimension) const; ///< false where it has none of that name
-  /// Whether a variable holds numbers; characters and strings are none. \pre it exists.
+  /// Whether a variable has numbers, and not characters or strings. \pre it exists.
   bool is_numeric(const std::string& variable) const;
-  /// Whether a variable holds integers of any size. \pre it exists.
+  /// Whether a variable has integers of any size. \pre it exists.
   bool is_integer(const std::string& variable) const;
   /// Whether a variable's numbers have fewer digits than doubles: NC_FLOAT. \pre it exists.
   bool is_float(const std::string& variable) const;
-  /// A text attribute of a variable, or with "" of the file; "" where there is none.
+  /// A text attribute of a variable, or of the file if the name is ""; "" without one.
   std::string text(const std::string& variable, const std::string& attribute) const;
-  /// All numbers of an attribute of the same; none where it has none.
+  /// All numbers of an attribute of a variable or of the file; none without one.
   std::vector<double> numbers(const std::string& variable, const std::string& attribute) const;
-  /// The number of an attribute that has one, else the fallback.
+  /// The number of an attribute that has exactly one, else the fallback.
   double number(const std::string& variable, const std::string& attribute, double fallback) const;
-  /// The attribute start_index of a variable with ids, the least of them: 0 or 1.
+  /// The attribute start_index of a variable of ids, the lowest id: 0 or 1.
   std::int32_t start_index(const std::string& variable, std::int32_t fallback) const;
 
   // ---- Values
 
-  /// All of a variable, converted. Its shape must be the one given (-1: any size).
+  /// Reads a whole variable, converted. Its shape must be the one given (-1: any size).
   std::vector<double> doubles(const std::string& variable,
                               const std::vector<std::int64_t>& shape) const;
   std::vector<std::int32_t> ints(const std::string& variable,
                                  const std::vector<std::int64_t>& shape) const;
-  /// Rows first to first + count - 1 of a variable, converted: row i holds all whose first index is
-  /// i. A variable without dimensions is one row. \pre the rows exist, and `out` has space for
-  /// them.
+  /// Reads rows first to first + count - 1 of a variable, converted. Row i has all values whose
+  /// first index is i. A variable without dimensions is one row.
+  /// \pre the rows exist, and `out` has space for them.
   void rows(const std::string& variable, std::int64_t first, std::int64_t count, double* out) const;
   void rows(const std::string& variable, std::int64_t first, std::int64_t count,
             std::int32_t* out) const;
 
-  /// Reads rows of a variable as classic files store them: the most significant byte of each value
-  /// first. A row holds the values that agree in the dimensions 0 to `axis`; rows are numbered over
-  /// these. \pre the rows agree in the dimensions before `axis`; `out` has space for them.
+  /// Reads rows of a variable in big-endian byte order, as classic files store them. A row has the
+  /// values with the same indices in the dimensions 0 to `axis`; rows are numbered over these
+  /// dimensions.
+  /// \pre the rows have the same indices in the dimensions before `axis`; `out` has space for them.
   void stored_rows(int variable, std::size_t axis, std::int64_t first, std::int64_t count,
                    char* out) const;
 
@@ -118,10 +120,10 @@ private:
   void get_values(int variable, std::int64_t first, std::int64_t count, T* out) const;
   void read_bytes(int variable, std::int64_t begin, std::int64_t size, char* out) const;
 
-  FileReader file_;                          ///< of HDF5 only to watch the size
+  FileReader file_;                          ///< for HDF5 only used to watch the size
   std::optional<NetcdfLibraryFile> library_; ///< none for a classic file
   NetcdfHeader header_;
-  std::vector<int> by_name_; ///< variables, sorted
+  std::vector<int> by_name_; ///< indices of the variables, sorted by name
 };
 
 } // namespace calotte::io_detail

@@ -15,7 +15,8 @@
 /// Rows of variables on their way to a NetCDF file.
 namespace calotte::io_detail {
 
-/// body(begin, end) for consecutive ranges of [first, last) of rows of so many bytes each.
+/// Calls body(begin, end) for consecutive ranges of the rows [first, last), each of about
+/// range_bytes.
 template <class Body>
 void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes,
                    std::int64_t range_bytes, const Body& body) {
@@ -24,8 +25,8 @@ void for_each_rows(std::int64_t first, std::int64_t last, std::int64_t row_bytes
     body(begin, std::min(last, begin + rows));
 }
 
-/// The same for all rows, each block in its own task. Blocks are large, which suits the disk, but
-/// numerous enough for all threads.
+/// Calls body(begin, end) for blocks of all rows, each block in its own task. Blocks are large,
+/// which suits the disk, but numerous enough for all threads.
 template <class Body>
 void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Body& body) {
   const std::int64_t block_bytes =
@@ -36,7 +37,7 @@ void for_each_block_of_rows(std::int64_t rows, std::int64_t row_bytes, const Bod
   });
 }
 
-/// Number of bytes filled at once, so that their conversion finds them in the cache.
+/// Number of bytes that are filled at once. Their conversion finds them in the cache.
 inline constexpr std::int64_t fill_bytes = 1 << 17;
 
 /// A variable whose rows follow one another in a file.
@@ -51,13 +52,13 @@ template <class T> struct RowBlock {
       : first(begin), row_values(of.row_values),
         bytes(file.block(of.offset + begin * of.row_bytes, (end - begin) * of.row_bytes)) {}
 
-  /// For the values of rows begin to end - 1.
+  /// Memory for the values of rows begin to end - 1.
   T* room(std::int64_t begin, std::int64_t end) {
     if (const std::int64_t count = (end - begin) * row_values; values.size() < count)
       values = Array<T>(count);
     return values.begin();
   }
-  /// Of what stands there.
+  /// Converts the values in that memory, which are those of rows begin to end - 1.
   void convert(std::int64_t begin, std::int64_t end) {
     to_big_endian(values.begin(), (end - begin) * row_values,
                   bytes.begin() + (begin - first) * row_values * std::int64_t{sizeof(T)});

@@ -13,9 +13,10 @@ namespace {
 
 // ---- Rows
 
-/// Reading over a gap of so many bytes costs less than another call.
+/// The largest gap between kept rows that is read: reading so many bytes costs less than another
+/// call.
 constexpr std::int64_t widest_gap = 1 << 15;
-/// Bytes read at once.
+/// Maximum number of bytes that are read at once.
 constexpr std::int64_t most_read = 1 << 20;
 
 void copy_row(const char* from, std::int64_t bytes, char* to) {
@@ -27,9 +28,9 @@ void copy_row(const char* from, std::int64_t bytes, char* to) {
     std::memcpy(to, from, static_cast<std::size_t>(bytes));
 }
 
-/// The end of the kept rows from `begin` on that one call reads.
-std::int64_t end_of_read(const Kept& kept, std::int64_t begin, std::int64_t end,
-                         std::int64_t row_bytes) {
+/// The end of the range of kept rows from `begin` on that one call reads.
+std::int64_t find_read_end(const Kept& kept, std::int64_t begin, std::int64_t end,
+                           std::int64_t row_bytes) {
   std::int64_t last = begin + 1;
   while (last < end && (kept.old[last] - kept.old[last - 1] - 1) * row_bytes <= widest_gap &&
          (kept.old[last] - kept.old[begin] + 1) * row_bytes <= most_read)
@@ -37,7 +38,7 @@ std::int64_t end_of_read(const Kept& kept, std::int64_t begin, std::int64_t end,
   return last;
 }
 
-/// A variable, the dimension of which rows are left out, and the bytes of its rows.
+/// A variable, the dimension whose rows are left out, and the size of a row in bytes.
 struct Rows {
   const NetcdfReader& source;
   int variable;
@@ -45,12 +46,13 @@ struct Rows {
   std::int64_t row_bytes;
 };
 
-/// Within one index of the dimensions before the axis, whose rows start at `base`.
+/// Reads kept rows that have the same indices in the dimensions before the axis. Their rows start
+/// at `base`.
 void read_slab(const Rows& rows, std::int64_t base, const Kept& kept, std::int64_t begin,
                std::int64_t end, char* out) {
   Array<char> buffer;
   for (std::int64_t k = begin; k < end;) {
-    const std::int64_t last = end_of_read(kept, k, end, rows.row_bytes), first = kept.old[k],
+    const std::int64_t last = find_read_end(kept, k, end, rows.row_bytes), first = kept.old[k],
                        count = kept.old[last - 1] - first + 1;
     const bool whole = count == last - k;
     if (!whole && buffer.size() < count * rows.row_bytes)
@@ -65,7 +67,7 @@ void read_slab(const Rows& rows, std::int64_t base, const Kept& kept, std::int64
   }
 }
 
-std::int64_t bytes_of_rows(const NetcdfReader& source, int variable, std::size_t axis) {
+std::int64_t row_size(const NetcdfReader& source, int variable, std::size_t axis) {
   const NetcdfVariable& of = source.variables()[static_cast<std::size_t>(variable)];
   const std::size_t rank = of.dimensions.size();
   return source.product(variable, std::min(axis + 1, rank), rank) * size_of(*of.type);
@@ -73,9 +75,9 @@ std::int64_t bytes_of_rows(const NetcdfReader& source, int variable, std::size_t
 
 // ---- Dimensions
 
-/// The dimension of a variable of which rows are left out; none if there is no such.
-std::optional<std::size_t> axis_of(const NetcdfReader& source, const NetcdfSubset& subset,
-                                   const NetcdfVariable& variable) {
+/// Finds the dimension of a variable whose rows are left out; none if there is none.
+std::optional<std::size_t> find_axis(const NetcdfReader& source, const NetcdfSubset& subset,
+                                     const NetcdfVariable& variable) {
   std::optional<std::size_t> axis;
   for (std::size_t d = 0; d < variable.dimensions.size(); ++d) {
     const auto id = static_cast<std::size_t>(variable.dimensions[d]);
@@ -90,8 +92,8 @@ std::optional<std::size_t> axis_of(const NetcdfReader& source, const NetcdfSubse
   return axis;
 }
 
-/// The unlimited dimension of the new file: the first that is unlimited, and the first of all
-/// variables that have it. -1 for none.
+/// The unlimited dimension of the new file: the first unlimited one that is the first dimension of
+/// every variable with it; -1 for none.
 int record_dimension(const NetcdfReader& source, const NetcdfSubset& subset) {
   for (std::size_t id = 0; id < source.dimensions().size(); ++id) {
     const NetcdfDimension& dimension = source.dimensions()[id];
@@ -107,8 +109,8 @@ int record_dimension(const NetcdfReader& source, const NetcdfSubset& subset) {
   return -1;
 }
 
-/// The new dimensions by those of the source; -1 for one without an index, which the classic
-/// formats do not hold.
+/// Defines the new dimensions. \returns the new id of each dimension of the source; -1 for one of
+/// size 0, which classic formats do not have.
 std::vector<int> define_dimensions(const NetcdfReader& source, const NetcdfSubset& subset,
                                    NetcdfWriter& file) {
   const int records = record_dimension(source, subset);
@@ -130,28 +132,28 @@ std::vector<int> define_dimensions(const NetcdfReader& source, const NetcdfSubse
 
 // ---- Variables
 
-/// A variable on its way from one file to the other.
-struct Passage {
+/// A variable that is copied from the source to the new file.
+struct CopiedVariable {
   int variable = 0, id = 0; ///< in the source and in the new file
   std::optional<std::size_t> axis;
   std::vector<ChangeRows> changes;
 };
 
-void put_passage(const NetcdfReader& source, const NetcdfSubset& subset, const Passage& passage,
-                 NetcdfWriter& file) {
-  const NetcdfVariable& variable = source.variables()[static_cast<std::size_t>(passage.variable)];
-  const std::size_t axis = passage.axis.value_or(0);
-  const std::int64_t row_bytes = bytes_of_rows(source, passage.variable, axis);
+void put_copied(const NetcdfReader& source, const NetcdfSubset& subset,
+                const CopiedVariable& copied, NetcdfWriter& file) {
+  const NetcdfVariable& variable = source.variables()[static_cast<std::size_t>(copied.variable)];
+  const std::size_t axis = copied.axis.value_or(0);
+  const std::int64_t row_bytes = row_size(source, copied.variable, axis);
   const Kept* kept = nullptr;
-  if (passage.axis)
+  if (copied.axis)
     kept = subset.kept.at(
         source.dimensions()[static_cast<std::size_t>(variable.dimensions[axis])].name);
-  file.put(passage.id, row_bytes, [&](std::int64_t begin, std::int64_t end, char* out) {
+  file.put(copied.id, row_bytes, [&](std::int64_t begin, std::int64_t end, char* out) {
     if (kept != nullptr)
-      read_kept_rows(source, passage.variable, axis, *kept, begin, end, out);
+      read_kept_rows(source, copied.variable, axis, *kept, begin, end, out);
     else
-      source.stored_rows(passage.variable, axis, begin, end - begin, out);
-    for (const ChangeRows& change : passage.changes)
+      source.stored_rows(copied.variable, axis, begin, end - begin, out);
+    for (const ChangeRows& change : copied.changes)
       change(begin, end, out);
   });
 }
@@ -160,9 +162,8 @@ bool is_left_out(const NetcdfSubset& subset, const std::string& name) {
   return std::find(subset.left_out.begin(), subset.left_out.end(), name) != subset.left_out.end();
 }
 
-/// Defines the variables that the new file has of the source. \param refused receives the names of
-/// those that it cannot have.
-NetcdfAttributes attributes_of(const NetcdfSubset& subset, const NetcdfVariable& variable) {
+/// The attributes of a variable in the new file.
+NetcdfAttributes make_attributes(const NetcdfSubset& subset, const NetcdfVariable& variable) {
   NetcdfAttributes attributes = variable.attributes;
   if (const auto name = subset.long_names.find(variable.name); name != subset.long_names.end()) {
     std::erase_if(attributes, [](const NetcdfAttribute& of) { return of.name == "long_name"; });
@@ -171,10 +172,12 @@ NetcdfAttributes attributes_of(const NetcdfSubset& subset, const NetcdfVariable&
   return attributes;
 }
 
-std::vector<Passage> define_variables(const NetcdfReader& source, const NetcdfSubset& subset,
-                                      const std::vector<int>& dimensions, NetcdfWriter& file,
-                                      std::vector<std::string>& refused) {
-  std::vector<Passage> passages;
+/// Defines the variables of the source in the new file.
+/// \param refused receives the names of those that it cannot have.
+std::vector<CopiedVariable> define_variables(const NetcdfReader& source, const NetcdfSubset& subset,
+                                             const std::vector<int>& dimensions, NetcdfWriter& file,
+                                             std::vector<std::string>& refused) {
+  std::vector<CopiedVariable> copies;
   for (int v = 0; v < std::ssize(source.variables()); ++v) {
     const NetcdfVariable& variable = source.variables()[static_cast<std::size_t>(v)];
     if (is_left_out(subset, variable.name))
@@ -187,16 +190,16 @@ std::vector<Passage> define_variables(const NetcdfReader& source, const NetcdfSu
       continue;
     }
     const auto changes = subset.changes.find(variable.name);
-    passages.push_back(
-        {v, file.variable(variable.name, *variable.type, ids, attributes_of(subset, variable)),
-         axis_of(source, subset, variable),
+    copies.push_back(
+        {v, file.variable(variable.name, *variable.type, ids, make_attributes(subset, variable)),
+         find_axis(source, subset, variable),
          changes == subset.changes.end() ? std::vector<ChangeRows>{} : changes->second});
   }
-  return passages;
+  return copies;
 }
 
-std::int32_t dimension_of(const NetcdfReader& source, const std::vector<int>& dimensions,
-                          const std::string& name) {
+std::int32_t find_dimension(const NetcdfReader& source, const std::vector<int>& dimensions,
+                            const std::string& name) {
   for (std::size_t d = 0; d < dimensions.size(); ++d)
     if (source.dimensions()[d].name == name)
       return dimensions[d];
@@ -207,7 +210,7 @@ NetcdfAttributes described_by(const std::string& units, const std::string& long_
   return {{"units", units}, {"long_name", long_name}};
 }
 
-/// Those of the source, some with a new value, then those that are new.
+/// Defines the attributes of the file: those of the source, some with a new value, then new ones.
 void define_attributes(const NetcdfReader& source, const NetcdfSubset& subset, NetcdfWriter& file) {
   auto left = subset.attributes;
   for (const NetcdfAttribute& attribute : source.attributes()) {
@@ -224,7 +227,7 @@ void define_attributes(const NetcdfReader& source, const NetcdfSubset& subset, N
 
 void read_kept_rows(const NetcdfReader& source, int variable, std::size_t axis, const Kept& kept,
                     std::int64_t begin, std::int64_t end, char* out) {
-  const Rows rows{source, variable, axis, bytes_of_rows(source, variable, axis)};
+  const Rows rows{source, variable, axis, row_size(source, variable, axis)};
   const std::int64_t all = source.product(variable, axis, axis + 1);
   while (begin < end) {
     const std::int64_t slab = begin / kept.count(), first = begin - slab * kept.count(),
@@ -237,27 +240,27 @@ void read_kept_rows(const NetcdfReader& source, int variable, std::size_t axis, 
 
 std::int64_t row_values(const NetcdfReader& source, const NetcdfSubset& subset, int variable) {
   const NetcdfVariable& of = source.variables()[static_cast<std::size_t>(variable)];
-  return bytes_of_rows(source, variable, axis_of(source, subset, of).value_or(0)) /
-         size_of(*of.type);
+  return row_size(source, variable, find_axis(source, subset, of).value_or(0)) / size_of(*of.type);
 }
 
 std::vector<std::string> put_subset(const NetcdfReader& source, const NetcdfSubset& subset,
                                     NetcdfWriter& file) {
   std::vector<std::string> refused;
   const std::vector<int> dimensions = define_dimensions(source, subset, file);
-  const std::vector<Passage> passages = define_variables(source, subset, dimensions, file, refused);
+  const std::vector<CopiedVariable> copies =
+      define_variables(source, subset, dimensions, file, refused);
   std::vector<int> added, numbers;
   for (const NetcdfSubset::Added& of : subset.added)
     added.push_back(file.variable(of.name, NetcdfType::int32,
-                                  {dimension_of(source, dimensions, of.dimension)},
+                                  {find_dimension(source, dimensions, of.dimension)},
                                   described_by("1", of.long_name)));
   for (const NetcdfSubset::Number& of : subset.numbers)
     numbers.push_back(
         file.variable(of.name, NetcdfType::float64, {}, described_by(of.units, of.long_name)));
   define_attributes(source, subset, file);
   file.begin();
-  for (const Passage& passage : passages)
-    put_passage(source, subset, passage, file);
+  for (const CopiedVariable& copied : copies)
+    put_copied(source, subset, copied, file);
   for (std::size_t k = 0; k < added.size(); ++k)
     file.put(added[k], NetcdfWriter::Fill<std::int32_t>(
                            [&](std::int64_t begin, std::int64_t end, std::int32_t* out) {

@@ -14,19 +14,19 @@
 #include <string>
 #include <vector>
 
-/// Files that hold some of the cells, edges and vertices of another.
+/// Files that contain some of the cells, edges and vertices of another.
 namespace calotte::io_detail {
 
-/// The kept ones of n things, in their order.
+/// The items that are kept of n items, in their order. Items are cells, edges or vertices.
 struct Kept {
-  Array<std::int32_t> old;    ///< by kept thing: its 0-based id of before, ascending
-  Array<std::int32_t> number; ///< n: the new 1-based number of each; 0 if it is left out
+  Array<std::int32_t> old;    ///< by kept item: its 0-based id in the source, ascending
+  Array<std::int32_t> number; ///< by item of the source: its new 1-based number; 0 if left out
 
   std::int64_t count() const { return old.size(); }
 };
 
-/// Those with a flag >= 0.
-template <class Flags> Kept kept_of(const Flags& flags) {
+/// Keeps the items with a flag >= 0.
+template <class Flags> Kept select_kept(const Flags& flags) {
   const std::int64_t n = static_cast<std::int64_t>(flags.size());
   Kept kept{{}, Array<std::int32_t>(n)};
   std::int32_t count = 0;
@@ -39,24 +39,24 @@ template <class Flags> Kept kept_of(const Flags& flags) {
   return kept;
 }
 
-/// Reads the kept rows begin to end - 1 of a variable, numbered over the dimensions 0 to `axis`, of
-/// which the last has rows left out. The bytes are those of the file: the most significant of each
-/// value first. \throws Error parse, file.
+/// Reads the kept rows begin to end - 1 of a variable in big-endian byte order. They are numbered
+/// over the dimensions 0 to `axis`; rows of dimension `axis` are left out.
+/// \throws Error parse, file.
 void read_kept_rows(const NetcdfReader& source, int variable, std::size_t axis, const Kept& kept,
                     std::int64_t begin, std::int64_t end, char* out);
 
-/// Changes such rows in place.
+/// Modifies such rows.
 using ChangeRows = std::function<void(std::int64_t begin, std::int64_t end, char* bytes)>;
 
-/// What becomes of the variables of a file.
+/// The changes from a file to its subset.
 struct NetcdfSubset {
   std::map<std::string, const Kept*> kept;                ///< by name of the dimension
   std::map<std::string, std::vector<ChangeRows>> changes; ///< by variable, in their order
-  std::map<std::string, NetcdfAttribute> attributes = {}; ///< of the file: replace those of before
-  std::map<std::string, std::string> long_names = {};     ///< by variable: replace those of before
-  std::vector<std::string> left_out = {};                 ///< variables
+  std::map<std::string, NetcdfAttribute> attributes = {}; ///< replace those of the source
+  std::map<std::string, std::string> long_names = {};     ///< by variable
+  std::vector<std::string> left_out = {};                 ///< names of variables
 
-  /// A new variable of integers, one by thing of a dimension.
+  /// A new variable with one integer for each item of a dimension.
   struct Added {
     std::string name, dimension, long_name;
     std::function<std::int32_t(std::int64_t i)> value;
@@ -72,13 +72,15 @@ struct NetcdfSubset {
   std::vector<FieldDimension> dimensions = {};
 };
 
-/// Number of values in a row of a variable, as changes see it.
+/// Number of values in a row of a variable, as ChangeRows receives it.
 std::int64_t row_values(const NetcdfReader& source, const NetcdfSubset& subset, int variable);
 
-/// Writes the variables of a file, of which rows are left out, to a new one, which the caller then
-/// commits. \returns the variables that a classic file cannot hold: those of strings and of users'
-/// types. \throws Error file; parse; invalid_argument for a variable with two of the dimensions;
-/// what changes throw.
+/// Writes the variables of a file, some without rows that are left out, to a new file. The caller
+/// commits it.
+/// \returns the variables that a classic file cannot contain: those of strings and of user-defined
+/// types.
+/// \throws Error file; parse; invalid_argument for a variable with two of the dimensions; what
+/// changes throw.
 std::vector<std::string> put_subset(const NetcdfReader& source, const NetcdfSubset& subset,
                                     NetcdfWriter& file);
 

@@ -34,16 +34,18 @@ public:
 
   /// \returns its id. A size of 0 makes it unlimited; no variable may have it.
   int dimension(const std::string& name, std::int64_t size);
-  /// An unlimited dimension of so many records, the first of the variables that have it. These are
-  /// put as bytes. At most one. \returns its id.
+  /// An unlimited dimension with `records` records, at most one in a file. It is the first
+  /// dimension of the variables that have it; they are put as bytes.
+  /// \returns its id.
   int record_dimension(const std::string& name, std::int64_t records);
-  /// A dimension of that name and size which fields share. One that is unlimited gets the size; the
-  /// name grows if the file has another dimension of that name. \returns its id.
+  /// A dimension that fields share, by name and size. An unlimited one gets the size. If the file
+  /// has another dimension of that name, the name is extended.
+  /// \returns its id.
   int field_dimension(const std::string& name, std::int64_t size);
   /// \param dimensions ids, the slowest first; none for a scalar. \returns its id.
   int variable(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
                const NetcdfAttributes& attributes = {});
-  /// Of the whole file.
+  /// Adds an attribute of the file.
   void attribute(NetcdfAttribute attribute);
 
   void begin();
@@ -61,9 +63,8 @@ public:
                                        std::int32_t* const* ints, double* const* doubles)>;
   void put(const std::vector<int>& ints, const std::vector<int>& doubles, const GroupFill& fill);
 
-  /// fill(begin, end, out) writes the pieces begin to end - 1 of the variable, of so many bytes
-  /// each, as the file holds them: the most significant byte of each value first. A piece is at
-  /// most a record. Several threads call it at once.
+  /// fill(begin, end, out) writes the pieces begin to end - 1 of the variable, in big-endian byte
+  /// order. Pieces have the same size and are at most a record. Several threads call it at once.
   using FillBytes = std::function<void(std::int64_t begin, std::int64_t end, char* out)>;
   void put(int variable, std::int64_t piece_bytes, const FillBytes& fill);
 

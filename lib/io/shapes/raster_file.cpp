@@ -180,7 +180,7 @@ RasterAxes plane_axes(const NetcdfReader& file) {
 
 /// \throws Error parse, for a file without.
 RasterAxes axes_for(const NetcdfReader& file, const std::string& variable) {
-  std::optional<RasterAxes> axes = axes_of(file, variable);
+  std::optional<RasterAxes> axes = variable_axes(file, variable);
   if (!axes)
     axes = raster_axes(file);
   if (axes)
@@ -197,7 +197,7 @@ std::string only_raster(const NetcdfReader& file, bool of_plane) {
   std::vector<std::string> found;
   for (const std::string& name : file.variable_names())
     if (file.is_numeric(name) &&
-        (of_plane ? file.dimensions_of(name).size() == 2 : axes_of(file, name).has_value()))
+        (of_plane ? file.dimensions_of(name).size() == 2 : variable_axes(file, name).has_value()))
       found.push_back(name);
   const std::string axes = of_plane ? "x and y" : "latitudes and longitudes";
   if (found.empty())
@@ -219,7 +219,7 @@ RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable
                       .y_name = axes.latitude,
                       .value_name = variable};
   const auto nodes = [&](const std::string& axis) {
-    return vector_of(of_plane ? cf_values(file, axis, {-1}) : degrees_of(file, axis));
+    return vector_of(of_plane ? cf_values(file, axis, {-1}) : read_degrees_of_axis(file, axis));
   };
   Raster& raster = stored.raster;
   raster.x = nodes(axes.longitude);
