@@ -47,8 +47,8 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
 }
 
 LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
-  const DoubleVector longitudes = vector_of(read_degrees_of_axis(file, axes.longitude)),
-                     latitudes = vector_of(read_degrees_of_axis(file, axes.latitude)),
+  const DoubleVector longitudes = to_vector(read_degrees_of_axis(file, axes.longitude)),
+                     latitudes = to_vector(read_degrees_of_axis(file, axes.latitude)),
                      meridians = sides_of(file, axes.longitude, longitudes),
                      parallels = sides_of(file, axes.latitude, latitudes);
   try {

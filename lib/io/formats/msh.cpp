@@ -50,8 +50,9 @@ RawMesh get_msh(std::istream& in, const std::string& name) {
   const JigsawFile file = read_jigsaw(in, name);
   if (file.points.cols() == 0)
     fail_file(name, "no POINT section; give a mesh of the sphere, with points");
-  const double radius = file.dimensions == 2 && !is_planar_mesh(file) ? radius_of(file, name) : 1;
-  return {radius * columns_of(file, name), file.triangles};
+  const double radius =
+      file.dimensions == 2 && !is_planar_mesh(file) ? require_sphere_radius(file, name) : 1;
+  return {radius * make_columns(file, name), file.triangles};
 }
 
 } // namespace calotte::io_detail

@@ -33,7 +33,7 @@ Raster read_cell_width(const std::string& path, const PolygonWidths& polygons,
     refuse_path(path, "no file of cell widths in the plane; give NetCDF cellWidth(y, x) (.nc), "
                       "JIGSAW's spacings (.msh), or rules (.toml)");
   if (!polygonal)
-    return widths_of(read_jigsaw(path), path, surface);
+    return make_width_raster(read_jigsaw(path), path, surface);
   std::ifstream in = open_input(path);
   return read_cell_width_geojson(in, path, polygons);
 }

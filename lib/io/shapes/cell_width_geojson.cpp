@@ -15,7 +15,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// One file's polygons with their widths.
+/// Reads the polygons of one file and their widths.
 class Collector {
 public:
   Collector(std::string name, const PolygonWidths& widths)
@@ -29,7 +29,7 @@ public:
                 true);
     for (const GeoGeometry& geometry : polygons.geometries) {
       where_ = geometry.where;
-      regions_.push_back(region_of(geometry));
+      regions_.push_back(make_region(geometry));
     }
     where_.clear();
     require_narrower();
@@ -45,7 +45,7 @@ private:
     return value.get<double>();
   }
 
-  /// Takes a width from the caller or, if that is 0, from the file's member of that name.
+  /// Uses the width from the caller or, if that is 0, the member `key` of the file.
   void outer_width(const Json& root, const char* key, const char* what, double& width,
                    bool needed) const {
     const auto given = root.find(key);
@@ -65,10 +65,10 @@ private:
     return widths_.inside;
   }
 
-  /// With a place inside, all rings of the geometry bound one area.
-  WidthRegion region_of(const GeoGeometry& geometry) const {
+  /// If the geometry names a point inside, all its rings bound one area.
+  WidthRegion make_region(const GeoGeometry& geometry) const {
     WidthRegion region{width_inside(geometry.properties), {}};
-    const std::optional<GeoPosition> inside = inside_of(geometry, name_);
+    const std::optional<GeoPosition> inside = read_inside(geometry, name_);
     if (inside)
       region.polygons.push_back({{}, Place{(*inside)[0], (*inside)[1]}});
     std::int64_t rings = 0;
@@ -76,12 +76,12 @@ private:
       if (!inside)
         region.polygons.emplace_back();
       for (const GeoRing& ring : polygon)
-        region.polygons.back().rings.push_back(places_of(ring, rings++));
+        region.polygons.back().rings.push_back(make_ring(ring, rings++));
     }
     return region;
   }
 
-  Ring places_of(const GeoRing& positions, std::int64_t number) const {
+  Ring make_ring(const GeoRing& positions, std::int64_t number) const {
     Ring ring;
     for (const GeoPosition& position : positions) {
       require_degrees(position, name_,

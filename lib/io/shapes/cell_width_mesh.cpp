@@ -18,29 +18,30 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The width of each site: of points that are one site, that of the first.
-DoubleVector of_sites(const Mesh& mesh, const DoubleVector& widths) {
+/// The width of each site: that of its first input point.
+DoubleVector site_widths(const Mesh& mesh, const DoubleVector& widths) {
   DoubleVector of_site(mesh.points.cols());
   for (Eigen::Index i = widths.size(); i-- > 0;)
     of_site[mesh.site_of_input[static_cast<std::size_t>(i)]] = widths[i];
   return of_site;
 }
 
-/// Fills the values of a grid, which is first x second, by interpolation on the mesh.
-/// \param place(i, j) position of a node.
-template <class Place>
-void fill(const Mesh& mesh, const DoubleVector& of_site, const Place& place, DoubleMatrix& values) {
+/// Fills the values of a grid, first x second, by interpolation on the mesh.
+/// \param position(i, j) of a node.
+template <class Position>
+void fill(const Mesh& mesh, const DoubleVector& of_site, const Position& position,
+          DoubleMatrix& values) {
   constexpr Eigen::Index at_once = 1 << 20; // positions
   const Locator locator(mesh);
   const Eigen::Index nx = values.rows(), rows = std::max<Eigen::Index>(1, at_once / nx);
   for (Eigen::Index begin = 0; begin < values.cols(); begin += rows) {
     const Eigen::Index end = std::min(begin + rows, values.cols());
-    Points3 places(3, nx * (end - begin));
+    Points3 positions(3, nx * (end - begin));
     for (Eigen::Index j = begin; j < end; ++j)
       for (Eigen::Index i = 0; i < nx; ++i)
-        base_detail::set_column(places, (j - begin) * nx + i, place(i, j));
-    const Locations found = locator.find(places);
-    for (Eigen::Index k = 0; k < places.cols(); ++k) {
+        base_detail::set_column(positions, (j - begin) * nx + i, position(i, j));
+    const Locations found = locator.find(positions);
+    for (Eigen::Index k = 0; k < positions.cols(); ++k) {
       double width = of_site[found.nearest[k]];
       if (const std::int32_t t = found.triangle[k]; t >= 0) {
         width = 0;
@@ -52,7 +53,7 @@ void fill(const Mesh& mesh, const DoubleVector& of_site, const Place& place, Dou
   }
 }
 
-/// The length that a tenth of the edges are shorter than.
+/// The first decile of the lengths of the edges.
 double short_edge(const Mesh& mesh) {
   std::vector<double> squares;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -76,7 +77,7 @@ Raster resampled(const Points3& points, const DoubleVector& widths) {
   const double spacing = 2 * arc_sine(0.5 * short_edge(mesh)) * 180 / std::numbers::pi;
   Raster grid = regular_grid(std::clamp(0.5 * spacing, finest, coarsest));
   fill(
-      mesh, of_sites(mesh, widths),
+      mesh, site_widths(mesh, widths),
       [&](Eigen::Index i, Eigen::Index j) { return from_lonlat(grid.x[i], grid.y[j]); },
       grid.values);
   return grid;
@@ -88,7 +89,7 @@ Raster resampled_in_plane(const Points2& points, const DoubleVector& widths) {
   const Eigen::Vector2d low = points.rowwise().minCoeff(), size = points.rowwise().maxCoeff() - low;
   Raster grid = density_detail::grid_over(low, size, 0.5 * short_edge(mesh), most_nodes);
   fill(
-      mesh, of_sites(mesh, widths),
+      mesh, site_widths(mesh, widths),
       [&](Eigen::Index i, Eigen::Index j) {
         return Vec3{grid.x[i], grid.y[j], 0};
       },

@@ -16,8 +16,10 @@ namespace calotte::io_detail {
 /// \throws Error as delaunay(); invalid_argument if the points leave a hemisphere empty.
 Raster resampled(const Points3& points, const DoubleVector& widths);
 
-/// The same in a plane, on a grid of x and y over the points; beyond their hull the nearest
-/// point's. \param points 2 x n. \throws Error as delaunay().
+/// The same in a plane, on a grid of x and y that covers the points. Beyond their convex hull the
+/// width is that of the nearest point.
+/// \param points 2 x n.
+/// \throws Error as delaunay().
 Raster resampled_in_plane(const Points2& points, const DoubleVector& widths);
 
 } // namespace calotte::io_detail

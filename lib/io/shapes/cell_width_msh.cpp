@@ -16,12 +16,12 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 
 /// One value for each node, y running faster.
-Raster of_grid(const JigsawFile& file, const std::string& name, const Surface& surface) {
+Raster make_grid_raster(const JigsawFile& file, const std::string& name, const Surface& surface) {
   require_values(file, file.x_grid.size() * file.y_grid.size(), name);
   const bool of_plane = !surface.is_sphere();
   const double unit = of_plane ? 1 : degrees;
-  RasterOfFile stored{.raster = {.x = unit * vector_of(file.x_grid),
-                                 .y = unit * vector_of(file.y_grid),
+  RasterOfFile stored{.raster = {.x = unit * to_vector(file.x_grid),
+                                 .y = unit * to_vector(file.y_grid),
                                  .of_plane = of_plane},
                       .x_name = "COORD=1",
                       .y_name = "COORD=2",
@@ -34,25 +34,25 @@ Raster of_grid(const JigsawFile& file, const std::string& name, const Surface& s
 }
 
 /// One width for each point.
-DoubleVector widths_of_points(const JigsawFile& file, const std::string& name) {
+DoubleVector point_widths(const JigsawFile& file, const std::string& name) {
   require_values(file, static_cast<std::size_t>(file.points.cols()), name);
   for (std::size_t i = 0; i < file.values.size(); ++i)
     if (!(file.values[i] > 0))
       fail_file(name, "VALUE of point {} is not positive; correct it", i);
-  return vector_of(file.values);
+  return to_vector(file.values);
 }
 
-Raster of_mesh(const JigsawFile& file, const std::string& name) {
-  const DoubleVector widths = widths_of_points(file, name);
-  const Points3 points = directions_of(file, name);
+Raster make_mesh_raster(const JigsawFile& file, const std::string& name) {
+  const DoubleVector widths = point_widths(file, name);
+  const Points3 points = make_directions(file, name);
   return named(name, [&] { return resampled(points, widths); });
 }
 
 Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Surface& plane) {
   if (is_planar_mesh(file))
-    return resampled_in_plane(Points2(file.points), widths_of_points(file, name));
+    return resampled_in_plane(Points2(file.points), point_widths(file, name));
   if (file.kind == "euclidean-grid")
-    return of_grid(file, name, plane);
+    return make_grid_raster(file, name, plane);
   fail_file(name,
             "no cell widths of a plane in a file of the kind \"{}\"; give euclidean-grid, or a "
             "euclidean-mesh of NDIMS=2",
@@ -61,13 +61,13 @@ Raster widths_in_plane(const JigsawFile& file, const std::string& name, const Su
 
 } // namespace
 
-Raster widths_of(const JigsawFile& file, const std::string& name, const Surface& surface) {
+Raster make_width_raster(const JigsawFile& file, const std::string& name, const Surface& surface) {
   if (!surface.is_sphere())
     return widths_in_plane(file, name, surface);
   if (file.kind == "ellipsoid-grid")
-    return of_grid(file, name, surface);
+    return make_grid_raster(file, name, surface);
   if (file.kind == "ellipsoid-mesh" || file.kind == "euclidean-mesh")
-    return of_mesh(file, name);
+    return make_mesh_raster(file, name);
   fail_file(name,
             "no cell widths of the sphere in a file of the kind \"{}\"; give ellipsoid-grid, "
             "ellipsoid-mesh or euclidean-mesh",
@@ -83,7 +83,7 @@ Raster read_jigsaw_widths(const std::string& path, const JigsawSizes& sizes,
   io_detail::JigsawFile file = io_detail::read_jigsaw(path);
   for (double& value : file.values)
     value = std::max(std::min(sizes.scale * value, sizes.most), sizes.least);
-  return io_detail::widths_of(file, path, surface);
+  return io_detail::make_width_raster(file, path, surface);
 }
 
 } // namespace calotte

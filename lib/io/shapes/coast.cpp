@@ -21,7 +21,7 @@ namespace io_detail {
 
 void add_land(const std::vector<WrittenRing>& rings, Coast& coast) {
   constexpr double sphere = 4 * std::numbers::pi;
-  double left = 0; // of all rings, as often as a ring has it to its left
+  double left = 0; // area to the left of the rings, counted once for each ring
   for (const WrittenRing& ring : rings)
     if (ring.corners.size() > 2) {
       left += area_to_the_left(arcs_of(ring));
@@ -32,7 +32,7 @@ void add_land(const std::vector<WrittenRing>& rings, Coast& coast) {
 
 namespace {
 
-/// Throws for a file of GSHHG that is not there, and names the package that has it.
+/// Throws if a file of GSHHG is missing, and names the package that contains it.
 void require_gshhg(const std::string& path) {
   const std::string name = std::filesystem::path(path).filename();
   std::error_code error;

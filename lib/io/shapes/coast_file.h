@@ -12,8 +12,8 @@
 /// Readers of coasts, one a format; see read_coast().
 namespace calotte::io_detail {
 
-/// Adds the land to the left of rings. A ring of fewer than three corners has no area and is left
-/// out.
+/// Adds the land to the left of rings. Rings of fewer than three corners have no area and are
+/// ignored.
 void add_land(const std::vector<WrittenRing>& rings, Coast& coast);
 
 /// The land of a binned file of GSHHG: level 1, Antarctica with its ice shelves.

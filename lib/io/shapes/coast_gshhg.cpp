@@ -15,9 +15,9 @@
 namespace calotte::io_detail {
 namespace {
 
-/// In units of 1/65535 of a bin, from 0 east and 90 south.
-using Place = std::pair<std::int64_t, std::int64_t>;
-using Line = std::vector<Place>;
+/// A point in units of 1/65535 of a bin, east of 0 degrees and north of the south pole.
+using GridPoint = std::pair<std::int64_t, std::int64_t>;
+using Line = std::vector<GridPoint>;
 
 constexpr std::int64_t bin_units = 65535;
 
@@ -38,7 +38,7 @@ public:
         add_segment(static_cast<std::int64_t>(bin),
                     static_cast<std::size_t>(first_segment_[bin] + s));
     while (!open_.empty())
-      join(open_.begin()->first.first);
+      join_segments(open_.begin()->first.first);
     return std::move(coast_);
   }
 
@@ -71,14 +71,14 @@ private:
       open_.emplace(std::pair(polygon_.at(segment), line.front()), std::move(line));
   }
 
-  /// Joins the segments of a polygon from one of them on.
-  void join(std::int32_t polygon) {
+  /// Joins the segments of a polygon to a ring, and adds it.
+  void join_segments(std::int32_t polygon) {
     auto next = open_.lower_bound({polygon, {INT64_MIN, INT64_MIN}});
-    const Place start = next->first.second;
+    const GridPoint start = next->first.second;
     Line ring;
     while (next != open_.end()) {
       ring.insert(ring.end(), next->second.begin(), next->second.end() - 1);
-      const Place end = next->second.back();
+      const GridPoint end = next->second.back();
       open_.erase(next);
       if (end == start)
         return add(ring);
@@ -99,11 +99,11 @@ private:
   }
 
   const NetcdfReader& file_;
-  std::int64_t bins_, rows_; ///< around the sphere, and from pole to pole
+  std::int64_t bins_, rows_; ///< numbers of bins around the sphere, and from pole to pole
   std::vector<std::int32_t> first_segment_, segments_, facts_, first_point_, polygon_, x_, y_;
-  /// Segments by polygon and first place. Two may begin where the coast touches the border of a
-  /// bin.
-  std::multimap<std::pair<std::int32_t, Place>, Line> open_;
+  /// Open segments by polygon and first point. Two may begin at the same point, where the coast
+  /// touches the border of a bin.
+  std::multimap<std::pair<std::int32_t, GridPoint>, Line> open_;
   Coast coast_;
 };
 

@@ -41,7 +41,7 @@ bool ends_ring(std::string_view line) {
   return is_blank_line(line) || line[line.find_first_not_of(" \t")] == '>';
 }
 
-GeoPosition corner_of(const LineReader& reader, std::string_view line) {
+GeoPosition parse_corner(const LineReader& reader, std::string_view line) {
   GeoPosition corner;
   const Columned read = parse_columns(line, 2, corner.data());
   if (read.outcome != Outcome::ok)
@@ -50,7 +50,7 @@ GeoPosition corner_of(const LineReader& reader, std::string_view line) {
   return corner;
 }
 
-FileRings rings_of_text(std::istream& in, const std::string& name) {
+FileRings read_text_rings(std::istream& in, const std::string& name) {
   LineReader reader(in, name);
   FileRings rings;
   bool header = false, open = false;
@@ -66,7 +66,7 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
       header = true;
       continue;
     }
-    const GeoPosition corner = corner_of(reader, line);
+    const GeoPosition corner = parse_corner(reader, line);
     if (!open) {
       rings.close();
       rings.corners.emplace_back();
@@ -81,7 +81,7 @@ FileRings rings_of_text(std::istream& in, const std::string& name) {
   return rings;
 }
 
-FileRings rings_of_geojson(std::istream& in, const std::string& name) {
+FileRings read_geojson_rings(std::istream& in, const std::string& name) {
   FileRings rings;
   const GeoPolygons polygons = read_polygons(in, name, xy_pair);
   for (const GeoGeometry& geometry : polygons.geometries) {
@@ -95,7 +95,7 @@ FileRings rings_of_geojson(std::istream& in, const std::string& name) {
   return rings;
 }
 
-Surface domain_of(const FileRings& rings) {
+Surface make_domain(const FileRings& rings) {
   Surface::Rings all;
   for (const GeoRing& corners : rings.corners) {
     DoubleMatrix ring(2, std::ssize(corners));
@@ -106,8 +106,8 @@ Surface domain_of(const FileRings& rings) {
   return Surface::plane().within(std::move(all));
 }
 
-/// The closed rings of edges of a mesh of JIGSAW.
-Surface domain_of_jigsaw(const std::string& path) {
+/// The domain that the closed rings of edges of a JIGSAW mesh bound.
+Surface read_jigsaw_domain(const std::string& path) {
   const Surface surface = read_jigsaw_geometry(path).surface;
   if (surface.is_sphere())
     fail_file(path, "a geometry of the sphere; give one of a plane");
@@ -118,11 +118,12 @@ Surface domain_of_jigsaw(const std::string& path) {
 
 Surface read_domain(const std::string& path) {
   if (suffix_of(path) == ".msh")
-    return domain_of_jigsaw(path);
+    return read_jigsaw_domain(path);
   std::ifstream in = open_input(path);
-  const FileRings rings = is_geojson(path) ? rings_of_geojson(in, path) : rings_of_text(in, path);
+  const FileRings rings =
+      is_geojson(path) ? read_geojson_rings(in, path) : read_text_rings(in, path);
   try {
-    return domain_of(rings);
+    return make_domain(rings);
   } catch (const Error& error) {
     const std::int64_t ring = error.index();
     const bool named = ring >= 0 && ring < std::ssize(rings.origins);

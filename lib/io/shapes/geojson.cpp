@@ -12,9 +12,9 @@ namespace calotte::io_detail {
 namespace {
 
 constexpr const char* as_rfc = "; give GeoJSON as RFC 7946 has it";
-constexpr int deepest = 8; ///< geometry collections within each other
+constexpr int deepest = 8; ///< nesting depth of geometry collections
 
-/// The file's object without its features, of which each is shown to `take`.
+/// Parses a file and passes each feature to `take`. \returns its object without the features.
 Json parse(std::istream& in, const std::string& name,
            const std::function<void(const Json& feature)>& take) {
   bool in_features = false;
@@ -51,7 +51,7 @@ void take_feature(const Json& object, std::int64_t number, const std::string& na
   const std::string where = number < 0 ? "" : message("feature {}: ", number);
   const std::string type = text_in(object, "type");
   if (type != "Feature" && (object.contains("coordinates") || object.contains("geometries")))
-    return take({number, where, Json(), object}); // a geometry alone
+    return take({number, where, Json(), object}); // a single geometry
   if (type != "Feature" && !(type.empty() && object.contains("geometry")))
     fail_file(name, "{}no object of the type \"Feature\"{}", where, as_rfc);
   take({number, where, object.value("properties", Json()), object.value("geometry", Json())});

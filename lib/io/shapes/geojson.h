@@ -11,33 +11,33 @@
 #include <iosfwd>
 #include <string>
 
-/// GeoJSON (Butler et al., RFC 7946, 2016): one parse for all that read it.
+/// GeoJSON (Butler et al., RFC 7946, 2016): the parser that all its readers share.
 namespace calotte::io_detail {
 
 using Json = nlohmann::json;
 using GeoPosition = std::array<double, 2>;
 
-/// A feature, or a geometry that stands for one.
+/// A feature, or a geometry without one.
 struct GeoFeature {
-  std::int64_t number; ///< in its collection; -1 if it is all of the file
+  std::int64_t number; ///< index in its collection; -1 if it is the whole file
   std::string where;   ///< "feature 3: " or nothing, for messages
   const nlohmann::json& properties;
-  const nlohmann::json& geometry; ///< null where it has none
+  const nlohmann::json& geometry; ///< null if it has none
 };
 
-/// Shows each feature to `take` as soon as it is read, so that a file need not fit into memory.
+/// Passes each feature to `take` as soon as it is read, so that a file need not fit into memory.
 /// \returns the other members of the file's object.
-/// \throws Error parse if it is no JSON or no object, or if a feature is none; file; what take
-/// throws.
+/// \throws Error parse if the file is not a JSON object, or if a feature is not an object; file;
+/// what take throws.
 nlohmann::json read_features(std::istream& in, const std::string& name,
                              const std::function<void(const GeoFeature&)>& take);
 
-/// Takes a geometry of a feature. The coordinates are an array, unless the type is "" or, nested
-/// too deep, a collection.
+/// Receives a geometry of a feature. The coordinates are an array, except for the type "", and for
+/// a collection that is nested too deeply.
 using GeometryVisit = std::function<void(const GeoFeature& feature, const std::string& type,
                                          const nlohmann::json& coordinates)>;
 
-/// The same for the geometry of each feature, or each of its collection.
+/// The same for the geometry of each feature, or for each geometry of its collection.
 /// \throws Error as read_features(); parse for a geometry without coordinates.
 nlohmann::json read_geometries(std::istream& in, const std::string& name,
                                const GeometryVisit& visit);
@@ -51,12 +51,12 @@ struct GeoPair {
 inline constexpr GeoPair lonlat_pair{"[longitude, latitude]", "give degrees"},
     xy_pair{"[x, y]", "give two numbers"};
 
-/// The text of a member; "" where there is none.
+/// The text of a member; "" without one.
 std::string text_in(const nlohmann::json& object, const char* key);
 
 /// Whether a value is an array that starts with two numbers.
 bool is_position(const nlohmann::json& value);
-/// \pre it is.
+/// \pre is_position(value).
 GeoPosition position_of(const nlohmann::json& value);
 /// Whether a position is a longitude and a latitude, degrees.
 bool are_degrees(const GeoPosition& position);

@@ -12,8 +12,8 @@
 namespace calotte::io_detail {
 namespace {
 
-WrittenRing ring_of(const GeoRing& positions, const std::string& name, const std::string& where,
-                    std::size_t number) {
+WrittenRing make_ring(const GeoRing& positions, const std::string& name, const std::string& where,
+                      std::size_t number) {
   WrittenRing ring{{}, message("{}ring {}", where, number)};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     require_degrees(positions[i], name, message("{}position {} of ring {}", where, i, number));
@@ -25,12 +25,12 @@ WrittenRing ring_of(const GeoRing& positions, const std::string& name, const std
 
 } // namespace
 
-GeoArea area_of(const GeoGeometry& geometry, const std::string& name) {
+GeoArea make_area(const GeoGeometry& geometry, const std::string& name) {
   GeoArea area{geometry.where, {}};
-  const std::optional<GeoPosition> inside = inside_of(geometry, name);
+  const std::optional<GeoPosition> inside = read_inside(geometry, name);
   for (const GeoPolygon& polygon : geometry.polygons)
     for (std::size_t r = 0; r < polygon.size(); ++r) {
-      area.rings.push_back(ring_of(polygon[r], name, geometry.where, area.rings.size()));
+      area.rings.push_back(make_ring(polygon[r], name, geometry.where, area.rings.size()));
       if (!inside && area.rings.back().corners.size() > 2)
         enclose(area.rings.back(), r > 0);
     }
@@ -49,7 +49,7 @@ void require_degrees(const GeoPosition& position, const std::string& name,
               Json(position[0]).dump(), Json(position[1]).dump());
 }
 
-std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::string& name) {
+std::optional<GeoPosition> read_inside(const GeoGeometry& geometry, const std::string& name) {
   if (!geometry.properties.is_object() || !geometry.properties.contains("inside"))
     return std::nullopt;
   const Json& given = geometry.properties["inside"];
@@ -65,7 +65,7 @@ std::vector<GeoArea> read_areas(std::istream& in, const std::string& name) {
   std::vector<GeoArea> areas;
   const GeoPolygons polygons = read_polygons(in, name, lonlat_pair);
   for (const GeoGeometry& geometry : polygons.geometries)
-    areas.push_back(area_of(geometry, name));
+    areas.push_back(make_area(geometry, name));
   return areas;
 }
 

@@ -16,9 +16,9 @@ namespace calotte::io_detail {
 /// \throws Error parse, for a position that is no longitude and latitude in degrees.
 void require_degrees(const GeoPosition& position, const std::string& name, const std::string& what);
 
-/// The place that the feature of a geometry names as its property "inside", or none.
+/// The point that the property "inside" of a geometry's feature names; none without it.
 /// \throws Error parse.
-std::optional<GeoPosition> inside_of(const GeoGeometry& geometry, const std::string& name);
+std::optional<GeoPosition> read_inside(const GeoGeometry& geometry, const std::string& name);
 
 /// The area of one geometry, to the left of its rings. A ring without area may have fewer than
 /// three corners.
@@ -27,12 +27,13 @@ struct GeoArea {
   std::vector<WrittenRing> rings;
 };
 
-/// An outer ring encloses its polygon, and a hole what is left out of it (see enclose_left()),
-/// unless the feature names a place inside: then its rings, joined, are those around this place.
-/// \throws Error parse, naming the feature and its ring; of a place inside, as region_around().
-GeoArea area_of(const GeoGeometry& geometry, const std::string& name);
+/// An outer ring encloses its polygon, and a hole what is left out of it (see enclose_left()). If
+/// the feature names a point inside, its rings are joined, and the area is the one around this
+/// point.
+/// \throws Error parse, with the feature and its ring; for a point inside, as region_around().
+GeoArea make_area(const GeoGeometry& geometry, const std::string& name);
 
-/// The areas of all geometries of a file. \throws Error as area_of().
+/// The areas of all geometries of a file. \throws Error as make_area().
 std::vector<GeoArea> read_areas(std::istream& in, const std::string& name);
 
 } // namespace calotte::io_detail

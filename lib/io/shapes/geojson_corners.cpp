@@ -19,16 +19,16 @@ std::int32_t GeoCorners::id_of(double longitude, double latitude) {
     east = half_turn;
   if (std::abs(latitude) == 90)
     east = 0;
-  const auto [known, is_new] = ids_.try_emplace({east, north}, std::ssize(places_));
+  const auto [known, is_new] = ids_.try_emplace({east, north}, std::ssize(positions_));
   if (is_new)
-    places_.push_back(from_lonlat(longitude, latitude));
+    positions_.push_back(from_lonlat(longitude, latitude));
   return known->second;
 }
 
 Points3 GeoCorners::columns() const {
-  Points3 columns(3, std::ssize(places_));
+  Points3 columns(3, std::ssize(positions_));
   for (std::int64_t i = 0; i < columns.cols(); ++i)
-    set_column(columns, i, places_[static_cast<std::size_t>(i)]);
+    set_column(columns, i, positions_[static_cast<std::size_t>(i)]);
   return columns;
 }
 
@@ -36,14 +36,14 @@ bool GeoCorners::push(std::int32_t corner, CornerRing& ring) const {
   const std::size_t size = ring.size();
   const bool back = size > 1 && is_pole(ring[size - 1]) && ring[size - 2] == corner;
   if (back)
-    ring.pop_back(); // the place before the pole is the last again
+    ring.pop_back(); // the corner before the pole is the last one again
   else if (size == 0 || ring.back() != corner)
     ring.push_back(corner);
   return back;
 }
 
 bool GeoCorners::join(const CornerRing& part, CornerRing& whole) const {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> sides; // of the part, turned
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> sides; // sides of the part, reversed
   for (std::size_t j = 0; j < part.size(); ++j)
     sides.try_emplace({part[(j + 1) % part.size()], part[j]}, j);
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -73,9 +73,9 @@ void GeoCorners::leave_out_cut(std::int32_t cut, CornerRing& ring) const {
 }
 
 bool GeoCorners::is_straight(std::int32_t from, std::int32_t corner, std::int32_t to) const {
-  constexpr double digits = 1e-10; // of the places
-  const Vec3 normal = cross(place(from), place(to));
-  return std::abs(dot(normal, place(corner))) <= digits * norm(normal);
+  constexpr double digits = 1e-10; // of the coordinates
+  const Vec3 normal = cross(position(from), position(to));
+  return std::abs(dot(normal, position(corner))) <= digits * norm(normal);
 }
 
 } // namespace calotte::io_detail

@@ -8,7 +8,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// Of one geometry.
+/// Reads the polygons of one geometry.
 class PolygonReader {
 public:
   PolygonReader(const std::string& name, const GeoPair& pair, const std::string& where)
@@ -46,7 +46,7 @@ private:
           message("ring {} is not an array of positions; give GeoJSON as RFC 7946 has it", rings_));
     GeoRing ring;
     for (const Json& position : positions)
-      ring.push_back(place(position, ring.size()));
+      ring.push_back(read_position(position, ring.size()));
     if (ring.size() > 1 && ring.front() == ring.back())
       ring.pop_back();
     if (ring.size() < 3)
@@ -54,7 +54,7 @@ private:
     return ring;
   }
 
-  GeoPosition place(const Json& position, std::size_t index) const {
+  GeoPosition read_position(const Json& position, std::size_t index) const {
     if (!is_position(position))
       fail(message("position {} of ring {} is not a position {}; {}", index, rings_, pair_.form,
                    pair_.remedy));
@@ -64,15 +64,15 @@ private:
   const std::string& name_;
   const GeoPair& pair_;
   const std::string& where_;
-  std::int64_t rings_ = 0; ///< before the one being read
+  std::int64_t rings_ = 0; ///< number of rings that are complete
 };
 
 } // namespace
 
 bool is_polygon(const std::string& type) { return type == "Polygon" || type == "MultiPolygon"; }
 
-GeoGeometry polygons_of(const GeoFeature& feature, const std::string& type, const Json& coordinates,
-                        const std::string& name, const GeoPair& pair) {
+GeoGeometry read_geometry(const GeoFeature& feature, const std::string& type,
+                          const Json& coordinates, const std::string& name, const GeoPair& pair) {
   return {feature.where, feature.properties,
           PolygonReader(name, pair, feature.where).read(type, coordinates)};
 }
@@ -81,7 +81,7 @@ GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPa
   GeoPolygons all;
   all.members = read_geometries(
       in, name, [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
-        all.geometries.push_back(polygons_of(feature, type, coordinates, name, pair));
+        all.geometries.push_back(read_geometry(feature, type, coordinates, name, pair));
       });
   if (all.geometries.empty())
     fail_file(name, "no polygons; give Polygon or MultiPolygon geometries");

@@ -17,27 +17,27 @@ using GeoPolygon = std::vector<GeoRing>;  ///< the outer ring first, then holes
 /// One geometry of the type Polygon or MultiPolygon.
 struct GeoGeometry {
   std::string where;         ///< "feature 3: " or nothing, for messages
-  nlohmann::json properties; ///< of its feature, or null
+  nlohmann::json properties; ///< properties of its feature, or null
   std::vector<GeoPolygon> polygons;
 };
 
-/// What a file of polygons holds.
+/// The contents of a file of polygons.
 struct GeoPolygons {
   std::vector<GeoGeometry> geometries;
-  nlohmann::json members; ///< of the file's object, besides its features
+  nlohmann::json members; ///< members of the file's object, without its features
 };
 
-/// Whether a type of geometries has an inside: Polygon or MultiPolygon.
+/// Whether geometries of a type have an area: Polygon or MultiPolygon.
 bool is_polygon(const std::string& type);
 
-/// The polygons of one geometry of a feature.
+/// Reads the polygons of one geometry of a feature.
 /// \throws Error parse as read_polygons(); for another type.
-GeoGeometry polygons_of(const GeoFeature& feature, const std::string& type,
-                        const nlohmann::json& coordinates, const std::string& name,
-                        const GeoPair& pair);
+GeoGeometry read_geometry(const GeoFeature& feature, const std::string& type,
+                          const nlohmann::json& coordinates, const std::string& name,
+                          const GeoPair& pair);
 
-/// All polygons of a file. Coordinates must be numbers, of any value; rings have at least three
-/// places.
+/// Reads all polygons of a file. Coordinates must be numbers, of any value; rings have at least
+/// three positions.
 /// \throws Error parse, "NAME: WHERE..." with the remedy; also if there is no polygon; file.
 GeoPolygons read_polygons(std::istream& in, const std::string& name, const GeoPair& pair);
 

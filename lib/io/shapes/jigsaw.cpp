@@ -28,7 +28,7 @@ std::string trimmed_lower(std::string_view text) {
   return lower;
 }
 
-/// The lines of one file, read section by section.
+/// Reads the lines of one file, section by section.
 class Sections {
 public:
   Sections(std::istream& in, const std::string& name) : reader_(in, name) {}
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  /// "NAME=what": `what` is a number of lines for most.
+  /// Reads a section, "NAME=what". In most sections `what` is the number of lines.
   void section(std::string_view line) {
     if (line.starts_with("$"))
       reader_.fail("a file of Gmsh; give one of JIGSAW");
@@ -79,7 +79,7 @@ private:
       skip(whole<1>(what)[0]);
   }
 
-  /// "3;ellipsoid-mesh"; the kind may be missing.
+  /// The kind in the text of a head, such as "3;ellipsoid-mesh"; it may be missing.
   static std::string kind_in(const std::string& text) {
     const std::size_t semicolon = text.find(';');
     const std::string kind =
@@ -87,7 +87,7 @@ private:
     return kind.empty() ? "euclidean-mesh" : kind;
   }
 
-  /// One for all axes, or three.
+  /// Reads one radius for all axes, or three.
   void radii(std::string_view text) {
     std::array<double, 3>& radii = file_.radii.emplace();
     if (parse_columns(text, 3, radii.data()).outcome != Outcome::ok) {
@@ -99,7 +99,7 @@ private:
         reader_.fail("a radius that is not positive and finite; correct it");
   }
 
-  /// Whole numbers of a section's head.
+  /// Parses the whole numbers in the head of a section.
   template <int count> std::array<std::int64_t, count> whole(std::string_view text) {
     std::array<std::int64_t, count> values{};
     const Columned read = parse_columns(text, count, values.data());
@@ -115,7 +115,7 @@ private:
     return line;
   }
 
-  /// The first columns of so many lines, line by line.
+  /// Reads the first columns of so many lines, line by line.
   std::vector<double> numbers(std::int64_t lines, int columns) {
     std::vector<double> values;
     std::array<double, 4> row{};
@@ -179,7 +179,7 @@ private:
     file_.values = numbers(whole<1>(head)[0], 1);
   }
 
-  /// Each line is a part and what belongs to it.
+  /// Reads BOUND: each line starts with the number of a part.
   void bounds(std::int64_t count) {
     std::set<double> parts;
     for (const double part : numbers(count, 1))
@@ -224,7 +224,7 @@ JigsawFile read_jigsaw(const std::string& path) {
   return read_jigsaw(in, path);
 }
 
-double radius_of(const JigsawFile& file, const std::string& name) {
+double require_sphere_radius(const JigsawFile& file, const std::string& name) {
   const auto& [a, b, c] = file.radii.value_or(std::array<double, 3>{1, 1, 1});
   if (a != b || b != c)
     fail_file(name, "the radii differ; only meshes of a sphere are read");
@@ -241,7 +241,7 @@ bool is_planar_mesh(const JigsawFile& file) {
   return file.kind == "euclidean-mesh" && file.dimensions == 2;
 }
 
-Points3 directions_of(const JigsawFile& file, const std::string& name) {
+Points3 make_directions(const JigsawFile& file, const std::string& name) {
   if (file.dimensions == 3)
     return file.points;
   if (file.kind != "ellipsoid-mesh")
@@ -259,8 +259,8 @@ Points3 directions_of(const JigsawFile& file, const std::string& name) {
   return points;
 }
 
-Points3 columns_of(const JigsawFile& file, const std::string& name) {
-  return is_planar_mesh(file) ? with_z(Points2(file.points)) : directions_of(file, name);
+Points3 make_columns(const JigsawFile& file, const std::string& name) {
+  return is_planar_mesh(file) ? with_z(Points2(file.points)) : make_directions(file, name);
 }
 
 } // namespace calotte::io_detail

@@ -20,8 +20,8 @@ namespace {
 using namespace io_detail;
 using generators_detail::LineNetwork;
 
-/// The edges, each a line of two points, and the points without one.
-std::vector<Points3> lines_of(const JigsawFile& file, const Points3& points) {
+/// The edges, each as a line of two points, and the points without an edge.
+std::vector<Points3> make_lines(const JigsawFile& file, const Points3& points) {
   std::vector<Points3> lines;
   std::vector<bool> joined(static_cast<std::size_t>(points.cols()), false);
   for (const auto& [a, b] : file.edges) {
@@ -35,7 +35,7 @@ std::vector<Points3> lines_of(const JigsawFile& file, const Points3& points) {
   return lines;
 }
 
-Points3 line_of_chain(const LineNetwork& network, const std::vector<std::int32_t>& chain) {
+Points3 make_line(const LineNetwork& network, const std::vector<std::int32_t>& chain) {
   Points3 line(3, std::ssize(chain));
   for (std::size_t k = 0; k < chain.size(); ++k)
     base_detail::set_column(line, static_cast<std::int64_t>(k),
@@ -43,11 +43,11 @@ Points3 line_of_chain(const LineNetwork& network, const std::vector<std::int32_t
   return line;
 }
 
-/// Tells the chains that are part of a closed way from those that are not, which are bridges of
-/// their graph (Tarjan, Inf. Process. Lett. 2, 1974).
-class ClosedWays {
+/// Finds the chains that are part of a closed path. The others are the bridges of the graph
+/// (Tarjan, Inf. Process. Lett. 2, 1974).
+class ClosedChains {
 public:
-  explicit ClosedWays(const LineNetwork& network)
+  explicit ClosedChains(const LineNetwork& network)
       : chains_(network.chains), at_(network.places.size()), closed_(chains_.size(), true),
         entered_(at_.size(), 0), lowest_(at_.size(), 0) {
     for (std::size_t c = 0; c < chains_.size(); ++c) {
@@ -56,74 +56,75 @@ public:
         at_[static_cast<std::size_t>(chains_[c].back())].push_back(c);
       closed_[c] = chains_[c].size() > 1;
     }
-    for (std::size_t place = 0; place < at_.size(); ++place)
-      if (entered_[place] == 0)
-        walk(place);
+    for (std::size_t point = 0; point < at_.size(); ++point)
+      if (entered_[point] == 0)
+        search(point);
   }
 
   bool has(std::size_t chain) const { return closed_[chain]; }
 
 private:
   struct Step {
-    std::size_t place, by, next; ///< entered by a chain; the next one to follow
+    std::size_t point, by, next; ///< by: chain that led to the point; next: next chain to follow
   };
 
-  void enter(std::size_t place, std::size_t by, std::vector<Step>& way) {
-    lowest_[place] = entered_[place] = ++count_;
-    way.push_back({place, by, 0});
+  void enter(std::size_t point, std::size_t by, std::vector<Step>& path) {
+    lowest_[point] = entered_[point] = ++count_;
+    path.push_back({point, by, 0});
   }
 
-  void walk(std::size_t from) {
-    std::vector<Step> way;
-    enter(from, chains_.size(), way);
-    while (!way.empty()) {
-      Step& here = way.back();
-      if (here.next < at_[here.place].size()) {
-        const std::size_t chain = at_[here.place][here.next++];
+  void search(std::size_t from) {
+    std::vector<Step> path;
+    enter(from, chains_.size(), path);
+    while (!path.empty()) {
+      Step& here = path.back();
+      if (here.next < at_[here.point].size()) {
+        const std::size_t chain = at_[here.point][here.next++];
         const auto front = static_cast<std::size_t>(chains_[chain].front()),
                    back = static_cast<std::size_t>(chains_[chain].back()),
-                   other = front == here.place ? back : front;
+                   other = front == here.point ? back : front;
         if (chain == here.by)
           continue;
         if (entered_[other] == 0)
-          enter(other, chain, way);
+          enter(other, chain, path);
         else
-          lowest_[here.place] = std::min(lowest_[here.place], entered_[other]);
+          lowest_[here.point] = std::min(lowest_[here.point], entered_[other]);
         continue;
       }
       const Step left = here;
-      way.pop_back();
-      if (way.empty())
+      path.pop_back();
+      if (path.empty())
         break;
-      const std::size_t before = way.back().place;
-      lowest_[before] = std::min(lowest_[before], lowest_[left.place]);
-      if (lowest_[left.place] > entered_[before])
+      const std::size_t before = path.back().point;
+      lowest_[before] = std::min(lowest_[before], lowest_[left.point]);
+      if (lowest_[left.point] > entered_[before])
         closed_[left.by] = false;
     }
   }
 
   const std::vector<std::vector<std::int32_t>>& chains_;
-  std::vector<std::vector<std::size_t>> at_; ///< chains that end at a place
+  std::vector<std::vector<std::size_t>> at_; ///< chains that end at a point
   std::vector<bool> closed_;
-  std::vector<std::size_t> entered_, lowest_; ///< by place
+  std::vector<std::size_t> entered_, lowest_; ///< by point
   std::size_t count_ = 0;
 };
 
-/// Closed rings of a plane bound the domain; lines, which may end at them, stay.
+/// The domain is bounded by the closed rings in a plane. Other lines, which may end at them, remain
+/// lines.
 JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
   if (file.parts > 1)
     fail_file(path, "a geometry of {} parts (BOUND); give each part a file of its own", file.parts);
   JigsawGeometry out;
   const LineNetwork all =
-      generators_detail::network_of(lines_of(file, columns_of(file, path)), false);
-  const ClosedWays closed(all);
+      generators_detail::network_of(make_lines(file, make_columns(file, path)), false);
+  const ClosedChains closed(all);
   std::vector<Points3> sides;
   for (std::size_t c = 0; c < all.chains.size(); ++c)
-    (closed.has(c) ? sides : out.lines).push_back(line_of_chain(all, all.chains[c]));
+    (closed.has(c) ? sides : out.lines).push_back(make_line(all, all.chains[c]));
   const LineNetwork network = generators_detail::network_of(sides, false);
   Surface::Rings rings;
   for (const std::vector<std::int32_t>& chain : network.chains) {
-    const Points3 line = line_of_chain(network, chain);
+    const Points3 line = make_line(network, chain);
     if (chain.front() != chain.back() ||
         network.neighbours[static_cast<std::size_t>(chain.front())] != 2)
       fail_file(path,
@@ -156,10 +157,10 @@ JigsawGeometry read_jigsaw_geometry(const std::string& path) {
         "plane (euclidean-mesh, NDIMS=2) are meshed",
         file.kind, file.dimensions);
   JigsawGeometry out;
-  out.radius = radius_of(file, path);
+  out.radius = require_sphere_radius(file, path);
   out.extent = 2 * out.radius;
   if (file.points.cols() > 0)
-    out.lines = lines_of(file, directions_of(file, path));
+    out.lines = make_lines(file, make_directions(file, path));
   return out;
 }
 
@@ -170,7 +171,7 @@ JigsawPoints read_jigsaw_points(const std::string& path, bool plane) {
   if (is_planar_mesh(file) != plane)
     fail_file(path, plane ? "points of the sphere; give those of a plane (NDIMS=2)"
                           : "points of a plane; give those of the sphere");
-  return {columns_of(file, path), file.fixed};
+  return {make_columns(file, path), file.fixed};
 }
 
 } // namespace calotte

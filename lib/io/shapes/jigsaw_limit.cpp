@@ -16,8 +16,9 @@ namespace {
 
 using namespace io_detail;
 
-/// The one slope of a file.
-double slope_of(const JigsawFile& file, const std::string& path) {
+/// The slope of a file.
+/// \throws Error parse, unless it is one positive number.
+double require_slope(const JigsawFile& file, const std::string& path) {
   if (file.slopes.empty())
     fail_file(path, "no SLOPE section; give the largest gradient, SLOPE=1;1 and the number");
   const auto [least, most] = std::minmax_element(file.slopes.begin(), file.slopes.end());
@@ -28,10 +29,11 @@ double slope_of(const JigsawFile& file, const std::string& path) {
   return *least;
 }
 
-/// The limited values at the nodes of the file, y running faster.
+/// The limited values at the nodes of the file, with y running faster.
 std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string& path,
                                       double radius) {
-  const Raster limited = limit_gradient(widths_of(file, path), slope_of(file, path), {}, radius);
+  const Raster limited =
+      limit_gradient(make_width_raster(file, path), require_slope(file, path), {}, radius);
   constexpr double degrees = 180 / std::numbers::pi;
   const auto ny = std::ssize(file.y_grid);
   Points3 nodes(3, std::ssize(file.x_grid) * ny);
@@ -47,8 +49,9 @@ std::vector<double> limited_on_sphere(const JigsawFile& file, const std::string&
 
 std::vector<double> limited_in_plane(const JigsawFile& file, const std::string& path) {
   const Surface plane = Surface::plane();
-  Raster limited = limit_gradient(widths_of(file, path, plane), slope_of(file, path), plane);
-  if (file.x_grid.front() > file.x_grid.back()) // in the order of the file
+  Raster limited =
+      limit_gradient(make_width_raster(file, path, plane), require_slope(file, path), plane);
+  if (file.x_grid.front() > file.x_grid.back()) // restore the order of the file
     limited.values.colwise().reverseInPlace();
   if (file.y_grid.front() > file.y_grid.back())
     limited.values.rowwise().reverseInPlace();
@@ -64,13 +67,13 @@ void limit_jigsaw_values(const std::string& path, double radius) {
     fail_file(path, "VALUE has several numbers for each node; give one, the width");
   std::vector<double> values;
   if (file.kind == "ellipsoid-grid")
-    values = limited_on_sphere(file, path, file.radii ? radius_of(file, path) : radius);
+    values = limited_on_sphere(file, path, file.radii ? require_sphere_radius(file, path) : radius);
   else if (file.kind == "euclidean-grid")
     values = limited_in_plane(file, path);
   else
     fail_file(path, "values of the kind \"{}\"; give a grid: ellipsoid-grid or euclidean-grid",
               file.kind);
-  for (std::size_t i = 0; i < values.size(); ++i) // rounding at a node raises none
+  for (std::size_t i = 0; i < values.size(); ++i) // rounding must not raise a value
     file.values[i] = std::min(file.values[i], values[i]);
   write_jigsaw_grid(path, file);
 }

@@ -16,7 +16,8 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// A section of one number a line. \param head what follows the number of lines.
+/// Writes a section with one number on each line.
+/// \param head text after the number of lines.
 void put_section(Writer& out, const std::string& name, const std::vector<double>& values,
                  const std::string& head = "") {
   if (values.empty())

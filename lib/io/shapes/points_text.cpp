@@ -23,14 +23,14 @@ using io_detail::Columned;
 using io_detail::LineReader;
 using io_detail::Outcome;
 
-/// What stands in a line.
+/// The format of a line. Texts are parts of messages.
 struct LineFormat {
   int columns;
   // for messages
   const char* expected; ///< what to write in a line
-  const char* headers;  ///< that name further columns
+  const char* headers;  ///< headers that name further columns
   const char* perhaps;  ///< a remedy where a column is missing, or empty
-  const char* use;      ///< what a non-finite number does not give
+  const char* use;      ///< what a non-finite number cannot give
   void (*require)(const LineReader&, const double*);
   void (*append)(std::vector<double>&, const double*);
 };
@@ -103,8 +103,8 @@ void require_finite(const LineReader& reader, const double* values, const LineFo
 
 // ---- Headers
 
-/// The columns of a line: between one separator, or blanks, without quotes and blanks around.
-std::vector<std::string_view> columns_of(std::string_view line, char separator) {
+/// Splits a line into columns at a separator or at blanks. Removes quotes and blanks around them.
+std::vector<std::string_view> split_columns(std::string_view line, char separator) {
   constexpr std::string_view around = " \t\r\"'";
   std::vector<std::string_view> columns;
   const auto is_end = [&](char c) {
@@ -126,22 +126,22 @@ std::vector<std::string_view> columns_of(std::string_view line, char separator) 
   return columns;
 }
 
-/// Which columns a first line of names gives the coordinates.
+/// The columns of the coordinates according to the first line of a file.
 struct Header {
   char separator = ' ';
   std::array<std::size_t, 3> column{};
-  bool first = true;                 ///< these are the first columns, in order
-  std::size_t names = 0, wanted = 0; ///< of all columns, and of the coordinates
+  bool first = true;                 ///< whether they are the first columns, in order
+  std::size_t names = 0, wanted = 0; ///< number of all columns, and of the coordinates
 };
 
-/// The separator of a line, which may be another one than that of its header.
-char separator_of(std::string_view line) {
+/// Finds the separator of a line. It may differ from that of the header.
+char find_separator(std::string_view line) {
   const std::size_t at = line.find_first_of(",;|\t");
   return at == std::string_view::npos ? ' ' : line[at];
 }
 
-/// The letters that a name begins with, as in "Latitude [deg]", in lower case.
-std::string letters_of(std::string_view name) {
+/// The letters at the start of a name such as "Latitude [deg]", in lower case.
+std::string leading_letters(std::string_view name) {
   std::string letters;
   for (const char c : name)
     if (std::isalpha(static_cast<unsigned char>(c)) != 0)
@@ -151,8 +151,8 @@ std::string letters_of(std::string_view name) {
   return letters;
 }
 
-/// None where the names are others.
-std::optional<Header> header_of(std::string_view line, Columns columns) {
+/// Parses a header. Returns none unless it names the coordinates.
+std::optional<Header> parse_header(std::string_view line, Columns columns) {
   using Names = std::vector<std::string_view>;
   const std::vector<Names> wanted =
       columns == Columns::lonlat
@@ -160,10 +160,10 @@ std::optional<Header> header_of(std::string_view line, Columns columns) {
       : columns == Columns::xy ? std::vector<Names>{{"x"}, {"y"}}
                                : std::vector<Names>{{"x"}, {"y"}, {"z"}};
   Header header;
-  header.separator = separator_of(line);
+  header.separator = find_separator(line);
   std::vector<std::string> names;
-  for (const std::string_view name : columns_of(line, header.separator))
-    names.push_back(letters_of(name));
+  for (const std::string_view name : split_columns(line, header.separator))
+    names.push_back(leading_letters(name));
   header.names = names.size();
   header.wanted = wanted.size();
   for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -180,7 +180,7 @@ std::optional<Header> header_of(std::string_view line, Columns columns) {
 }
 
 Columned parse_named(std::string_view line, const Header& header, int count, double* values) {
-  const std::vector<std::string_view> columns = columns_of(line, header.separator);
+  const std::vector<std::string_view> columns = split_columns(line, header.separator);
   for (int k = 0; k < count; ++k) {
     const std::size_t at = header.column[static_cast<std::size_t>(k)];
     if (at >= columns.size())
@@ -200,26 +200,26 @@ int commas_in(std::string_view text) {
   return found;
 }
 
-/// Whether there are commas between digits that separate no columns: beside semicolons in those
-/// that are read, or in each of as many words as there are to be columns.
+/// Whether a line has decimal commas: in its columns, if semicolons separate them, or in each word,
+/// if there are as many words as columns.
 bool has_decimal_commas(std::string_view line, int count, const std::optional<Header>& header) {
   if (line.find(',') == std::string_view::npos)
     return false;
   if (line.find(';') != std::string_view::npos) {
-    const std::vector<std::string_view> columns = columns_of(line, ';');
+    const std::vector<std::string_view> columns = split_columns(line, ';');
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
       if (const std::size_t at = header ? header->column[k] : k;
           at < columns.size() && commas_in(columns[at]) > 0)
         return true;
     return false;
   }
-  const std::vector<std::string_view> words = columns_of(line, ' ');
+  const std::vector<std::string_view> words = split_columns(line, ' ');
   return std::ssize(words) >= count &&
          std::ranges::all_of(words, [](std::string_view word) { return commas_in(word) == 1; });
 }
 
-/// Whether the first of more columns than are read has other things than coordinates: numbers of
-/// the lines, or what no longitude is.
+/// Checks whether the first column is not a coordinate, in files with more columns than are read:
+/// it then numbers the lines, or is not a longitude.
 class FirstColumn {
 public:
   FirstColumn(Columns columns, const LineFormat& format)
@@ -240,7 +240,7 @@ public:
     if (further_ && !named && lonlat_ && std::abs(value) > 360)
       refuse(reader, "the first column is no longitude");
   }
-  /// \param fewest lines that tell.
+  /// \param fewest number of lines that are sufficient evidence.
   void require_no_count(const LineReader& reader, std::int64_t fewest) const {
     if (counts_ && lines_ >= fewest)
       refuse(reader, "the first column counts the lines");
@@ -272,14 +272,14 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
     const std::string_view content = line.substr(0, comment);
     if (content.find_first_not_of(" \t\r") == std::string_view::npos) {
       if (comment != std::string_view::npos && coordinates.empty() && !header)
-        names = header_of(line.substr(comment + 1), columns);
+        names = parse_header(line.substr(comment + 1), columns);
       continue;
     }
     line = content;
     if (coordinates.empty() && names && !header) { // "# lat lon", or a sentence
       const bool is_list = names->separator != ' ' || names->names == names->wanted;
-      names->separator = separator_of(line);
-      if (!is_list || columns_of(line, names->separator).size() != names->names)
+      names->separator = find_separator(line);
+      if (!is_list || split_columns(line, names->separator).size() != names->names)
         names.reset();
     }
     double values[3];
@@ -292,13 +292,13 @@ PointLines read_rows(std::istream& in, const std::string& name, Columns columns)
       if (header || !coordinates.empty() || io_detail::has_number(line))
         refuse_line(reader, read, format);
       header = true;
-      if (const std::optional<Header> found = header_of(line, columns))
+      if (const std::optional<Header> found = parse_header(line, columns))
         names = found;
       continue;
     }
     require_finite(reader, values, format);
     first.take(reader, line, values[0], names.has_value());
-    if (columns == Columns::lonlat && std::abs(values[1]) > 90) // a longitude behind an id
+    if (columns == Columns::lonlat && std::abs(values[1]) > 90) // an id may precede the longitude
       first.require_no_count(reader, 1);
     format.require(reader, values);
     format.append(coordinates, values);
@@ -336,7 +336,7 @@ namespace {
 
 // ---- Writing
 
-/// A line for each column, its coordinates separated by blanks.
+/// Writes each column on a line, with blanks between its coordinates.
 void put_rows(const io_detail::Sink& sink, const PointsRef& points) {
   io_detail::Writer out(sink);
   for (Eigen::Index i = 0; i < points.cols(); ++i)

@@ -49,7 +49,7 @@ bool turn(DoubleVector& axis, const std::string& variable, const std::string& na
   return descends;
 }
 
-/// The first meridian may be repeated at the end.
+/// Removes the last meridian if it repeats the first one.
 void drop_repeated_meridian(RasterOfFile& stored, const std::string& name) {
   DoubleVector& x = stored.raster.x;
   DoubleMatrix& values = stored.raster.values;
@@ -83,7 +83,7 @@ void require_law(const RasterOfFile& stored, const std::string& name, const Valu
       }
 }
 
-/// Of degrees north that were rounded.
+/// Clamps latitudes that rounding moved beyond a pole.
 void clamp_latitudes(RasterOfFile& stored, const std::string& name) {
   for (double& latitude : stored.raster.y) {
     if (std::abs(latitude) > 90 + degree_slack)
@@ -115,7 +115,7 @@ Raster covering(RasterOfFile stored, const std::string& name, const ValueLaw& la
                 const Surface& surface) {
   const std::string x_name = stored.x_name, y_name = stored.y_name;
   Raster raster = ordered(std::move(stored), name, law);
-  // The domain of a plane may be known to the caller alone, who asks again.
+  // Only the caller may know the domain of a plane; it then checks again.
   const bool known = surface.is_sphere() || surface.is_bounded() || surface.is_box();
   const std::string problem =
       known ? density_detail::uncovered(raster, surface, x_name, y_name) : "";
@@ -132,8 +132,8 @@ constexpr std::array<std::string_view, 5> kilometres{"km", "kilometer", "kilomet
                                                      "kilometres"},
     metres{"m", "meter", "meters", "metre", "metres"};
 
-/// Without the blanks at its ends; names, which are longer than symbols, in lower case: their case
-/// does not matter to UDUNITS.
+/// Removes blanks at both ends. Converts names, which are longer than symbols, to lower case, since
+/// UDUNITS ignores their case.
 std::string canonical(const std::string& unit) {
   const std::size_t first = unit.find_first_not_of(" \t"), last = unit.find_last_not_of(" \t");
   std::string text = first == std::string::npos ? "" : unit.substr(first, last - first + 1);
@@ -144,9 +144,9 @@ std::string canonical(const std::string& unit) {
   return text;
 }
 
-/// The factor that converts values of a variable to km, from its attribute `units`.
-/// \throws Error parse, naming the variable.
-double kilometres_of(const NetcdfReader& file, const std::string& variable) {
+/// The size of the unit of a variable in km, by its attribute `units`.
+/// \throws Error parse, with the variable.
+double kilometres_per_unit(const NetcdfReader& file, const std::string& variable) {
   try {
     return kilometres_in(file.text(variable, "units"));
   } catch (const Error& error) {
@@ -154,10 +154,10 @@ double kilometres_of(const NetcdfReader& file, const std::string& variable) {
   }
 }
 
-/// Metres upwards for each unit of heights: km count a thousand times, and depths, which the
-/// attribute positive or the standard name tells, downwards.
+/// The factor that converts heights to metres: 1000 for km. It is negative for depths, which the
+/// attribute `positive` or the standard name tells.
 /// \throws Error parse, for another unit.
-double metres_up(const NetcdfReader& file, const std::string& variable) {
+double metres_per_unit(const NetcdfReader& file, const std::string& variable) {
   const std::string positive = file.text(variable, "positive"),
                     standard = file.text(variable, "standard_name"),
                     units = file.text(variable, "units");
@@ -170,7 +170,7 @@ double metres_up(const NetcdfReader& file, const std::string& variable) {
   }
 }
 
-/// Variables of a plane's nodes: x(x) and y(y).
+/// The axes of a plane: variables x(x) and y(y).
 RasterAxes plane_axes(const NetcdfReader& file) {
   for (const std::string name : {"x", "y"})
     if (!file.has_variable(name) || file.shape_of(name).size() != 1)
@@ -178,8 +178,8 @@ RasterAxes plane_axes(const NetcdfReader& file) {
   return {"x", "y"};
 }
 
-/// \throws Error parse, for a file without.
-RasterAxes axes_for(const NetcdfReader& file, const std::string& variable) {
+/// \throws Error parse, if the file has no axes.
+RasterAxes require_axes(const NetcdfReader& file, const std::string& variable) {
   std::optional<RasterAxes> axes = variable_axes(file, variable);
   if (!axes)
     axes = raster_axes(file);
@@ -208,18 +208,18 @@ std::string only_raster(const NetcdfReader& file, bool of_plane) {
   return found.front();
 }
 
-/// A variable in any order of its dimensions, of which others have the size 1. Missing values are
-/// NaN.
+/// Reads a variable with any order of its dimensions; dimensions besides those of the axes have the
+/// size 1. Missing values are NaN.
 RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable, bool of_plane) {
   if (!file.has_variable(variable))
     file.fail("no variable {}; give {}({})", variable, variable, of_plane ? "y, x" : "lat, lon");
-  const RasterAxes axes = of_plane ? plane_axes(file) : axes_for(file, variable);
+  const RasterAxes axes = of_plane ? plane_axes(file) : require_axes(file, variable);
   RasterOfFile stored{.raster = {.of_plane = of_plane},
                       .x_name = axes.longitude,
                       .y_name = axes.latitude,
                       .value_name = variable};
   const auto nodes = [&](const std::string& axis) {
-    return vector_of(of_plane ? cf_values(file, axis, {-1}) : read_degrees_of_axis(file, axis));
+    return to_vector(of_plane ? cf_values(file, axis, {-1}) : read_degrees_of_axis(file, axis));
   };
   Raster& raster = stored.raster;
   raster.x = nodes(axes.longitude);
@@ -227,7 +227,7 @@ RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable
   const std::string of_x = file.dimensions_of(axes.longitude)[0],
                     of_y = file.dimensions_of(axes.latitude)[0];
   std::vector<std::string> of_values = file.dimensions_of(variable);
-  std::erase_if(of_values, [&](const std::string& name) { // one time or level is no dimension
+  std::erase_if(of_values, [&](const std::string& name) { // ignore a single time or level
     return file.dimension(name) == 1 && name != of_y && name != of_x;
   });
   stored.x_fastest = of_values == std::vector{of_y, of_x};
@@ -242,14 +242,14 @@ RasterOfFile stored_raster(const NetcdfReader& file, const std::string& variable
   return stored;
 }
 
-constexpr double fraction_slack = 1e-6; ///< of fractions that a program rounded
+constexpr double fraction_slack = 1e-6; ///< tolerance for rounded fractions
 
 constexpr ValueLaw anything{[](double) { return true; }, "a number"},
     nearly_a_fraction{
         [](double value) { return value >= -fraction_slack && value <= 1 + fraction_slack; },
         "a fraction from 0 to 1"};
 
-ValueLaw law_of(RasterQuantity quantity, bool of_plane) {
+ValueLaw make_law(RasterQuantity quantity, bool of_plane) {
   switch (quantity) {
   case RasterQuantity::any:
     return anything;
@@ -266,18 +266,18 @@ ValueLaw law_of(RasterQuantity quantity, bool of_plane) {
   return nearly_a_fraction;
 }
 
-/// Brings values to the unit of a quantity.
+/// Converts values to the unit of a quantity.
 void convert(DoubleMatrix& values, const NetcdfReader& file, const RasterOfFile& stored,
              RasterQuantity quantity) {
   const std::string& variable = stored.value_name;
   if (quantity == RasterQuantity::cell_width && !stored.raster.of_plane) {
-    if (const double factor = kilometres_of(file, variable); factor != 1)
-      values /= 1 / factor; // a division by 1000 is exact where the widths in km are
+    if (const double factor = kilometres_per_unit(file, variable); factor != 1)
+      values /= 1 / factor; // a division by 1000 restores widths that are exact in km
   } else if (quantity == RasterQuantity::cell_width) {
     if (!file.text(variable, "units").empty() && !file.text(stored.x_name, "units").empty())
-      values *= kilometres_of(file, variable) / kilometres_of(file, stored.x_name);
+      values *= kilometres_per_unit(file, variable) / kilometres_per_unit(file, stored.x_name);
   } else if (quantity == RasterQuantity::height) {
-    const double factor = metres_up(file, variable);
+    const double factor = metres_per_unit(file, variable);
     if (factor != 1)
       values *= factor;
     if (factor < 0) // land has no depth
@@ -313,7 +313,7 @@ Raster read_raster(const std::string& path, const RasterChoice& choice) {
                                                                      : only_raster(file, of_plane);
   RasterOfFile stored = stored_raster(file, variable, of_plane);
   convert(stored.raster.values, file, stored, quantity);
-  const ValueLaw law = law_of(quantity, of_plane);
+  const ValueLaw law = make_law(quantity, of_plane);
   if (quantity == RasterQuantity::any)
     return ordered(std::move(stored), path, law);
   Raster raster = covering(std::move(stored), path, law, choice.surface);

@@ -16,11 +16,11 @@
 /// Rasters of files.
 namespace calotte::io_detail {
 
-/// A raster as stored in a file, whose axes may descend, with the names of its variables there.
+/// A raster as stored in a file, with the names of its variables. Its axes may descend.
 struct RasterOfFile {
   Raster raster;
   std::string x_name, y_name, value_name;
-  bool x_fastest = true; ///< in the file: how messages give a value's index
+  bool x_fastest = true; ///< order in the file, by which messages give the index of a value
 };
 
 /// The raster with both coordinates ascending and no longitude repeated.
@@ -29,12 +29,13 @@ struct RasterOfFile {
 ///         a value violates the law.
 Raster ordered(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law);
 
-/// The same of a raster that must cover a surface. \throws Error parse, too, if it does not.
+/// The same for a raster that must cover a surface.
+/// \throws Error parse, also if it does not.
 Raster covering(RasterOfFile stored, const std::string& name, const density_detail::ValueLaw& law,
                 const Surface& surface);
 
 /// The coordinates as Eigen's vector.
-inline DoubleVector vector_of(const std::vector<double>& values) {
+inline DoubleVector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const DoubleVector>(values.data(), std::ssize(values));
 }
 

@@ -17,8 +17,9 @@ namespace {
 
 using namespace io_detail;
 
-/// The rings of all areas. \throws Error parse for a ring without area.
-std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string& name) {
+/// The rings of all areas.
+/// \throws Error parse for a ring without area.
+std::vector<WrittenRing> join_rings(std::vector<GeoArea> areas, const std::string& name) {
   std::vector<WrittenRing> rings;
   for (GeoArea& area : areas)
     for (WrittenRing& ring : area.rings) {
@@ -34,7 +35,7 @@ std::vector<WrittenRing> rings_of(std::vector<GeoArea> areas, const std::string&
 }
 
 Surface read_geojson(std::istream& in, const std::string& name) {
-  std::vector<WrittenRing> rings = rings_of(read_areas(in, name), name);
+  std::vector<WrittenRing> rings = join_rings(read_areas(in, name), name);
   return named(name, [&] {
     rings = joined(std::move(rings));
     if (rings.empty())

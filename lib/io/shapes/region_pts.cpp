@@ -22,7 +22,7 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double earth_radius = 6371229; ///< metres, as MPAS has it
+constexpr double earth_radius = 6371229; ///< metres, as in MPAS
 constexpr double degree = std::numbers::pi / 180;
 
 std::string lower(std::string_view text) {
@@ -61,7 +61,7 @@ public:
       if (const std::size_t colon = line.find(':'); colon != std::string_view::npos)
         set(lower(trimmed(line.substr(0, colon))), trimmed(line.substr(colon + 1)));
       else
-        ring_.push_back(place(trimmed(line)));
+        ring_.push_back(parse_point(trimmed(line)));
     if (type_ != "custom" && !ring_.empty())
       fail("it has corners, which only Type: custom takes; remove them");
     try {
@@ -80,7 +80,7 @@ private:
     if (keyword == "type") {
       type_ = lower(value);
     } else if (keyword == "point") {
-      point_ = place(value);
+      point_ = parse_point(value);
     } else if (keyword != "name") {
       const auto known =
           std::find_if(quantities.begin(), quantities.end(), [&](const Quantity& quantity) {
@@ -104,7 +104,7 @@ private:
     return (*read)[0];
   }
 
-  Vec3 place(std::string_view text) const {
+  Vec3 parse_point(std::string_view text) const {
     const auto read = parse_numbers(text);
     if (!read || read->size() != 2 || !(std::abs((*read)[0]) <= 90) ||
         !(std::abs((*read)[1]) <= 720))
@@ -113,7 +113,7 @@ private:
     return from_lonlat((*read)[1], (*read)[0]);
   }
 
-  double value_of(const std::string& keyword) const {
+  double require_value(const std::string& keyword) const {
     const auto found = values_.find(keyword);
     if (found == values_.end())
       fail(message("a region of the type {} has no line \"{}:\"; add it", type_, keyword));
@@ -128,14 +128,14 @@ private:
 
   Surface region() {
     if (type_ == "circle")
-      return circle(point(), value_of("radius") / earth_radius);
+      return circle(point(), require_value("radius") / earth_radius);
     if (type_ == "ellipse")
-      return ellipse(point(), value_of("semi-major-axis") / earth_radius,
-                     value_of("semi-minor-axis") / earth_radius,
-                     values_.contains("orientation-angle") ? value_of("orientation-angle") * degree
-                                                           : 0);
+      return ellipse(
+          point(), require_value("semi-major-axis") / earth_radius,
+          require_value("semi-minor-axis") / earth_radius,
+          values_.contains("orientation-angle") ? require_value("orientation-angle") * degree : 0);
     if (type_ == "channel")
-      return channel(value_of("lower-lat") * degree, value_of("upper-lat") * degree);
+      return channel(require_value("lower-lat") * degree, require_value("upper-lat") * degree);
     if (type_ != "custom")
       fail(message("{}; write Type: custom, circle, ellipse or channel",
                    type_.empty() ? "no line \"Type:\""

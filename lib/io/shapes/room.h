@@ -3,7 +3,8 @@
 
 #include "io/room.h"
 
-/// What is no mesh: points, rings of regions, coasts, GeoJSON's areas, rasters, and cell widths.
+/// Data that are not meshes: points, rings of regions, coasts, areas in GeoJSON, rasters, and cell
+/// widths.
 ///
 /// In: a path. Out: values of the public types.
 namespace calotte::io_detail {}

@@ -20,35 +20,36 @@ namespace {
 using namespace io_detail;
 
 /// \param where names the feature.
-Points3 line_of(const Json& positions, const std::string& name, const std::string& where,
-                bool plane) {
+Points3 make_line(const Json& positions, const std::string& name, const std::string& where,
+                  bool plane) {
   if (!positions.is_array() || positions.empty())
     fail_file(name, where + "a line without places; leave it out");
   const GeoPair& pair = plane ? xy_pair : lonlat_pair;
-  Points3 places(3, std::ssize(positions));
+  Points3 points(3, std::ssize(positions));
   for (std::size_t k = 0; k < positions.size(); ++k) {
     if (!is_position(positions[k]) || !(plane || are_degrees(position_of(positions[k]))))
       fail_file(name, "{}{} is no position {}; {}", where, positions[k].dump(), pair.form,
                 pair.remedy);
     const auto [x, y] = position_of(positions[k]);
-    const Vec3 place = plane ? Vec3{x, y, 0} : from_lonlat(x, y);
-    places.col(static_cast<Eigen::Index>(k)) << place.x, place.y, place.z;
+    const Vec3 point = plane ? Vec3{x, y, 0} : from_lonlat(x, y);
+    points.col(static_cast<Eigen::Index>(k)) << point.x, point.y, point.z;
   }
-  return places;
+  return points;
 }
 
-/// The lines of a GeoJSON file, unit columns; in a plane x y 0. Calls `other` for each geometry
-/// that is none.
-std::vector<Points3> lines_of(const std::string& path, bool plane, const GeometryVisit& other) {
+/// Reads the lines of a GeoJSON file: unit columns, or x y 0 in a plane. Calls `other` for each
+/// other geometry.
+std::vector<Points3> read_geojson_lines(const std::string& path, bool plane,
+                                        const GeometryVisit& other) {
   std::ifstream in = open_input(path);
   std::vector<Points3> lines;
   read_geometries(in, path,
                   [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
                     if (type == "LineString")
-                      lines.push_back(line_of(coordinates, path, feature.where, plane));
+                      lines.push_back(make_line(coordinates, path, feature.where, plane));
                     else if (type == "MultiLineString")
                       for (const Json& part : coordinates)
-                        lines.push_back(line_of(part, path, feature.where, plane));
+                        lines.push_back(make_line(part, path, feature.where, plane));
                     else
                       other(feature, type, coordinates);
                   });
@@ -61,7 +62,7 @@ std::vector<Points3> lines_of(const std::string& path, bool plane, const Geometr
             feature.where, type);
 }
 
-std::vector<Points3> points_of(const std::string& path, bool plane) {
+std::vector<Points3> read_points_as_shapes(const std::string& path, bool plane) {
   const Points3 points = read_points(path, plane ? Columns::xy : Columns::lonlat);
   std::vector<Points3> shapes;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -69,7 +70,7 @@ std::vector<Points3> points_of(const std::string& path, bool plane) {
   return shapes;
 }
 
-/// Adds the rings of a plane's polygons, closed.
+/// Adds the rings of the polygons of a plane, each closed.
 void add_rings(const GeoGeometry& geometry, std::vector<Points3>& rings) {
   for (const GeoPolygon& polygon : geometry.polygons)
     for (const GeoRing& ring : polygon) {
@@ -81,22 +82,22 @@ void add_rings(const GeoGeometry& geometry, std::vector<Points3>& rings) {
     }
 }
 
-/// Lines, and of polygons the shores; in a plane their rings.
-std::vector<Points3> lines_and_shores(const std::string& path, bool plane) {
+/// Reads lines, and polygons as their coasts, in a plane as their rings.
+std::vector<Points3> read_lines_and_coasts(const std::string& path, bool plane) {
   std::vector<Points3> rings;
   Coast coast;
-  std::vector<Points3> shapes =
-      lines_of(path, plane,
-               [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
-                 if (!is_polygon(type))
-                   refuse_type(path, feature, type);
-                 const GeoGeometry geometry =
-                     polygons_of(feature, type, coordinates, path, plane ? xy_pair : lonlat_pair);
-                 if (plane)
-                   add_rings(geometry, rings);
-                 else
-                   add_land(area_of(geometry, path).rings, coast);
-               });
+  std::vector<Points3> shapes = read_geojson_lines(
+      path, plane,
+      [&](const GeoFeature& feature, const std::string& type, const Json& coordinates) {
+        if (!is_polygon(type))
+          refuse_type(path, feature, type);
+        const GeoGeometry geometry =
+            read_geometry(feature, type, coordinates, path, plane ? xy_pair : lonlat_pair);
+        if (plane)
+          add_rings(geometry, rings);
+        else
+          add_land(make_area(geometry, path).rings, coast);
+      });
   if (!plane)
     rings = shores(coast);
   shapes.insert(shapes.end(), rings.begin(), rings.end());
@@ -109,9 +110,9 @@ std::vector<Points3> lines_and_shores(const std::string& path, bool plane) {
 
 std::vector<Points3> read_lines(const std::string& path, const Surface& surface) {
   std::vector<Points3> lines =
-      lines_of(path, !surface.is_sphere(),
-               [&](const GeoFeature& feature, const std::string& type,
-                   const Json& /*coordinates*/) { refuse_type(path, feature, type); });
+      read_geojson_lines(path, !surface.is_sphere(),
+                         [&](const GeoFeature& feature, const std::string& type,
+                             const Json& /*coordinates*/) { refuse_type(path, feature, type); });
   if (lines.empty())
     fail_file(path, "no lines; give LineString or MultiLineString geometries");
   return lines;
@@ -122,7 +123,7 @@ std::vector<Points3> lines_in(const std::string& path, const Surface& surface) {
     return {};
   bool others = false;
   std::vector<Points3> lines =
-      lines_of(path, !surface.is_sphere(), [&](const auto&...) { others = true; });
+      read_geojson_lines(path, !surface.is_sphere(), [&](const auto&...) { others = true; });
   if (others && !lines.empty())
     fail_file(path, "lines beside other geometries; give each in a file of its own");
   return lines;
@@ -132,9 +133,9 @@ std::vector<Points3> read_shapes(const std::string& path, const Surface& surface
   const std::string suffix = suffix_of(path);
   const bool plane = !surface.is_sphere();
   if (suffix == ".txt")
-    return points_of(path, plane);
+    return read_points_as_shapes(path, plane);
   return !plane && (suffix == ".nc" || is_netcdf_file(path)) ? shores(read_coast(path))
-                                                             : lines_and_shores(path, plane);
+                                                             : read_lines_and_coasts(path, plane);
 }
 
 } // namespace calotte

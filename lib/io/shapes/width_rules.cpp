@@ -34,7 +34,7 @@ std::string beside(const std::string& path, const std::filesystem::path& name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
-/// One table of a file, whose keys are taken one after the other.
+/// One table of a file. Tracks which of its keys have been taken.
 class RuleTable {
 public:
   RuleTable(const std::string& path, const toml::table& table) : path_(path), table_(table) {}
@@ -47,7 +47,7 @@ public:
             message("{} {}", key, problem));
   }
 
-  /// Whether there is a key that nobody took before.
+  /// Whether the table has a key that was not taken before. Takes it.
   bool takes(const std::string& key) { return taken_.insert(key).second && has(key); }
 
   const toml::node* take(const std::string& key) {
@@ -73,7 +73,7 @@ public:
     return *value;
   }
 
-  /// Whether a profile is.
+  /// Takes "smooth", whether a profile is smooth; false without it.
   bool smooth() {
     if (!has("smooth"))
       return false;
@@ -83,7 +83,7 @@ public:
     return *value;
   }
 
-  /// Pairs of numbers.
+  /// Takes a profile: pairs of numbers, and "smooth".
   WidthProfile pairs(const std::string& key) {
     const toml::node* const node = take(key);
     WidthProfile profile;
@@ -104,7 +104,7 @@ public:
     return profile;
   }
 
-  /// \throws Error parse for a least width above the largest one.
+  /// \throws Error parse, if the least width is above the largest one.
   void require_least_below_most() const {
     const auto number = [&](const char* key) {
       const toml::node* const node = table_.get(key);
@@ -114,7 +114,7 @@ public:
       refuse("least", message("is {}, above most, {}; exchange them", *least, *most));
   }
 
-  /// \throws Error parse for a key that nobody took.
+  /// \throws Error parse, for a key that was not taken.
   void require_all_taken() const {
     for (const auto& [key, node] : table_)
       if (!taken_.contains(std::string(key.str())))
@@ -123,7 +123,7 @@ public:
                         key.str(), listed(taken_)));
   }
 
-  /// With the place in the file before what the library refuses.
+  /// Calls make(). Adds path and line to the messages of its errors.
   template <class Make> auto made(const Make& make) const -> decltype(make()) {
     try {
       return make();
@@ -152,9 +152,9 @@ public:
       io_detail::fail_file(path_,
                            "a file of widths has one table, [cell-width]; see calotte help widths");
     WidthRules rules;
-    rules.widths = rule_of(*table, &rules);
-    if (surface_.is_sphere() || !rules.gradient) // else they are one raster
-      rules.names = names_of(*table);
+    rules.widths = read_rule(*table, &rules);
+    if (surface_.is_sphere() || !rules.gradient) // otherwise they are one raster
+      rules.names = list_names(*table);
     return rules;
   }
 
@@ -168,17 +168,17 @@ public:
 private:
   using Source = Widths (RuleReader::*)(RuleTable&);
 
-  /// What names a rule, and how it is read.
+  /// A key that names a rule, and the function that reads the rule.
   struct Key {
     std::string name;
     Source source;
-    bool in_plane;   ///< as well as on the sphere
-    bool names_file; ///< or has another value
+    bool in_plane;   ///< whether the rule applies in a plane, too
+    bool names_file; ///< whether its value is the name of a file
   };
 
-  /// A rule has one of these keys, which says what it is; the first that is there.
+  /// The keys that name rules. The first one that a table has applies.
   static const std::vector<Key>& sources() {
-    static const std::vector<Key> all{{"minimum", nullptr, true, false}, // see rule_of()
+    static const std::vector<Key> all{{"minimum", nullptr, true, false}, // see read_rule()
                                       {"maximum", &RuleReader::greatest, true, false},
                                       {"sum", &RuleReader::sum, true, false},
                                       {"blend", &RuleReader::blend, true, false},
@@ -193,8 +193,8 @@ private:
     return all;
   }
 
-  /// \param all takes the keys of the whole; null for a rule in it.
-  Widths rule_of(const toml::table& given, WidthRules* all = nullptr) {
+  /// \param all receives the keys of the whole file; null for a nested rule.
+  Widths read_rule(const toml::table& given, WidthRules* all = nullptr) {
     RuleTable table(path_, given);
     std::optional<double> step;
     if (all != nullptr && table.take("step") != nullptr)
@@ -202,16 +202,17 @@ private:
     if (all != nullptr && given.contains("gradient"))
       all->gradient = table.number("gradient");
     const bool in_domain = all != nullptr && !surface_.is_sphere() && all->gradient;
-    const auto& [key, source, in_plane, names_file] = source_of(given);
+    const auto& [key, source, in_plane, names_file] = find_source(given);
     if (!in_plane && !surface_.is_sphere())
       table.refuse(key, "applies to the sphere only; in a plane give by-distance, around, raster "
                         "or width");
-    // What changes a minimum changes its rules, so that active_rules() tells them apart.
+    // A change of a minimum is applied to each of its rules, so that active_rules() distinguishes
+    // them.
     const bool least = key == "minimum";
     std::vector<Widths> rules =
         least ? parts(table, key) : std::vector{table.made([&, source = source] {
           Widths made = (this->*source)(table).on_sphere(radius_km_);
-          made.rule(); // what it refuses is said of its table
+          made.rule(); // report its errors with this table
           return made;
         })};
     table.made([&] { change(table, rules, in_domain); });
@@ -224,7 +225,7 @@ private:
                      : widths;
   }
 
-  const Key& source_of(const toml::table& rule) const {
+  const Key& find_source(const toml::table& rule) const {
     std::vector<std::string> keys;
     for (const auto& known : sources()) {
       if (rule.contains(known.name))
@@ -240,9 +241,9 @@ private:
                     std::string_view(other.str())));
   }
 
-  /// Of the rules of a minimum, or of the one rule: "by-distance coast.geojson".
-  std::vector<std::string> names_of(const toml::table& rule) const {
-    const std::string key = source_of(rule).name;
+  /// The names of the rules of a minimum, or of the one rule, such as "by-distance coast.geojson".
+  std::vector<std::string> list_names(const toml::table& rule) const {
+    const std::string key = find_source(rule).name;
     if (key != "minimum") {
       const std::optional<std::string> file = rule[key].value_exact<std::string>();
       const std::optional<double> number = rule[key].value<double>();
@@ -250,13 +251,13 @@ private:
     }
     std::vector<std::string> names;
     for (const toml::node& item : *rule[key].as_array())
-      names.push_back(item.is_table() ? listed(names_of(*item.as_table()))
+      names.push_back(item.is_table() ? listed(list_names(*item.as_table()))
                                       : message("width {}", item.value_or(0.0)));
     return names;
   }
 
-  /// What any rule may have: a part of the sphere, a factor, limits.
-  /// \param in_domain whether the gradient is limited for all together, in their domain.
+  /// Applies the keys that any rule may have: a part of the sphere, a factor, limits.
+  /// \param in_domain whether the gradient of all rules is limited together, in their domain.
   void change(RuleTable& table, std::vector<Widths>& rules, bool in_domain) {
     const auto each = [&](const auto& changed) {
       std::transform(rules.begin(), rules.end(), rules.begin(), changed);
@@ -264,7 +265,7 @@ private:
     table.require_least_below_most();
     if (table.takes("times"))
       each([factor = table.number("times")](const Widths& rule) { return rule.times(factor); });
-    if (table.takes("least")) // else the rule itself has it
+    if (table.takes("least")) // unless the rule has used it
       each([least = table.number("least")](const Widths& rule) {
         return Widths::maximum({rule, least});
       });
@@ -293,7 +294,7 @@ private:
     if (list != nullptr)
       for (const toml::node& item : *list) {
         if (const toml::table* const inner = item.as_table())
-          parts.push_back(rule_of(*inner));
+          parts.push_back(read_rule(*inner));
         else if (const std::optional<double> width = item.value<double>();
                  width && std::isfinite(*width))
           parts.push_back(table.made([&] { return Widths(*width); }));
@@ -315,12 +316,12 @@ private:
     return Widths::blend(both[0], both[1], share(table));
   }
 
-  /// A part of the sphere or of the plane.
+  /// Reads a part of the sphere or of the plane.
   Surface part_in(const std::string& path) const {
     return surface_.is_sphere() ? read_region(path) : read_domain(path);
   }
 
-  /// Of such a part, or of a raster.
+  /// Reads the share of such a part, or of a raster.
   WidthShare share_in(const std::string& path) const {
     if (surface_.is_sphere() && std::filesystem::path(path).extension() == ".nc")
       return read_raster(path, {.quantity = RasterQuantity::land_fraction});
@@ -415,8 +416,8 @@ private:
     return value * unit->second;
   }
 
-  /// Rules within rules could name each other without an end.
-  std::string file_of_no_rules(RuleTable& table, const std::string& key) {
+  /// A file of a rule, which must not be a file of rules: these could name each other without end.
+  std::string require_no_rules(RuleTable& table, const std::string& key) {
     std::string path = file(table, key);
     if (has_rules(path))
       table.refuse(key, "is a file of rules; write its rules in this file");
@@ -424,12 +425,12 @@ private:
   }
 
   Widths raster(RuleTable& table) {
-    const std::string path = file_of_no_rules(table, "raster");
+    const std::string path = require_no_rules(table, "raster");
     return read_cell_width(path, {}, surface_.is_sphere() ? Surface() : Surface::plane());
   }
 
   Widths polygons(RuleTable& table) {
-    const std::string path = file_of_no_rules(table, "polygons");
+    const std::string path = require_no_rules(table, "polygons");
     PolygonWidths widths{.radius_km = radius_km_};
     for (const auto& [key, value] : {std::pair{"inside", &widths.inside},
                                      {"outside", &widths.outside},
