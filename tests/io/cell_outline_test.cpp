@@ -61,7 +61,7 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
       std::vector<Vec3> corners;
       for (const std::int32_t corner : cells.ids[i])
         corners.push_back(base_detail::column(cells.corners, corner));
-      for (const std::vector<LonLat>& ring : io_detail::outline_of(corners)) {
+      for (const std::vector<LonLat>& ring : io_detail::cell_outline(corners)) {
         whole += twice_area(ring) / 2;
         std::set<std::pair<std::uint64_t, std::uint64_t>> places;
         for (std::size_t k = 0; k < ring.size(); ++k) {

@@ -7,7 +7,7 @@
 #include "support/meshes.h"
 
 #include "base/lonlat.h"
-#include "io/cells/distinct_places.h"
+#include "io/cells/distinct_points.h"
 #include "io/cells/dual.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/polygons.h"
@@ -500,18 +500,18 @@ TEST_CASE("SCRIP and ESMF give the sites back, but for rounding") {
 TEST_CASE("equal places are one: whole turns, both signs of zero, all longitudes at a pole") {
   const std::vector<double> longitudes{10, 370, -350, 10, 180, -180, 540, 0, 77, -0.0, 0, 10},
       latitudes{5, 5, 5, -5, 0, -0.0, 0, 90, 90, 0, 0, 5};
-  const io_detail::DistinctPlaces places = io_detail::distinct_places(longitudes, latitudes);
-  CHECK(places.id == std::vector<std::int32_t>{0, 0, 0, 1, 2, 2, 2, 3, 3, 4, 4, 0});
-  CHECK(places.longitudes == std::vector<double>{10, 10, 180, 0, 0});
-  CHECK(places.latitudes == std::vector<double>{5, -5, 0, 90, 0});
-  CHECK(io_detail::distinct_places({}, {}).id.empty());
+  const io_detail::DistinctPoints points = io_detail::find_distinct_points(longitudes, latitudes);
+  CHECK(points.id == std::vector<std::int32_t>{0, 0, 0, 1, 2, 2, 2, 3, 3, 4, 4, 0});
+  CHECK(points.longitudes == std::vector<double>{10, 10, 180, 0, 0});
+  CHECK(points.latitudes == std::vector<double>{5, -5, 0, 90, 0});
+  CHECK(io_detail::find_distinct_points({}, {}).id.empty());
 
   std::vector<double> east, north; // a thousand, three times
   for (int i = 0; i < 3000; ++i) {
     east.push_back(0.1 * (i % 1000));
     north.push_back(0.01 * (i % 1000));
   }
-  const io_detail::DistinctPlaces many = io_detail::distinct_places(east, north);
+  const io_detail::DistinctPoints many = io_detail::find_distinct_points(east, north);
   REQUIRE(many.longitudes.size() == 1000);
   for (std::size_t i = 0; i < 3000; ++i)
     CHECK(many.id[i] == static_cast<std::int32_t>(i % 1000));

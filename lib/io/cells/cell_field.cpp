@@ -11,7 +11,7 @@
 namespace calotte {
 namespace {
 
-/// One value for each of so many cells.
+/// Whether a variable has exactly one value for each cell.
 bool is_cell_field(const io_detail::NetcdfReader& file, const std::string& name,
                    std::int64_t cells) {
   const std::vector<std::int64_t> shape = file.shape_of(name);

@@ -8,7 +8,7 @@
 namespace calotte {
 namespace {
 
-/// A line for each id.
+/// Writes each id on a line.
 void put_lines(const Ids& ids, io_detail::OutputFile& file) {
   constexpr std::size_t enough = 1 << 20;
   std::string text;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace io_detail;
 
-/// Calls put(cell, neighbour) for each pair, both ways round: the two cells of a side.
+/// Calls put(cell, neighbour) for the two cells of each side, in both orders.
 template <class Put> void for_each_pair(const Polygons& polygons, const Sides& sides, Put put) {
   for (std::int64_t i = 0; i < polygons.size(); ++i) {
     const std::span<const std::int32_t> ids = polygons.ids[i];
@@ -31,7 +31,7 @@ template <class Put> void for_each_pair(const Polygons& polygons, const Sides& s
   }
 }
 
-/// Ascending, each neighbour once.
+/// Sorts each list in ascending order and removes duplicates.
 template <class AnyLists> IdLists sorted(AnyLists lists) {
   const std::int64_t cells = lists.size();
   IdLists out;

@@ -8,24 +8,25 @@
 namespace calotte::io_detail {
 namespace {
 
-constexpr double cut_longitude = 180; ///< the meridian; any number of turns may be added
+constexpr double cut_longitude = 180; ///< longitude of the cut, up to whole turns
 
 using LonLatRing = std::vector<LonLat>;
 
-/// A place whose longitude continues beyond 180 degrees. The turns are kept apart: the longitude of
-/// a corner has the same bits in all cells that share it.
-struct TurnedPlace {
-  LonLat place;
+/// A point whose longitude continues beyond 180 degrees. The number of turns is separate, so that
+/// the longitude of a corner has the same bits in all cells with that corner.
+struct TurnedPoint {
+  LonLat lonlat;
   int turn = 0;
 
-  double longitude(int less = 0) const { return place.longitude + 360 * (turn - less); }
+  double longitude(int less = 0) const { return lonlat.longitude + 360 * (turn - less); }
 };
 
-using TurnedRing = std::vector<TurnedPlace>;
+using TurnedRing = std::vector<TurnedPoint>;
 
 bool at_pole(const Vec3& p) { return norm(Vec3{p.x, p.y, 0}) < 1e-12 * std::abs(p.z); }
 
-/// Longitudes that continue beyond 180 degrees, along the ring from its first place back to it.
+/// A ring whose longitudes continue beyond 180 degrees, from its first corner around to the first
+/// corner again.
 class Unrolled {
 public:
   explicit Unrolled(const std::vector<Vec3>& corners) {
@@ -35,7 +36,7 @@ public:
     std::vector<Vec3> ring(start, corners.end());
     ring.insert(ring.end(), corners.begin(), start);
     ring.push_back(ring.front());
-    places_.push_back({lonlat_of(ring.front())});
+    points_.push_back({lonlat_of(ring.front())});
     for (std::size_t last = 0, next = 1; next < ring.size(); ++next)
       if (!at_pole(ring[next])) {
         append(ring[last], ring[next], next - last > 1 ? ring[last + 1] : ring[last] + ring[next],
@@ -44,87 +45,90 @@ public:
       }
   }
 
-  /// From the first place, which comes again at the end, to its turn or turns.
-  const TurnedRing& places() const { return places_; }
+  /// The points of the ring. The first one is repeated at the end, one turn away if the ring
+  /// surrounds a pole.
+  const TurnedRing& points() const { return points_; }
 
-  /// 1 around the north pole, -1 around the south pole, or else 0.
-  int turns() const { return places_.empty() ? 0 : places_.back().turn - places_.front().turn; }
+  /// Number of turns: 1 around the north pole, -1 around the south pole, otherwise 0.
+  int turns() const { return points_.empty() ? 0 : points_.back().turn - points_.front().turn; }
 
 private:
-  /// Continues from a to b, which are no poles, through the pole on the side of `between` if that
-  /// is a pole, or if the edge passes through it.
+  /// Appends b after a; neither is a pole. If `between` is a pole, or if the edge passes through a
+  /// pole, the path goes through that pole.
   void append(const Vec3& a, const Vec3& b, const Vec3& between, bool pole) {
     const LonLat end = lonlat_of(b);
     double step = std::remainder(end.longitude - lonlat_of(a).longitude, 360.0);
-    const TurnedPlace from = places_.back();
+    const TurnedPoint from = points_.back();
     if (pole || std::abs(step) > 180 - 1e-10) {
       // Seen from the pole the cell is a wedge to the west of the meridian that runs north.
       const double edge = std::copysign(90.0, between.z);
       if (std::abs(step) > 180 - 1e-10)
         step = -std::copysign(step, edge);
-      push({{from.place.longitude, edge}, from.turn});
-      push({{end.longitude, edge}, turn_of(from, step, end)});
+      push({{from.lonlat.longitude, edge}, from.turn});
+      push({{end.longitude, edge}, find_turn(from, step, end)});
     }
-    push({end, turn_of(from, step, end)}, &a, &b);
+    push({end, find_turn(from, step, end)}, &a, &b);
   }
 
-  /// The turn of a corner that is a step from a place.
-  static int turn_of(const TurnedPlace& from, double step, const LonLat& corner) {
+  /// The turn of a corner at a step in longitude from a point.
+  static int find_turn(const TurnedPoint& from, double step, const LonLat& corner) {
     return static_cast<int>(std::lround((from.longitude() + step - corner.longitude) / 360));
   }
 
-  /// Adds a place if the path to it crosses the cut: on the arc from a to b, or at a pole.
-  void push(const TurnedPlace& next, const Vec3* a = nullptr, const Vec3* b = nullptr) {
-    const double last = places_.back().longitude(), low = std::min(last, next.longitude()),
+  /// Adds a point, and before it one on the cut, if the path crosses it: on the arc from a to b, or
+  /// at a pole.
+  void push(const TurnedPoint& next, const Vec3* a = nullptr, const Vec3* b = nullptr) {
+    const double last = points_.back().longitude(), low = std::min(last, next.longitude()),
                  high = std::max(last, next.longitude());
     const int turn = static_cast<int>(std::ceil((low - cut_longitude) / 360));
     if (low < cut_longitude + 360 * turn && cut_longitude + 360 * turn < high)
-      places_.push_back(
+      points_.push_back(
           {{cut_longitude, a ? lonlat_of(std::abs(b->y) * *a + std::abs(a->y) * *b).latitude
-                             : next.place.latitude},
+                             : next.lonlat.latitude},
            turn});
-    places_.push_back(next);
+    points_.push_back(next);
   }
 
-  TurnedRing places_;
+  TurnedRing points_;
 };
 
-/// The part between two cuts, moved there from `turn` turns to the east.
+/// The part of a ring between two cuts, `turn` turns to the east, moved back by these turns.
 LonLatRing between_cuts(const TurnedRing& ring, int turn) {
   LonLatRing part;
-  for (const TurnedPlace& place : ring)
-    if (const double longitude = place.longitude(turn); std::abs(longitude) <= cut_longitude)
-      part.push_back({longitude, place.place.latitude});
+  for (const TurnedPoint& point : ring)
+    if (const double longitude = point.longitude(turn); std::abs(longitude) <= cut_longitude)
+      part.push_back({longitude, point.lonlat.latitude});
   return part;
 }
 
-/// A ring that runs round once, from the cut to the cut, and back along the pole's edge.
+/// Closes a ring around a pole: it starts and ends at the cut, and continues along the edge of the
+/// pole.
 LonLatRing around_pole(TurnedRing ring, int turns) {
   ring.pop_back();
-  const auto start = std::find_if(ring.begin(), ring.end(), [](const TurnedPlace& place) {
-    return std::abs(place.place.longitude) == cut_longitude;
+  const auto start = std::find_if(ring.begin(), ring.end(), [](const TurnedPoint& point) {
+    return std::abs(point.lonlat.longitude) == cut_longitude;
   });
-  for (auto place = ring.begin(); place != start; ++place)
-    place->turn += turns;
+  for (auto point = ring.begin(); point != start; ++point)
+    point->turn += turns;
   std::rotate(ring.begin(), start, ring.end());
   const double begin = turns > 0 ? -cut_longitude : cut_longitude, edge = turns > 0 ? 90 : -90;
   const int less = static_cast<int>(std::lround((ring.front().longitude() - begin) / 360));
   LonLatRing out;
-  for (const TurnedPlace& place : ring)
-    out.push_back({place.longitude(less), place.place.latitude});
+  for (const TurnedPoint& point : ring)
+    out.push_back({point.longitude(less), point.lonlat.latitude});
   out.insert(out.end(), {{-begin, out.front().latitude}, {-begin, edge}, {begin, edge}});
   return out;
 }
 
-/// Removes places that repeat the one before; empty if the ring has no width.
+/// Removes points that repeat the one before. Returns no points if the ring has no width.
 LonLatRing cleaned(const LonLatRing& ring) {
   LonLatRing out;
   const auto same = [](const LonLat& a, const LonLat& b) {
     return a.longitude == b.longitude && a.latitude == b.latitude;
   };
-  for (const LonLat& place : ring)
-    if (out.empty() || !same(out.back(), place))
-      out.push_back(place);
+  for (const LonLat& point : ring)
+    if (out.empty() || !same(out.back(), point))
+      out.push_back(point);
   while (out.size() > 1 && same(out.back(), out.front()))
     out.pop_back();
   const auto [west, east] =
@@ -136,14 +140,14 @@ LonLatRing cleaned(const LonLatRing& ring) {
 
 } // namespace
 
-std::vector<std::vector<LonLat>> outline_of(const std::vector<Vec3>& corners) {
+std::vector<std::vector<LonLat>> cell_outline(const std::vector<Vec3>& corners) {
   const Unrolled unrolled(corners);
   std::vector<LonLatRing> rings;
   if (unrolled.turns() != 0) {
-    rings.push_back(cleaned(around_pole(unrolled.places(), unrolled.turns())));
+    rings.push_back(cleaned(around_pole(unrolled.points(), unrolled.turns())));
   } else {
     for (const int turn : {-1, 0, 1})
-      rings.push_back(cleaned(between_cuts(unrolled.places(), turn)));
+      rings.push_back(cleaned(between_cuts(unrolled.points(), turn)));
   }
   std::erase_if(rings, [](const LonLatRing& ring) { return ring.empty(); });
   return rings;

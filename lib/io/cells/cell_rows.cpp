@@ -2,7 +2,7 @@
 #include "io/cells/cell_rows.h"
 
 #include "io/bytes/text.h"
-#include "io/cells/distinct_places.h"
+#include "io/cells/distinct_points.h"
 #include "io/cells/model_grid.h"
 #include "io/cells/netcdf_fields.h"
 #include "io/cells/polygons.h"
@@ -25,8 +25,8 @@ bool may_be_missing(const NetcdfReader& file, const std::string& name) {
   return !file.numbers(name, "_FillValue").empty() || !file.numbers(name, "missing_value").empty();
 }
 
-/// From corners first to a row of corners for each cell.
-void turn_rows(std::vector<double>& values, std::int64_t corners) {
+/// Reorders values with corners first to a row of corners for each cell.
+void transpose(std::vector<double>& values, std::int64_t corners) {
   const std::vector<double> old = values;
   const std::int64_t cells = std::ssize(old) / corners;
   for (std::int64_t k = 0; k < corners; ++k)
@@ -35,22 +35,23 @@ void turn_rows(std::vector<double>& values, std::int64_t corners) {
           old[static_cast<std::size_t>(k * cells + i)];
 }
 
-double degrees_of(const NetcdfReader& file, const std::string& corners,
-                  const std::string& centres) {
+double corner_degrees_per_unit(const NetcdfReader& file, const std::string& corners,
+                               const std::string& centres) {
   const bool own = centres.empty() || !file.text(corners, "units").empty();
   return degrees_per_unit(file, own ? corners : centres);
 }
 
-/// Corners that are none take the place of another, so that all are places. \returns them.
+/// Replaces missing corners by the coordinates of another corner.
+/// \returns the indices of the missing corners.
 std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& rows,
-                                      LonLats& places) {
+                                      LonLats& points) {
   std::vector<std::size_t> missing;
   if (!may_be_missing(file, rows.corner_longitude) && !may_be_missing(file, rows.corner_latitude))
     return missing;
-  const std::size_t count = places.longitudes.size();
+  const std::size_t count = points.longitudes.size();
   std::size_t known = count;
   for (std::size_t i = 0; i < count; ++i)
-    if (std::isnan(places.longitudes[i]) || std::isnan(places.latitudes[i]))
+    if (std::isnan(points.longitudes[i]) || std::isnan(points.latitudes[i]))
       missing.push_back(i);
     else
       known = std::min(known, i);
@@ -58,16 +59,16 @@ std::vector<std::size_t> fill_missing(const NetcdfReader& file, const CellRows& 
     file.fail("{} and {} hold fill values only; make the file again", rows.corner_longitude,
               rows.corner_latitude);
   for (const std::size_t i : missing) {
-    places.longitudes[i] = places.longitudes[known];
-    places.latitudes[i] = places.latitudes[known];
+    points.longitudes[i] = points.longitudes[known];
+    points.latitudes[i] = points.latitudes[known];
   }
   return missing;
 }
 
 // ---- Names
 
-/// The bounds of coordinates; empty without, or if they have another shape.
-std::string bounds_of(const NetcdfReader& file, const std::string& name) {
+/// Finds the bounds of coordinates. Empty if there are none, or if their shape does not fit.
+std::string find_bounds(const NetcdfReader& file, const std::string& name) {
   const std::string bounds = file.text(name, "bounds");
   if (bounds.empty() || !file.has_variable(bounds))
     return {};
@@ -82,18 +83,18 @@ bool has_corners(const NetcdfReader& file, const std::string& bounds) {
          static_cast<std::size_t>(file.shape_of(bounds).back()) >= fewest_corners;
 }
 
-/// The latitudes that go with longitudes, which have bounds.
-std::string latitude_beside(const NetcdfReader& file, const std::string& longitude) {
+/// Finds the latitudes with bounds that have the dimensions of the longitudes.
+std::string find_latitude(const NetcdfReader& file, const std::string& longitude) {
   const std::vector<std::string> dimensions = file.dimensions_of(longitude);
   for (const std::string& name : file.variable_names())
     if (is_latitude(file, name) && file.dimensions_of(name) == dimensions &&
-        has_corners(file, bounds_of(file, name)))
+        has_corners(file, find_bounds(file, name)))
       return name;
   return {};
 }
 
-/// How many variables have all dimensions of a coordinate.
-std::int64_t variables_on(const NetcdfReader& file, const std::string& coordinate) {
+/// Counts the variables that have all dimensions of a coordinate.
+std::int64_t count_variables(const NetcdfReader& file, const std::string& coordinate) {
   const std::vector<std::string> wanted = file.dimensions_of(coordinate);
   const std::vector<std::string> names = file.variable_names();
   return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
@@ -108,12 +109,12 @@ std::optional<CellRows> bounded_cells(const NetcdfReader& file) {
   std::optional<CellRows> best;
   std::int64_t most = -1;
   for (const std::string& name : file.variable_names()) {
-    if (!is_longitude(file, name) || !has_corners(file, bounds_of(file, name)))
+    if (!is_longitude(file, name) || !has_corners(file, find_bounds(file, name)))
       continue;
-    const std::string latitude = latitude_beside(file, name);
-    if (const std::int64_t count = variables_on(file, name); !latitude.empty() && count > most) {
+    const std::string latitude = find_latitude(file, name);
+    if (const std::int64_t count = count_variables(file, name); !latitude.empty() && count > most) {
       most = count;
-      best = {bounds_of(file, name), bounds_of(file, latitude), name, latitude};
+      best = {find_bounds(file, name), find_bounds(file, latitude), name, latitude};
     }
   }
   return best;
@@ -148,7 +149,7 @@ std::optional<CellRows> oasis_cells(const NetcdfReader& file) {
 
 // ---- What a file is instead of a mesh
 
-/// The first variable of which that holds; empty without.
+/// The first variable for which is(variable) is true; empty without one.
 template <class Is> std::string first_variable(const NetcdfReader& file, const Is& is) {
   const std::vector<std::string> names = file.variable_names();
   const auto found = std::find_if(names.begin(), names.end(), is);
@@ -157,7 +158,7 @@ template <class Is> std::string first_variable(const NetcdfReader& file, const I
 
 std::string two_bounds(const NetcdfReader& file) {
   return first_variable(file, [&](const std::string& name) {
-    const std::string bounds = is_longitude(file, name) ? bounds_of(file, name) : "";
+    const std::string bounds = is_longitude(file, name) ? find_bounds(file, name) : "";
     return !bounds.empty() && file.shape_of(bounds).back() == 2;
   });
 }
@@ -172,27 +173,27 @@ Polygons read_cell_rows(const NetcdfReader& file, const CellRows& rows, const Po
   if (most < 3)
     file.fail("{} has {} corners a cell; make the file again with three or more",
               rows.corner_longitude, most);
-  LonLats places{cf_values(file, rows.corner_longitude, shape),
+  LonLats points{cf_values(file, rows.corner_longitude, shape),
                  cf_values(file, rows.corner_latitude, shape)};
-  const std::int64_t cells = std::ssize(places.longitudes) / most;
+  const std::int64_t cells = std::ssize(points.longitudes) / most;
   if (centres.cols() > 0 && cells != centres.cols())
     file.fail("{} holds {} cells, but there are {} centres; make the file again",
               rows.corner_longitude, cells, centres.cols());
   if (rows.corners_first)
-    for (std::vector<double>* values : {&places.longitudes, &places.latitudes})
-      turn_rows(*values, most);
-  const std::vector<std::size_t> missing = fill_missing(file, rows, places);
-  scale(places.longitudes, degrees_of(file, rows.corner_longitude, rows.longitude));
-  scale(places.latitudes, degrees_of(file, rows.corner_latitude, rows.latitude));
-  places = checked(file, rows.corner_longitude + " and " + rows.corner_latitude, std::move(places));
-  DistinctPlaces distinct = distinct_places(places.longitudes, places.latitudes);
+    for (std::vector<double>* values : {&points.longitudes, &points.latitudes})
+      transpose(*values, most);
+  const std::vector<std::size_t> missing = fill_missing(file, rows, points);
+  scale(points.longitudes, corner_degrees_per_unit(file, rows.corner_longitude, rows.longitude));
+  scale(points.latitudes, corner_degrees_per_unit(file, rows.corner_latitude, rows.latitude));
+  points = checked(file, rows.corner_longitude + " and " + rows.corner_latitude, std::move(points));
+  DistinctPoints distinct = find_distinct_points(points.longitudes, points.latitudes);
   for (const std::size_t i : missing)
     distinct.id[i] = -1;
-  return polygons_of(distinct.id, most, from_degrees(distinct.longitudes, distinct.latitudes),
-                     centres);
+  return make_polygons(distinct.id, most, from_degrees(distinct.longitudes, distinct.latitudes),
+                       centres);
 }
 
-std::optional<CellRows> cell_rows_of(const NetcdfReader& file) {
+std::optional<CellRows> find_cell_rows(const NetcdfReader& file) {
   const std::optional<CellRows> cells = bounded_cells(file);
   return cells ? cells : oasis_cells(file);
 }

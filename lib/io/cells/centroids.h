@@ -7,8 +7,9 @@
 
 namespace calotte::io_detail {
 
-/// The centroids of polygons, for formats that need centres: unit columns, or places of the plane.
-/// That of a polygon without area is its first corner. \pre each has corners.
+/// The centroids of polygons, for formats that need centres: unit columns, or points of the plane.
+/// The centroid of a polygon without area is its first corner.
+/// \pre each polygon has corners.
 Points3 centroids_of(const Polygons& polygons);
 
 } // namespace calotte::io_detail

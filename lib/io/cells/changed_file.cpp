@@ -31,12 +31,12 @@ using base_detail::column;
 using base_detail::require;
 using mesh_detail::Corner;
 
-/// Where values of new cells come from.
+/// The weights that give values at new cells.
 struct Sources {
   const ChangedMesh& changed;
   std::vector<std::int32_t> added; ///< new cells
-  GridWeights linear, nearest;     ///< from old cells to these
-  GridWeights conservative = {};   ///< the same, where fields ask for it
+  GridWeights linear, nearest;     ///< weights from old cells to new ones
+  GridWeights conservative = {};   ///< the same; only if a field needs it
 
   const GridWeights& of(Interpolation kind) const {
     return kind == Interpolation::conservative ? conservative
@@ -45,25 +45,25 @@ struct Sources {
   }
 };
 
-GridWeights weights_at(const Mesh& old, const Points3& places, Interpolation kind) {
+GridWeights weights_at(const Mesh& old, const Points3& points, Interpolation kind) {
   GridWeights out;
-  out.weights = interpolation_weights(old, places, kind);
-  out.target_fraction = DoubleVector::Ones(places.cols());
+  out.weights = interpolation_weights(old, points, kind);
+  out.target_fraction = DoubleVector::Ones(points.cols());
   return out;
 }
 
-Sources sources_of(const Mesh& old, const ChangedMesh& changed) {
+Sources make_sources(const Mesh& old, const ChangedMesh& changed) {
   std::vector<std::int32_t> added;
   for (std::int32_t i = 0; i < changed.old_of_new.size(); ++i)
     if (changed.old_of_new[i] < 0)
       added.push_back(i);
-  const Points3 places = changed.mesh.points(Eigen::all, added);
-  return {changed, std::move(added), weights_at(old, places, Interpolation::linear),
-          weights_at(old, places, Interpolation::nearest)};
+  const Points3 points = changed.mesh.points(Eigen::all, added);
+  return {changed, std::move(added), weights_at(old, points, Interpolation::linear),
+          weights_at(old, points, Interpolation::nearest)};
 }
 
-/// The old cells that new ones may share area with: those that went and some rows around them,
-/// whose cells may have become smaller.
+/// The old cells whose area new ones may share: removed cells and some rows around them, since
+/// cells there may have become smaller.
 std::vector<std::int32_t> cells_near(const IdLists& neighbours, const Ids& new_of_old, int rows) {
   std::vector<std::uint8_t> gone(static_cast<std::size_t>(new_of_old.size()));
   std::transform(new_of_old.begin(), new_of_old.end(), gone.begin(),
@@ -76,9 +76,10 @@ std::vector<std::int32_t> cells_near(const IdLists& neighbours, const Ids& new_o
   return ids;
 }
 
-/// Of the old cells, those around the patches take part, in as many rows as cover the new ones.
-GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_cells,
-                            const std::optional<Polygons>& new_cells, const Sources& sources) {
+/// Only old cells around the patches contribute, in as many rows as cover the new cells.
+GridWeights make_conservative_weights(const Mesh& old, const std::optional<Polygons>& old_cells,
+                                      const std::optional<Polygons>& new_cells,
+                                      const Sources& sources) {
   constexpr double covered = 1 - 1e-9;
   constexpr int first_rows = 4, most_rows = 32;
   GridWeights out;
@@ -109,14 +110,14 @@ GridWeights conservative_of(const Mesh& old, const std::optional<Polygons>& old_
   return out;
 }
 
-/// A field at old cells as one at new cells. New ones outside of the triangles of an open mesh have
-/// the nearest value.
+/// Transfers a field from old cells to new cells. New cells outside of the triangles of an open
+/// mesh get the nearest value.
 MeshField carried(const Sources& sources, const MeshField& field, Interpolation kind) {
   const Ids& old_of_new = sources.changed.old_of_new;
   const std::int64_t count = field.count();
   const int* const begin = sources.of(kind).weights.outerIndexPtr();
   const auto has_none = [&](std::size_t k) { return begin[k] == begin[k + 1]; };
-  const MeshField chosen = interpolate(sources.of(kind), field);
+  const MeshField weighted = interpolate(sources.of(kind), field);
   std::optional<MeshField> near;
   for (std::size_t k = 0; k < sources.added.size() && !near; ++k)
     if (has_none(k))
@@ -128,12 +129,13 @@ MeshField carried(const Sources& sources, const MeshField& field, Interpolation 
       out.values.segment(i * count, count) = field.values.segment(old_of_new[i] * count, count);
   for (std::size_t k = 0; k < sources.added.size(); ++k)
     out.values.segment(sources.added[k] * count, count) =
-        (has_none(k) ? *near : chosen).values.segment(static_cast<Eigen::Index>(k) * count, count);
+        (has_none(k) ? *near : weighted)
+            .values.segment(static_cast<Eigen::Index>(k) * count, count);
   return out;
 }
 
-/// Denser where the cells are finer; between old cells its -1/4th power, which widths are
-/// proportional to, is linear.
+/// Transfers the density. Its -1/4th power, which is proportional to cell widths, is interpolated
+/// linearly; it is larger where cells have become finer.
 DoubleVector carried_density(const Sources& sources, const DoubleVector& density) {
   constexpr double least = 1e-150;
   const Eigen::Index cells = sources.changed.new_of_old.size();
@@ -153,8 +155,8 @@ DoubleVector carried_density(const Sources& sources, const DoubleVector& density
 
 constexpr const char* map_name = "mapNewToBase";
 
-/// How a field's values reach new cells.
-Interpolation method_of(const MeshField& field, const FieldMethods& methods) {
+/// The method by which a field is transferred to new cells.
+Interpolation choose_method(const MeshField& field, const FieldMethods& methods) {
   const auto is_in = [&](const std::vector<std::string>& names) {
     return std::ranges::count(names, field.name) > 0;
   };
@@ -173,7 +175,7 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
       out.left_out.push_back(field.name);
       continue;
     }
-    const Interpolation kind = method_of(field, methods);
+    const Interpolation kind = choose_method(field, methods);
     if (kind == Interpolation::nearest)
       out.nearest.push_back(field.name);
     out.file.fields.push_back(carried(sources, field, kind));
@@ -186,7 +188,7 @@ void carry_fields(const Sources& sources, const std::vector<MeshField>& fields,
 
 // ---- Polygons
 
-/// Corners by any three of the old cells whose common corners they are.
+/// Finds the common corner of any three old cells.
 class OldCorners {
 public:
   explicit OldCorners(const Polygons& polygons) {
@@ -226,14 +228,14 @@ private:
   std::unordered_map<Cells, std::int32_t, Hash> corner_of_;
 };
 
-template <Space S> Vec3 corner_of(const Mesh& mesh, const S& space, std::int64_t t) {
+template <Space S> Vec3 make_corner(const Mesh& mesh, const S& space, std::int64_t t) {
   return space.circumcentre(column(mesh.points, mesh.triangles(0, t)),
                             column(mesh.points, mesh.triangles(1, t)),
                             column(mesh.points, mesh.triangles(2, t)));
 }
 
-/// Cells whose neighbours are those of before keep their corners, such as all at a boundary. The
-/// others have one for each of their triangles, that of the old triangle where it stayed.
+/// Cells with the same neighbours as before keep their corners; so do all cells at a boundary. The
+/// other cells have a corner for each of their triangles: that of the old triangle if it was kept.
 template <Space S>
 Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const ChangedMesh& changed,
                           const S& space) {
@@ -256,7 +258,7 @@ Polygons changed_polygons(const Polygons& old, const Mesh& old_mesh, const Chang
       here = old_corners.of(cells);
     if (here == unknown) {
       here = static_cast<std::int32_t>(old.corners.cols() + std::ssize(added));
-      added.push_back(corner_of(mesh, space, t));
+      added.push_back(make_corner(mesh, space, t));
     }
     return here;
   };
@@ -316,16 +318,16 @@ ChangedFile changed_file(const MeshFile& old, ChangedMesh changed, const FieldMe
   out.file.not_voronoi = old.not_voronoi;
   out.file.sphere_radius = old.sphere_radius;
   out.file.vertex_order = old.vertex_order;
-  const bool clipped = old.is_clipped(); // the rings give the cells
+  const bool clipped = old.is_clipped(); // the boundary determines the cells
   if (old.polygons && !clipped)
     out.file.polygons =
         exact_detail::in_space_of(old.mesh->surface, [&](const exact_detail::Space auto& space) {
           return changed_polygons(*old.polygons, *old.mesh, changed, space);
         });
-  Sources sources = sources_of(*old.mesh, changed);
+  Sources sources = make_sources(*old.mesh, changed);
   if (!methods.conservative.empty())
-    sources.conservative = conservative_of(*old.mesh, clipped ? std::nullopt : old.polygons,
-                                           out.file.polygons, sources);
+    sources.conservative = make_conservative_weights(
+        *old.mesh, clipped ? std::nullopt : old.polygons, out.file.polygons, sources);
   out.file.density = carried_density(sources, old.density);
   carry_fields(sources, old.fields, methods, out);
   out.file.mesh = std::move(changed.mesh);

@@ -10,7 +10,7 @@
 namespace calotte::io_detail {
 namespace {
 
-std::string place_in_words(std::int64_t index, const std::vector<std::int64_t>& shape) {
+std::string index_in_words(std::int64_t index, const std::vector<std::int64_t>& shape) {
   return shape.size() < 2 || shape[1] == 0 ? in_words({index})
                                            : in_words({index / shape[1], index % shape[1]});
 }
@@ -82,7 +82,7 @@ void Deviations::add(const std::string& variable, const Differences& differences
   text << variable << ": ";
   if (size > 1)
     text << differences.count << " of " << size << " values are not " << rule << "; at "
-         << place_in_words(differences.index, shape) << ", 0-based, ";
+         << index_in_words(differences.index, shape) << ", 0-based, ";
   else
     text << "the value is not " << rule << "; ";
   text << differences.stored << " is stored, " << differences.derived << " is derived";

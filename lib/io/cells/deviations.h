@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-/// Comparing the variables of a file, row by row, with what they should be.
+/// Compares the variables of a file, row by row, with the values that they should have.
 namespace calotte::io_detail {
 
-/// Below this, relative differences are rounding: MpasMeshConverter has single precision.
+/// Relative differences below this are rounding errors: MpasMeshConverter has single precision.
 inline constexpr double rounding_of_others = 1e-6;
 
 /// The differences in a variable, or in a part of it.
@@ -24,19 +24,19 @@ struct Differences {
   std::int64_t count = 0;
   /// Values that do not follow a known fault of MpasMeshConverter, whether right or wrong.
   std::int64_t unlike_fault = 0;
-  std::int64_t index = -1; ///< of the largest, the first of equal ones
+  std::int64_t index = -1; ///< index of the largest difference, the first of equal ones
   double largest = 0, stored = 0, derived = 0;
 
   void note(std::int64_t at, double stored_there, double derived_there, double difference);
-  /// Notes a pair of values whose relative difference is above the tolerance, or not a number.
+  /// Records a pair of values whose relative difference is above the tolerance, or not a number.
   void compare(std::int64_t at, double stored_there, double derived_there, double scale,
                double tolerance);
-  /// Notes ids that differ.
+  /// Records ids that differ.
   void compare(std::int64_t at, std::int32_t stored_there, std::int32_t derived_there) {
     if (stored_there != derived_there)
       note(at, stored_there, derived_there, 1);
   }
-  /// Adds those of a later part.
+  /// Adds the differences of a later part.
   void take(const Differences& later);
 };
 
@@ -50,22 +50,25 @@ public:
 
   /// Whether the file has a variable of that shape (-1: any size). Another shape is a deviation.
   bool has(const std::string& variable, const std::vector<std::int64_t>& shape);
-  /// The length of a variable's rows: 1 of a variable with one dimension.
+  /// The length of the rows of a variable; 1 for a variable with one dimension.
   std::int64_t width(const std::string& variable) const;
 
-  /// rule(begin, end, values, differences) for blocks of the rows of a variable: values holds rows
-  /// begin to end - 1, and the rule notes differences at their places in the variable.
+  /// Calls rule(begin, end, values, differences) for blocks of rows of a variable. `values`
+  /// contains rows begin to end - 1; the rule records differences with their indices in the
+  /// variable.
   template <class T, class Rule>
   Differences visit_blocks(const std::string& variable, const Rule& rule) const;
-  /// rule(row, values, differences) for each row.
+  /// Calls rule(row, values, differences) for each row.
   template <class T, class Rule>
   Differences visit_rows(const std::string& variable, const Rule& rule) const;
 
-  /// Adds a deviation if there are differences. \param rule what the values should be, after "are
-  /// not". \param fault of MpasMeshConverter; known if all values follow it.
+  /// Adds a deviation if there are differences.
+  /// \param rule what the values should be: the text after "are not".
+  /// \param fault of MpasMeshConverter; it is reported if all values follow it.
   void add(const std::string& variable, const Differences& differences, const std::string& rule,
            const std::string& fault = {});
-  /// visit_rows(), and the deviation that follows from it. \param values what they should be.
+  /// Calls visit_rows() and adds a deviation if there are differences.
+  /// \param values what they should be.
   template <class T, class Rule>
   void check_rows(const std::string& variable, const std::string& values, const Rule& rule) {
     add(variable, visit_rows<T>(variable, rule), values);

@@ -25,8 +25,9 @@ struct AtCorner {
   std::int32_t polygon, before, after;
 };
 
-/// The polygons around a corner, in turn from the lowest: the next one is across the side to the
-/// corner before. Their own order of numbers is that in which they come.
+/// Sorts the polygons around a corner in counter-clockwise order, from the lowest on: the next one
+/// is across the side to the corner before. The input is in ascending order.
+/// \returns whether the polygons surround the corner.
 bool turn_around(std::array<AtCorner, 3>& around) {
   if (around[1].after != around[0].before)
     std::swap(around[1], around[2]);
@@ -34,7 +35,7 @@ bool turn_around(std::array<AtCorner, 3>& around) {
          around[0].after == around[2].before;
 }
 
-/// Leaves out the values of corners of no polygon.
+/// Removes the values of corners that no polygon has.
 void select_corners(std::int64_t corners, const Ids& used, std::vector<MeshField>& fields) {
   if (used.size() == corners)
     return;
@@ -50,7 +51,7 @@ Vec3 unit(const Vec3& p) {
 
 } // namespace
 
-Dual dual_of(const Polygons& polygons, std::int64_t corners) {
+Dual make_dual(const Polygons& polygons, std::int64_t corners) {
   Array<std::array<AtCorner, 3>> at(corners); // filled below before it is read
   std::vector<std::uint8_t> count(static_cast<std::size_t>(corners));
   for (std::int32_t i = 0; i < polygons.size(); ++i) {
@@ -117,12 +118,12 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
   const std::int64_t sites = polygons.size(), corners = polygons.corners.cols();
   if (centres.cols() != sites)
     return {};
-  Dual dual = dual_of(polygons, corners);
+  Dual dual = make_dual(polygons, corners);
   const bool closed = dual.triangles.cols() == 2 * sites - 4;
   if (dual.failed >= 0 || dual.triangles.cols() == 0)
     return {};
   if (!closed && cover_sphere(polygons))
-    return {}; // corners that cells share are not the same ones
+    return {}; // cells do not share their corners
   const double width = closed ? mean_width(sites) : mean_width(polygons);
   if (!are_circumcentres(centres, dual.triangles, polygons.corners,
                          corner_tolerance(width, rounding), closed ? 0 : 1e-6, dual.corner))
@@ -142,7 +143,7 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
 }
 
 std::optional<Mesh> planar_mesh_of_cells(const Points3& centres, const Polygons& polygons) {
-  const Dual dual = dual_of(polygons, polygons.corners.cols());
+  const Dual dual = make_dual(polygons, polygons.corners.cols());
   if (dual.failed >= 0 || dual.triangles.cols() == 0)
     return {};
   Mesh mesh{centres, {}, {}, themselves(centres.cols()), Surface::plane()};

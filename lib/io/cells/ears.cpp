@@ -24,7 +24,7 @@ int kept_neighbours(const Mesh& mesh, const Flags& kept, std::int32_t triangle) 
   return count;
 }
 
-/// The triangles that stay. One that goes may make ears of its neighbours.
+/// The triangles that remain. Removing one may turn its neighbours into ears.
 std::vector<std::int32_t> triangles_without_ears(const Mesh& mesh) {
   Flags kept(static_cast<std::size_t>(mesh.triangles.cols()), 1);
   std::vector<std::int32_t> suspects(kept.size());

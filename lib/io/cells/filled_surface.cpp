@@ -13,9 +13,9 @@ namespace {
 
 using namespace io_detail;
 
-/// For each corner of polygons the next one along their boundary, -1 elsewhere; none if several
-/// boundaries pass a corner.
-std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
+/// For each corner of polygons, the next one along their boundary; -1 for inner corners. None if
+/// the boundary passes a corner more than once.
+std::optional<std::vector<std::int32_t>> find_boundary(const Polygons& polygons) {
   const Sides sides(polygons);
   std::vector<std::int32_t> next(static_cast<std::size_t>(sides.from.size()), -1);
   for (std::int32_t from = 0; from < sides.from.size(); ++from)
@@ -30,7 +30,7 @@ std::optional<std::vector<std::int32_t>> boundary_of(const Polygons& polygons) {
   return next;
 }
 
-/// The closed lines of that boundary.
+/// The part of the plane that this boundary encloses.
 Surface domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
   Surface::Rings rings;
   for (std::size_t start = 0; start < next.size(); ++start) {
@@ -45,7 +45,7 @@ Surface domain_in(std::vector<std::int32_t> next, const Polygons& polygons) {
   return domain_detail::UncheckedSurface::of_plane(std::move(rings), {0, 0});
 }
 
-/// Whether the polygons are the Voronoi cells that a part of the plane clips.
+/// Whether the polygons are the Voronoi cells of the mesh, clipped to a part of the plane.
 bool clips_to(const Surface& part, Mesh mesh, const Polygons& polygons) {
   try {
     mesh.surface = part;
@@ -67,7 +67,7 @@ std::optional<Surface> filled_surface(const MeshFile& file) {
     return plane->surface;
   if (!file.polygons || plane->surface.period().maxCoeff() > 0)
     return std::nullopt;
-  std::optional<std::vector<std::int32_t>> next = boundary_of(*file.polygons);
+  std::optional<std::vector<std::int32_t>> next = find_boundary(*file.polygons);
   if (!next)
     return std::nullopt;
   const Surface part = domain_in(*std::move(next), *file.polygons);

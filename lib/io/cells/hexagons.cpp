@@ -25,13 +25,13 @@ using base_detail::set_column;
 using base_detail::Vec3;
 using exact_detail::Plane;
 
-/// The lattice that planar_hex starts from: in a direction with walls it has a row or column more
-/// on either side, which are left out. Cells are numbered by rows.
+/// The lattice of planar_hex. In a direction with walls it has one more row or column on either
+/// side; these are removed. Cells are numbered by rows.
 struct Lattice {
   std::int64_t columns, rows;
   double spacing;
   Walls walls;
-  std::int64_t wide, high; ///< with what is left out
+  std::int64_t wide, high; ///< numbers of columns and rows, including removed ones
 
   std::int64_t id(std::int64_t row, std::int64_t column) const {
     return ((row + high) % high) * wide + (column + wide) % wide;
@@ -45,12 +45,12 @@ struct Lattice {
     return {spacing * (static_cast<double>(column) + shift),
             spacing * static_cast<double>(row + 1) * std::sqrt(3.0) / 2};
   }
-  /// Each cell has two corners of its own, those at its left.
+  /// A corner of a cell. Each cell has two of its own, on its left.
   Eigen::Vector2d corner(std::int64_t row, std::int64_t column, int which) const {
     const double rise = spacing * std::sqrt(3.0) / 6;
     return centre(row, column) + Eigen::Vector2d(-0.5 * spacing, which == 0 ? rise : -rise);
   }
-  /// Counter-clockwise, the upper left one first.
+  /// The corners of a cell, counter-clockwise from the upper left one.
   std::array<std::int64_t, 6> corners(std::int64_t row, std::int64_t column) const {
     const std::int64_t shift = row % 2, here = id(row, column), right = id(row, column + 1),
                        below = id(row - 1, column + shift), above = id(row + 1, column + shift);
@@ -58,7 +58,7 @@ struct Lattice {
   }
 };
 
-Lattice lattice_of(std::int64_t columns, std::int64_t rows, double spacing, const Walls& walls) {
+Lattice make_lattice(std::int64_t columns, std::int64_t rows, double spacing, const Walls& walls) {
   constexpr std::int64_t most = std::int64_t{1} << 28;
   const std::int64_t few_columns = walls.x ? 2 : 3, few_rows = walls.y ? 2 : 4;
   require(columns >= few_columns && rows >= few_rows && (walls.y || rows % 2 == 0),
@@ -71,7 +71,7 @@ Lattice lattice_of(std::int64_t columns, std::int64_t rows, double spacing, cons
   return {columns, rows, spacing, walls, columns + (walls.x ? 2 : 0), rows + (walls.y ? 2 : 0)};
 }
 
-/// body(row, column) for the cells that stay.
+/// Calls body(row, column) for the cells that are not removed.
 template <class Body> void for_each_cell(const Lattice& lattice, const Body& body) {
   const std::int64_t first_row = lattice.walls.y ? 1 : 0, first_column = lattice.walls.x ? 1 : 0;
   for (std::int64_t row = 0; row < lattice.rows; ++row)
@@ -79,11 +79,11 @@ template <class Body> void for_each_cell(const Lattice& lattice, const Body& bod
       body(first_row + row, first_column + column);
 }
 
-Vec3 within(const Eigen::Vector2d& place, const Eigen::Vector2d& period) {
-  return Plane(period).wrapped(Vec3{place.x(), place.y(), 0});
+Vec3 within(const Eigen::Vector2d& point, const Eigen::Vector2d& period) {
+  return Plane(period).wrapped(Vec3{point.x(), point.y(), 0});
 }
 
-Polygons polygons_of(const Lattice& lattice) {
+Polygons make_hexagons(const Lattice& lattice) {
   const std::int64_t cells = lattice.columns * lattice.rows;
   Polygons out;
   const Eigen::Vector2d period = lattice.period();
@@ -113,11 +113,11 @@ Polygons polygons_of(const Lattice& lattice) {
 } // namespace
 
 MeshFile planar_hexagons(std::int64_t columns, std::int64_t rows, double spacing, Walls walls) {
-  const Lattice lattice = lattice_of(columns, rows, spacing, walls);
+  const Lattice lattice = make_lattice(columns, rows, spacing, walls);
   MeshFile file;
   file.format = "hexagons";
   if (walls.x || walls.y) {
-    file.polygons = polygons_of(lattice);
+    file.polygons = make_hexagons(lattice);
     file.not_voronoi.fault = CellFault::walls;
     return file;
   }

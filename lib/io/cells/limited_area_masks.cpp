@@ -22,12 +22,12 @@ std::string cell_mask_meaning(int rings) {
                     : message("0 in the region, 1 to {} in the rings of boundary cells", rings);
 }
 
-std::vector<std::uint8_t> flags_of(const Points3& places,
-                                   const std::function<bool(const Eigen::Vector3d&)>& inside) {
-  std::vector<std::uint8_t> flags(static_cast<std::size_t>(places.cols()));
-  for_each_block(places.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+std::vector<std::uint8_t> flag_points(const Points3& points,
+                                      const std::function<bool(const Eigen::Vector3d&)>& inside) {
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(points.cols()));
+  for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
-      flags[static_cast<std::size_t>(i)] = inside(places.col(i)) ? 1 : 0;
+      flags[static_cast<std::size_t>(i)] = inside(points.col(i)) ? 1 : 0;
   });
   return flags;
 }

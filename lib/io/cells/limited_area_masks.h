@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-/// The masks of a limited area in MPAS files. That of the cells is a field; those of edges and
-/// vertices follow from it, see least_mask().
+/// The masks of a limited area in MPAS files. The mask of the cells is a field; those of edges and
+/// vertices are derived from it, see least_mask().
 namespace calotte::io_detail {
 
 inline constexpr const char* cell_mask = "bdyMaskCell";
 std::string cell_mask_meaning(int rings); ///< its long_name
 
-/// A mask that follows.
+/// A derived mask.
 struct DerivedMask {
   const char* name;
   const char* meaning; ///< its long_name
@@ -29,14 +29,17 @@ inline constexpr DerivedMask edge_mask{"bdyMaskEdge",
                                        "least bdyMaskCell of the cells on each edge"},
     vertex_mask{"bdyMaskVertex", "least bdyMaskCell of the cells on each vertex"};
 
-/// By place: 1 if it is inside, else 0. \param inside is called by several threads at once.
-std::vector<std::uint8_t> flags_of(const Points3& places,
-                                   const std::function<bool(const Eigen::Vector3d&)>& inside);
+/// By point: 1 if it is inside, else 0.
+/// \param inside is called by several threads at once.
+std::vector<std::uint8_t> flag_points(const Points3& points,
+                                      const std::function<bool(const Eigen::Vector3d&)>& inside);
 
-/// The mask of so many cells among fields; none if there is no such field of 32-bit integers.
+/// The mask of the cells among fields; none without a field of 32-bit integers of that name and
+/// size.
 std::optional<Ids> cell_mask_among(const std::vector<MeshField>& fields, std::int64_t cells);
 
-/// Whether a name is that of a mask at edges or vertices, and the cells have one among the fields.
+/// Whether a name is that of a mask at edges or vertices, which is derived because the fields have
+/// the mask of the cells.
 bool is_derived_mask(const std::string& name, const std::vector<MeshField>& fields);
 
 } // namespace calotte::io_detail

@@ -62,7 +62,7 @@ void orient(const std::string& name, Triangles& triangles, const Orientations& f
   changes.push_back(message("turned {} clockwise triangles", found.clockwise));
 }
 
-/// The corners of polygons, of which one belongs to each triangle, follow their triangles.
+/// Reorders the corners of polygons. Each corner belongs to one triangle.
 void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
   if (polygons.corners.cols() != places.place.size())
     return;
@@ -102,7 +102,8 @@ void require_distinct_vertices(const std::string& name, const Triangles& triangl
       fail_file(name, t, "{} has a vertex twice; make the file again", triangle_name(triangles, t));
 }
 
-/// Orientation, order and neighbours. \pre ids are in range.
+/// Sets orientation, order and neighbours.
+/// \pre ids are in range.
 /// \param polygons whose corners belong to the triangles, or none.
 Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t points,
                     const Orientations& found, MeshFile& file, Polygons* polygons = nullptr) {
@@ -114,7 +115,8 @@ Triangles canonical(const std::string& name, Triangles& triangles, std::int64_t 
   return neighbours;
 }
 
-/// Sets all but the points of a mesh whose triangles are those of a file. As above.
+/// Sets all but the points of a mesh from the triangles of a file.
+/// \param polygons as for canonical().
 void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* polygons = nullptr) {
   mesh.neighbours =
       canonical(name, mesh.triangles, mesh.points.cols(),
@@ -124,7 +126,7 @@ void complete(const std::string& name, Mesh& mesh, MeshFile& file, Polygons* pol
 
 // ---- Cells
 
-/// Values by corner become values by triangle.
+/// Converts values by corner to values by triangle.
 void move_to_triangles(const Voronoi& cells, const Polygons& polygons,
                        std::vector<MeshField>& fields) {
   const auto is_by_corner = [&](const MeshField& field) {
@@ -145,7 +147,8 @@ void turn_cells(const std::string& name, Polygons& polygons, bool each, MeshFile
     file.changes.push_back(message("turned {} clockwise cells", turned));
 }
 
-/// Each cell of a plane has a site. Its boundary is the file's alone, and corners are no triangles.
+/// Requires a site in each cell of a plane. Only the file has its boundary, and its corners are not
+/// triangles.
 void require_one_site_each(const std::string& name, const Mesh& mesh) {
   const auto& sites = mesh.site_of_input;
   for (std::int32_t i = 0; i < std::ssize(sites); ++i)
@@ -180,7 +183,7 @@ void take_cells(const std::string& name, RawMesh raw, MeshFile& file) {
   file.polygons = std::move(raw.polygons);
 }
 
-/// Values by input column become values by site: a site has those of its lowest column.
+/// Converts values by input column to values by site. A site has those of its lowest column.
 void merge_values(const Mesh& mesh, MeshFile& file) {
   const auto columns = std::ssize(mesh.site_of_input);
   if (columns == mesh.points.cols())
@@ -207,7 +210,7 @@ MeshFile mesh_file_without_mesh(const std::string& format, RawMesh& raw) {
   return file;
 }
 
-void require_places(const std::string& name, const Points3& points) {
+void require_planar_points(const std::string& name, const Points3& points) {
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (!points.col(i).allFinite())
       fail_file(name, i, "point {} has no place (NaN or infinite); make the file again", i);
@@ -220,13 +223,14 @@ void require_places(const std::string& name, const Points3& points) {
   }
 }
 
-/// Directions, or places with z = 0. Readers have moved those of a periodic plane into it.
+/// Requires directions, or points with z = 0. Readers have moved points of a periodic plane into
+/// it.
 void require_points(const std::string& name, RawMesh& raw) {
   if (raw.surface.is_sphere()) {
     require_sphere(name, raw.points);
     require_directions(name, raw.points);
   } else if (raw.surface.period().isZero(0)) {
-    require_places(name, raw.points);
+    require_planar_points(name, raw.points);
     raw.points.row(2).setZero(); // not -0
     if (raw.triangles.cols() == 0 && raw.polygons.size() > 0 && raw.polygons.surface.is_sphere())
       refuse_path(name, "it holds cells of the sphere; of a plane only triangles are read");
@@ -238,11 +242,11 @@ Mesh mesh_of_triangles(const std::string& name, RawMesh& raw, MeshFile& file) {
   require_ids(name, raw.triangles, raw.points.cols());
   Mesh mesh{std::move(raw.points), std::move(raw.triangles), {}, {}, raw.surface};
   complete(name, mesh, file, &raw.polygons);
-  settle_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
+  reorder_edge_fields(mesh.triangles, raw.edges, file.fields, file.changes, file.ignored);
   return mesh;
 }
 
-/// The mesh of points, or of the centres of a plane's cells, which the file gives no triangles.
+/// The mesh of points, or of the centres of cells in a plane, if the file has no triangles.
 Mesh mesh_of_points(const std::string& name, const RawMesh& raw, MeshFile& file) {
   Mesh mesh = named(name, [&] { return delaunay(raw.points, raw.surface); });
   if (raw.polygons.size() > 0) {
@@ -273,7 +277,7 @@ void require_directions(const std::string& name, const Points3& points) {
                 i);
 }
 
-double radius_of(const Points3& points) {
+double find_radius(const Points3& points) {
   constexpr double rounding = 1e-6;
   if (points.cols() == 0)
     return 1;
@@ -286,7 +290,7 @@ double radius_of(const Points3& points) {
   return std::strtod(text.data(), nullptr);
 }
 
-MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMesh raw) {
+MeshFile make_mesh_file(const std::string& name, const std::string& format, RawMesh raw) {
   require_points(name, raw);
   MeshFile file = mesh_file_without_mesh(format, raw);
   const bool sphere = raw.surface.is_sphere(), has_cells = raw.polygons.size() > 0,
@@ -300,7 +304,7 @@ MeshFile mesh_file_of(const std::string& name, const std::string& format, RawMes
   if (has_cells)
     take_cells(name, std::move(raw), file);
   if (sphere && file.mesh)
-    file.sphere_radius = radius_of(file.mesh->points);
+    file.sphere_radius = find_radius(file.mesh->points);
   return file;
 }
 
@@ -315,18 +319,19 @@ Mesh mesh_of_columns_in_order(const std::string& name, const Points3& points, Tr
 
 } // namespace
 
-MeshFile mesh_file_of_columns(const std::string& name, const Points3& points, Triangles triangles) {
+MeshFile make_mesh_file_on_points(const std::string& name, const Points3& points,
+                                  Triangles triangles) {
   MeshFile file;
   file.format = "triangles";
   if (lies_in_plane(points)) {
-    require_places(name, points);
+    require_planar_points(name, points);
     file.mesh = mesh_of_columns_in_order(name, points, triangles, Surface::plane(), file);
     file.mesh->points.row(2).setZero(); // not -0
     return file;
   }
   require_directions(name, points);
   file.mesh = mesh_of_columns_in_order(name, points, triangles, {}, file);
-  file.sphere_radius = radius_of(points);
+  file.sphere_radius = find_radius(points);
   return file;
 }
 

@@ -19,7 +19,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// of(point) for each column.
+/// Fills a variable with of(point) for each column.
 template <class Of> NetcdfWriter::Fill<double> each(const Points3& points, const Of& of) {
   return table<double>(
       1, [&points, of](std::int64_t i, std::int64_t /*k*/) { return of(column(points, i)); });
@@ -40,21 +40,21 @@ Points3 on_sphere(Points3 points, double radius) {
 }
 
 WriteOptions of_plane(WriteOptions options) {
-  options.sphere_radius = 0; // as planar meshes have it
+  options.sphere_radius = 0; // as in planar meshes
   return options;
 }
 
-DoubleVector density_of(const Voronoi& voronoi, const WriteOptions& options) {
+DoubleVector density_at_cells(const Voronoi& voronoi, const WriteOptions& options) {
   if (options.site_density.size() == 0)
     return voronoi_detail::relative_density(voronoi, options.density);
   return options.site_density / options.site_density.maxCoeff();
 }
 
-CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options) {
+CellFields make_cell_fields(const Voronoi& voronoi, const WriteOptions& options) {
   if (options.site_density.size() == 0)
     return cell_fields(voronoi, options.density);
   CellFields fields = cell_fields(voronoi);
-  fields.density = density_of(voronoi, options);
+  fields.density = density_at_cells(voronoi, options);
   return fields;
 }
 
@@ -83,12 +83,12 @@ NetcdfWriter::Fill<double> latitudes_of(const Points3& points) {
 
 NetcdfWriter::Fill<double> lonlats_of(const Points3& points) {
   return table<double>(2, [&points](std::int64_t i, std::int64_t k) {
-    const LonLat place = eastern_lonlat_of(column(points, i));
-    return k == 0 ? place.longitude : place.latitude;
+    const LonLat lonlat = eastern_lonlat_of(column(points, i));
+    return k == 0 ? lonlat.longitude : lonlat.latitude;
   });
 }
 
-NetcdfWriter::Fill<double> row_of(const Points3& points, int row) {
+NetcdfWriter::Fill<double> coordinate_row(const Points3& points, int row) {
   return table<double>(
       1, [&points, row](std::int64_t i, std::int64_t /*k*/) { return points(row, i); });
 }
@@ -154,7 +154,7 @@ bool is_area(const MeshField& field) {
 
 } // namespace
 
-NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options) {
+NetcdfWriter::Fill<std::int32_t> make_mask(const WriteOptions& options) {
   const auto mask = std::find_if(options.fields.begin(), options.fields.end(), is_mask);
   if (mask == options.fields.end())
     return constant(1);
@@ -171,26 +171,26 @@ void drop_derived_fields(RawMesh& raw) {
   });
 }
 
-LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats places) {
+LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats points) {
   constexpr double pole = 90 * (1 + 0x1p-50); // from radians, a pole may come a rounding beyond it
-  for (std::size_t i = 0; i < places.longitudes.size(); ++i) {
-    double& latitude = places.latitudes[i];
-    if (!std::isfinite(places.longitudes[i]) || !(std::abs(latitude) <= pole))
+  for (std::size_t i = 0; i < points.longitudes.size(); ++i) {
+    double& latitude = points.latitudes[i];
+    if (!std::isfinite(points.longitudes[i]) || !(std::abs(latitude) <= pole))
       file.fail("{} hold no place on the sphere at index {} (0-based): longitude {}, latitude {} "
                 "degrees; make the file again",
-                variables, i, places.longitudes[i], latitude);
+                variables, i, points.longitudes[i], latitude);
     latitude = std::clamp(latitude, -90.0, 90.0);
   }
-  return places;
+  return points;
 }
 
 LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape) {
-  LonLats places{cf_values(file, longitude, shape), {}};
-  places.latitudes = cf_values(file, latitude, file.shape_of(longitude));
-  scale(places.longitudes, degrees_per_unit(file, longitude));
-  scale(places.latitudes, degrees_per_unit(file, latitude));
-  return checked(file, longitude + " and " + latitude, std::move(places));
+  LonLats points{cf_values(file, longitude, shape), {}};
+  points.latitudes = cf_values(file, latitude, file.shape_of(longitude));
+  scale(points.longitudes, degrees_per_unit(file, longitude));
+  scale(points.latitudes, degrees_per_unit(file, latitude));
+  return checked(file, longitude + " and " + latitude, std::move(points));
 }
 
 Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
@@ -205,8 +205,8 @@ Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<do
 
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape) {
-  const LonLats places = read_degrees(file, longitude, latitude, shape);
-  return from_degrees(places.longitudes, places.latitudes);
+  const LonLats points = read_degrees(file, longitude, latitude, shape);
+  return from_degrees(points.longitudes, points.latitudes);
 }
 
 } // namespace calotte::io_detail

@@ -24,48 +24,50 @@
 #include <utility>
 #include <vector>
 
-/// What NetCDF files of grids as polygons on longitudes and latitudes have in common (UGRID, SCRIP,
+/// Common code for NetCDF files of grids as polygons on longitudes and latitudes (UGRID, SCRIP,
 /// ESMF).
 namespace calotte::io_detail {
 
 // ---- Writing
 
-/// `radius` times the unit vectors; a point whose norm is that but for rounding keeps its bits.
+/// Scales unit vectors by `radius`. A point that has that norm, up to rounding, keeps its bits.
 /// \throws Error invalid_argument for a radius that is not positive and finite.
 Points3 on_sphere(Points3 points, double radius);
 
-/// Options of a file of a plane.
+/// The options for a file of a plane.
 WriteOptions of_plane(WriteOptions options);
 
-/// Cells as a file of polygons shall hold them.
+/// Cells as a file of polygons stores them.
 struct CellGrid {
   Polygons polygons;
   DoubleVector area; ///< steradians; in a plane the square of its unit
-  Points3 sites;     ///< of the cells, with their norms; 3 x 0 where they have none
+  Points3 sites;     ///< of the cells, with their norms; 3 x 0 without sites
 };
 
-/// The options' density at the cells, that of the sites first, divided by its maximum; empty if it
-/// is uniform. \throws Error invalid_argument.
-DoubleVector density_of(const Voronoi& voronoi, const WriteOptions& options);
-/// The cells' fields with that density. \throws Error invalid_argument.
-CellFields fields_of(const Voronoi& voronoi, const WriteOptions& options);
+/// The density of the options at the cells, divided by its maximum. The density by site takes
+/// precedence. Empty if it is uniform.
+/// \throws Error invalid_argument.
+DoubleVector density_at_cells(const Voronoi& voronoi, const WriteOptions& options);
+/// The fields of the cells, with that density.
+/// \throws Error invalid_argument.
+CellFields make_cell_fields(const Voronoi& voronoi, const WriteOptions& options);
 
 CellGrid cell_grid(const Mesh& mesh); ///< the Voronoi cells. \throws Error as voronoi().
 CellGrid cell_grid(const Polygons& polygons);
 
-/// The number of corners of the cell that has most.
+/// Maximum number of corners of a cell.
 std::int64_t most_corners(const Voronoi& cells);
 
-/// Columns of points as contents of variables; unit columns, where it is their longitude and
-/// latitude. The points must outlive them.
+/// Contents of variables: coordinates of columns of points. Longitudes and latitudes require unit
+/// columns. The points must outlive the result.
 NetcdfWriter::Fill<double> longitudes_of(const Points3& points);
 NetcdfWriter::Fill<double> latitudes_of(const Points3& points);
-NetcdfWriter::Fill<double> lonlats_of(const Points3& points); ///< two a row
-NetcdfWriter::Fill<double> row_of(const Points3& points, int row);
+NetcdfWriter::Fill<double> lonlats_of(const Points3& points); ///< both in each row
+NetcdfWriter::Fill<double> coordinate_row(const Points3& points, int row);
 NetcdfWriter::Fill<double> values_of(const DoubleVector& values);
 NetcdfWriter::Fill<std::int32_t> constant(std::int64_t value);
 
-/// of(row, k) for 0 <= k < width of each row.
+/// Contents of a variable: of(row, k) for 0 <= k < width in each row.
 template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, const Of& of) {
   return [width, of](std::int64_t begin, std::int64_t end, T* out) {
     for (std::int64_t row = begin; row < end; ++row)
@@ -74,10 +76,10 @@ template <class T, class Of> NetcdfWriter::Fill<T> table(std::int64_t width, con
   };
 }
 
-/// A file whose variables are announced together with their contents.
+/// A file whose variables are declared together with their contents.
 class NetcdfGridFile {
 public:
-  /// With the attributes that all such files have. \throws Error file.
+  /// Sets the attributes that all such files have. \throws Error file.
   NetcdfGridFile(const std::string& path, const WriteOptions& options,
                  const std::string& conventions);
   NetcdfGridFile(const NetcdfGridFile&) = delete;
@@ -98,7 +100,8 @@ public:
             const NetcdfAttributes& attributes, const NetcdfWriter::Fill<std::int32_t>& contents) {
     variable(name, NetcdfType::int32, dimensions, attributes, contents);
   }
-  /// Bytes as the file has them, see NetcdfWriter::put(); of variables of records, too.
+  /// Declares a variable whose contents are big-endian bytes, see NetcdfWriter::put(). It may have
+  /// records.
   void bytes(const std::string& name, NetcdfType type, const std::vector<int>& dimensions,
              const NetcdfAttributes& attributes, const NetcdfWriter::FillBytes& contents) {
     const int id = file_.variable(name, type, dimensions, attributes);
@@ -111,23 +114,24 @@ public:
     NetcdfAttributes attributes;
     bool integer = false; ///< int32, otherwise float64
   };
-  /// Variables of as many rows, in this order in the file, whose contents are made together.
+  /// Declares variables with the same number of rows whose contents are computed together. They are
+  /// in this order in the file.
   void together(const std::vector<Announced>& variables, const NetcdfWriter::GroupFill& contents);
-  /// A computation in commit() between the writing of what is announced before and of what is
-  /// announced after it.
+  /// Adds a computation that commit() runs between writing the variables declared before it and
+  /// those declared after it.
   void then(std::function<void()> computation) {
     stages_.back().puts.push_back(std::move(computation));
   }
-  /// What is announced from here on has contents that such a computation makes. It runs in
-  /// commit(), after those before it, and beside the writing of what was announced before, so that
-  /// the disk need not wait for it.
+  /// Adds a computation that makes the contents of all variables declared after it. commit() runs
+  /// it after earlier computations and concurrently with writing the variables declared before it,
+  /// so that the disk need not wait.
   void after(std::function<void()> computation);
   /// \throws Error file; what contents and computation throw.
   void commit();
 
 private:
   using Step = std::function<void()>;
-  /// A computation, and the writing that needs it and those before.
+  /// A computation, and the writes that depend on it and on those before it.
   struct Stage {
     Step computation;
     std::vector<Step> puts;
@@ -137,41 +141,42 @@ private:
   std::vector<Stage> stages_ = {{[] {}, {}}};
 };
 
-/// The variables of SCRIP and ESMF with 0 for cells that do not count.
+/// The mask variables of SCRIP and ESMF, with 0 for masked cells.
 inline constexpr std::array<const char*, 2> mask_names{"grid_imask", "elementMask"};
 
-/// A mask of SCRIP or ESMF, of which each format has a variable of its own.
+/// Whether a field is the mask of SCRIP or ESMF. Each format has its own variable for it.
 bool is_mask(const MeshField& field);
 
-/// The mask among the options' fields, under the name that SCRIP or ESMF gives it; 1 without.
-NetcdfWriter::Fill<std::int32_t> mask_of(const WriteOptions& options);
+/// The mask among the fields of the options, under either name; 1 without one.
+NetcdfWriter::Fill<std::int32_t> make_mask(const WriteOptions& options);
 
 // ---- Reading
 
-/// How far floats may be from an angle of up to 360 degrees, radians.
+/// Maximum rounding error of an angle up to 360 degrees in single precision, in radians.
 inline constexpr double float_rounding = 4e-7;
 
-/// Removes areas of SCRIP and ESMF that are those of the polygons but for rounding, and masks that
-/// are 1 at all cells: what a writer makes anew.
+/// Removes fields that a writer computes: areas of SCRIP and ESMF that are those of the polygons up
+/// to rounding, and masks that are 1 at all cells.
 void drop_derived_fields(RawMesh& raw);
 
-/// Places in degrees, as many of each.
+/// Points in degrees, as many longitudes as latitudes.
 struct LonLats {
   std::vector<double> longitudes, latitudes; ///< finite; from -90 to 90
 };
 
-/// \param variables are named in messages. \throws Error parse, for a place that is not finite or
-/// beyond a pole.
-LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats places);
+/// Checks points.
+/// \param variables names for messages.
+/// \throws Error parse, for a point that is not finite or beyond a pole.
+LonLats checked(const NetcdfReader& file, const std::string& variables, LonLats points);
 
-/// From a variable each, of that shape. \throws Error parse, file.
+/// Reads longitudes and latitudes from two variables of that shape. \throws Error parse, file.
 LonLats read_degrees(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape = {-1});
 
 /// Unit columns.
 Points3 from_degrees(const std::vector<double>& longitudes, const std::vector<double>& latitudes);
 
-/// From a variable each, of that shape. \throws Error parse, file.
+/// The same as unit columns. \throws Error parse, file.
 Points3 read_lonlats(const NetcdfReader& file, const std::string& longitude,
                      const std::string& latitude, const std::vector<std::int64_t>& shape = {-1});
 

@@ -24,8 +24,8 @@ std::set<std::string> mesh_dimensions(const NetcdfReader& file, const NetcdfMesh
   return dimensions;
 }
 
-std::optional<FieldLocation> location_of(const NetcdfMeshNames& names,
-                                         const std::string& dimension) {
+std::optional<FieldLocation> find_location(const NetcdfMeshNames& names,
+                                           const std::string& dimension) {
   if (dimension == names.cells)
     return FieldLocation::cells;
   if (!names.edges.empty() && dimension == names.edges)
@@ -35,15 +35,15 @@ std::optional<FieldLocation> location_of(const NetcdfMeshNames& names,
   return std::nullopt;
 }
 
-/// A field without values, or nothing for a variable that is none.
-std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshNames& names,
-                                  const std::set<std::string>& of_mesh, const std::string& name) {
+/// A field without its values; none for a variable that is not a field.
+std::optional<MeshField> make_field(const NetcdfReader& file, const NetcdfMeshNames& names,
+                                    const std::set<std::string>& of_mesh, const std::string& name) {
   if (!file.is_numeric(name) || names.lists.contains(name))
     return std::nullopt;
   MeshField field{.name = name};
   bool located = false;
   for (const std::string& dimension : file.dimensions_of(name)) {
-    const std::optional<FieldLocation> location = location_of(names, dimension);
+    const std::optional<FieldLocation> location = find_location(names, dimension);
     const std::int64_t size = file.dimension(dimension);
     if (location && !located) {
       field.location = *location;
@@ -58,9 +58,10 @@ std::optional<MeshField> field_of(const NetcdfReader& file, const NetcdfMeshName
   return located ? std::optional(std::move(field)) : std::nullopt;
 }
 
-/// By index over some dimensions, the slowest first: where its value stands among all.
-std::vector<std::int64_t> offsets_of(const std::vector<std::int64_t>& shape,
-                                     const std::vector<std::size_t>& dimensions) {
+/// The offsets of values that have index 0 in all other dimensions, by their index over some
+/// dimensions, the slowest first.
+std::vector<std::int64_t> make_offsets(const std::vector<std::int64_t>& shape,
+                                       const std::vector<std::size_t>& dimensions) {
   std::vector<std::int64_t> offsets{0};
   for (const std::size_t d : dimensions) {
     const std::int64_t stride = std::accumulate(shape.begin() + static_cast<std::ptrdiff_t>(d) + 1,
@@ -74,25 +75,29 @@ std::vector<std::int64_t> offsets_of(const std::vector<std::int64_t>& shape,
   return offsets;
 }
 
-/// From the order of a file: place by place.
-DoubleVector by_place(const std::vector<double>& values, const std::vector<std::int64_t>& shape,
-                      const std::vector<std::size_t>& places) {
+/// Reorders values of a file: all values of one cell, edge or vertex, then those of the next.
+/// \param of_location as in read_values().
+DoubleVector grouped_by_item(const std::vector<double>& values,
+                             const std::vector<std::int64_t>& shape,
+                             const std::vector<std::size_t>& of_location) {
   std::vector<std::size_t> others;
   for (std::size_t d = 0; d < shape.size(); ++d)
-    if (std::find(places.begin(), places.end(), d) == places.end())
+    if (std::find(of_location.begin(), of_location.end(), d) == of_location.end())
       others.push_back(d);
-  const std::vector<std::int64_t> at = offsets_of(shape, places), of = offsets_of(shape, others);
+  const std::vector<std::int64_t> at = make_offsets(shape, of_location),
+                                  of = make_offsets(shape, others);
   DoubleVector out(std::ssize(values));
   double* next = out.data();
-  for (const std::int64_t place : at)
+  for (const std::int64_t item : at)
     for (const std::int64_t other : of)
-      *next++ = values[static_cast<std::size_t>(place + other)];
+      *next++ = values[static_cast<std::size_t>(item + other)];
   return out;
 }
 
-/// The attributes that say what the numbers are, and neither where nor how they are stored.
-std::vector<std::array<std::string, 2>> meaning_of(const NetcdfReader& file,
-                                                   const std::string& name) {
+/// The attributes of a field that are kept with it: not those that other members or the format
+/// express.
+std::vector<std::array<std::string, 2>> read_own_attributes(const NetcdfReader& file,
+                                                            const std::string& name) {
   static const std::set<std::string> others{
       "long_name",     "units",     "coordinates",   "grid_mapping",        "bounds",
       "mesh",          "location",  "cell_measures", "ancillary_variables", "grid_type",
@@ -107,7 +112,7 @@ std::vector<std::array<std::string, 2>> meaning_of(const NetcdfReader& file,
   return attributes;
 }
 
-/// Whether all are numbers that NetCDF's int can hold, besides its own _FillValue.
+/// Whether all values are within the range of NetCDF's int, without its default _FillValue.
 bool fit_int(const DoubleVector& values) {
   using Limits = std::numeric_limits<std::int32_t>;
   return std::all_of(values.begin(), values.end(), [](double value) {
@@ -115,7 +120,7 @@ bool fit_int(const DoubleVector& values) {
   });
 }
 
-/// Whether a variable at edges is said to be a component along them.
+/// Whether a name or an attribute says that a variable at edges is a component along them.
 bool is_directed(const NetcdfReader& file, const std::string& name) {
   constexpr std::array<std::string_view, 3> velocities{"u", "v", "ru"}; // of MPAS-Atmosphere
   if (std::find(velocities.begin(), velocities.end(), name) != velocities.end())
@@ -128,53 +133,54 @@ bool is_directed(const NetcdfReader& file, const std::string& name) {
   return words.find("normal") != std::string::npos || words.find("tangent") != std::string::npos;
 }
 
-/// Reads a field's values, see cf_values(), and attributes.
-/// \param places which of the variable's dimensions stand for places, the slowest first; the field
-///        has a value for each of the others, in the order of the file, at each place.
-/// \pre its name, location, dimensions and `leading` are set.
-void read_values(const NetcdfReader& file, const std::vector<std::size_t>& places,
+/// Reads the values of a field, see cf_values(), and its attributes. The field has a value for each
+/// index of its other dimensions, in the order of the file, at each cell, edge or vertex.
+/// \param of_location indices of the dimensions of its location among those of the variable, the
+///        slowest first.
+/// \pre name, location, dimensions and `leading` are set.
+void read_values(const NetcdfReader& file, const std::vector<std::size_t>& of_location,
                  MeshField& field) {
   const std::vector<std::int64_t> shape = file.shape_of(field.name);
   field.long_name = file.text(field.name, "long_name");
   field.units = file.text(field.name, "units");
-  field.values = by_place(cf_values(file, field.name, shape), shape, places);
+  field.values = grouped_by_item(cf_values(file, field.name, shape), shape, of_location);
   field.integer =
       file.is_integer(field.name) && !is_packed(file, field.name) && fit_int(field.values);
   field.single = file.is_float(field.name) && !is_packed(file, field.name);
-  field.attributes = meaning_of(file, field.name);
+  field.attributes = read_own_attributes(file, field.name);
   for (FieldDimension& dimension : field.dimensions)
     dimension.unlimited = file.is_unlimited(dimension.name);
   field.directed = field.location == FieldLocation::edges && is_directed(file, field.name);
 }
 
-/// Where dimensions stand among those of a variable; none unless it has each once.
-std::optional<std::vector<std::size_t>> places_of(const std::vector<std::string>& all,
-                                                  const std::vector<std::string>& wanted) {
-  std::vector<std::size_t> places;
+/// The indices of dimensions among those of a variable; none unless it has each once.
+std::optional<std::vector<std::size_t>> find_dimensions(const std::vector<std::string>& all,
+                                                        const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> of_location;
   for (const std::string& dimension : wanted) {
     if (std::count(all.begin(), all.end(), dimension) != 1)
       return std::nullopt;
-    places.push_back(
+    of_location.push_back(
         static_cast<std::size_t>(std::find(all.begin(), all.end(), dimension) - all.begin()));
   }
-  return places;
+  return of_location;
 }
 
-/// A field on some dimensions without values, or nothing for one without a place for them.
-std::optional<MeshField> field_on(const NetcdfReader& file, const std::string& name,
-                                  const std::vector<std::size_t>& places) {
+/// A field on some dimensions, without its values; none if another dimension has the size 0.
+std::optional<MeshField> make_field_on(const NetcdfReader& file, const std::string& name,
+                                       const std::vector<std::size_t>& of_location) {
   MeshField field{.name = name};
   const std::vector<std::string> all = file.dimensions_of(name);
   for (std::size_t d = 0; d < all.size(); ++d)
-    if (std::find(places.begin(), places.end(), d) == places.end()) {
+    if (std::find(of_location.begin(), of_location.end(), d) == of_location.end()) {
       field.dimensions.push_back({all[d], file.dimension(all[d])});
       if (field.dimensions.back().size < 1)
         return std::nullopt;
     }
   bool together = true;
-  for (std::size_t k = 1; k < places.size(); ++k)
-    together = together && places[k] == places[k - 1] + 1;
-  field.leading = static_cast<int>(together ? places.front() : field.dimensions.size());
+  for (std::size_t k = 1; k < of_location.size(); ++k)
+    together = together && of_location[k] == of_location[k - 1] + 1;
+  field.leading = static_cast<int>(together ? of_location.front() : field.dimensions.size());
   return field;
 }
 
@@ -188,14 +194,16 @@ void read_fields_on(const NetcdfReader& file, const std::vector<std::string>& di
   for (const std::string& name : file.variable_names()) {
     if (no_fields.contains(name))
       continue;
-    const auto places =
-        file.is_numeric(name) ? places_of(file.dimensions_of(name), dimensions) : std::nullopt;
-    std::optional<MeshField> field = places ? field_on(file, name, *places) : std::nullopt;
+    const auto of_location = file.is_numeric(name)
+                                 ? find_dimensions(file.dimensions_of(name), dimensions)
+                                 : std::nullopt;
+    std::optional<MeshField> field =
+        of_location ? make_field_on(file, name, *of_location) : std::nullopt;
     if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
       ignored.push_back(name);
       continue;
     }
-    read_values(file, *places, *field);
+    read_values(file, *of_location, *field);
     fields.push_back(*std::move(field));
   }
 }
@@ -208,7 +216,7 @@ void read_fields(const NetcdfReader& file, const NetcdfMeshNames& names, FieldCh
   for (const std::string& name : file.variable_names()) {
     if (names.variables.contains(name))
       continue;
-    std::optional<MeshField> field = field_of(file, names, of_mesh, name);
+    std::optional<MeshField> field = make_field(file, names, of_mesh, name);
     if (!field || (choice == FieldChoice::scalars && field->count() > 1)) {
       raw.ignored.push_back(name);
       continue;

@@ -16,7 +16,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The corners that are on a cell keep their order.
+/// Sets the cells. Corners that are used keep their order.
 void set_cells(const Polygons& polygons, Voronoi& out) {
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(polygons.corners.cols()), -1);
   for (const std::int32_t id : polygons.ids.items)
@@ -35,21 +35,21 @@ void set_cells(const Polygons& polygons, Voronoi& out) {
     id = vertex[static_cast<std::size_t>(id)];
 }
 
-/// The length of a chord; in a periodic plane to the nearest copy.
+/// The length of a chord; in a periodic plane, to the nearest copy.
 double chord_length(const Voronoi& cells, const Vec3& from, const Vec3& to) {
   return in_space_of(cells.surface,
                      [&](const auto& space) { return norm(space.offset(from, to)); });
 }
 
-/// The distance of a vertex from the circumcentre of its cells, in the unit that it may have.
+/// The distance of a vertex from the circumcentre of its cells, relative to the tolerance.
 double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
-  const Vec3 centre = circumcentre_of(cells, v);
+  const Vec3 centre = cell_circumcentre(cells, v);
   const double reach =
       chord_length(cells, centre, column(cells.cells, cells.cells_on_vertex(0, v)));
   return chord_length(cells, column(cells.vertices, v), centre) / std::max(width, reach);
 }
 
-/// The first vertex that is no circumcentre.
+/// Reports the first vertex that is not a circumcentre.
 NotVoronoi first_difference(const Voronoi& cells) {
   const double width = std::sqrt(
       cells.cell_area.sum() / static_cast<double>(std::max<Eigen::Index>(cells.cells.cols(), 1)));
@@ -68,7 +68,7 @@ NotVoronoi first_difference(const Voronoi& cells) {
 
 } // namespace
 
-Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index v) {
+Vec3 cell_circumcentre(const Voronoi& cells, Eigen::Index v) {
   const Vec3 &a = column(cells.cells, cells.cells_on_vertex(0, v)),
              &b = column(cells.cells, cells.cells_on_vertex(1, v)),
              &c = column(cells.cells, cells.cells_on_vertex(2, v));

@@ -11,20 +11,22 @@ namespace calotte::io_detail {
 
 /// A part of a Voronoi tessellation that has a boundary.
 struct OpenCells {
-  Voronoi voronoi;    ///< whole; its vertices are the polygons' corners that are used
-  NotVoronoi problem; ///< why polygons are no such part
+  Voronoi voronoi;    ///< whole; its vertices are the corners that the polygons use
+  NotVoronoi problem; ///< why the polygons are not such a part
 };
 
-/// Polygons whose corners are those of Voronoi cells: each corner of three polygons is the
-/// circumcentre of their centres, within a millionth of the mean cell width or of its distance from
-/// them. Other corners may be anywhere, but on the boundary. The polygons keep their corners.
+/// Converts polygons to Voronoi cells, if their corners are those of Voronoi cells: each corner of
+/// three polygons is the circumcentre of their centres, within a millionth of the mean cell width
+/// or of its distance from them. Corners on the boundary may be anywhere. The polygons keep their
+/// corners.
 OpenCells open_cells(const Polygons& polygons);
 
-/// The same of a file's polygons. Those of the whole sphere have been compared with Voronoi cells
-/// when they were read: the problem is that of the comparison. \pre the file has polygons.
+/// The same for the polygons of a file. Those of the whole sphere were compared with Voronoi cells
+/// when they were read; the problem is that of this comparison.
+/// \pre the file has polygons.
 OpenCells open_cells(const MeshFile& file);
 
-/// Of a vertex that has three cells.
-Vec3 circumcentre_of(const Voronoi& cells, Eigen::Index vertex);
+/// The circumcentre of the three cells of a vertex.
+Vec3 cell_circumcentre(const Voronoi& cells, Eigen::Index vertex);
 
 } // namespace calotte::io_detail

@@ -19,7 +19,7 @@ namespace {
 
 using namespace io_detail;
 
-/// A polygon's corners in a circle; in a periodic plane copies near the first.
+/// The corners of a polygon, cyclically; in a periodic plane, the copies near the first one.
 struct PolygonRing {
   const Polygons& polygons;
   std::span<const std::int32_t> ids;
@@ -28,11 +28,11 @@ struct PolygonRing {
   Vec3 at(std::size_t k) const { return copy_near(polygons, ids[0], ids[k % ids.size()]); }
 };
 
-PolygonRing ring_of(const Polygons& polygons, std::int64_t i) {
+PolygonRing make_ring(const Polygons& polygons, std::int64_t i) {
   return {polygons, polygons.ids[i]};
 }
 
-/// The sine of the turn to the left at b, on the way from a to c.
+/// The sine of the left turn at b on the path from a to c.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c, bool on_sphere) {
   const Vec3 in = b - a, out = c - b, across = cross(in, out);
   return (on_sphere ? dot(b, across) : across.z) / std::sqrt(dot(in, in) * dot(out, out));
@@ -47,7 +47,8 @@ bool is_convex(const PolygonRing& ring) {
   return true;
 }
 
-/// The integral of the place over a polygon: half the sum of its sides' normals times their arcs.
+/// The integral of the position over a polygon: half the sum over its sides of the arc length times
+/// the normal.
 Vec3 first_moment(const PolygonRing& ring) {
   Vec3 sum{0, 0, 0};
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -59,7 +60,8 @@ Vec3 first_moment(const PolygonRing& ring) {
   return sum;
 }
 
-/// Of a polygon in a plane: the mean of its triangles' from the first corner, by their areas.
+/// The centroid of a polygon in a plane: the area-weighted mean of the centroids of its triangles
+/// at the first corner.
 Vec3 planar_centroid(const PolygonRing& ring) {
   const Vec3 first = ring.at(0);
   Vec3 sum{0, 0, 0};
@@ -79,7 +81,7 @@ Vec3 centroid(const PolygonRing& ring) {
 
 /// The distance of a centre from the centroid, in widths.
 double off_centring(const Polygons& polygons, std::int64_t i, double area) {
-  const Vec3 &centre = column(polygons.centres, i), middle = centroid(ring_of(polygons, i));
+  const Vec3 &centre = column(polygons.centres, i), middle = centroid(make_ring(polygons, i));
   const double distance = in_space_of(
       polygons.surface, [&](const auto& space) { return norm(space.offset(centre, middle)); });
   return distance / std::sqrt(area);
@@ -87,13 +89,13 @@ double off_centring(const Polygons& polygons, std::int64_t i, double area) {
 
 double length(const Vec3& v) { return std::sqrt(dot(v, v)); }
 
-/// Of a block of polygons.
-PolygonShapes shapes_of(const Polygons& polygons, const DoubleVector& areas, std::int64_t begin,
-                        std::int64_t end) {
+/// Measures a block of polygons.
+PolygonShapes measure_shapes(const Polygons& polygons, const DoubleVector& areas,
+                             std::int64_t begin, std::int64_t end) {
   constexpr double rounding = 1e-6;
   PolygonShapes found;
   for (std::int64_t i = begin; i != end; ++i) {
-    const PolygonRing ring = ring_of(polygons, i);
+    const PolygonRing ring = make_ring(polygons, i);
     if (ring.size() == 0)
       continue;
     if (!has_area(polygons, i, areas[i])) {
@@ -130,30 +132,30 @@ void add(const PolygonShapes& of_block, PolygonShapes& all) {
   }
 }
 
-ValueRange range_of(const DoubleVector& values) {
+ValueRange find_range(const DoubleVector& values) {
   if (values.size() == 0)
     return {};
   return {values.minCoeff(), values.mean(), values.maxCoeff()};
 }
 
-/// The areas of the polygons that are known.
+/// The range of the known areas.
 ValueRange area_range(const Polygons& polygons, const DoubleVector& areas) {
   DoubleVector known(areas.size());
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < areas.size(); ++i)
     if (polygons.ids.count(i) > 0)
       known[count++] = areas[i];
-  return range_of(known.head(count));
+  return find_range(known.head(count));
 }
 
-/// In a periodic plane to the nearest copy.
+/// The distance between centres; in a periodic plane, to the nearest copy.
 double centre_distance(const Polygons& polygons, const Vec3& a, const Vec3& b) {
   return polygons.surface.is_sphere() ? 2 * std::atan2(length(b - a), length(a + b))
                                       : length(Plane(polygons.surface.period()).offset(a, b));
 }
 
-/// Between the centres of polygons that share a side.
-ValueRange spacing_of(const Polygons& polygons) {
+/// The range of distances between the centres of polygons that share a side.
+ValueRange measure_spacing(const Polygons& polygons) {
   if (polygons.centres.cols() == 0)
     return {};
   const Sides sides(polygons);
@@ -164,7 +166,7 @@ ValueRange spacing_of(const Polygons& polygons) {
         if (const std::int32_t other = sides.polygon_of(to, from); other >= 0)
           distances.push_back(centre_distance(polygons, column(polygons.centres, polygon),
                                               column(polygons.centres, other)));
-  return range_of(Eigen::Map<const DoubleVector>(distances.data(), std::ssize(distances)));
+  return find_range(Eigen::Map<const DoubleVector>(distances.data(), std::ssize(distances)));
 }
 
 } // namespace
@@ -173,7 +175,7 @@ Points3 io_detail::centroids_of(const Polygons& polygons) {
   Points3 centroids(3, polygons.size());
   for_each_block(polygons.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      const PolygonRing ring = ring_of(polygons, i);
+      const PolygonRing ring = make_ring(polygons, i);
       const Vec3 middle = centroid(ring);
       set_column(centroids, i, std::isfinite(norm(middle)) ? middle : ring.at(0));
     }
@@ -186,11 +188,11 @@ PolygonShapes shapes(const Polygons& polygons) {
   const DoubleVector area = areas(polygons);
   std::vector<PolygonShapes> blocks(static_cast<std::size_t>(block_count(count)));
   for_each_block(count, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    blocks[static_cast<std::size_t>(block)] = shapes_of(polygons, area, begin, end);
+    blocks[static_cast<std::size_t>(block)] = measure_shapes(polygons, area, begin, end);
   });
   PolygonShapes all;
   all.area = area_range(polygons, area);
-  all.spacing = spacing_of(polygons);
+  all.spacing = measure_spacing(polygons);
   for (const PolygonShapes& block : blocks)
     add(block, all);
   return all;

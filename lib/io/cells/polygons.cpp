@@ -20,24 +20,25 @@
 namespace calotte::io_detail {
 namespace {
 
-const Vec3& place(const Polygons& polygons, std::int32_t corner) {
+const Vec3& position(const Polygons& polygons, std::int32_t corner) {
   return column(polygons.corners, corner);
 }
 
-/// The triangles of the fan from the first corner, one after the other.
+/// Calls add(a, b, c) for the triangles of the fan around the first corner.
 template <class Add>
 void for_each_triangle(const Polygons& polygons, std::int64_t polygon, const Add& add) {
   const std::span<const std::int32_t> ids = polygons.ids[polygon];
   const bool periodic = polygons.surface.period().maxCoeff() > 0;
   for (std::size_t k = 1; k + 1 < ids.size(); ++k)
     if (periodic)
-      add(place(polygons, ids[0]), copy_near(polygons, ids[0], ids[k]),
+      add(position(polygons, ids[0]), copy_near(polygons, ids[0], ids[k]),
           copy_near(polygons, ids[0], ids[k + 1]));
     else
-      add(place(polygons, ids[0]), place(polygons, ids[k]), place(polygons, ids[k + 1]));
+      add(position(polygons, ids[0]), position(polygons, ids[k]), position(polygons, ids[k + 1]));
 }
 
-/// Multiplied as complex numbers, the fan's half areas sum their angles.
+/// Computes the area of the sphere as the argument of the product of complex numbers: one for half
+/// the area of each triangle of the fan.
 double spherical_area(const Polygons& polygons, std::int64_t polygon) {
   double x = 1, y = 0;
   for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -62,9 +63,9 @@ double signed_area(const Polygons& polygons, std::int64_t polygon) {
                                       : planar_area(polygons, polygon);
 }
 
-/// The turn of a polygon: 1 counter-clockwise, -1 clockwise, 0 of no area. The triangles of most
-/// fans all turn one way, and their areas need not be known.
-int turn_of(const Polygons& polygons, std::int64_t polygon) {
+/// The orientation of a polygon: 1 counter-clockwise, -1 clockwise, 0 without area. In most
+/// polygons all triangles of the fan have one orientation, and no area is computed.
+int find_orientation(const Polygons& polygons, std::int64_t polygon) {
   bool left = false, right = false;
   for_each_triangle(polygons, polygon, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 normal = cross(b - a, c - a);
@@ -78,11 +79,11 @@ int turn_of(const Polygons& polygons, std::int64_t polygon) {
   return area > 0 ? 1 : area < 0 ? -1 : 0;
 }
 
-Array<int> turns_of(const Polygons& polygons) {
+Array<int> find_orientations(const Polygons& polygons) {
   Array<int> turns(polygons.size());
   for_each_block(turns.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      turns[i] = turn_of(polygons, i);
+      turns[i] = find_orientation(polygons, i);
   });
   return turns;
 }
@@ -90,18 +91,18 @@ Array<int> turns_of(const Polygons& polygons) {
 } // namespace
 
 Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner) {
-  const Vec3 &from = place(polygons, first), &to = place(polygons, corner);
+  const Vec3 &from = position(polygons, first), &to = position(polygons, corner);
   if (polygons.surface.is_sphere())
     return to;
   const Vec3 way = Plane(polygons.surface.period()).offset(from, to);
   return {from.x + way.x, from.y + way.y, 0};
 }
 
-Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
-                     Points3 centres) {
+Polygons make_polygons(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 points,
+                       Points3 centres) {
   const std::int64_t count = most > 0 ? std::ssize(corners) / most : 0;
   Polygons polygons{
-      std::move(places), {Offsets(count + 1), Ids(std::ssize(corners))}, std::move(centres)};
+      std::move(points), {Offsets(count + 1), Ids(std::ssize(corners))}, std::move(centres)};
   auto& [begin, ids] = polygons.ids;
   begin[0] = 0;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -162,7 +163,7 @@ DoubleVector areas_of(const Polygons& polygons) {
 }
 
 std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each) {
-  const Array<int> turns = turns_of(polygons);
+  const Array<int> turns = find_orientations(polygons);
   const std::int64_t clockwise = std::count(turns.begin(), turns.end(), -1),
                      counter_clockwise = std::count(turns.begin(), turns.end(), 1);
   if (clockwise == 0)
@@ -197,7 +198,7 @@ Sides::Sides(const Polygons& polygons, std::int64_t corners)
   for (const std::int32_t id : polygons.ids.items)
     ++begin[id];
   std::int64_t end = 0;
-  for (std::int64_t& count : begin) // the end of each corner's, which filling turns into begins
+  for (std::int64_t& count : begin) // ends of the lists; filling the lists turns them into begins
     count = end += count;
   for (auto i = static_cast<std::int32_t>(polygons.size()); i-- > 0;) {
     const std::span<const std::int32_t> ids = polygons.ids[i];
@@ -220,7 +221,7 @@ bool Sides::is_open(std::int32_t start) const {
 }
 
 Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
-  std::vector<std::int32_t> same; // by corner one of lower number, or itself
+  std::vector<std::int32_t> same; // by corner: an equal one of lower number, or itself
   const auto lowest = [&](std::int32_t id) {
     while (same[static_cast<std::size_t>(id)] != id)
       id = same[static_cast<std::size_t>(id)];
@@ -231,7 +232,7 @@ Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
     const std::span<const std::int32_t> ids = polygons.ids[i];
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const std::int32_t id = ids[k], next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
-      if (!(norm(place(polygons, next) - place(polygons, id)) < least))
+      if (!(norm(position(polygons, next) - position(polygons, id)) < least))
         continue;
       if (same.empty()) {
         same.resize(static_cast<std::size_t>(polygons.corners.cols()));
@@ -248,14 +249,14 @@ Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas) {
 }
 
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area) {
-  constexpr double rounding = 1e-14; // of a unit vector; of places in a plane, to their size
+  constexpr double rounding = 1e-14; // of a unit vector; in a plane relative to the coordinates
   const std::span<const std::int32_t> ids = polygons.ids[polygon];
   if (ids.size() < 3)
     return false;
   double perimeter = 0, size = 0;
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const std::int32_t next = k + 1 < ids.size() ? ids[k + 1] : ids[0];
-    size = std::max(size, norm(place(polygons, ids[k])));
+    size = std::max(size, norm(position(polygons, ids[k])));
     perimeter += norm(copy_near(polygons, ids[0], next) - copy_near(polygons, ids[0], ids[k]));
   }
   return std::abs(area) > rounding * perimeter * size;
@@ -317,7 +318,7 @@ Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons) {
       const Vec3 p = column(voronoi.vertices, vertex);
       corners[vertex] =
           *std::ranges::min_element(polygons.ids[i], [&](std::int32_t a, std::int32_t b) {
-            const Vec3 to_a = p - place(polygons, a), to_b = p - place(polygons, b);
+            const Vec3 to_a = p - position(polygons, a), to_b = p - position(polygons, b);
             return dot(to_a, to_a) < dot(to_b, to_b);
           });
     }

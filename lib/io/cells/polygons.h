@@ -29,10 +29,10 @@ struct Side {
 
 /// The sides of polygons by the corner that they start from, sorted.
 struct Sides {
-  Lists<Array<Side>, Array<std::int64_t>> from; ///< by corner
+  Lists<Array<Side>, Array<std::int64_t>> from; ///< sides that start at each corner
 
   explicit Sides(const Polygons& polygons) : Sides(polygons, polygons.corners.cols()) {}
-  /// \param corners their number, where their places are not known.
+  /// \param corners the number of corners, if their coordinates are not known.
   Sides(const Polygons& polygons, std::int64_t corners);
   /// The first polygon with a side; -1 if there is none.
   std::int32_t polygon_of(std::int32_t start, std::int32_t to) const;
@@ -40,69 +40,72 @@ struct Sides {
   bool is_open(std::int32_t start) const;
 };
 
-/// Polygons from rows of corners, in which consecutive equal ones count once, and -1 is none.
-/// \param corners those of polygon i from i * most on.
-/// \param places of the corners.
-Polygons polygons_of(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 places,
-                     Points3 centres);
+/// Polygons from rows of corners. Consecutive equal corners count once, and -1 is padding.
+/// \param corners polygon i has those from i * most on.
+/// \param points coordinates of the corners.
+Polygons make_polygons(const std::vector<std::int32_t>& corners, std::int64_t most, Points3 points,
+                       Points3 centres);
 
-/// The same polygons without the corners that none of them has.
+/// Removes the corners that no polygon uses.
 Polygons with_used_corners(Polygons polygons);
 
-/// Some of the polygons, in the order of their ids, with the corners that they have.
+/// Selects polygons, in the order of the ids, with the corners that they use.
 Polygons selected(Polygons polygons, std::span<const std::int32_t> ids);
 
-/// The place of a corner; in a periodic plane of its copy nearest to another corner, the first.
+/// The position of a corner; in a periodic plane, that of its copy nearest to the corner `first`.
 Vec3 copy_near(const Polygons& polygons, std::int32_t first, std::int32_t corner);
 
-/// Areas on the unit sphere in steradians, or in the plane, positive for counter-clockwise
-/// polygons. \pre on the sphere each is smaller than a hemisphere.
+/// Areas: steradians on the unit sphere, or those of the plane; positive for counter-clockwise
+/// polygons.
+/// \pre on the sphere each polygon is smaller than a hemisphere.
 DoubleVector areas_of(const Polygons& polygons);
 
-/// Turns polygons that run clockwise. \returns how many were turned.
-/// \param each they may be of either orientation.
-/// \throws Error parse, where both orientations occur; names the first polygon of the rarer one.
+/// Reverses clockwise polygons. \returns how many were reversed.
+/// \param each polygons may have different orientations.
+/// \throws Error parse, if both orientations occur and `each` is false; names the first polygon of
+/// the rarer one.
 std::int64_t turn_counter_clockwise(Polygons& polygons, const std::string& name, bool each);
 
-/// Whether values are the areas of polygons but for rounding.
+/// Whether values are the areas of polygons, up to rounding.
 bool are_areas_of(const Polygons& polygons, const DoubleVector& values);
 
-/// The same polygons with one place for the corners that sides join which are shorter than a
-/// billionth of their polygon's width: corners of cocircular sites, an ulp apart.
+/// Merges corners that are joined by sides shorter than a billionth of the width of their polygon,
+/// as those of cocircular sites, which are an ulp apart.
 /// \param areas of the polygons.
 Polygons with_merged_corners(Polygons polygons, const DoubleVector& areas);
 
-/// Whether a polygon has a width: its area is more than what the rounding of its corners makes of
-/// its perimeter. \param area of the polygon.
+/// Whether the area of a polygon is larger than the rounding of its corners along its perimeter.
+/// \param area of the polygon.
 bool has_area(const Polygons& polygons, std::int64_t polygon, double area);
 
-/// A fault of polygons as a clause, and the polygon; without one empty.
+/// A fault of polygons, as a clause for messages, and the polygon; empty without a fault.
 struct PolygonFault {
   std::string text;
   std::int64_t polygon = -1;
 };
-/// Where two polygons with an area run through one side in the same direction, or all together are
-/// larger than the sphere. \pre counter-clockwise.
+/// Finds polygons that overlap: two polygons with an area have a side in the same direction, or all
+/// together are larger than the sphere.
+/// \pre counter-clockwise.
 PolygonFault overlap_in(const Polygons& polygons);
-/// \throws Error parse for such an overlap.
+/// \throws Error parse if polygons overlap.
 void require_no_overlap(const Polygons& polygons, const std::string& name);
 
-/// The square root of the mean area: of so many cells that cover the sphere, or of polygons.
+/// The square root of the mean area, of so many cells that cover the sphere, or of polygons.
 double mean_width(std::int64_t cells);
 double mean_width(const Polygons& polygons);
 
-/// Corners of cells are equal if they are closer: a millionth of the mean cell width, and the
-/// rounding of the file.
+/// The distance below which corners of cells are equal: a millionth of the mean cell width, plus
+/// the rounding in the file.
 double corner_tolerance(double mean_width, double rounding);
 
-/// Whether polygons leave less than half of their mean area of the sphere uncovered.
+/// Whether polygons cover the sphere: less than half of their mean area is uncovered.
 bool cover_sphere(const Polygons& polygons);
 
-/// For each Voronoi vertex the nearest corner of the polygon of one of its cells.
+/// For each Voronoi vertex, the nearest corner of one of the polygons of its cells.
 /// \pre the polygons are the Voronoi cells, see not_voronoi().
 Ids corners_of_vertices(const Voronoi& voronoi, const Polygons& polygons);
 
-/// The most corners of a polygon.
+/// Maximum number of corners of a polygon.
 std::int64_t most_corners(const Polygons& polygons);
 /// Corner k of a polygon; past the last one -1, or the last.
 std::int32_t corner(const Polygons& polygons, std::int64_t polygon, std::int64_t k);

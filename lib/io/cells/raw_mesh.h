@@ -11,18 +11,18 @@
 
 namespace calotte::io_detail {
 
-/// A mesh as a file holds it, before anything is known of its order and orientation.
+/// The contents of a mesh file, before its order and orientation are known.
 struct RawMesh {
-  Points3 points = {};      ///< the sites; none where the file holds cells without centres
-  Triangles triangles = {}; ///< of the sites; none where these are to be triangulated
-  bool has_cells = false;   ///< the file has cells of the sites, or else triangles of them
-  Polygons polygons = {};   ///< the cells, of either orientation; a cell without corners is unknown
-  /// The format leaves the orientation of each cell free, and clockwise ones are turned.
+  Points3 points = {};      ///< the sites; none if the file has cells without centres
+  Triangles triangles = {}; ///< of the sites; none if the sites are to be triangulated
+  bool has_cells = false;   ///< whether the file has cells of the sites; otherwise it has triangles
+  Polygons polygons = {};   ///< the cells, of either orientation; unknown cells have no corners
+  /// The format does not prescribe an orientation of cells; clockwise ones are reversed.
   bool turns_each = false;
-  /// How far a corner may be from its place by the file's digits alone, radians.
+  /// Error of a corner due to the number of digits in the file, in radians.
   double corner_rounding = 0;
   Surface surface = {}; ///< in a plane z is 0; triangles of a periodic one are joined across it
-  VertexOrder vertex_order = VertexOrder::after_edges; ///< of an MPAS file
+  VertexOrder vertex_order = VertexOrder::after_edges; ///< order of verticesOnCell in an MPAS file
   DoubleVector density = {};                           ///< by site, or empty
   std::vector<MeshField> fields = {};
   Pairs edges = {};                      ///< the sites of the edges that fields have; -1 for none

@@ -26,7 +26,7 @@ SideLengths arcs(const Voronoi& voronoi, std::int64_t vertex) {
   return sorted(side(0), side(1), side(2));
 }
 
-/// Of the flat triangle.
+/// The sides of the flat triangle.
 SideLengths chords(const Voronoi& voronoi, std::int64_t vertex) {
   if (!voronoi.surface.is_sphere())
     return arcs(voronoi, vertex);

@@ -7,19 +7,19 @@
 
 #include <cstdint>
 
-/// Measures of the triangle around each vertex that MPAS files contain; 0 where there is none.
+/// Measures of the triangle around each vertex, as in MPAS files; 0 where there is no triangle.
 namespace calotte::io_detail {
 
-/// Whether a vertex has three cells and three edges, as all of a closed mesh have.
+/// Whether a vertex has three cells and three edges, as all vertices of a closed mesh.
 bool has_triangle(const Voronoi& voronoi, std::int64_t vertex);
 
-/// Shortest over longest side.
+/// The shortest side divided by the longest one.
 double side_quality(const Voronoi& voronoi, std::int64_t vertex);
 
-/// Obtuse by more than rounding, as in Quality::obtuse.
+/// Whether a triangle is obtuse by more than rounding, as in Quality::obtuse.
 bool is_obtuse(const Voronoi& voronoi, std::int64_t vertex);
 
-/// Smallest over largest angle, of the vertices begin to end - 1.
+/// Fills in the smallest angle divided by the largest one, for the vertices begin to end - 1.
 void fill_angle_qualities(const Voronoi& voronoi, std::int64_t begin, std::int64_t end,
                           double* out);
 

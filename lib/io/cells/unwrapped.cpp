@@ -21,9 +21,9 @@ class Copies {
 public:
   Copies(const Points3& corners, const Plane& plane) : corners_(corners), plane_(plane) {}
 
-  /// The corner's copy that is nearest to a place.
-  std::int32_t near(std::int32_t corner, const Vec3& place) {
-    const Plane::Position copy = plane_.near(column(corners_, corner), {{place.x, place.y}, 0, 0});
+  /// The copy of a corner that is nearest to a point.
+  std::int32_t near(std::int32_t corner, const Vec3& point) {
+    const Plane::Position copy = plane_.near(column(corners_, corner), {{point.x, point.y}, 0, 0});
     if (copy.i == 0 && copy.j == 0)
       return corner;
     const std::array<std::int32_t, 3> key{corner, copy.i, copy.j};
@@ -60,9 +60,9 @@ Polygons unwrapped(Polygons polygons) {
     const std::span<std::int32_t> ids = polygons.ids[i];
     if (ids.empty())
       continue;
-    const Vec3 place = centred ? column(polygons.centres, i) : column(polygons.corners, ids[0]);
+    const Vec3 point = centred ? column(polygons.centres, i) : column(polygons.corners, ids[0]);
     for (std::int32_t& id : ids)
-      id = copies.near(id, place);
+      id = copies.near(id, point);
   }
   Points3 corners = copies.all();
   polygons.corners = std::move(corners);

@@ -44,7 +44,8 @@ double corner_distance(const Voronoi& voronoi, const Polygons& polygons, std::in
   return std::sqrt(most);
 }
 
-/// Of as many cells.
+/// The first difference between polygons and Voronoi cells.
+/// \pre there are as many of either.
 NotVoronoi difference(const Voronoi& voronoi, const Polygons& polygons, double rounding) {
   const std::int64_t count = polygons.size();
   const double width = mean_width(count), tolerance = corner_tolerance(width, rounding);
@@ -110,7 +111,7 @@ ComparedCells compare_cells(Points3 centres, const Polygons& polygons, double ro
     return out;
   }
   out = compare_cells(*std::move(out.mesh), polygons, rounding);
-  if (out.answer.fault != CellFault::none) // triangles of the centres are not the file's
+  if (out.answer.fault != CellFault::none) // the triangles of the centres are not those of the file
     out.mesh.reset();
   return out;
 }

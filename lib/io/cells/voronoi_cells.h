@@ -10,22 +10,23 @@
 #include <optional>
 #include <vector>
 
-/// Whether cells are Voronoi cells, and of which mesh.
+/// Decides whether cells are Voronoi cells, and of which mesh.
 namespace calotte::io_detail {
 
-/// What polygons are as cells of their centres.
+/// The comparison of polygons with the Voronoi cells of their centres.
 struct ComparedCells {
   NotVoronoi answer = {};
-  std::optional<Mesh> mesh = {};       ///< of the centres, unless it is not that of the polygons
-  std::optional<Voronoi> voronoi = {}; ///< of the mesh, where the polygons were compared with it
+  std::optional<Mesh> mesh = {};       ///< of the centres; none if it is not that of the polygons
+  std::optional<Voronoi> voronoi = {}; ///< of the mesh, if the polygons were compared with it
 };
 
-/// \param mesh the triangulation that a file gives the centres.
+/// \param mesh the triangulation of the centres in the file.
 /// \param rounding of the corners.
 ComparedCells compare_cells(Mesh mesh, const Polygons& polygons, double rounding);
 
-/// The mesh is what the corners make of the polygons, see mesh_of_cells(). Corners of more than
-/// three cells are those of Voronoi cells if they agree with the triangulation of the centres.
+/// The mesh follows from the corners of the polygons, see mesh_of_cells(). If more than three cells
+/// have a corner, the mesh is the triangulation of the centres, provided that the corners agree
+/// with it.
 /// \param fields as for mesh_of_cells().
 /// \pre on the sphere.
 ComparedCells compare_cells(Points3 centres, const Polygons& polygons, double rounding,

@@ -16,25 +16,26 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The values that the C library fills in.
+/// The default fill values of the C library.
 template <class T> constexpr T fill_value = static_cast<T>(9.9692099683868690e+36);
 template <>
 constexpr std::int32_t fill_value<std::int32_t> = std::numeric_limits<std::int32_t>::min() + 1;
 
-/// In the order of a file, in which leading dimensions come before the location's, one by one.
-/// \param filled whether the fill value stands for NaN.
-template <class T> NetcdfWriter::FillBytes contents_of(const MeshField& field, bool filled) {
+/// The values of a field in the order of a file, where leading dimensions precede those of the
+/// location.
+/// \param filled whether NaN becomes the fill value.
+template <class T> NetcdfWriter::FillBytes make_contents(const MeshField& field, bool filled) {
   const double* const values = field.values.data();
   std::int64_t before = 1;
   for (int d = 0; d < field.leading; ++d)
     before *= field.dimensions[static_cast<std::size_t>(d)].size;
-  const std::int64_t after = field.count() / before, places = field.values.size() / field.count();
+  const std::int64_t after = field.count() / before, items = field.values.size() / field.count();
   return [=](std::int64_t begin, std::int64_t end, char* out) {
     char* to = out;
     for (std::int64_t k = begin; k < end;) {
-      const std::int64_t row = k / after, place = row % places, leading = row / places,
+      const std::int64_t row = k / after, item = row % items, leading = row / items,
                          last = std::min(end, (row + 1) * after);
-      const std::int64_t shift = (place * before + leading - row) * after;
+      const std::int64_t shift = (item * before + leading - row) * after;
       for (; k < last; ++k, to += sizeof(T)) {
         const double from = values[k + shift];
         const T value = filled && std::isnan(from) ? fill_value<T> : static_cast<T>(from);
@@ -45,7 +46,7 @@ template <class T> NetcdfWriter::FillBytes contents_of(const MeshField& field, b
   };
 }
 
-NetcdfAttribute attribute_of_fill(NetcdfType type) {
+NetcdfAttribute fill_attribute(NetcdfType type) {
   if (type == NetcdfType::int32)
     return {"_FillValue", fill_value<std::int32_t>};
   if (type == NetcdfType::float64)
@@ -54,10 +55,10 @@ NetcdfAttribute attribute_of_fill(NetcdfType type) {
   return {"_FillValue", NetcdfValues{type, {reinterpret_cast<const char*>(&value), sizeof value}}};
 }
 
-const FieldPlace& place_of(const FieldPlaces& places, FieldLocation location) {
-  return location == FieldLocation::cells   ? places.cells
-         : location == FieldLocation::edges ? places.edges
-                                            : places.vertices;
+const FileLocation& find_location(const FileLocations& locations, FieldLocation location) {
+  return location == FieldLocation::cells   ? locations.cells
+         : location == FieldLocation::edges ? locations.edges
+                                            : locations.vertices;
 }
 
 bool is_name_of_mesh(const NetcdfMeshNames& names, const std::string& name) {
@@ -65,7 +66,7 @@ bool is_name_of_mesh(const NetcdfMeshNames& names, const std::string& name) {
          names.derived.contains(name);
 }
 
-/// SCRIP and ESMF have a mask of their own, which takes that of either.
+/// Whether a field becomes the mask of SCRIP or ESMF. Each accepts the mask of the other.
 bool is_kept_as_mask(const NetcdfMeshNames& names, const MeshField& field) {
   return is_mask(field) &&
          (names.derived.contains("grid_imask") || names.derived.contains("elementMask"));
@@ -95,7 +96,7 @@ std::string netcdf_name(std::string_view name) {
   return out.empty() ? "field" : out;
 }
 
-void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& places,
+void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& of_location,
                const std::vector<int>& others, NetcdfAttributes attributes, Missing missing) {
   if (!field.units.empty())
     attributes.push_back({"units", field.units});
@@ -109,32 +110,34 @@ void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<i
   const bool filled =
       missing == Missing::filled || (type == NetcdfType::int32 && field.values.hasNaN());
   if (filled)
-    attributes.push_back(attribute_of_fill(type));
+    attributes.push_back(fill_attribute(type));
   std::vector<int> dimensions = others;
-  dimensions.insert(dimensions.begin() + field.leading, places.begin(), places.end());
+  dimensions.insert(dimensions.begin() + field.leading, of_location.begin(), of_location.end());
   file.bytes(field.name, type, dimensions, attributes,
-             field.integer  ? contents_of<std::int32_t>(field, filled)
-             : field.single ? contents_of<float>(field, filled)
-                            : contents_of<double>(field, filled));
+             field.integer  ? make_contents<std::int32_t>(field, filled)
+             : field.single ? make_contents<float>(field, filled)
+                            : make_contents<double>(field, filled));
 }
 
-bool can_hold(const NetcdfMeshNames& names, const MeshField& field) {
-  const bool has_place = field.location == FieldLocation::cells   ? !names.cells.empty()
-                         : field.location == FieldLocation::edges ? !names.edges.empty()
-                                                                  : !names.vertices.empty();
-  return has_place && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
+bool can_store(const NetcdfMeshNames& names, const MeshField& field) {
+  const bool has_dimension = field.location == FieldLocation::cells   ? !names.cells.empty()
+                             : field.location == FieldLocation::edges ? !names.edges.empty()
+                                                                      : !names.vertices.empty();
+  return has_dimension && (is_kept_as_mask(names, field) || !is_name_of_mesh(names, field.name));
 }
 
-void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FieldPlaces& places,
+void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FileLocations& locations,
                 const NetcdfMeshNames& names) {
   for (const MeshField& field : options.fields) {
-    const FieldPlace& place = place_of(places, field.location);
-    if (place.dimension < 0 || is_name_of_mesh(names, field.name) || is_kept_as_mask(names, field))
+    const FileLocation& location = find_location(locations, field.location);
+    if (location.dimension < 0 || is_name_of_mesh(names, field.name) ||
+        is_kept_as_mask(names, field))
       continue;
     std::vector<int> others;
     for (const FieldDimension& dimension : field.dimensions)
       others.push_back(file.netcdf().field_dimension(netcdf_name(dimension.name), dimension.size));
-    add_field(file, field, {place.dimension}, others, place.attributes, Missing::where_integer);
+    add_field(file, field, {location.dimension}, others, location.attributes,
+              Missing::where_integer);
   }
 }
 

@@ -13,49 +13,52 @@
 #include <string_view>
 #include <vector>
 
-/// Fields on their way to NetCDF files.
+/// Writes fields to NetCDF files.
 namespace calotte::io_detail {
 
-/// The mesh variables' names in files that this library writes.
+/// The names of mesh variables in files that this library writes.
 const NetcdfMeshNames& scrip_names();
 const NetcdfMeshNames& esmf_names();
 const NetcdfMeshNames& exodus_names();
 NetcdfMeshNames ugrid_names(bool of_cells);
 
-/// The dimension of a location, -1 where the file has none, and attributes of all its fields.
-struct FieldPlace {
+/// The dimension of a location in a file, -1 if the file has none, and the attributes of all fields
+/// there.
+struct FileLocation {
   int dimension = -1;
   NetcdfAttributes attributes = {};
 };
-struct FieldPlaces {
-  FieldPlace cells = {}, edges = {}, vertices = {};
+struct FileLocations {
+  FileLocation cells = {}, edges = {}, vertices = {};
 };
 
-/// What stands for missing numbers of a field in a file.
+/// How missing numbers of a field are stored.
 enum class Missing {
   where_integer, ///< NaN, and of integers a fill value
   filled         ///< a fill value, which the attributes name in any case
 };
 
-/// Announces a field.
-/// \param places ids of its location's dimensions, the slowest first. \param others ids of its
-///        own. \param attributes besides the field's own.
-void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& places,
+/// Declares a field.
+/// \param of_location ids of the dimensions of its location, the slowest first.
+/// \param others ids of its other dimensions.
+/// \param attributes in addition to those of the field.
+void add_field(NetcdfGridFile& file, const MeshField& field, const std::vector<int>& of_location,
                const std::vector<int>& others, NetcdfAttributes attributes, Missing missing);
 
-/// A name that NetCDF takes: no white space, no /, no control characters, and no sign at the start.
+/// Converts a name to one that NetCDF accepts: no white space, no /, no control characters, and no
+/// sign at the start.
 std::string netcdf_name(std::string_view name);
 
-/// Whether a NetCDF format holds a field, if it holds those at edges.
-bool can_hold(const NetcdfMeshNames& names, const MeshField& field);
+/// Whether a NetCDF format can store a field. Fields at edges require a format with edges.
+bool can_store(const NetcdfMeshNames& names, const MeshField& field);
 
-/// Announces the options' fields whose location has a dimension, without masks and those that have
-/// the name of one of the mesh's variables.
-void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FieldPlaces& places,
+/// Declares the fields of the options whose location has a dimension. Skips masks, and fields with
+/// the name of a variable of the mesh.
+void add_fields(NetcdfGridFile& file, const WriteOptions& options, const FileLocations& locations,
                 const NetcdfMeshNames& names);
 
-/// Gives all fields names that NetCDF takes and that differ.
-/// \returns the old and the new name of those that changed.
+/// Renames fields so that NetCDF accepts all names and all names differ.
+/// \returns the old and the new name of each renamed field.
 std::vector<std::array<std::string, 2>> replace_names(std::vector<MeshField>& fields);
 
 } // namespace calotte::io_detail

@@ -27,8 +27,8 @@ void require_density(const std::string& path, const DoubleVector& density, std::
     refuse_path(path, "the density is zero at every site; make it positive somewhere");
 }
 
-/// What FESOM demands: it stops below three levels, and takes what is beyond 11 km for ids of an
-/// earlier version.
+/// Requires depths that FESOM accepts: it needs three levels, and takes numbers beyond 11 km for
+/// ids of an earlier version.
 void require_depths(const std::string& path, const WriteOptions& options, std::int64_t sites) {
   constexpr double deepest = 11000; // metres
   const DoubleVector levels = options.depth_levels.cwiseAbs();
@@ -81,10 +81,10 @@ void require_values(const std::string& path, const MeshSizes& mesh, const WriteO
     if (at_edges && !mesh.closed)
       refuse_path(path, "the field {} is at edges, which only closed meshes number; leave it out",
                   field.name);
-    const std::int64_t places = field.location == FieldLocation::cells ? mesh.sites
-                                : at_edges                             ? 3 * mesh.triangles / 2
-                                                                       : mesh.triangles;
-    require_size(path, "the field " + field.name, field.values.size(), field.count() * places);
+    const std::int64_t count = field.location == FieldLocation::cells ? mesh.sites
+                               : at_edges                             ? 3 * mesh.triangles / 2
+                                                                      : mesh.triangles;
+    require_size(path, "the field " + field.name, field.values.size(), field.count() * count);
   }
 }
 
@@ -102,8 +102,8 @@ void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
       Triangles renumbered;
       places = mesh_detail::order_triangles(mesh.triangles, new_site, renumbered);
     }
-    if (field.location == FieldLocation::edges && edges.place.empty())
-      edges = order_of(renamed(edges_of(mesh.triangles), new_site));
+    if (field.location == FieldLocation::edges && edges.index.empty())
+      edges = sort_pairs(renamed(list_edges(mesh.triangles), new_site));
     if (field.location == FieldLocation::edges)
       move_edge_values(field, edges);
     else

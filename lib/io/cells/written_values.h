@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-/// The values that go to a file with a mesh: the density of its sites, and fields.
+/// The values that are written with a mesh: the density of its sites, and fields.
 namespace calotte::io_detail {
 
 struct MeshSizes {
@@ -21,7 +21,7 @@ struct MeshSizes {
 /// \throws Error invalid_argument, for values that do not fit the mesh.
 void require_values(const std::string& path, const MeshSizes& mesh, const WriteOptions& options);
 
-/// The options' values follow the sites, edges and triangles of a mesh to their new places.
+/// Reorders the values of the options as the sites, edges and triangles of a mesh are renumbered.
 /// \param new_site by old site.
 void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
                      WriteOptions& options);

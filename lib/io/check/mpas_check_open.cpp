@@ -91,7 +91,7 @@ void place_vertices(Points3 stored, Voronoi& out) {
   for (Eigen::Index v = 0; v < out.cells_on_vertex.cols(); ++v) {
     if (out.cells_on_vertex.col(v).minCoeff() < 0)
       continue;
-    set_column(out.vertices, v, circumcentre_of(out, v));
+    set_column(out.vertices, v, cell_circumcentre(out, v));
   }
 }
 

@@ -143,8 +143,8 @@ void write_cells(const std::string& path, const FieldGrid& grid,
         {{"units", std::string("degrees_east")}, {"standard_name", std::string("longitude")}},
         longitudes_of(centres));
   } else {
-    file.doubles("x", {cells}, {{"units", std::string("m")}}, row_of(centres, 0));
-    file.doubles("y", {cells}, {{"units", std::string("m")}}, row_of(centres, 1));
+    file.doubles("x", {cells}, {{"units", std::string("m")}}, coordinate_row(centres, 0));
+    file.doubles("y", {cells}, {{"units", std::string("m")}}, coordinate_row(centres, 1));
   }
   add_fields(file, fields, carried, {cells}, sphere ? "lat lon" : "x y");
   file.commit();

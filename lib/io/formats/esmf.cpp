@@ -126,7 +126,7 @@ void write_esmf(const std::string& path, const CellGrid& grid, const WriteOption
   file.ints("elementMask", {elements},
             {{"units", std::string("1")},
              {"long_name", std::string("mask of the elements: 1 takes part")}},
-            mask_of(options));
+            make_mask(options));
   add_fields(file, options, {.cells = {elements}, .vertices = {nodes}}, esmf_names());
   file.commit();
 }

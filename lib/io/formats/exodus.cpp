@@ -130,7 +130,7 @@ void write_exodus(const std::string& path, const CellGrid& grid, const WriteOpti
   const int width = netcdf.dimension("num_nod_per_el1", most);
   for (int row = 0; row < 3; ++row)
     file.doubles(
-        std::string("coord") + "xyz" [row], { nodes }, {}, row_of(cells.corners, row));
+        std::string("coord") + "xyz" [row], { nodes }, {}, coordinate_row(cells.corners, row));
   file.ints("eb_prop1", {blocks}, {{"name", std::string("ID")}}, constant(1));
   file.ints("eb_status", {blocks}, {}, constant(1));
   file.ints("connect1", {in_block, width},

@@ -75,10 +75,10 @@ template <RawMesh (*read)(const std::string&)> RawMesh from_files(const InputFil
   return read(file.path);
 }
 
-bool has_cell_rows(const NetcdfReader& file) { return cell_rows_of(file).has_value(); }
+bool has_cell_rows(const NetcdfReader& file) { return find_cell_rows(file).has_value(); }
 
 RawMesh read_cell_rows_of(const InputFile& file) {
-  return read_cells(*file.netcdf, *cell_rows_of(*file.netcdf), file.fields);
+  return read_cells(*file.netcdf, *find_cell_rows(*file.netcdf), file.fields);
 }
 
 Points3 mpas_sites(const InputFile& file) { return read_mpas_sites(*file.netcdf); }
@@ -87,15 +87,15 @@ Points3 vertex_lines(const InputFile& file) { return read_points(file.path); }
 
 // ---- Fields
 
-bool in_mpas(const MeshField& field) { return can_hold(mpas_names(), field); }
+bool in_mpas(const MeshField& field) { return can_store(mpas_names(), field); }
 bool in_minimal_mpas(const MeshField& field) {
   return field.location != FieldLocation::edges && in_mpas(field);
 }
-bool in_ugrid(const MeshField& field) { return can_hold(ugrid_names(true), field); }
-bool in_ugrid_triangles(const MeshField& field) { return can_hold(ugrid_names(false), field); }
-bool in_scrip(const MeshField& field) { return can_hold(scrip_names(), field); }
-bool in_esmf(const MeshField& field) { return can_hold(esmf_names(), field); }
-bool in_exodus(const MeshField& field) { return can_hold(exodus_names(), field); }
+bool in_ugrid(const MeshField& field) { return can_store(ugrid_names(true), field); }
+bool in_ugrid_triangles(const MeshField& field) { return can_store(ugrid_names(false), field); }
+bool in_scrip(const MeshField& field) { return can_store(scrip_names(), field); }
+bool in_esmf(const MeshField& field) { return can_store(esmf_names(), field); }
+bool in_exodus(const MeshField& field) { return can_store(exodus_names(), field); }
 
 /// Whether formats of pictures make data of that name at all cells. Those that they make at Voronoi
 /// cells alone are derived from the mesh.

@@ -82,7 +82,7 @@ std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
 std::vector<std::vector<LonLat>> rings_of(const Polygons& cells, std::int64_t cell) {
   const std::vector<Vec3> corners = corners_of(cells, cell);
   if (cells.surface.is_sphere())
-    return outline_of(corners);
+    return cell_outline(corners);
   std::vector<LonLat> ring;
   for (const Vec3& corner : corners)
     ring.push_back({corner.x, corner.y});
@@ -147,7 +147,7 @@ void put_fields(Writer& out, const std::vector<const MeshField*>& fields, std::i
 
 void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options) {
   Voronoi voronoi = calotte::voronoi(mesh);
-  const CellFields fields = fields_of(voronoi, options);
+  const CellFields fields = make_cell_fields(voronoi, options);
   const Polygons cells = with_merged_corners(polygons_of(std::move(voronoi)), fields.area);
   const std::vector<const MeshField*> others = cell_fields_of(options, of_voronoi_cells);
   Writer out(sink);

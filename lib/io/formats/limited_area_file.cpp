@@ -31,7 +31,7 @@ Area area_of(const Mesh& mesh, const Surface& region, Numbering numbering) {
   const Mesh sorted = renumbered(mesh, numbering);
   const Ids mask = limited_area_mask(
       neighbours(sorted),
-      flags_of(sorted.points, [&](const Eigen::Vector3d& x) { return region.contains(x); }));
+      flag_points(sorted.points, [&](const Eigen::Vector3d& x) { return region.contains(x); }));
   CellPart part = voronoi_detail::part_of(sorted, mask);
   Area area{std::move(part.voronoi),
             {.name = cell_mask,

@@ -68,7 +68,7 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
   RawMesh raw = file.row->read(file.input(path, choice));
   if (raw.surface.is_sphere() && file.row->reads_planes && lies_in_plane(raw.points))
     raw.surface = Surface::plane();
-  return mesh_file_of(path, file.row->label, std::move(raw));
+  return make_mesh_file(path, file.row->label, std::move(raw));
 }
 
 // ---- Points alone
@@ -112,7 +112,7 @@ MeshFile read_mesh_file(const std::string& path, const Points3* points, FieldCho
   if (!points || format_of_name(path) != Format::triangles)
     return read_any(path, choice);
   std::ifstream in = open_input(path);
-  return mesh_file_of_columns(path, *points, get_triangles_text(in, path, points->cols()));
+  return make_mesh_file_on_points(path, *points, get_triangles_text(in, path, points->cols()));
 }
 
 Mesh read_mesh(const std::string& path, const Points3* points) {

@@ -62,7 +62,7 @@ void write_scrip(const std::string& path, const CellGrid& grid, const WriteOptio
             {{"units", unit},
              {"long_name", std::string("mask of the cells: 1 takes part")},
              {"coordinates", coordinates}},
-            mask_of(options));
+            make_mask(options));
   file.doubles("grid_area", {size},
                {{"units", std::string("radians^2")},
                 {"long_name", std::string("area of the cell on the unit sphere")},

@@ -190,7 +190,7 @@ std::int64_t first_without_triangle(const Dual& dual) {
 
 /// One triangle of faces a node.
 Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
-  Dual dual = dual_of(faces_of(faces, {}, {}, false), nodes);
+  Dual dual = make_dual(faces_of(faces, {}, {}, false), nodes);
   if (dual.failed >= 0 || dual.triangles.cols() < nodes)
     file.fail("the faces around node {} (0-based) are not three that share edges; make the file "
               "again",

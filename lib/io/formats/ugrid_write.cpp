@@ -56,7 +56,7 @@ void add_projected(NetcdfGridFile& file, const std::string& prefix, int dimensio
                  {{"units", std::string("m")},
                   {"standard_name", "projection_" + axis + "_coordinate"},
                   long_name(axis + " of " + of)},
-                 row_of(points, row));
+                 coordinate_row(points, row));
   }
 }
 
@@ -103,7 +103,7 @@ void add_places(NetcdfGridFile& file, const std::string& prefix, int dimension,
     name += axis;
     file.doubles(name, {dimension},
                  {{"units", std::string("m")}, long_name("Cartesian " + axis + " of the site")},
-                 row_of(points, row));
+                 coordinate_row(points, row));
   }
 }
 

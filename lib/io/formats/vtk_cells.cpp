@@ -35,9 +35,9 @@ void add_shapes(const Points3& corners, const Polygons& cells, VtkHead& head,
 void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& options,
                    const VtkFlavour& flavour) {
   Voronoi voronoi = calotte::voronoi(mesh);
-  const CellFields fields = fields_of(voronoi, options);
+  const CellFields fields = make_cell_fields(voronoi, options);
   const Polygons cells = polygons_of(std::move(voronoi));
-  const Points3 corners = radius_of(mesh.points) * cells.corners;
+  const Points3 corners = find_radius(mesh.points) * cells.corners;
   VtkHead head{flavour, corners.cols(), cells.size(), {}};
   std::vector<VtkContent> contents;
   head.arrays.push_back({"PointData", "Int32", "triangle", head.points, 3});

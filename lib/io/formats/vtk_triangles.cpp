@@ -21,7 +21,7 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
   VtkHead head{flavour, mesh.points.cols(), triangles, {}};
   CellFields fields;
   if (has_fields(mesh)) {
-    fields = fields_of(voronoi(mesh), options);
+    fields = make_cell_fields(voronoi(mesh), options);
     add_field_arrays("PointData", head.points, head);
     add_field_contents(fields, contents);
   }

@@ -121,7 +121,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
 
 /// Those that files of polygons do not compute.
 void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
-  const CellFields fields = fields_of(voronoi, options);
+  const CellFields fields = make_cell_fields(voronoi, options);
   options.fields.push_back({.name = "density", .values = fields.density});
   options.fields.push_back({.name = "spacing", .values = fields.spacing});
   options.fields.push_back({.name = "quality", .values = fields.quality});

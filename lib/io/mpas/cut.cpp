@@ -18,7 +18,7 @@ namespace {
 Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
             int rings) {
   return limited_area_mask(source.lists(mpas::cells_on_cell, source.cells()),
-                           flags_of(source.places(), inside), rings);
+                           flag_points(source.places(), inside), rings);
 }
 
 /// The masks of the kept cells, edges and vertices.

@@ -31,7 +31,7 @@ struct MpasMesh {
   double radius;    ///< of the sphere; 1 in a plane
   std::function<void()> connect = {}; ///< voronoi; empty if that is whole
   Array<double> surplus = {};         ///< of begin_measures(), unless voronoi is whole
-  DoubleVector density = {};          ///< as density_of()
+  DoubleVector density = {};          ///< as density_at_cells()
 
   bool whole() const { return !connect; }
   const Points3& sites() const { return voronoi.surface.is_sphere() ? places : voronoi.cells; }

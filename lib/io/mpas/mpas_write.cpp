@@ -184,7 +184,7 @@ void write_full(const std::string& path, MpasMesh mesh, const WriteOptions& opti
   });
   announce_lists(file, mesh);
   file.after([&] {
-    mesh.density = density_of(mesh.voronoi, options);
+    mesh.density = density_at_cells(mesh.voronoi, options);
     put_graph([&](std::string_view text) { graph.append(text); }, mesh.voronoi);
     if (!mesh.whole())
       mesh.surplus = begin_measures(mesh.voronoi);
@@ -213,7 +213,7 @@ void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& o
   file.after([&] {
     mesh.connect();
     measure(mesh.voronoi);
-    mesh.density = density_of(voronoi, options);
+    mesh.density = density_at_cells(voronoi, options);
   });
   put_coordinates(sink, mpas_vertex, voronoi.vertices, mesh.radius);
   put(sink, mpas::cells_on_vertex, id_columns(voronoi.cells_on_vertex));

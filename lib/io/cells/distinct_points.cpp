@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/cells/distinct_places.h"
+#include "io/cells/distinct_points.h"
 
 #include "base/lonlat.h"
 #include "base/memory.h"
@@ -12,11 +12,11 @@
 namespace calotte::io_detail {
 namespace {
 
-/// A place, equal in its bits to all equal places.
-struct Place {
+/// A point. Equal points have equal bits.
+struct Point {
   double longitude, latitude;
 
-  Place(double east, double north)
+  Point(double east, double north)
       : longitude(std::abs(north) >= 90 ? 0 : turned_back(east) + 0.0), // -0 becomes 0
         latitude(north + 0.0) {
     if (longitude == -180)
@@ -30,60 +30,60 @@ struct Place {
   }
 };
 
-/// An open hash table of places by their numbers.
+/// An open hash table of the numbers of points.
 class Table {
 public:
-  Table(std::size_t most, DistinctPlaces& places)
-      : places_(places), mask_(std::bit_ceil(2 * most + 2) - 1),
+  Table(std::size_t most, DistinctPoints& points)
+      : points_(points), mask_(std::bit_ceil(2 * most + 2) - 1),
         slots_(zeros<Slot>(static_cast<std::int64_t>(mask_) + 1)) {}
 
   void fetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & mask_], 1); }
 
-  std::int32_t number(const Place& place, std::uint64_t hash) {
+  std::int32_t number(const Point& point, std::uint64_t hash) {
     const auto tag = static_cast<std::uint32_t>(hash >> 32);
     for (std::size_t at = hash & mask_;; at = (at + 1) & mask_) {
       Slot& slot = slots_[at];
       if (slot.number == 0) {
-        places_.longitudes.push_back(place.longitude);
-        places_.latitudes.push_back(place.latitude);
-        slot = {tag, static_cast<std::uint32_t>(places_.longitudes.size())};
+        points_.longitudes.push_back(point.longitude);
+        points_.latitudes.push_back(point.latitude);
+        slot = {tag, static_cast<std::uint32_t>(points_.longitudes.size())};
         return static_cast<std::int32_t>(slot.number - 1);
       }
       const std::size_t known = slot.number - 1;
-      if (slot.tag == tag && places_.longitudes[known] == place.longitude &&
-          places_.latitudes[known] == place.latitude)
+      if (slot.tag == tag && points_.longitudes[known] == point.longitude &&
+          points_.latitudes[known] == point.latitude)
         return static_cast<std::int32_t>(known);
     }
   }
 
 private:
   struct Slot {
-    std::uint32_t tag = 0, number = 0; ///< the place's number + 1; 0 is a free slot
+    std::uint32_t tag = 0, number = 0; ///< number of the point + 1; 0 for a free slot
   };
 
-  DistinctPlaces& places_;
+  DistinctPoints& points_;
   std::size_t mask_;
   std::vector<Slot> slots_;
 };
 
 } // namespace
 
-DistinctPlaces distinct_places(const std::vector<double>& longitudes,
-                               const std::vector<double>& latitudes) {
-  constexpr std::size_t batch = 32; // whose slots are fetched at once
+DistinctPoints find_distinct_points(const std::vector<double>& longitudes,
+                                    const std::vector<double>& latitudes) {
+  constexpr std::size_t batch = 32; // number of slots that are fetched at once
   const std::size_t n = longitudes.size();
-  DistinctPlaces out;
+  DistinctPoints out;
   out.id = zeros<std::int32_t>(std::ssize(longitudes));
   Table table(n, out);
   std::array<std::uint64_t, batch> hash{};
   for (std::size_t begin = 0; begin < n; begin += batch) {
     const std::size_t count = std::min(batch, n - begin);
     for (std::size_t j = 0; j < count; ++j) {
-      hash[j] = Place(longitudes[begin + j], latitudes[begin + j]).hash();
+      hash[j] = Point(longitudes[begin + j], latitudes[begin + j]).hash();
       table.fetch(hash[j]);
     }
     for (std::size_t j = 0; j < count; ++j)
-      out.id[begin + j] = table.number(Place(longitudes[begin + j], latitudes[begin + j]), hash[j]);
+      out.id[begin + j] = table.number(Point(longitudes[begin + j], latitudes[begin + j]), hash[j]);
   }
   return out;
 }
