@@ -38,7 +38,7 @@ void check_closed(Mesh mesh, double radius, DoubleVector density, Deviations& de
   if (density.size() != voronoi.cells.cols())
     release(density);
   MpasCheck check{deviations, voronoi, std::move(density), radius};
-  take_numbering(numbering_of(voronoi, deviations), check);
+  take_numbering(find_numbering(voronoi, deviations), check);
   measure(voronoi);
   check.width = mean_width(voronoi);
   check.tolerance += deviations.file().is_float("xCell") ? 4 * float_digits / check.width : 0;

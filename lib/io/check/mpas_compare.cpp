@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "io/mpas/mpas.h"
-#include "io/mpas/mpas_places.h"
+#include "io/mpas/mpas_coordinates.h"
 #include "io/mpas/vertex_order.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool is_comparable(const MpasCheck& check, const MpasVariable& variable) {
     return true; // 0, whatever the vertices are
   if (check.closed &&
       (variable.name == mpas::cells_on_edge || variable.name == mpas::cells_on_vertex))
-    return false; // by which numbering_of() found edges and vertices
+    return false; // by which find_numbering() found edges and vertices
   const bool is_list = variable.numbers == MpasNumbers::cells ||
                        variable.numbers == MpasNumbers::edges ||
                        variable.numbers == MpasNumbers::vertices;
@@ -161,7 +161,7 @@ void compare_mpas(const MpasCheck& check) {
   };
   const MpasMesh mesh{check.voronoi, {}, check.radius};
   if (whole)
-    put_variables(sink, mesh, vertex_order_of(check.deviations.file()));
+    put_variables(sink, mesh, read_vertex_order(check.deviations.file()));
   else
     put_cells(sink, mesh);
 }

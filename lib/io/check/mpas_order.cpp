@@ -92,7 +92,7 @@ void start_lists(MpasCheck& check) {
   const Voronoi& of = check.voronoi;
   if (check.has_edges && take_starts(mpas::edges_on_cell, of.edges_on_cell, 0, check))
     return;
-  const bool before = vertex_order_of(check.deviations.file()) == VertexOrder::before_edges;
+  const bool before = read_vertex_order(check.deviations.file()) == VertexOrder::before_edges;
   if (check.has_vertices &&
       take_starts(mpas::vertices_on_cell, of.vertices_on_cell, before ? 1 : 0, check))
     return;

@@ -32,7 +32,8 @@ void require_options(const CullOptions& options) {
           "the radius of the sphere is not positive and finite; give another");
 }
 
-/// Coasts and rasters are followed from cell to cell all around the sphere.
+/// Requires cells that cover the sphere: coasts and rasters are traced through them around the
+/// whole sphere.
 /// \throws Error invalid_argument, for a part of the sphere.
 void require_global(const MpasSource& source, const Voronoi& cells) {
   require(
@@ -43,43 +44,45 @@ void require_global(const MpasSource& source, const Voronoi& cells) {
       source.netcdf().path());
 }
 
-/// The cells of the source, as far as options need them.
-struct Ground {
+/// The cells of the source, as far as the options need them.
+struct SourceCells {
   IdLists cells_on_cell;
   std::optional<Voronoi> cells; ///< for coasts, rasters and lines
 };
 
-Ground ground_of(const MpasSource& source, const CullOptions& options) {
+SourceCells read_source_cells(const MpasSource& source, const CullOptions& options) {
   if (options.coast.rings.empty() && options.raster.values.size() == 0 &&
       options.passages.empty() && options.barriers.empty() && options.seeds.cols() == 0)
     return {source.lists(mpas::cells_on_cell, source.cells()), {}};
-  Voronoi cells = tessellation_of(source);
+  Voronoi cells = read_tessellation(source);
   if (!options.coast.rings.empty() || options.raster.values.size() > 0)
     require_global(source, cells);
   return {cells.cells_on_cell, std::move(cells)};
 }
 
-/// The fractions of land by the coast or the raster, of both the greater; empty without these.
-DoubleVector fractions_of(const Ground& ground, const CullOptions& options) {
+/// The land fractions by the coast or the raster; the larger one, if there are both; empty without
+/// these.
+DoubleVector compute_fractions(const SourceCells& source_cells, const CullOptions& options) {
   DoubleVector fractions;
   if (!options.coast.rings.empty())
-    fractions = land_fractions(*ground.cells, options.coast);
+    fractions = land_fractions(*source_cells.cells, options.coast);
   if (options.raster.values.size() == 0)
     return fractions;
-  const DoubleVector sampled = land_fractions(*ground.cells, options.raster);
+  const DoubleVector sampled = land_fractions(*source_cells.cells, options.raster);
   return fractions.size() > 0 ? DoubleVector(fractions.cwiseMax(sampled)) : sampled;
 }
 
-/// By cell: whether it is land.
+/// Whether each cell is land.
 struct Land {
   std::vector<std::uint8_t> flags;
   DoubleVector fractions;
 };
 
-Land land_of(const std::string& source, const Ground& ground, const CullOptions& options) {
-  const std::int64_t n = ground.cells_on_cell.size();
+Land find_land(const std::string& source, const SourceCells& source_cells,
+               const CullOptions& options) {
+  const std::int64_t n = source_cells.cells_on_cell.size();
   Land land{std::vector<std::uint8_t>(static_cast<std::size_t>(n), 0),
-            fractions_of(ground, options)};
+            compute_fractions(source_cells, options)};
   const SeaField& field = options.field;
   DoubleVector values;
   if (!field.variable.empty())
@@ -93,24 +96,25 @@ Land land_of(const std::string& source, const Ground& ground, const CullOptions&
   return land;
 }
 
-SeaOptions sea_options(const Ground& ground, const CullOptions& options) {
+SeaOptions sea_options(const SourceCells& source_cells, const CullOptions& options) {
   SeaOptions sea;
   sea.fill = options.fill;
   if (!options.passages.empty())
-    sea.opened = cells_on_lines(*ground.cells, options.passages);
+    sea.opened = cells_on_lines(*source_cells.cells, options.passages);
   if (!options.barriers.empty())
-    sea.closed = cells_on_lines(*ground.cells, options.barriers);
+    sea.closed = cells_on_lines(*source_cells.cells, options.barriers);
   for (const auto seed : options.seeds.colwise())
-    sea.seeds.push_back(cells_on_lines(*ground.cells, {Points3(seed)}).front());
+    sea.seeds.push_back(cells_on_lines(*source_cells.cells, {Points3(seed)}).front());
   return sea;
 }
 
-/// \throws Error invalid_argument, naming the first passage that is on land and opens none of the
-/// sea.
-void require_passages(const Ground& ground, const Land& land, const Ids& sea,
+/// \throws Error invalid_argument, naming the first passage that is on land and does not connect to
+/// the sea.
+void require_passages(const SourceCells& source_cells, const Land& land, const Ids& sea,
                       const CullOptions& options) {
   for (std::size_t p = 0; p < options.passages.size(); ++p) {
-    const std::vector<std::int32_t> cells = cells_on_lines(*ground.cells, {options.passages[p]});
+    const std::vector<std::int32_t> cells =
+        cells_on_lines(*source_cells.cells, {options.passages[p]});
     const bool apart = std::all_of(cells.begin(), cells.end(), [&](std::int32_t cell) {
       return land.flags[static_cast<std::size_t>(cell)] != 0 && sea[cell] < 0;
     });
@@ -124,7 +128,7 @@ void require_passages(const Ground& ground, const Land& land, const Ids& sea,
 void add_maps(const MpasPart& part, NetcdfSubset& subset) {
   const auto add = [&](const MpasKind& kind, const Kept& kept) {
     const std::string name = "mapCulledToBase" + kind.name;
-    subset.left_out.push_back(name); // of an earlier cull
+    subset.left_out.push_back(name); // left by an earlier cull
     subset.added.push_back({name, kind.dimension(), "0-based id in the mesh before culling",
                             [&kept](std::int64_t i) { return kept.old[i]; }});
   };
@@ -135,7 +139,7 @@ void add_maps(const MpasPart& part, NetcdfSubset& subset) {
 
 // ---- Files beside the grid
 
-/// The masks that MPAS-Tools culls by.
+/// Writes the masks that the culler of MPAS-Tools reads.
 void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file) {
   const int cells = file.dimension(mpas_cell.dimension(), sea.size()),
             regions = file.dimension("nRegions", 1);
@@ -165,7 +169,7 @@ void put_mask(const Ids& sea, const DoubleVector& fractions, NetcdfWriter& file)
              }));
 }
 
-/// The files beside the grid: written and finished at once, named later.
+/// The files beside the grid. They are written and finished at once, and renamed by commit().
 class Companions {
 public:
   Companions(const CullOptions& options, const Ids& sea, const DoubleVector& fractions,
@@ -202,18 +206,18 @@ CullReport cull(const std::string& source_path, const std::string& target,
   require_options(options);
   const MpasSource source(source_path);
   const double radius = options.sphere_radius.value_or(source.radius());
-  const Ground ground = ground_of(source, options);
-  const Land land = land_of(source_path, ground, options);
+  const SourceCells source_cells = read_source_cells(source, options);
+  const Land land = find_land(source_path, source_cells, options);
   CullReport report;
   report.land = std::count(land.flags.begin(), land.flags.end(), 1);
   const SeaCells decided =
-      sea_cells(ground.cells_on_cell, land.flags, sea_options(ground, options));
+      sea_cells(source_cells.cells_on_cell, land.flags, sea_options(source_cells, options));
   const Ids& sea = decided.mask;
   report.sea = decided.report;
-  require_passages(ground, land, sea, options);
-  const MpasPart part = part_of(source, sea);
+  require_passages(source_cells, land, sea, options);
+  const MpasPart part = select_part(source, sea);
   const ReversedEdges reversed = reversed_edges(source, part);
-  NetcdfSubset subset = subset_of(source, part);
+  NetcdfSubset subset = make_subset(source, part);
   add_reversals(source, part, reversed, subset);
   add_kites(source, part, subset);
   add_maps(part, subset);

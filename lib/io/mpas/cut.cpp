@@ -15,10 +15,10 @@ namespace calotte {
 namespace io_detail {
 namespace {
 
-Ids mask_of(const MpasSource& source, const std::function<bool(const Eigen::Vector3d&)>& inside,
-            int rings) {
+Ids make_cell_mask(const MpasSource& source,
+                   const std::function<bool(const Eigen::Vector3d&)>& inside, int rings) {
   return limited_area_mask(source.lists(mpas::cells_on_cell, source.cells()),
-                           flag_points(source.places(), inside), rings);
+                           flag_points(source.generators(), inside), rings);
 }
 
 /// The masks of the kept cells, edges and vertices.
@@ -26,7 +26,7 @@ struct Masks {
   Ids cells, edges, vertices;
 };
 
-Masks masks_of(const MpasPart& part, const Ids& of_all) {
+Masks make_masks(const MpasPart& part, const Ids& of_all) {
   Masks masks{Ids(part.cells.count()), {}, {}};
   for (std::int64_t i = 0; i < part.cells.count(); ++i)
     masks.cells[i] = of_all[part.cells.old[i]];
@@ -38,7 +38,7 @@ Masks masks_of(const MpasPart& part, const Ids& of_all) {
 void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
   const auto add = [&](const MpasKind& kind, const Ids& mask, const std::string& name,
                        const std::string& meaning) {
-    subset.left_out.push_back(name); // of an earlier cut
+    subset.left_out.push_back(name); // left by an earlier cut
     subset.added.push_back(
         {name, kind.dimension(), meaning, [&mask](std::int64_t i) { return mask[i]; }});
   };
@@ -49,7 +49,8 @@ void add_masks(const Masks& masks, int rings, NetcdfSubset& subset) {
 
 // ---- Density
 
-/// The values of a variable with one for each cell, of the kept ones; empty if the file has none.
+/// The values of a variable at the kept cells; empty if the file has no such variable with a value
+/// for each cell.
 DoubleVector kept_values(const MpasSource& source, const std::string& name, const Kept& kept) {
   const NetcdfReader& file = source.netcdf();
   if (!file.has_variable(name) || file.shape_of(name) != std::vector<std::int64_t>{source.cells()})
@@ -61,7 +62,8 @@ DoubleVector kept_values(const MpasSource& source, const std::string& name, cons
   return values;
 }
 
-/// The density has the maximum 1 over the kept cells; its nominal spacing is that of the maximum.
+/// Scales the density to the maximum 1 over the kept cells, and sets the nominal spacing that
+/// belongs to it.
 void add_density(const MpasSource& source, const MpasPart& part, double radius,
                  NetcdfSubset& subset) {
   DoubleVector density = kept_values(source, mpas::mesh_density, part.cells);
@@ -88,7 +90,7 @@ void add_attributes(double radius, NetcdfSubset& subset) {
   subset.attributes["mesh_spec"] = {"mesh_spec", std::string("1.1")};
 }
 
-CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
+CutReport make_report(const MpasPart& part, const Masks& masks, int rings) {
   CutReport report{.cells = part.cells.count(),
                    .edges = part.edges.count(),
                    .vertices = part.vertices.count(),
@@ -105,8 +107,8 @@ CutReport report_of(const MpasPart& part, const Masks& masks, int rings) {
 
 CutReport cut(const std::string& source, const std::string& target, const Surface& region,
               const CutOptions& options) {
-  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& place) {
-    return region.contains(place);
+  const std::function<bool(const Eigen::Vector3d&)> inside = [&](const Eigen::Vector3d& point) {
+    return region.contains(point);
   };
   return cut(source, target, inside, options);
 }
@@ -120,10 +122,10 @@ CutReport cut(const std::string& path, const std::string& target,
   require(radius > 0 && std::isfinite(radius),
           "the radius of the sphere is not positive and finite; give another");
   const VertexOrder order = options.vertex_order.value_or(source.vertex_order());
-  const Ids mask = mask_of(source, inside, options.rings);
-  const MpasPart part = part_of(source, mask);
-  const Masks masks = masks_of(part, mask);
-  NetcdfSubset subset = subset_of(source, part);
+  const Ids mask = make_cell_mask(source, inside, options.rings);
+  const MpasPart part = select_part(source, mask);
+  const Masks masks = make_masks(part, mask);
+  NetcdfSubset subset = make_subset(source, part);
   add_masks(masks, options.rings, subset);
   add_radius(source, radius, subset);
   add_vertex_order(source, part, order, subset);
@@ -131,7 +133,7 @@ CutReport cut(const std::string& path, const std::string& target,
   add_attributes(radius, subset);
   subset.dimensions = options.dimensions;
   add_history(source, part, options.history, subset);
-  CutReport report = report_of(part, masks, options.rings);
+  CutReport report = make_report(part, masks, options.rings);
   report.sphere_radius = radius;
   report.vertex_order = order;
   report.left_out = write_part(source, part, subset, target, options.progress);

@@ -15,7 +15,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The finaliser of SplitMix64, in which every bit of a word counts.
+/// The finaliser of SplitMix64. Every bit of the result depends on all bits of the word.
 std::uint64_t mixed(std::uint64_t word) {
   std::uint64_t z = word + 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -23,11 +23,11 @@ std::uint64_t mixed(std::uint64_t word) {
   return z ^ (z >> 31);
 }
 
-/// Of word(i), 0 <= i < n, and of their order; the same for any number of threads.
+/// A hash of word(0) to word(n - 1) and of their order, the same for any number of threads.
 template <class Word> std::uint64_t mixed_words(std::int64_t n, const Word& word) {
   std::vector<std::uint64_t> of_block(static_cast<std::size_t>(block_count(n)));
   for_each_block(n, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
-    std::uint64_t sum = 0; // no word waits for the one before
+    std::uint64_t sum = 0; // the terms do not depend on each other
     for (std::int64_t i = begin; i != end; ++i)
       sum += mixed(word(i) ^ mixed(static_cast<std::uint64_t>(i)));
     of_block[static_cast<std::size_t>(block)] = sum;
@@ -43,14 +43,14 @@ std::string hexadecimal(std::uint64_t number) {
 }
 
 struct Lines {
-  Array<char> room; ///< larger than what is used
+  Array<char> room; ///< of which `size` bytes are used
   std::int64_t size = 0;
   std::string_view text() const { return {room.begin(), static_cast<std::size_t>(size)}; }
 };
 
-/// A line of numbers for each cell, which is empty for a cell without neighbours.
+/// One line of neighbours for each cell; empty for a cell without neighbours.
 Lines neighbour_lines(const IdLists& cells_on_cell, std::int64_t begin, std::int64_t end) {
-  constexpr std::int64_t longest = 11; // a blank or a line's end, and ten digits
+  constexpr std::int64_t longest = 11; // a blank or line end, and ten digits
   const std::int64_t numbers = cells_on_cell.begin[end] - cells_on_cell.begin[begin];
   Lines lines{Array<char>(longest * numbers + end - begin)};
   char* out = lines.room.begin();
@@ -141,13 +141,13 @@ void put_values(const MpasSink& sink, const MpasMesh& mesh) {
 std::string fingerprint(const MpasMesh& mesh) {
   const double* const coordinates = mesh.sites().data();
   const std::int32_t* const ids = mesh.voronoi.cells_on_vertex.data();
-  const std::uint64_t places = mixed_words(mesh.sites().size(), [=](std::int64_t i) {
+  const std::uint64_t points = mixed_words(mesh.sites().size(), [=](std::int64_t i) {
     return std::bit_cast<std::uint64_t>(coordinates[i]);
   });
   const std::uint64_t triangles =
       mixed_words(mesh.voronoi.cells_on_vertex.size(),
                   [=](std::int64_t i) { return static_cast<std::uint64_t>(ids[i]); });
-  return hexadecimal(mixed(places ^ mixed(triangles)));
+  return hexadecimal(mixed(points ^ mixed(triangles)));
 }
 
 std::string fingerprint(const Array<std::int32_t>& kept, const std::string& parent) {
@@ -169,7 +169,7 @@ void put_graph(const Sink& sink, const Voronoi& voronoi) {
 void put_graph(const Sink& sink, const IdLists& cells_on_cell, std::int64_t edges) {
   const std::int64_t cells = cells_on_cell.size(), blocks = block_count(cells);
   sink(std::to_string(cells) + " " + std::to_string(edges) + "\n");
-  constexpr std::int64_t at_once = 32; // blocks, so that not all of the text waits in memory
+  constexpr std::int64_t at_once = 32; // number of blocks, which limits the text in memory
   std::vector<Lines> texts(at_once);
   for (std::int64_t first = 0; first < blocks; first += at_once) {
     const std::int64_t count = std::min(at_once, blocks - first);

@@ -20,28 +20,29 @@
 #include <string>
 #include <vector>
 
-/// What the full and the minimal MPAS file have in common.
+/// Common code for full and minimal MPAS files.
 namespace calotte::io_detail {
 
-/// A mesh as a file shall hold it. Unless it is whole before, all but its cells is computed while
-/// the file is written, and places are not stored. Writing frees arrays after their last use.
+/// A mesh in the form in which it is written. If it is not whole, everything but its cells is
+/// computed while the file is written, and coordinates of vertices and edges are not stored.
+/// Writing frees arrays after their last use.
 struct MpasMesh {
-  Voronoi& voronoi; ///< begun, or whole
-  Points3 places;   ///< 3 x n: of the cells, radius times the unit vectors; 3 x 0 in a plane
+  Voronoi& voronoi; ///< with cells only, or whole
+  Points3 points;   ///< 3 x n: generators, radius times unit vectors; 3 x 0 in a plane
   double radius;    ///< of the sphere; 1 in a plane
-  std::function<void()> connect = {}; ///< voronoi; empty if that is whole
-  Array<double> surplus = {};         ///< of begin_measures(), unless voronoi is whole
-  DoubleVector density = {};          ///< as density_at_cells()
+  std::function<void()> connect = {}; ///< completes voronoi; empty if that is whole
+  Array<double> surplus = {};         ///< result of begin_measures(), unless voronoi is whole
+  DoubleVector density = {};          ///< as from density_at_cells()
 
   bool whole() const { return !connect; }
-  const Points3& sites() const { return voronoi.surface.is_sphere() ? places : voronoi.cells; }
+  const Points3& sites() const { return voronoi.surface.is_sphere() ? points : voronoi.cells; }
   std::int64_t edges() const {
     return whole() ? voronoi.cells_on_edge.cols() : voronoi.cells_on_vertex.size() / 2;
   }
 };
 
-/// Receives variables of the table that have as many rows, and their contents, which are made
-/// together: a file that is written, or a check of one that is there.
+/// Receives variables of the table with the same number of rows, and their contents, which are
+/// computed together. It writes them to a file, or compares them with a file.
 using MpasSink = std::function<void(const std::vector<std::string>& names,
                                     const NetcdfWriter::GroupFill& contents)>;
 
@@ -56,15 +57,15 @@ inline void put(const MpasSink& sink, const std::string& name,
                           double* const* doubles) { contents(begin, end, doubles[0]); });
 }
 
-/// Those that have a function for their values. The mesh must outlive the sink's use of them.
+/// Puts the variables that the table has a function for. The mesh must outlive its use by the sink.
 void put_values(const MpasSink& sink, const MpasMesh& mesh);
 
-/// All that follow from a whole mesh. The same.
+/// Puts all variables that follow from a whole mesh. The mesh must outlive its use by the sink.
 /// \param order of verticesOnCell.
 void put_variables(const MpasSink& sink, const MpasMesh& mesh, VertexOrder order);
 
-/// A file with the attributes of its kind and those that tell of the mesh. Its variables are rows
-/// of the table of MPAS's variables.
+/// An MPAS file with the attributes of its kind and of the mesh. Its variables are rows of the
+/// table of MPAS variables.
 class MpasFile : public NetcdfGridFile {
 public:
   /// \throws Error file.
@@ -74,7 +75,7 @@ public:
   int id_of(MpasDimension dimension) const { return ids_.at(dimension); }
 
   Announced announced(const std::string& name) const;
-  /// Announces what it receives. The file must outlive it.
+  /// Declares the variables that it receives. The file must outlive it.
   MpasSink sink();
   VertexOrder vertex_order() const { return vertex_order_; }
 
@@ -83,36 +84,39 @@ private:
   VertexOrder vertex_order_;
 };
 
-/// 16 hexadecimal digits that differ where meshes do.
+/// 16 hexadecimal digits that differ between different meshes.
 std::string fingerprint(const MpasMesh& mesh);
 
-/// The same for a part of a mesh. \param kept 0-based ids of its cells. \param parent of the mesh.
+/// The same for a part of a mesh.
+/// \param kept 0-based ids of its cells.
+/// \param parent fingerprint of the mesh.
 std::string fingerprint(const Array<std::int32_t>& kept, const std::string& parent);
 
 /// NAME.graph.info for NAME.nc.
 std::string graph_path(const std::string& path);
 
-/// The text of a graph.info file, as METIS reads it: the numbers of cells and of edges, then a
-/// line of each cell's neighbours, 1-based. It comes in pieces.
+/// Puts the text of a graph.info file for METIS: the numbers of cells and edges, then a line for
+/// each cell with its neighbours, 1-based. The text comes in pieces.
 void put_graph(const Sink& sink, const Voronoi& voronoi);
-/// The same. \param cells_on_cell -1 for a missing neighbour.
+/// The same.
+/// \param cells_on_cell -1 for a missing neighbour.
 void put_graph(const Sink& sink, const IdLists& cells_on_cell, std::int64_t edges);
 
 // ---- Whole files. \throws Error invalid_argument, file.
 
 /// The mesh is consumed: its arrays are reused, and freed after their last use.
 void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options);
-/// A whole tessellation, which may be open. \param places of its cells: radius times the unit
-/// vectors; in a plane 3 x 0.
-void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
+/// Writes a whole tessellation, which may be open.
+/// \param points generators: radius times unit vectors; 3 x 0 in a plane.
+void write_mpas(const std::string& path, Voronoi voronoi, Points3 points,
                 const WriteOptions& options);
 void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options);
 
-/// Whether an open file is of MPAS.
+/// Whether an open file is an MPAS file.
 bool is_mpas(const NetcdfReader& file);
-/// \pre it is. \throws Error parse, file.
+/// \pre is_mpas(file). \throws Error parse, file.
 RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
-Points3 read_mpas_sites(const NetcdfReader& file); ///< without a look at the triangles
+Points3 read_mpas_sites(const NetcdfReader& file); ///< does not read the triangles
 bool is_planar_mpas(const NetcdfReader& file);
 
 } // namespace calotte::io_detail

@@ -20,13 +20,13 @@ std::int64_t value_bytes(const NetcdfReader& file, int variable) {
   return size_of(*file.variables()[static_cast<std::size_t>(variable)].type);
 }
 
-/// Rows of new 1-based ids of a variable of the source, one at a time.
+/// Reads rows of a variable of the source, one at a time, as new 1-based ids.
 class IdRows {
 public:
   IdRows(const MpasSource& source, const NetcdfSubset& subset, const std::string& variable,
          const Kept& kept)
       : file_(source.netcdf()), kept_(kept), variable_(file_.find(variable)),
-        renumber_(subset.changes.at(variable).front()), width_(width_of(file_, variable_)),
+        renumber_(subset.changes.at(variable).front()), width_(row_width(file_, variable_)),
         size_(value_bytes(file_, variable_)) {}
 
   std::int64_t width() const { return width_; }
@@ -56,7 +56,7 @@ template <class T> T value_at(const char* bytes) {
   return value;
 }
 
-/// change(value) in place of a value of floats or doubles.
+/// Replaces a value of floats or doubles by change(value).
 template <class Change> void change_value(char* bytes, std::int64_t size, const Change& change) {
   if (size == 4) {
     const auto value = static_cast<float>(change(value_at<float>(bytes)));
@@ -78,7 +78,7 @@ void add_row_change(const MpasSource& source, const std::string& variable, Netcd
   const std::optional<NetcdfType> type = file.variables()[static_cast<std::size_t>(v)].type;
   if (type != NetcdfType::float32 && type != NetcdfType::float64)
     file.fail("{} does not hold floating-point numbers; make the file again", variable);
-  const std::int64_t size = size_of(*type), row_bytes = width_of(file, v) * size;
+  const std::int64_t size = size_of(*type), row_bytes = row_width(file, v) * size;
   subset.changes[variable].push_back([=](std::int64_t begin, std::int64_t end, char* bytes) {
     for (std::int64_t row = begin; row < end; ++row, bytes += row_bytes)
       change(row, bytes, size);
@@ -99,7 +99,7 @@ void exchange_pairs(const MpasSource& source, const std::string& variable,
       });
 }
 
-/// Pairs change places, and what depends on the normal turns with it.
+/// Exchanges pairs, and reverses what depends on the normal.
 void add_reversal(const MpasSource& source, const MpasVariable& variable,
                   const ReversedEdges& reversed, NetcdfSubset& subset) {
   const auto is_reversed = [&reversed](std::int64_t e) {
@@ -123,7 +123,7 @@ void add_reversal(const MpasSource& source, const MpasVariable& variable,
                    });
 }
 
-/// By kept edge: 1 if a cell there has or may have a reversed edge.
+/// By kept edge: 1 if one of its cells has or may have a reversed edge.
 std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdges& reversed) {
   std::vector<std::uint8_t> near(reversed.size(), 0);
   for (std::int64_t i = 0; i < part.cells.count(); ++i) {
@@ -134,12 +134,13 @@ std::vector<std::uint8_t> near_reversed(const MpasPart& part, const ReversedEdge
         near[static_cast<std::size_t>(e)] = 1;
   }
   for (std::size_t e = 0; e < near.size(); ++e)
-    if (part.cells_at_edge[e] < 2) // the other cell is left out, but not all of its edges
+    if (part.cells_at_edge[e] < 2) // the other cell is removed, but not all of its edges
       near[e] = 1;
   return near;
 }
 
-/// A weight leads from the normal velocity of one edge to the tangential one of another.
+/// Reverses signs of weights. A weight relates the normal velocity of one edge to the tangential
+/// velocity of another.
 void add_weights(const MpasSource& source, const MpasPart& part, const ReversedEdges& reversed,
                  NetcdfSubset& subset) {
   if (source.netcdf().find(mpas::edges_on_edge) < 0 ||

@@ -14,8 +14,8 @@ using ReversedEdges = std::vector<std::uint8_t>;
 /// \throws Error parse, for a source without cellsOnEdge.
 ReversedEdges reversed_edges(const MpasSource& source, const MpasPart& part);
 
-/// Adds what becomes of variables at edges that are reversed, and of kites of cells that are left
-/// out. The result refers to all arguments.
+/// Adds the changes of variables at reversed edges, and of kites of removed cells. The result
+/// refers to all arguments.
 void add_reversals(const MpasSource& source, const MpasPart& part, const ReversedEdges& reversed,
                    NetcdfSubset& subset);
 void add_kites(const MpasSource& source, const MpasPart& part, NetcdfSubset& subset);

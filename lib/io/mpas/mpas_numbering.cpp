@@ -15,9 +15,10 @@ Array<std::int32_t> unknown_ids(std::int64_t count) {
   return ids;
 }
 
-/// The columns of ids in which a cell is the lowest follow each other: where they start.
+/// The first column in which each cell is the lowest. Such columns are consecutive.
 /// \pre columns start with their lowest cell, and are sorted.
-template <class Columns> Array<std::int32_t> starts_of(const Columns& columns, std::int64_t cells) {
+template <class Columns>
+Array<std::int32_t> find_starts(const Columns& columns, std::int64_t cells) {
   Array<std::int32_t> start(cells + 1);
   std::int32_t column = 0;
   for (std::int32_t cell = 0; cell < cells; ++cell) {
@@ -33,11 +34,11 @@ bool are_cells(const std::int32_t* ids, int count, std::int64_t cells) {
   return std::all_of(ids, ids + count, [=](std::int32_t id) { return 1 <= id && id <= cells; });
 }
 
-/// The tessellation's vertices and edges by their cells.
+/// Finds vertices and edges of the tessellation by their cells.
 struct Finder {
   const Voronoi& voronoi;
-  Array<std::int32_t> triangles = starts_of(voronoi.cells_on_vertex, voronoi.cells.cols());
-  Array<std::int32_t> edges = starts_of(voronoi.cells_on_edge, voronoi.cells.cols());
+  Array<std::int32_t> triangles = find_starts(voronoi.cells_on_vertex, voronoi.cells.cols());
+  Array<std::int32_t> edges = find_starts(voronoi.cells_on_edge, voronoi.cells.cols());
 
   /// The vertex of three cells, of which the first is the lowest; -1 if there is none.
   std::int32_t vertex(std::int32_t a, std::int32_t b, std::int32_t c) const {
@@ -92,7 +93,7 @@ void number_vertices(const Finder& finder, Deviations& deviations, MpasNumbering
 
 // ---- Edges
 
-/// The edges of the file, without regard to those that occur twice.
+/// Finds the edges of the file; edges that occur twice count twice.
 Differences find_edges(const Finder& finder, const Deviations& deviations,
                        Array<std::int32_t>& edge) {
   return deviations.visit_rows<std::int32_t>(
@@ -102,13 +103,14 @@ Differences find_edges(const Finder& finder, const Deviations& deviations,
         edge[row] = cells ? finder.edge(ids[0] - 1, ids[1] - 1) : -1;
         if (edge[row] < 0)
           differences.note(2 * row, ids[0], 0, 1);
-        else // the sign tells the order to the caller
+        else // a negative sign marks a reversed edge for the caller
           edge[row] = ids[0] < ids[1] ? edge[row] : -2 - edge[row];
       });
 }
 
-/// Serial, so that the first of two equal edges counts.
-Differences place_edges(const Voronoi& voronoi, MpasNumbering& out) {
+/// Sets the edges of the tessellation by those of the file. Serial, so that the first of two equal
+/// edges counts.
+Differences invert_edges(const Voronoi& voronoi, MpasNumbering& out) {
   Differences twice;
   for (std::int64_t row = 0; row < out.edge.size(); ++row) {
     if (out.edge[row] == -1)
@@ -129,7 +131,7 @@ Differences place_edges(const Voronoi& voronoi, MpasNumbering& out) {
 
 void number_edges(const Finder& finder, Deviations& deviations, MpasNumbering& out) {
   Differences differences = find_edges(finder, deviations, out.edge);
-  differences.take(place_edges(finder.voronoi, out));
+  differences.take(invert_edges(finder.voronoi, out));
   deviations.add(mpas::cells_on_edge, differences, mpas_variable(mpas::cells_on_edge).rule);
 }
 
@@ -143,7 +145,7 @@ bool is_whole(const std::string& dimension, std::int64_t size, Deviations& devia
 
 } // namespace
 
-MpasNumbering numbering_of(const Voronoi& voronoi, Deviations& deviations) {
+MpasNumbering find_numbering(const Voronoi& voronoi, Deviations& deviations) {
   const std::int64_t vertices = voronoi.cells_on_vertex.cols(),
                      edges = voronoi.cells_on_edge.cols();
   const Finder finder{voronoi};

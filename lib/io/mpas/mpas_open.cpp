@@ -31,7 +31,7 @@ bool read_table(const std::string& name, std::int64_t rows, std::int64_t width, 
   return true;
 }
 
-/// A law of the rows of a variable.
+/// Checks a law of the rows of a variable. \returns whether all rows keep it.
 template <class VerdictAt>
 bool check_law(const std::string& variable, std::int64_t rows, const std::string& problem,
                const VerdictAt& verdict_at, Deviations& deviations) {
@@ -46,7 +46,7 @@ bool check_law(const std::string& variable, std::int64_t rows, const std::string
 
 // ---- Edges and vertices
 
-/// Whether b follows a, counter-clockwise around a vertex that has all three cells.
+/// Whether b follows a counter-clockwise around a vertex with three cells.
 bool follows(const IdTable& cells, std::int64_t vertex, std::int32_t a, std::int32_t b) {
   for (int j = 0; j < 3; ++j)
     if (cells.at(vertex, j) == a)
@@ -54,7 +54,8 @@ bool follows(const IdTable& cells, std::int64_t vertex, std::int32_t a, std::int
   return false;
 }
 
-/// Whether a vertex has both cells of an edge, `a` followed by `b` where that can be told.
+/// Whether a vertex has both cells of an edge; `b` must follow `a`, unless a cell of the vertex is
+/// missing.
 bool has_cells(const OpenLists& lists, std::int32_t vertex, std::int32_t a, std::int32_t b) {
   const IdTable& cells = lists.cells_on_vertex;
   if (vertex < 0)
@@ -72,7 +73,7 @@ Verdict edge_verdict(const OpenLists& lists, std::int64_t e) {
   return verdict_of(right != left && has_cells(lists, right, b, a) && has_cells(lists, left, a, b));
 }
 
-/// The edges j at a vertex end there; those of a complete vertex enclose its cells.
+/// Checks the edges at a vertex: they end there, and those of a complete vertex enclose its cells.
 Verdict vertex_verdict(const OpenLists& lists, std::int64_t v) {
   const bool complete = !lists.cells_on_vertex.has(v, -1);
   for (int j = 0; j < 3; ++j) {
@@ -108,7 +109,7 @@ bool check_edges(const OpenLists& lists, Deviations& deviations) {
 
 // ---- Cells
 
-/// The number of edges that name each cell.
+/// Counts the edges that name each cell.
 std::vector<std::int32_t> edges_by_cell(const OpenLists& lists) {
   std::vector<std::int32_t> count(static_cast<std::size_t>(lists.cells));
   for (const std::int32_t cell : lists.cells_on_edge.ids)
@@ -128,7 +129,7 @@ Verdict padded(const IdTable& table, std::int64_t row, std::int64_t count) {
   return Verdict::keeps;
 }
 
-/// holds(k, edge) for each edge of a cell, and padding after the last.
+/// Checks holds(k, edge) for each edge of a cell, and the padding after the last one.
 template <class Holds>
 Verdict cell_verdict(const OpenLists& lists, const IdTable& table, std::int64_t i,
                      const Holds& holds) {
@@ -150,7 +151,7 @@ Verdict edges_verdict(const OpenLists& lists, std::int64_t i) {
   });
 }
 
-/// Edge k runs, seen from its first cell, from vertex k - 1 to vertex k.
+/// Checks vertices: seen from its first cell, edge k leads from vertex k - 1 to vertex k.
 Verdict corners_verdict(const OpenLists& lists, std::int64_t i) {
   const std::int64_t count = lists.edge_count[static_cast<std::size_t>(i)];
   return cell_verdict(lists, lists.vertices_on_cell, i, [&](std::int64_t k, std::int32_t e) {
@@ -219,7 +220,7 @@ bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviation
       !deviations.has(mpas::n_edges_on_cell, {cells}))
     return false;
   lists.edge_count = file.ints(mpas::n_edges_on_cell, {cells});
-  if (vertex_order_of(file) == VertexOrder::before_edges)
+  if (read_vertex_order(file) == VertexOrder::before_edges)
     put_vertices_after_edges(lists);
   return true;
 }

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-/// Open MPAS meshes, of which cells are missing.
+/// Open MPAS meshes, in which cells are missing.
 namespace calotte::io_detail {
 
-/// The lists of an MPAS file. Vertices of cells have the order of MPAS-Tools, also where the file
-/// has the other.
+/// The lists of an MPAS file. Vertices of cells are in the order of MPAS-Tools, whatever the order
+/// in the file.
 struct OpenLists {
   std::int64_t cells = 0;
   IdTable cells_on_vertex, edges_on_vertex, cells_on_edge, vertices_on_edge, edges_on_cell,
@@ -27,8 +27,8 @@ struct OpenLists {
 /// Reads the lists. Adds a deviation for ids out of range. \returns whether all lists are there.
 bool read_open_lists(std::int64_t cells, OpenLists& lists, Deviations& deviations);
 
-/// Adds a deviation for each relation between the lists that does not hold.
-/// \returns whether all hold.
+/// Adds a deviation for each relation between the lists that is violated.
+/// \returns whether none is.
 bool check_open_lists(const OpenLists& lists, Deviations& deviations);
 
 } // namespace calotte::io_detail

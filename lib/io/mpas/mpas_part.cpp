@@ -32,8 +32,9 @@ void require_lists(const NetcdfReader& file) {
       file.fail("it has no dimension {}; make the file again", kind.dimension());
 }
 
-/// \throws Error parse, unless the generators are on the sphere of the attribute.
-double radius_of(const NetcdfReader& file) {
+/// The radius of the sphere.
+/// \throws Error parse, unless the first generator is on the sphere of the attribute.
+double read_radius(const NetcdfReader& file) {
   std::array<double, 3> x{};
   for (std::size_t k = 0; k < 3; ++k)
     file.rows(mpas_cell.axis(k), 0, 1, &x[k]);
@@ -47,16 +48,16 @@ double radius_of(const NetcdfReader& file) {
   return radius;
 }
 
-Points3 read_places(const NetcdfReader& file, const MpasKind& kind, std::int64_t count) {
-  Points3 places(3, count);
+Points3 read_points(const NetcdfReader& file, const MpasKind& kind, std::int64_t count) {
+  Points3 points(3, count);
   for (int row = 0; row < 3; ++row) {
     const std::vector<double> values = file.doubles(kind.axis(row), {count});
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
+    points.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
   }
-  return places;
+  return points;
 }
 
-/// Throws unless edge k of each cell lies between vertices k - 1 and k, also for the other cell.
+/// Throws unless edge k of each cell joins vertices k - 1 and k, and the other cell agrees.
 void require_edges(const NetcdfReader& file, std::int64_t edges, const Voronoi& cells) {
   if (cells.edges_on_cell.items.minCoeff() < 0 || cells.vertices_on_cell.items.minCoeff() < 0)
     file.fail("a cell lacks an edge or a vertex; give a global mesh");
@@ -93,8 +94,9 @@ void take_row(const NetcdfReader& file, const std::string& variable, std::int64_
   }
 }
 
-/// The things that the lists of kept cells name.
-Kept named(const Ids& ids, std::int64_t bound, std::vector<std::uint8_t>& cells_at) {
+/// Keeps the edges, or vertices, that the lists of kept cells name.
+/// \param cells_at receives the number of kept cells at each.
+Kept select_named(const Ids& ids, std::int64_t bound, std::vector<std::uint8_t>& cells_at) {
   std::vector<std::int8_t> count(static_cast<std::size_t>(bound), -1);
   for (const std::int32_t id : ids)
     if (id >= 0 && count[static_cast<std::size_t>(id)] < 3)
@@ -108,7 +110,7 @@ Kept named(const Ids& ids, std::int64_t bound, std::vector<std::uint8_t>& cells_
   return kept;
 }
 
-/// New ids in place of those of before.
+/// Replaces old ids by new ones.
 void renumber(const Kept& kept, Ids& ids) {
   for_each_block(ids.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k)
@@ -125,8 +127,8 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
   cells_ = file.dimension(mpas_cell.dimension());
   edges_ = file.dimension(mpas_edge.dimension());
   vertices_ = file.dimension(mpas_vertex.dimension());
-  radius_ = radius_of(file);
-  vertex_order_ = vertex_order_of(file);
+  radius_ = read_radius(file);
+  vertex_order_ = read_vertex_order(file);
   counts_ = file.ints(mpas::n_edges_on_cell, {cells_});
   const std::int64_t width = netcdf_.product(netcdf_.find(mpas::cells_on_cell), 1, 2);
   for (const std::int32_t count : counts_)
@@ -135,9 +137,9 @@ MpasSource::MpasSource(const std::string& path) : netcdf_(path) {
                 count, width);
 }
 
-Points3 MpasSource::places() const { return read_places(netcdf_, mpas_cell, cells_); }
+Points3 MpasSource::generators() const { return read_points(netcdf_, mpas_cell, cells_); }
 
-Points3 MpasSource::vertex_places() const { return read_places(netcdf_, mpas_vertex, vertices_); }
+Points3 MpasSource::vertex_points() const { return read_points(netcdf_, mpas_vertex, vertices_); }
 
 IdLists MpasSource::lists(const std::string& variable, std::int64_t bound) const {
   Kept all{Array<std::int32_t>(cells_), {}};
@@ -164,7 +166,7 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const
   lists.items.resize(lists.begin[kept.count()]);
   for_each_block(kept.count(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
     const std::int64_t values = (last - first) * width, size = size_of(*type);
-    Array<std::int64_t> room(values); // for ids of either size
+    Array<std::int64_t> room(values); // sufficient for ids of 4 or 8 bytes
     auto* const bytes = reinterpret_cast<char*>(room.begin());
     read_kept_rows(netcdf_, v, 0, kept, first, last, bytes);
     swap_big_endian(bytes, values, size, bytes);
@@ -183,13 +185,13 @@ IdLists MpasSource::lists(const std::string& variable, std::int64_t bound, const
   return lists;
 }
 
-Voronoi tessellation_of(const MpasSource& source) {
+Voronoi read_tessellation(const MpasSource& source) {
   Voronoi cells;
-  cells.cells = source.places();
-  cells.vertices = source.vertex_places();
-  for (Points3* places : {&cells.cells, &cells.vertices})
-    for (auto place : places->colwise())
-      place /= place.norm();
+  cells.cells = source.generators();
+  cells.vertices = source.vertex_points();
+  for (Points3* points : {&cells.cells, &cells.vertices})
+    for (auto point : points->colwise())
+      point /= point.norm();
   cells.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges());
   cells.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices());
   cells.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells());
@@ -197,14 +199,15 @@ Voronoi tessellation_of(const MpasSource& source) {
   return cells;
 }
 
-MpasPart part_of(const MpasSource& source, const Ids& keep) {
+MpasPart select_part(const MpasSource& source, const Ids& keep) {
   MpasPart part;
   part.cells = select_kept(keep);
   part.edges_on_cell = source.lists(mpas::edges_on_cell, source.edges(), part.cells);
   part.vertices_on_cell = source.lists(mpas::vertices_on_cell, source.vertices(), part.cells);
   part.cells_on_cell = source.lists(mpas::cells_on_cell, source.cells(), part.cells);
-  part.edges = named(part.edges_on_cell.items, source.edges(), part.cells_at_edge);
-  part.vertices = named(part.vertices_on_cell.items, source.vertices(), part.cells_at_vertex);
+  part.edges = select_named(part.edges_on_cell.items, source.edges(), part.cells_at_edge);
+  part.vertices =
+      select_named(part.vertices_on_cell.items, source.vertices(), part.cells_at_vertex);
   renumber(part.edges, part.edges_on_cell.items);
   renumber(part.vertices, part.vertices_on_cell.items);
   renumber(part.cells, part.cells_on_cell.items);

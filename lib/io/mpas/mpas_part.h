@@ -16,11 +16,11 @@
 /// MPAS files, and parts of their meshes.
 namespace calotte::io_detail {
 
-/// A file with the lists that tell which edges and vertices its cells have.
+/// An MPAS file with lists of the edges and vertices of its cells.
 class MpasSource {
 public:
-  /// \throws Error file; parse; invalid_argument for a file that holds no mesh of the sphere, or
-  ///         one without these lists.
+  /// \throws Error file; parse; invalid_argument for a file without a mesh of the sphere, or
+  /// without these lists.
   explicit MpasSource(const std::string& path);
 
   const NetcdfReader& netcdf() const { return netcdf_; }
@@ -34,12 +34,12 @@ public:
     return counts_[static_cast<std::size_t>(cell)];
   }
 
-  Points3 places() const; ///< 3 x n, of the generators, as the file has them
-  Points3 vertex_places() const;
+  Points3 generators() const; ///< 3 x n, as in the file
+  Points3 vertex_points() const;
 
-  /// A variable with a list of ids for each cell, or for each of the given ones: 0-based, -1 for a
-  /// missing one. Vertices have the order of MPAS-Tools.
-  /// \param bound number of things that ids stand for.
+  /// Reads a variable with a list of ids for each cell, or for each kept cell: 0-based, -1 for a
+  /// missing one. Vertices are in the order of MPAS-Tools.
+  /// \param bound upper bound of the ids, excluded.
   IdLists lists(const std::string& variable, std::int64_t bound) const;
   IdLists lists(const std::string& variable, std::int64_t bound, const Kept& kept) const;
 
@@ -51,22 +51,22 @@ private:
   std::vector<std::int32_t> counts_; ///< nEdgesOnCell
 };
 
-/// The cells as polygons: places, vertices and the lists of the cells.
-/// \throws Error parse, for an incomplete cell, and for lists of a cell that do not correspond.
-Voronoi tessellation_of(const MpasSource& source);
+/// Reads the cells as polygons: generators, vertices and the lists of the cells.
+/// \throws Error parse, for an incomplete cell, and for lists of a cell that contradict each other.
+Voronoi read_tessellation(const MpasSource& source);
 
 /// The part of a mesh that is kept.
 struct MpasPart {
   Kept cells, edges, vertices;
   /// By kept edge and vertex: the number of kept cells there.
   std::vector<std::uint8_t> cells_at_edge, cells_at_vertex;
-  /// Of the kept cells; ids are the new ones, 0-based, -1 for a cell that is left out.
+  /// Lists of the kept cells with new 0-based ids; -1 for a cell that is not kept.
   IdLists edges_on_cell, vertices_on_cell, cells_on_cell;
 };
 
-/// The kept cells with all edges and vertices that touch one.
+/// Selects the kept cells and all their edges and vertices.
 /// \param keep by cell: >= 0 if it is kept.
 /// \throws Error parse, for ids out of range.
-MpasPart part_of(const MpasSource& source, const Ids& keep);
+MpasPart select_part(const MpasSource& source, const Ids& keep);
 
 } // namespace calotte::io_detail

@@ -25,24 +25,27 @@
 namespace calotte::io_detail {
 namespace {
 
-/// One row of coordinates a call, which all have the same length. \param kind of places.
+/// Reads the coordinates of cells, edges or vertices, one row at a time. All rows must have the
+/// same length.
 Points3 read_coordinates(const NetcdfReader& file, const MpasKind& kind) {
-  Points3 places;
+  Points3 points;
   for (int row = 0; row < 3; ++row) {
     const std::string name = kind.axis(row);
     const std::vector<double> values =
-        file.doubles(name, {row == 0 ? std::int64_t{-1} : std::int64_t{places.cols()}});
+        file.doubles(name, {row == 0 ? std::int64_t{-1} : std::int64_t{points.cols()}});
     if (row == 0)
-      places.resize(3, std::ssize(values));
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), std::ssize(values));
+      points.resize(3, std::ssize(values));
+    points.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), std::ssize(values));
   }
-  return places;
+  return points;
 }
 
-/// 0-based, -1 for the 0 of a missing one. \throws Error parse, for other ids.
-std::vector<std::int32_t> ids_of(const NetcdfReader& file, const std::string& variable,
-                                 const std::vector<std::int64_t>& shape, const std::string& row,
-                                 std::int64_t width, const std::string& thing, std::int64_t count) {
+/// Reads ids and converts them to 0-based ones, -1 for a missing one.
+/// \throws Error parse, for ids out of range.
+std::vector<std::int32_t> read_ids(const NetcdfReader& file, const std::string& variable,
+                                   const std::vector<std::int64_t>& shape, const std::string& row,
+                                   std::int64_t width, const std::string& thing,
+                                   std::int64_t count) {
   std::vector<std::int32_t> ids = file.ints(variable, shape);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k] < 0 || ids[k] > count)
@@ -62,7 +65,7 @@ struct CompleteVertices {
 
 CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells) {
   const std::vector<std::int32_t> ids =
-      ids_of(file, mpas::cells_on_vertex, {-1, 3}, "vertex", 3, "cell", cells);
+      read_ids(file, mpas::cells_on_vertex, {-1, 3}, "vertex", 3, "cell", cells);
   const Eigen::Map<const Triangles> around(ids.data(), 3, std::ssize(ids) / 3);
   CompleteVertices complete{Triangles(3, around.cols()), {}, true};
   for (std::int32_t v = 0; v < around.cols(); ++v)
@@ -76,19 +79,19 @@ CompleteVertices complete_vertices(const NetcdfReader& file, std::int64_t cells)
 }
 
 /// Whether each vertex is the circumcentre of its cells: within a millionth of the mean cell width,
-/// or of the circumcentre's distance from the cells, whichever is larger.
+/// or of the distance of the circumcentre from the cells, whichever is larger.
 bool are_cell_corners(const Points3& sites, const Triangles& triangles, const Points3& vertices) {
   return are_circumcentres(sites, triangles, vertices,
                            corner_tolerance(mean_width(sites.cols()), 0), 1e-6);
 }
 
-/// The cells as the file has them. A cell with a missing vertex has none here.
-Polygons cells_of(const NetcdfReader& file, Points3 sites, Points3 vertices) {
+/// Reads the cells. A cell with a missing vertex gets no vertices.
+Polygons read_polygons(const NetcdfReader& file, Points3 sites, Points3 vertices) {
   const std::int64_t cells = sites.cols();
   const std::vector<std::int32_t> counts = file.ints(mpas::n_edges_on_cell, {cells});
   const std::int64_t width = file.shape_of(mpas::vertices_on_cell).back();
   const std::vector<std::int32_t> rows =
-      ids_of(file, mpas::vertices_on_cell, {cells, -1}, "cell", width, "vertex", vertices.cols());
+      read_ids(file, mpas::vertices_on_cell, {cells, -1}, "cell", width, "vertex", vertices.cols());
   Polygons polygons{std::move(vertices), {Offsets(cells + 1), {}}, std::move(sites)};
   std::vector<std::int32_t> ids;
   for (std::int64_t i = 0; i < cells; ++i) {
@@ -115,7 +118,7 @@ void select_vertices(std::vector<MeshField>& fields, const std::vector<std::int3
 }
 
 /// The periods; 0 in the direction in which a channel has walls.
-Eigen::Vector2d periods_of(const NetcdfReader& file) {
+Eigen::Vector2d read_periods(const NetcdfReader& file) {
   const Eigen::Vector2d period(file.number("", "x_period", 0), file.number("", "y_period", 0));
   if (!period.allFinite() || period.minCoeff() < 0 || period.maxCoeff() == 0)
     file.fail("neither x_period nor y_period is positive, or one is negative; a plane has a "
@@ -123,11 +126,11 @@ Eigen::Vector2d periods_of(const NetcdfReader& file) {
   return period;
 }
 
-/// Rows x and y into [0, period); what is there keeps its bits.
-void wrap(Points3& places, const Eigen::Vector2d& period) {
+/// Maps x and y into [0, period). Values in that range keep their bits.
+void wrap(Points3& points, const Eigen::Vector2d& period) {
   const Plane plane(period);
-  for (Eigen::Index i = 0; i < places.cols(); ++i)
-    set_column(places, i, plane.wrapped(column(places, i)));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    set_column(points, i, plane.wrapped(column(points, i)));
 }
 
 bool has_edge_fields(const RawMesh& raw) {
@@ -135,13 +138,13 @@ bool has_edge_fields(const RawMesh& raw) {
                      [](const MeshField& field) { return field.location == FieldLocation::edges; });
 }
 
-/// The cells of the edges, which fields need that are at edges.
+/// Reads the cells of the edges, if there are fields at edges.
 void read_edges(const NetcdfReader& file, std::int64_t cells, RawMesh& raw) {
   if (!has_edge_fields(raw) || !file.has_variable(mpas::cells_on_edge))
     return;
   const std::vector<std::int32_t> ids =
-      ids_of(file, mpas::cells_on_edge, {file.dimension(mpas_edge.dimension()), 2}, "edge", 2,
-             "cell", cells);
+      read_ids(file, mpas::cells_on_edge, {file.dimension(mpas_edge.dimension()), 2}, "edge", 2,
+               "cell", cells);
   raw.edges = Eigen::Map<const Pairs>(ids.data(), 2, std::ssize(ids) / 2);
 }
 
@@ -156,22 +159,23 @@ void read_density_and_fields(const NetcdfReader& file, std::int64_t cells, Field
   }
 }
 
-bool holds_cells(const NetcdfReader& file) {
+bool has_polygons(const NetcdfReader& file) {
   return file.has_variable(mpas::vertices_on_cell) && file.has_variable(mpas::n_edges_on_cell) &&
          file.has_variable("xVertex");
 }
 
 Points3 read_finite_coordinates(const NetcdfReader& file, const MpasKind& kind) {
-  Points3 places = read_coordinates(file, kind);
-  if (!places.allFinite())
+  Points3 points = read_coordinates(file, kind);
+  if (!points.allFinite())
     file.fail("a coordinate {} or {} is NaN or infinite; make the file again", kind.axis(0),
               kind.axis(1));
-  places.row(2).setZero();
-  return places;
+  points.row(2).setZero();
+  return points;
 }
 
-/// A channel has vertices without a cell along its walls. MPAS-Tools makes it of a plane that is
-/// periodic in both directions, with rows of cells that are to be removed.
+/// Requires the vertices without a cell that a channel has along its walls. MPAS-Tools makes a
+/// channel from a plane that is periodic in both directions, whose rows of cells at the walls must
+/// be removed.
 void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool closed) {
   if (closed && period.minCoeff() == 0)
     file.fail("{} is 0, which makes a channel, but cells join its walls; {}",
@@ -183,32 +187,33 @@ void require_walls(const NetcdfReader& file, const Eigen::Vector2d& period, bool
 
 /// The cells of a channel, or of a box with land.
 Polygons cells_between_walls(const NetcdfReader& file, Points3 cells, const Surface& plane) {
-  if (!holds_cells(file))
+  if (!has_polygons(file))
     file.fail("a periodic plane with a boundary, but no cells (nEdgesOnCell, verticesOnCell and "
               "xVertex); make the file again");
   Points3 vertices = read_finite_coordinates(file, mpas_vertex);
   wrap(vertices, plane.period());
-  Polygons polygons = cells_of(file, std::move(cells), std::move(vertices));
+  Polygons polygons = read_polygons(file, std::move(cells), std::move(vertices));
   polygons.surface = plane;
   return polygons;
 }
 
-/// A plane with a boundary. Its triangles do not cover the hull; its vertices are no triangles.
+/// Reads a plane with a boundary. Its triangles do not cover the hull, and its vertices do not
+/// correspond to triangles.
 RawMesh read_bounded_plane(const NetcdfReader& file, FieldChoice choice) {
-  if (!holds_cells(file))
+  if (!has_polygons(file))
     file.fail("a plane without periods, but no cells (nEdgesOnCell, verticesOnCell and xVertex); "
               "make the file again");
   RawMesh raw{
       .points = read_coordinates(file, mpas_cell), .has_cells = true, .surface = Surface::plane()};
   Points3 vertices = read_finite_coordinates(file, mpas_vertex);
   read_density_and_fields(file, raw.points.cols(), choice, raw);
-  raw.polygons = cells_of(file, raw.points, std::move(vertices));
+  raw.polygons = read_polygons(file, raw.points, std::move(vertices));
   raw.polygons.surface = raw.surface;
   return raw;
 }
 
 RawMesh read_periodic_plane(const NetcdfReader& file, FieldChoice choice) {
-  const Eigen::Vector2d period = periods_of(file);
+  const Eigen::Vector2d period = read_periods(file);
   RawMesh raw{.points = read_finite_coordinates(file, mpas_cell),
               .has_cells = true,
               .surface = domain_detail::UncheckedSurface::of_plane({}, period)};
@@ -230,11 +235,11 @@ RawMesh read_sphere(const NetcdfReader& file, FieldChoice choice) {
   const std::int64_t cells = raw.points.cols();
   CompleteVertices complete = complete_vertices(file, cells);
   read_density_and_fields(file, cells, choice, raw);
-  if (holds_cells(file)) {
+  if (has_polygons(file)) {
     const Points3 vertices = read_coordinates(file, mpas_vertex);
     require_directions(file.path() + ": of the vertices", vertices);
     if (!complete.all || !are_cell_corners(raw.points, complete.triangles, vertices))
-      raw.polygons = cells_of(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
+      raw.polygons = read_polygons(file, on_sphere(raw.points, 1), on_sphere(vertices, 1));
   }
   if (!complete.all)
     select_vertices(raw.fields, complete.vertex);
@@ -263,7 +268,7 @@ RawMesh read_mpas(const NetcdfReader& file, FieldChoice choice) {
                 : file.text("", "is_periodic").starts_with("NO")
                     ? read_bounded_plane(file, choice)
                     : read_periodic_plane(file, choice);
-  raw.vertex_order = vertex_order_of(file);
+  raw.vertex_order = read_vertex_order(file);
   return raw;
 }
 

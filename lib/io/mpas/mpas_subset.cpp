@@ -19,7 +19,8 @@ namespace {
 
 // ---- Ids
 
-/// work(values, count) on values of the machine's order in place of those of the file.
+/// Calls work(values, count) on values in the byte order of the machine, and stores the result in
+/// that of the file.
 template <class T, class Work> void on_values(char* bytes, std::int64_t count, const Work& work) {
   Array<T> values(count);
   swap_big_endian(bytes, count, sizeof(T), reinterpret_cast<char*>(values.begin()));
@@ -27,12 +28,12 @@ template <class T, class Work> void on_values(char* bytes, std::int64_t count, c
   to_big_endian(values.begin(), count, bytes);
 }
 
-/// Models write the number after the last for a missing one, others 0.
+/// Whether an id is missing: 0, or as models write it, one more than the last.
 template <class T> bool is_missing(T id, std::int64_t count) { return id == 0 || id == count + 1; }
 
 template <class T>
 ChangeRows renumbering(const NetcdfReader& source, int variable, const Kept& of) {
-  const std::int64_t width = width_of(source, variable), count = of.number.size();
+  const std::int64_t width = row_width(source, variable), count = of.number.size();
   const std::string& name = source.variables()[static_cast<std::size_t>(variable)].name;
   return [&source, &of, &name, width, count](std::int64_t begin, std::int64_t end, char* bytes) {
     on_values<T>(bytes, (end - begin) * width, [&](T* ids, std::int64_t n) {
@@ -47,8 +48,9 @@ ChangeRows renumbering(const NetcdfReader& source, int variable, const Kept& of)
   };
 }
 
+/// Replaces ids by new ones.
 /// \throws Error parse, for a variable that is not of integers.
-ChangeRows renumbering_of(const NetcdfReader& source, int variable, const Kept& of) {
+ChangeRows make_renumbering(const NetcdfReader& source, int variable, const Kept& of) {
   const NetcdfVariable& ids = source.variables()[static_cast<std::size_t>(variable)];
   if (ids.type == NetcdfType::int32)
     return renumbering<std::int32_t>(source, variable, of);
@@ -64,8 +66,8 @@ void require_integers(const NetcdfReader& source, int variable) {
     source.fail("{} does not hold integers; make the file again", name);
 }
 
-/// The file's own numbers from 1 on, of integers of any size.
-ChangeRows numbers_of(const NetcdfReader& source, int variable) {
+/// Replaces numbers by new ones from 1 on, in integers of any size.
+ChangeRows make_numbers(const NetcdfReader& source, int variable) {
   require_integers(source, variable);
   const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
   return [size](std::int64_t begin, std::int64_t end, char* bytes) {
@@ -75,8 +77,8 @@ ChangeRows numbers_of(const NetcdfReader& source, int variable) {
   };
 }
 
-/// 1 at vertices that lack a cell, of integers of any size.
-ChangeRows boundary_of(const NetcdfReader& source, int variable, const MpasPart& part) {
+/// Sets flags, in integers of any size, to 1 at vertices that lack a cell.
+ChangeRows make_boundary_flags(const NetcdfReader& source, int variable, const MpasPart& part) {
   require_integers(source, variable);
   const std::int64_t size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type);
   return [size, &part](std::int64_t begin, std::int64_t end, char* bytes) {
@@ -87,15 +89,15 @@ ChangeRows boundary_of(const NetcdfReader& source, int variable, const MpasPart&
   };
 }
 
-/// Weights of edges that are left out become 0: only edges with one kept cell have such.
-ChangeRows weights_of(const NetcdfReader& source, int variable, const MpasPart& part) {
+/// Sets weights of removed edges to 0. Only edges with one kept cell have such weights.
+ChangeRows make_weight_change(const NetcdfReader& source, int variable, const MpasPart& part) {
   const int ids = source.find(mpas::edges_on_edge);
-  const std::int64_t width = width_of(source, variable),
+  const std::int64_t width = row_width(source, variable),
                      size = size_of(*source.variables()[static_cast<std::size_t>(variable)].type),
                      id_size = size_of(*source.variables()[static_cast<std::size_t>(ids)].type);
-  const ChangeRows renumber = renumbering_of(source, ids, part.edges);
+  const ChangeRows renumber = make_renumbering(source, ids, part.edges);
   return [=, &source, &part](std::int64_t begin, std::int64_t end, char* bytes) {
-    std::string row(static_cast<std::size_t>(width_of(source, ids) * id_size), '\0');
+    std::string row(static_cast<std::size_t>(row_width(source, ids) * id_size), '\0');
     const std::string zero(static_cast<std::size_t>(id_size), '\0');
     for (std::int64_t e = begin; e < end; ++e, bytes += width * size) {
       if (part.cells_at_edge[static_cast<std::size_t>(e)] == 2)
@@ -137,8 +139,8 @@ void add_scaling(const NetcdfReader& source, const std::string& variable, double
   });
 }
 
-/// What the ids of a variable stand for; null for other variables.
-const Kept* things_of(MpasNumbers numbers, const MpasPart& part) {
+/// The kept items that the ids of a variable refer to; null if it has no ids.
+const Kept* kept_items(MpasNumbers numbers, const MpasPart& part) {
   return numbers == MpasNumbers::cells      ? &part.cells
          : numbers == MpasNumbers::edges    ? &part.edges
          : numbers == MpasNumbers::vertices ? &part.vertices
@@ -147,30 +149,31 @@ const Kept* things_of(MpasNumbers numbers, const MpasPart& part) {
 
 } // namespace
 
-std::int64_t width_of(const NetcdfReader& source, int variable) {
+std::int64_t row_width(const NetcdfReader& source, int variable) {
   return source.product(variable, 1,
                         source.variables()[static_cast<std::size_t>(variable)].dimensions.size());
 }
 
-NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part) {
+NetcdfSubset make_subset(const MpasSource& source, const MpasPart& part) {
   const NetcdfReader& file = source.netcdf();
   NetcdfSubset subset;
   subset.kept = {{name_of(MpasDimension::cells), &part.cells},
                  {name_of(MpasDimension::edges), &part.edges},
                  {name_of(MpasDimension::vertices), &part.vertices}};
   for (const MpasVariable& variable : mpas_variables()) {
-    if (const Kept* const ids = things_of(variable.numbers, part))
-      add_change(file, variable.name, subset, [&](int v) { return renumbering_of(file, v, *ids); });
+    if (const Kept* const ids = kept_items(variable.numbers, part))
+      add_change(file, variable.name, subset,
+                 [&](int v) { return make_renumbering(file, v, *ids); });
     else if (variable.numbers == MpasNumbers::own)
-      add_change(file, variable.name, subset, [&](int v) { return numbers_of(file, v); });
+      add_change(file, variable.name, subset, [&](int v) { return make_numbers(file, v); });
     else if (variable.numbers == MpasNumbers::lists_of_ids)
       subset.left_out.push_back(variable.name);
   }
   add_change(file, mpas::boundary_vertex, subset,
-             [&](int v) { return boundary_of(file, v, part); });
+             [&](int v) { return make_boundary_flags(file, v, part); });
   if (file.find(mpas::edges_on_edge) >= 0)
     add_change(file, mpas::weights_on_edge, subset,
-               [&](int v) { return weights_of(file, v, part); });
+               [&](int v) { return make_weight_change(file, v, part); });
   return subset;
 }
 

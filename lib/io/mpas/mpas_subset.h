@@ -10,24 +10,24 @@
 #include <string>
 #include <vector>
 
-/// MPAS files of which cells are left out.
+/// MPAS files without some of their cells.
 namespace calotte::io_detail {
 
-/// What becomes of the variables of a file that holds the part: ids are numbered anew, 0 for what
-/// is left out, and weights of edges that are left out are 0. The result refers to both.
-NetcdfSubset subset_of(const MpasSource& source, const MpasPart& part);
+/// The changes from a file to its part: ids are replaced by new ones, 0 for removed items, and
+/// weights of removed edges are 0. The result refers to both arguments.
+NetcdfSubset make_subset(const MpasSource& source, const MpasPart& part);
 
-/// Values in a row of a variable whose rows are those of its first dimension.
-std::int64_t width_of(const NetcdfReader& source, int variable);
+/// Number of values in a row of a variable, where the first dimension counts the rows.
+std::int64_t row_width(const NetcdfReader& source, int variable);
 
-/// Sets the attributes that say which sphere a file is of.
+/// Sets the attributes that describe the sphere.
 void set_sphere(double radius, NetcdfSubset& subset);
 
-/// Adds what becomes of lengths, areas and what else depends on the radius of the sphere, if they
-/// are to belong to another one.
+/// Converts lengths, areas and all other values that depend on the radius of the sphere to another
+/// radius.
 void add_radius(const MpasSource& source, double radius, NetcdfSubset& subset);
 
-/// Adds the turn of the vertices around cells to another order, if the source has another.
+/// Converts the order of the vertices around cells, if the source has another order.
 void add_vertex_order(const MpasSource& source, const MpasPart& part, VertexOrder order,
                       NetcdfSubset& subset);
 
@@ -36,15 +36,15 @@ void add_vertex_order(const MpasSource& source, const MpasPart& part, VertexOrde
 void add_division(const MpasSource& source, const std::string& variable, double divisor,
                   NetcdfSubset& subset);
 
-/// Adds attributes that say where the file comes from, before those that it has.
+/// Adds attributes that describe the origin of the file, before existing ones.
 /// \param history of the new file; "" for none.
 void add_history(const MpasSource& source, const MpasPart& part, const std::string& history,
                  NetcdfSubset& subset);
 
-/// Writes the file and NAME.graph.info beside it; both are complete or absent.
-/// \param commit_others gives other files, which are finished, their names. It is called when the
-///        two are finished, before these get theirs.
-/// \returns the variables of the source that it does not have.
+/// Writes the file and NAME.graph.info beside it. Both are complete or absent.
+/// \param commit_others renames other files that are finished. It is called when these two are
+///        finished, before they are renamed.
+/// \returns the variables of the source that the file does not have.
 /// \throws Error as put_subset(); cancelled.
 std::vector<std::string> write_part(const MpasSource& source, const MpasPart& part,
                                     const NetcdfSubset& subset, const std::string& path,

@@ -14,7 +14,7 @@ namespace {
 
 // ---- Values
 
-/// of(voronoi, row) for each row.
+/// Fills in of(voronoi, row) for each row.
 template <auto of>
 void each(const Voronoi& voronoi, std::int64_t begin, std::int64_t end, double* out) {
   for (std::int64_t i = begin; i < end; ++i)
@@ -37,17 +37,17 @@ std::int64_t edge_count(const Voronoi& voronoi, std::int64_t e) {
 using D = MpasDimension;
 using N = MpasNumbers;
 
-void add_places(const MpasKind& kind, std::vector<MpasVariable>& table) {
+void add_coordinates(const MpasKind& kind, std::vector<MpasVariable>& table) {
   table.push_back({.name = kind.latitude(),
                    .rows = kind.rows,
                    .units = "radians",
-                   .long_name = "latitude of " + kind.place,
+                   .long_name = "latitude of " + kind.subject,
                    .standard_name = "latitude",
                    .rule = "the latitude of x, y and z, in a plane 0"});
   table.push_back({.name = kind.longitude(),
                    .rows = kind.rows,
                    .units = "radians",
-                   .long_name = "longitude of " + kind.place,
+                   .long_name = "longitude of " + kind.subject,
                    .standard_name = "longitude",
                    .rule = "the longitude of x, y and z, in a plane 0"});
   constexpr const char* coordinates[] = {"x coordinate of ", "y coordinate of ",
@@ -57,7 +57,7 @@ void add_places(const MpasKind& kind, std::vector<MpasVariable>& table) {
                      .rows = kind.rows,
                      .numbers = N::length,
                      .units = "m",
-                     .long_name = coordinates[k] + kind.place,
+                     .long_name = coordinates[k] + kind.subject,
                      .rule = kind.rule});
   table.push_back({.name = kind.numbers(),
                    .rows = kind.rows,
@@ -155,7 +155,7 @@ std::vector<MpasVariable> connectivity() {
   };
 }
 
-/// What is computed of places.
+/// Variables that are computed from coordinates.
 std::vector<MpasVariable> measures() {
   return {
       {.name = mpas::weights_on_edge,
@@ -244,7 +244,7 @@ std::vector<MpasVariable> measures() {
   };
 }
 
-/// What the models' own initialisations add.
+/// Variables that the initialisation of models adds.
 std::vector<MpasVariable> additions() {
   return {
       {.name = "defc_a", .numbers = N::per_length, .of_models = true},
@@ -260,9 +260,9 @@ std::vector<MpasVariable> additions() {
 
 std::vector<MpasVariable> make_table() {
   std::vector<MpasVariable> table;
-  add_places(mpas_cell, table);
-  add_places(mpas_edge, table);
-  add_places(mpas_vertex, table);
+  add_coordinates(mpas_cell, table);
+  add_coordinates(mpas_edge, table);
+  add_coordinates(mpas_vertex, table);
   for (const std::vector<MpasVariable>& part : {connectivity(), measures(), additions()})
     table.insert(table.end(), part.begin(), part.end());
   return table;

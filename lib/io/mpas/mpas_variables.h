@@ -10,12 +10,12 @@
 #include <span>
 #include <string>
 
-/// One table of the variables that describe a mesh in MPAS files. Writer, reader, check, cut and
-/// cull take from it what a variable is called, its dimensions, what its numbers are, and the rule
-/// that they keep.
+/// The table of the variables that describe a mesh in MPAS files. Writer, reader, check, cut and
+/// cull take from it the name of a variable, its dimensions, the kind of its numbers, and the rule
+/// for its values.
 namespace calotte::io_detail {
 
-/// Names of variables that code treats each in its own way.
+/// Names of variables that code refers to individually.
 namespace mpas {
 inline constexpr const char* n_edges_on_cell = "nEdgesOnCell";
 inline constexpr const char* edges_on_cell = "edgesOnCell";
@@ -48,13 +48,13 @@ enum class MpasDimension { none, cells, edges, vertices, max_edges, max_edges2, 
 /// "nCells" and so on.
 const char* name_of(MpasDimension dimension);
 
-/// One of the three kinds of places.
+/// The names and texts of the coordinates of cells, edges or vertices.
 struct MpasKind {
   MpasDimension rows;
-  std::string name;  ///< ends the names of its variables
-  std::string word;  ///< for one of it
-  std::string place; ///< where it is
-  std::string rule;  ///< what its coordinates are
+  std::string name;    ///< suffix of the names of its variables
+  std::string word;    ///< noun for one of them
+  std::string subject; ///< noun in the long names of coordinates
+  std::string rule;    ///< rule for the coordinates
 
   std::string dimension() const { return name_of(rows); }
   std::string axis(int k) const { return std::string(1, "xyz"[k]) + name; }
@@ -70,20 +70,20 @@ inline const MpasKind mpas_edge{MpasDimension::edges, "Edge", "edge",
 inline const MpasKind mpas_vertex{MpasDimension::vertices, "Vertex", "vertex", "the vertices",
                                   "the circumcentre of the cells around each vertex"};
 
-/// What the numbers of a variable are. Ids count from 1, and 0 is none.
+/// The kind of numbers in a variable. Ids count from 1; 0 is none.
 enum class MpasNumbers {
-  plain,        ///< they stay as they are
-  length,       ///< times the radius of the sphere
-  area,         ///< times its square
-  per_length,   ///< over the radius
-  per_area,     ///< over its square
+  plain,        ///< independent of the radius
+  length,       ///< proportional to the radius of the sphere
+  area,         ///< proportional to its square
+  per_length,   ///< inversely proportional to the radius
+  per_area,     ///< inversely proportional to its square
   cells,        ///< ids
   edges,        ///< ids
   vertices,     ///< ids
-  own,          ///< of the rows, from 1 on
-  angle,        ///< of an edge's normal, radians
-  normal,       ///< a vector along an edge's normal
-  lists_of_ids, ///< that models make, in a way of their own
+  own,          ///< numbers of the rows, from 1 on
+  angle,        ///< angle of the normal of an edge, radians
+  normal,       ///< vector along the normal of an edge
+  lists_of_ids, ///< lists of ids that models make, in formats of their own
 };
 
 /// A row of the table. A variable without dimensions is one number.
@@ -93,22 +93,23 @@ struct MpasVariable {
   bool integer = false;
   MpasNumbers numbers = MpasNumbers::plain;
   std::string units = "1", long_name = {}, standard_name = {};
-  std::string rule = {}; ///< what the values are, where check compares each with another
-  /// The values of rows begin to end - 1 of a variable of one column, of the unit sphere. Writer
-  /// and check compute them by this function; null for variables that have code of their own.
+  std::string rule = {}; ///< what the values are; only variables that the check compares have one
+  /// The values of rows begin to end - 1 of a variable with one column, on the unit sphere. Writer
+  /// and check compute them by this function. Null for variables with code of their own.
   void (*values)(const Voronoi&, std::int64_t begin, std::int64_t end, double* out) = nullptr;
-  /// Models add it to meshes; it is neither written nor checked, and may be read as a field.
+  /// Models add the variable to meshes. It is neither written nor checked, but may be read as a
+  /// field.
   bool of_models = false;
 };
 
-/// In the order of a file, as far as there is one.
+/// All rows of the table, in the order of variables in a file where that matters.
 std::span<const MpasVariable> mpas_variables();
 /// \pre the table has it.
 const MpasVariable& mpas_variable(const std::string& name);
 
-/// The power of the radius in a variable's values.
+/// The power of the radius to which the values of a variable are proportional.
 int radius_power(const MpasVariable& variable);
-/// What the values of the unit sphere are multiplied by: the radius to that power.
+/// The factor from values on the unit sphere to those in a file: the radius to that power.
 double radius_factor(const MpasVariable& variable, double radius);
 
 /// The dimensions, and the variables that describe a mesh.

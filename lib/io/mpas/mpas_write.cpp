@@ -3,7 +3,7 @@
 #include "io/cells/limited_area_masks.h"
 #include "io/cells/written_fields.h"
 #include "io/mpas/mpas.h"
-#include "io/mpas/mpas_places.h"
+#include "io/mpas/mpas_coordinates.h"
 #include "io/mpas/vertex_order.h"
 
 #include "base/matrix_memory.h"
@@ -38,7 +38,7 @@ void define_full(MpasFile& file, const MpasMesh& mesh) {
 
 // ---- Connectivity
 
-/// 1-based, padded with 0.
+/// Lists of ids, 1-based and padded with 0.
 NetcdfWriter::Fill<std::int32_t> cell_lists(const IdLists& lists, std::int64_t width) {
   return [&lists, width](std::int64_t begin, std::int64_t end, std::int32_t* out) {
     for (std::int64_t i = begin; i < end; ++i) {
@@ -59,7 +59,7 @@ template <class Matrix> NetcdfWriter::Fill<std::int32_t> id_columns(const Matrix
   };
 }
 
-/// As cell_lists() of the vertices, in that order.
+/// The same as cell_lists() for the vertices, in the given order.
 NetcdfWriter::Fill<std::int32_t> vertex_lists(const IdLists& lists, std::int64_t width,
                                               VertexOrder order) {
   const NetcdfWriter::Fill<std::int32_t> after_edges = cell_lists(lists, width);
@@ -122,8 +122,8 @@ void put_nominal_spacing(const MpasSink& sink, const MpasMesh& mesh) {
 
 // ---- Masks of a limited area
 
-/// Those of edges and vertices, if the cells have one. \param names receives theirs: fields of
-/// these names are not written.
+/// Declares the masks of edges and vertices, if the cells have a mask.
+/// \param names receives the names of the masks: fields with these names are not written.
 void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& options,
                     NetcdfMeshNames& names) {
   const Voronoi& voronoi = mesh.voronoi;
@@ -135,7 +135,7 @@ void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& op
                             std::int64_t count) {
     names.variables.insert(mask.name);
     const auto values = std::make_shared<Ids>();
-    file.then([of_cells, values, count, &on_cell] { // of the mesh, which outlives the file
+    file.then([of_cells, values, count, &on_cell] { // the mesh outlives the file
       *values = least_mask(on_cell, *of_cells, count);
     });
     file.ints(mask.name, {file.id_of(dimension)},
@@ -151,7 +151,7 @@ void announce_masks(MpasFile& file, const MpasMesh& mesh, const WriteOptions& op
 // ---- Files
 
 void announce_lists(MpasFile& file, MpasMesh& mesh) {
-  file.then([&mesh] { release(mesh.places); });
+  file.then([&mesh] { release(mesh.points); });
   put_ids(file.sink(), mesh.voronoi, file.vertex_order());
   file.then([&mesh] { release(mesh.voronoi.vertices_on_edge); });
 }
@@ -226,7 +226,8 @@ void write_minimal(const std::string& path, MpasMesh mesh, const WriteOptions& o
 
 using MpasWriter = void (*)(const std::string&, MpasMesh, const WriteOptions&);
 
-/// All is computed from the places as the file holds them, so that its mesh gives the same file.
+/// Computes everything from the coordinates as stored in the file, so that the mesh of the file
+/// gives the same file again.
 void write_mesh(const std::string& path, Mesh mesh, const WriteOptions& options,
                 MpasWriter writer) {
   if (!mesh.surface.is_sphere()) {
@@ -255,10 +256,10 @@ void write_mpas(const std::string& path, Mesh mesh, const WriteOptions& options)
   write_mesh(path, std::move(mesh), options, write_full);
 }
 
-void write_mpas(const std::string& path, Voronoi voronoi, Points3 places,
+void write_mpas(const std::string& path, Voronoi voronoi, Points3 points,
                 const WriteOptions& options) {
   const double radius = voronoi.surface.is_sphere() ? options.sphere_radius : 1;
-  write_full(path, {voronoi, std::move(places), radius}, options);
+  write_full(path, {voronoi, std::move(points), radius}, options);
 }
 
 void write_mpas_minimal(const std::string& path, Mesh mesh, const WriteOptions& options) {

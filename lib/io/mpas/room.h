@@ -3,7 +3,7 @@
 
 #include "io/room.h"
 
-/// MPAS: the variables of its files, written, read, cut, culled and numbered anew.
+/// MPAS: the variables of its files, and how they are written, read, cut, culled and renumbered.
 ///
-/// In: a mesh or a tessellation, or a file of MPAS. Out: the other of both.
+/// In: a mesh or a tessellation, or an MPAS file. Out: the other of the two.
 namespace calotte::io_detail {}

@@ -25,8 +25,8 @@ bool joins(const std::array<std::int32_t, 2>& ends, std::int32_t a, std::int32_t
   return (ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a);
 }
 
-/// Nothing where no edge tells, because ids are missing or no vertices agree.
-std::optional<VertexOrder> order_of(const NetcdfReader& file, const CellRow& cell) {
+/// None if no edge determines the order: ids are missing, or no vertices match.
+std::optional<VertexOrder> find_order(const NetcdfReader& file, const CellRow& cell) {
   const std::int64_t edges = file.dimension(mpas_edge.dimension());
   for (std::int64_t k = 0; k < cell.count; ++k) {
     const std::int32_t e = cell.edges[static_cast<std::size_t>(k)];
@@ -57,7 +57,7 @@ bool has_lists(const NetcdfReader& file) {
 
 } // namespace
 
-VertexOrder vertex_order_of(const NetcdfReader& file) {
+VertexOrder read_vertex_order(const NetcdfReader& file) {
   if (!has_lists(file))
     return VertexOrder::after_edges;
   const std::vector<std::int64_t> shape = file.shape_of(mpas::vertices_on_cell);
@@ -71,7 +71,7 @@ VertexOrder vertex_order_of(const NetcdfReader& file) {
     cell.count = count;
     file.rows(mpas::edges_on_cell, i, 1, cell.edges.data());
     file.rows(mpas::vertices_on_cell, i, 1, cell.vertices.data());
-    if (const std::optional<VertexOrder> order = order_of(file, cell))
+    if (const std::optional<VertexOrder> order = find_order(file, cell))
       return *order;
   }
   return VertexOrder::after_edges;

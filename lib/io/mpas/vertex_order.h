@@ -11,14 +11,15 @@
 
 namespace calotte::io_detail {
 
-/// The order of a file: that of its first cell whose edges and vertices tell it. That of
-/// MPAS-Tools where none does, or where the file lacks a list. \throws Error parse, file.
-VertexOrder vertex_order_of(const NetcdfReader& file);
+/// The order of the vertices of cells in a file, from the first cell whose edges and vertices
+/// determine it. If none does, or if the file lacks a list, the order of MPAS-Tools.
+/// \throws Error parse, file.
+VertexOrder read_vertex_order(const NetcdfReader& file);
 
 /// The long_name of verticesOnCell.
 const char* described(VertexOrder order);
 
-/// Brings the vertices of one cell from the order of MPAS-Tools, which voronoi() has, to that of
+/// Converts the vertices of one cell from the order of MPAS-Tools, as in Voronoi, to that of
 /// MPAS-Atmosphere.
 template <class T> void put_before_edges(std::span<T> vertices) {
   if (!vertices.empty())
