@@ -19,6 +19,7 @@
 
 using namespace calotte;
 using calotte::test::Scratch;
+using io_detail::find_row;
 using io_detail::format_of_name;
 using io_detail::format_table;
 using io_detail::FormatRow;
@@ -26,7 +27,6 @@ using io_detail::mpas_variables;
 using io_detail::MpasDimension;
 using io_detail::MpasVariable;
 using io_detail::NetcdfReader;
-using io_detail::row_of;
 
 TEST_CASE("each format has one row") {
   std::set<Format> seen;
@@ -36,7 +36,7 @@ TEST_CASE("each format has one row") {
     CHECK(seen.insert(row.info.format).second);
     CHECK_FALSE(row.info.names.empty());
     CHECK_FALSE(row.label.empty());
-    CHECK(&row_of(row.info.format) == &row);
+    CHECK(&find_row(row.info.format) == &row);
   }
   // Enumerators count from by_name on, without gaps.
   CHECK(static_cast<int>(*seen.begin()) == static_cast<int>(Format::by_name) + 1);

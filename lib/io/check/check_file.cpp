@@ -21,7 +21,7 @@ template <class File> std::vector<Deviation> deviations_of(const std::string& pa
   if (!is_netcdf(file))
     return {};
   const NetcdfReader stored(path);
-  const FormatRow* const row = row_of(stored);
+  const FormatRow* const row = find_row(stored);
   if (row == nullptr)
     return {};
   Deviations deviations(stored);

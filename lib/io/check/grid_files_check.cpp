@@ -190,7 +190,7 @@ void check_padding(std::int64_t nodes, Deviations& deviations) {
 
 void check_ugrid(const MeshFile& file, Deviations& deviations) {
   const NetcdfReader& stored = deviations.file();
-  const Topology topology = topology_of(stored);
+  const Topology topology = read_topology(stored);
   check_ugrid_attributes(topology, deviations);
   const StoredGrid grid{read_ugrid_faces(stored, topology), topology.face_nodes,
                         topology.nodes[0] + ", " + topology.nodes[1],

@@ -16,9 +16,9 @@
 #include <algorithm>
 #include <type_traits>
 
-// The head, which names format, version and order of bytes; the configuration; the command; the
-// fields of State as they stand, each array after its length as Int64; and the CRC-32 of
-// all that.
+// The format: a head with the name of the format, its version and the byte order; the
+// configuration; the command; the fields of State in a fixed order, each array after its length as
+// Int64; and the CRC-32 of all that.
 
 namespace calotte {
 namespace {
@@ -37,7 +37,7 @@ std::string checkpoint_head() {
   return line;
 }
 
-/// One list of fields serves writing and reading.
+/// Visits the fields of an iteration, for writing and for reading.
 template <class Iteration, class Visit> void visit_iteration(Iteration& i, const Visit& visit) {
   visit(i.cells), visit(i.spacing), visit(i.rule), visit(i.linear_density), visit(i.l2),
       visit(i.linf), visit(i.gradient), visit(i.energy), visit(i.shape_excess),
@@ -79,7 +79,7 @@ template <class State, class Visit> void visit_arrays(State& s, const Visit& vis
 
 // ---- Writing
 
-/// Puts an array after its length.
+/// Writes an array after its length.
 struct Put {
   Writer* out;
   void operator()(const Points3& points) const {
@@ -123,7 +123,7 @@ void put_checkpoint(const Sink& sink, const State& state, const std::string& con
 
 // ---- Reading
 
-/// Takes the next value of its own type.
+/// Reads the next value of its own type.
 struct Take {
   Bytes* bytes;
   template <class T> void operator()(T& value) const {
@@ -143,7 +143,7 @@ std::int64_t take_count(Bytes& bytes) {
   return count;
 }
 
-/// Takes an array with its length.
+/// Reads an array and its length.
 struct TakeArray {
   Bytes* bytes;
   void operator()(Points3& points) const { take_columns(points); }
@@ -162,7 +162,7 @@ struct TakeArray {
   }
 
 private:
-  /// The columns of a matrix of three rows, after their number.
+  /// Reads a matrix of three rows and, before it, the number of its columns.
   template <class Matrix> void take_columns(Matrix& matrix) const {
     const std::int64_t count = take_count(*bytes);
     const std::string_view raw =
@@ -189,8 +189,8 @@ State take_state(Bytes& bytes) {
   return state;
 }
 
-/// What stands after the head. \throws Error parse.
-std::string_view after_head(const std::string& path, std::string_view content) {
+/// The content after the head. \throws Error parse.
+std::string_view skip_head(const std::string& path, std::string_view content) {
   const Bytes bytes(content, path);
   const std::string expected = checkpoint_head();
   const std::string_view start = content.substr(0, expected.size());
@@ -205,9 +205,9 @@ std::string_view after_head(const std::string& path, std::string_view content) {
   return content.substr(expected.size());
 }
 
-/// What stands between head and checksum. \throws Error parse.
-std::string_view body_of(const std::string& path, std::string_view content) {
-  const std::string_view body = after_head(path, content);
+/// The content between head and checksum. \throws Error parse.
+std::string_view find_body(const std::string& path, std::string_view content) {
+  const std::string_view body = skip_head(path, content);
   boost::crc_32_type checksum;
   constexpr std::size_t size = sizeof checksum.checksum();
   const std::size_t checked = body.size() < size ? 0 : content.size() - size;
@@ -218,7 +218,7 @@ std::string_view body_of(const std::string& path, std::string_view content) {
   return body.substr(0, body.size() - size);
 }
 
-/// The next line, taken off the text.
+/// Removes the next line from the text and returns it.
 std::string take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string line(text.substr(0, end));
@@ -259,7 +259,7 @@ void write_checkpoint(const std::string& path, const CvtState& state,
 CvtState read_checkpoint(const std::string& path, const std::string& configuration) {
   std::ifstream in = open_input(path);
   const std::string content = read_all(in, path);
-  Bytes bytes(body_of(path, content), path);
+  Bytes bytes(find_body(path, content), path);
   const std::int64_t words = take_count(bytes);
   require_same(path, bytes.take(words), configuration);
   bytes.take(take_count(bytes)); // the command
@@ -272,7 +272,7 @@ std::string read_checkpoint_command(const std::string& path) {
   std::string start(most, '\0');
   read_some(in, start.data(), std::ssize(start), path);
   start.resize(static_cast<std::size_t>(in.gcount()));
-  Bytes bytes(start.size() < most ? body_of(path, start) : after_head(path, start), path);
+  Bytes bytes(start.size() < most ? find_body(path, start) : skip_head(path, start), path);
   bytes.take(take_count(bytes)); // the configuration
   return std::string(bytes.take(take_count(bytes)));
 }

@@ -14,7 +14,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The corners of each element, 1-based.
+/// Writes the corners of each element, 1-based.
 void add_elements(NetcdfGridFile& file, const Polygons& cells, int elements) {
   const std::int64_t most = most_corners(cells);
   const int corners = file.netcdf().dimension("maxNodePElement", most);
@@ -34,7 +34,7 @@ void add_elements(NetcdfGridFile& file, const Polygons& cells, int elements) {
   const auto count = [&cells](std::int64_t cell, std::int64_t /*k*/) {
     return static_cast<std::int32_t>(cells.ids.count(cell));
   };
-  // The manual's type is too small for the cell of a pole among many meridians.
+  // The type of the manual is too small for a cell at a pole that has many meridians.
   if (most <= std::numeric_limits<std::int8_t>::max())
     file.variable<std::int8_t>("numElementConn", NetcdfType::int8, {elements}, attributes,
                                table<std::int8_t>(1, [count](std::int64_t cell, std::int64_t k) {
@@ -48,22 +48,21 @@ NetcdfAttributes degrees(const std::string& of) {
   return {{"units", std::string("degrees")}, {"long_name", "longitude and latitude of " + of}};
 }
 
-/// Longitudes and latitudes in pairs.
+/// Reads longitudes and latitudes in pairs.
 Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
   const std::vector<double> pairs = cf_values(file, name, {-1, 2});
   const double factor = degrees_per_unit(file, name);
   const std::int64_t count = std::ssize(pairs) / 2;
-  LonLats places{zeros<double>(count), zeros<double>(count)};
-  for (std::size_t i = 0; i < places.longitudes.size(); ++i) {
-    places.longitudes[i] = factor * pairs[2 * i];
-    places.latitudes[i] = factor * pairs[2 * i + 1];
+  LonLats points{zeros<double>(count), zeros<double>(count)};
+  for (std::size_t i = 0; i < points.longitudes.size(); ++i) {
+    points.longitudes[i] = factor * pairs[2 * i];
+    points.latitudes[i] = factor * pairs[2 * i + 1];
   }
-  places = checked(file, name, std::move(places));
-  return from_degrees(places.longitudes, places.latitudes);
+  points = checked(file, name, std::move(points));
+  return from_degrees(points.longitudes, points.latitudes);
 }
 
-/// The elements' corners. What follows the number that numElementConn gives is padding, whatever
-/// its value.
+/// Reads the corners of the elements. Values after the number in numElementConn are padding.
 Polygons read_elements(const NetcdfReader& file, Points3 nodes, Points3 centres) {
   const std::vector<std::int32_t> all = file.ints("elementConn", {-1, -1});
   const std::int64_t elements = file.shape_of("elementConn")[0],

@@ -16,7 +16,7 @@ std::string block_name(const std::string& stem, std::int64_t block) {
   return stem + std::to_string(block);
 }
 
-/// One variable for all axes, or one for each.
+/// Reads coordinates: one variable for all axes, or one for each.
 Points3 read_nodes(const NetcdfReader& file) {
   const bool together = file.has_variable("coord");
   const std::vector<double> all = together ? file.doubles("coord", {3, -1}) : std::vector<double>();
@@ -33,12 +33,12 @@ Points3 read_nodes(const NetcdfReader& file) {
   return nodes;
 }
 
-/// The nodes of elements, one after the other.
+/// Collects the nodes of elements.
 class Elements {
 public:
   Elements(const NetcdfReader& file, std::int64_t nodes) : file_(file), nodes_(nodes) {}
 
-  /// A table of as many nodes for each.
+  /// Reads a table with the same number of nodes for each element.
   void add_block(const std::string& name) {
     const std::vector<std::int32_t> ids = file_.ints(name, {-1, -1});
     const std::vector<std::int64_t> shape = file_.shape_of(name);
@@ -47,7 +47,7 @@ public:
       add(name, ids.data() + e * width, width);
   }
 
-  /// Elements of any number of nodes ("nsided"), which a second variable counts.
+  /// Reads elements of any number of nodes ("nsided"). A second variable has the numbers.
   void add_block(const std::string& name, const std::string& counts_name) {
     const std::vector<std::int32_t> ids = file_.ints(name, {-1});
     const std::vector<std::int32_t> counts = file_.ints(counts_name, {-1});

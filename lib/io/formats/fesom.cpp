@@ -19,10 +19,11 @@
 #include <sstream>
 #include <string_view>
 
-// The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017), text: nod2d.out has the
-// number of nodes, then id, longitude and latitude in degrees and a flag, 1 on the coast, a line;
-// elem2d.out the number of triangles, then three ids a line. Ids are from 1 on. aux3d.out has the
-// number of levels, their depths, and the depth of the bottom at each node, a number a line.
+// The mesh files of FESOM (Danilov et al., Geosci. Model Dev. 10, 2017) are text. nod2d.out has the
+// number of nodes, then a line for each node: id, longitude and latitude in degrees, and a flag, 1
+// on the coast. elem2d.out has the number of triangles, then three ids a line. Ids count from 1.
+// aux3d.out has the number of levels, their depths, and the depth of the bottom at each node, a
+// number a line.
 
 namespace calotte::io_detail {
 namespace {
@@ -39,13 +40,13 @@ std::int64_t take_count(LineReader& reader, const std::string& of) {
   return count;
 }
 
-/// Consecutive ids are the rule; the flags go along as a field. \param longitudes receives those of
-/// the file.
+/// Reads the nodes. Ids must be consecutive; the flags become a field.
+/// \param longitudes receives those of the file.
 RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
   std::ifstream in = open_input(path);
   LineReader reader(in, path);
   const std::int64_t count = take_count(reader, "nodes");
-  std::vector<double> places, flags;
+  std::vector<double> coordinates, flags;
   for (std::int64_t i = 0; i < count; ++i) {
     std::array<double, 4> row{};
     take_columns(reader, 4, row.data(), message("node {} of {}", i + 1, count));
@@ -53,12 +54,12 @@ RawMesh read_nodes(const std::string& path, std::vector<double>& longitudes) {
       reader.fail("node {} has another id; number the nodes from 1 on", i + 1);
     if (!std::isfinite(row[1]) || !(std::abs(row[2]) <= 90))
       reader.fail("longitude and latitude are no place on the sphere; make the file again");
-    const Vec3 place = from_lonlat(row[1], row[2]);
+    const Vec3 point = from_lonlat(row[1], row[2]);
     longitudes.push_back(row[1]);
-    places.insert(places.end(), {place.x, place.y, place.z});
+    coordinates.insert(coordinates.end(), {point.x, point.y, point.z});
     flags.push_back(row[3]);
   }
-  RawMesh raw{.points = Eigen::Map<const Points3>(places.data(), 3, count)};
+  RawMesh raw{.points = Eigen::Map<const Points3>(coordinates.data(), 3, count)};
   raw.fields.push_back({.name = "coast",
                         .long_name = "1 for a node on the coast",
                         .values = Eigen::Map<const DoubleVector>(flags.data(), count)});
@@ -80,7 +81,7 @@ Triangles read_elements(const std::string& path, std::int64_t nodes) {
 
 // ---- Channels
 
-/// The least and the greatest longitude of the corners of a triangle, degrees.
+/// The range of longitudes of the corners of a triangle, in degrees.
 struct Span {
   double least = 1e300, greatest = -1e300;
   void add(double x) {
@@ -90,9 +91,10 @@ struct Span {
   double width() const { return greatest - least; }
 };
 
-/// FESOM reads meshes whose ends are joined after a number of degrees, cyclic_length, that the
-/// files do not hold. On the sphere the triangles that join them run all along the mesh, the other
-/// way round. \param longitudes of the nodes as the file has them.
+/// Refuses a mesh of a channel: FESOM joins the ends of a mesh after cyclic_length degrees, a
+/// number that is not in the files. On the sphere the triangles at the joint would extend the other
+/// way around, along the whole mesh.
+/// \param longitudes of the nodes, as in the file.
 void require_no_channel(const std::string& path, const std::vector<double>& longitudes,
                         const RawMesh& raw) {
   const mesh_detail::Orientations found = mesh_detail::orientations_of(raw.points, raw.triangles);
@@ -141,9 +143,9 @@ void put_nodes(const Mesh& mesh, OutputFile& file) {
   out.number(std::int64_t{mesh.points.cols()}).text("\n");
   const Points3 units = on_sphere(mesh.points, 1);
   for (Eigen::Index i = 0; i < units.cols(); ++i) {
-    const LonLat place = eastern_lonlat_of(column(units, i));
-    out.number(std::int64_t{i + 1}).text(" ").number(place.longitude).text(" ");
-    out.number(place.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
+    const LonLat lonlat = eastern_lonlat_of(column(units, i));
+    out.number(std::int64_t{i + 1}).text(" ").number(lonlat.longitude).text(" ");
+    out.number(lonlat.latitude).text(coast[static_cast<std::size_t>(i)] ? " 1\n" : " 0\n");
   }
   out.flush();
 }
@@ -157,7 +159,7 @@ void put_elements(const Mesh& mesh, OutputFile& file) {
   out.flush();
 }
 
-/// Depths below 0, as FESOM has them; it takes the sign of the second level for that of all.
+/// Writes depths as negative numbers. FESOM applies the sign of the second level to all.
 void put_depths(const WriteOptions& options, OutputFile& file) {
   Writer out = to(file);
   out.number(std::int64_t{options.depth_levels.size()}).text("\n");

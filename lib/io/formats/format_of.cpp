@@ -13,7 +13,8 @@ namespace {
 
 bool is_suffix(const std::string& name) { return name.starts_with('.'); }
 
-/// A format whose files have one name, not a suffix; empty for others.
+/// The name of the files of a format that is selected by a name instead of a suffix; empty for
+/// others.
 std::string whole_name(const FormatInfo& info) {
   return info.names.empty() || is_suffix(info.names[0]) ? "" : info.names[0];
 }
@@ -22,7 +23,7 @@ bool has_suffix(const FormatInfo& info, const std::string& suffix) {
   return std::find(info.names.begin(), info.names.end(), suffix) != info.names.end();
 }
 
-/// The first row of a suffix is what the suffix alone selects.
+/// The format that a suffix alone selects: the first row with that suffix.
 const FormatInfo* by_suffix(const std::string& suffix) {
   for (const FormatRow& row : format_table())
     if (has_suffix(row.info, suffix))
@@ -37,7 +38,7 @@ std::optional<Format> format_of_name(const std::string& path) {
   if (name == fesom_nodes_name)
     return Format::fesom;
   const FormatInfo* const known = by_suffix(suffix_of(path));
-  // SaveVertices.vtp is what somebody makes of SaveVertices.
+  // A name such as SaveVertices.vtp belongs to a file that was converted from SaveVertices.
   if (name.starts_with(vertices_name) && (known == nullptr || has_suffix(*known, ".txt")))
     return Format::mpi_scvt;
   return known == nullptr ? std::nullopt : std::optional(known->format);
@@ -71,7 +72,7 @@ const std::vector<FormatInfo>& formats() {
   return all;
 }
 
-const FormatInfo& info_of(Format format) { return row_of(format).info; }
+const FormatInfo& info_of(Format format) { return find_row(format).info; }
 
 Format format_of(const std::string& path, Format option) {
   const std::optional<Format> named = format_of_name(path);

@@ -97,8 +97,8 @@ bool in_scrip(const MeshField& field) { return can_store(scrip_names(), field); 
 bool in_esmf(const MeshField& field) { return can_store(esmf_names(), field); }
 bool in_exodus(const MeshField& field) { return can_store(exodus_names(), field); }
 
-/// Whether formats of pictures make data of that name at all cells. Those that they make at Voronoi
-/// cells alone are derived from the mesh.
+/// Whether formats for graphics programs compute data of that name at all cells. What they compute
+/// at Voronoi cells only is derived from the mesh.
 bool is_own_property(const std::string& name) { return name == "area" || name == "site"; }
 
 bool in_vtk(const MeshField& field) {
@@ -118,7 +118,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::mpas, "mpas", {".nc"}, "MPAS, complete, with NAME.graph.info", true, true},
        .label = "MPAS",
        .planes = {.clipped = true, .periodic = true},
-       .holds_field = in_mpas,
+       .stores_field = in_mpas,
        .write_mesh = used_up<write_mpas>,
        .polygons_as = Format::mpas,
        .is = is_mpas,
@@ -132,12 +132,12 @@ std::vector<FormatRow> make_table() {
                 true},
        .label = "MPAS",
        .planes = {.periodic = true},
-       .holds_field = in_minimal_mpas,
+       .stores_field = in_minimal_mpas,
        .write_mesh = used_up<write_mpas_minimal>},
       {.info = {Format::ugrid, "ugrid", {".nc"}, "UGRID of cells", true, true},
        .label = "UGRID",
        .planes = clipped,
-       .holds_field = in_ugrid,
+       .stores_field = in_ugrid,
        .write_mesh = as_grid<write_ugrid>,
        .write_polygons = write_ugrid,
        .is = is_ugrid,
@@ -146,25 +146,25 @@ std::vector<FormatRow> make_table() {
       {.info =
            {Format::ugrid_triangles, "ugrid-triangles", {".nc"}, "UGRID of triangles", false, true},
        .label = "UGRID",
-       .holds_field = in_ugrid_triangles,
+       .stores_field = in_ugrid_triangles,
        .write_mesh = to_files<write_ugrid_triangles>},
       {.info = {Format::scrip, "scrip", {".nc"}, "SCRIP", true, true},
        .label = "SCRIP",
-       .holds_field = in_scrip,
+       .stores_field = in_scrip,
        .write_mesh = as_grid<write_scrip>,
        .write_polygons = write_scrip,
        .is = is_scrip,
        .read = from_netcdf<read_scrip>},
       {.info = {Format::esmf, "esmf", {".nc"}, "ESMF", true, true},
        .label = "ESMF",
-       .holds_field = in_esmf,
+       .stores_field = in_esmf,
        .write_mesh = as_grid<write_esmf>,
        .write_polygons = write_esmf,
        .is = is_esmf,
        .read = from_netcdf<read_esmf>},
       {.info = {Format::exodus, "exodus", {".g", ".exo"}, "Exodus of cells", true, true},
        .label = "Exodus",
-       .holds_field = in_exodus,
+       .stores_field = in_exodus,
        .write_mesh = as_grid<write_exodus>,
        .write_polygons = write_exodus,
        .is = is_exodus,
@@ -180,7 +180,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::vtp, "vtp", {".vtp"}, "VTK PolyData of triangles"},
        .label = "VTK",
        .planes = flat,
-       .holds_field = in_vtk,
+       .stores_field = in_vtk,
        .write_mesh = to_stream<put_vtp>,
        .polygons_as = Format::vtp_cells,
        .read = from_stream<get_vtk_xml>,
@@ -188,7 +188,7 @@ std::vector<FormatRow> make_table() {
       {.info = {Format::vtu, "vtu", {".vtu"}, "VTK UnstructuredGrid of triangles"},
        .label = "VTK",
        .planes = flat,
-       .holds_field = in_vtk,
+       .stores_field = in_vtk,
        .write_mesh = to_stream<put_vtu>,
        .polygons_as = Format::vtu_cells,
        .read = from_stream<get_vtk_xml>,
@@ -197,14 +197,14 @@ std::vector<FormatRow> make_table() {
        .label = "VTK",
        .planes = clipped,
        .bytes_a_site = 200,
-       .holds_field = in_vtk,
+       .stores_field = in_vtk,
        .write_mesh = to_stream<put_vtp_cells>,
        .write_polygons = polygons_to_stream<put_vtp_cells>},
       {.info = {Format::vtu_cells, "vtu-cells", {".vtu"}, "VTK UnstructuredGrid of cells", true},
        .label = "VTK",
        .planes = clipped,
        .bytes_a_site = 200,
-       .holds_field = in_vtk,
+       .stores_field = in_vtk,
        .write_mesh = to_stream<put_vtu_cells>,
        .write_polygons = polygons_to_stream<put_vtu_cells>},
       {.info = {Format::vtk, "", {".vtk"}, "legacy VTK"},
@@ -236,7 +236,7 @@ std::vector<FormatRow> make_table() {
        .label = "GeoJSON",
        .planes = clipped,
        .bytes_a_site = 600,
-       .holds_field = in_geojson,
+       .stores_field = in_geojson,
        .write_mesh = to_stream<put_geojson>,
        .write_polygons = polygons_to_stream<put_geojson>,
        .read = from_stream<get_geojson>,
@@ -276,22 +276,22 @@ std::span<const FormatRow> format_table() {
   return table;
 }
 
-const FormatRow& row_of(Format format) {
+const FormatRow& find_row(Format format) {
   const std::span<const FormatRow> table = format_table();
   return *std::find_if(table.begin(), table.end(),
                        [&](const FormatRow& row) { return row.info.format == format; });
 }
 
-const FormatRow* row_of(const NetcdfReader& file) {
+const FormatRow* find_row(const NetcdfReader& file) {
   for (const FormatRow& row : format_table())
     if (row.is != nullptr && row.is(file))
       return &row;
   return nullptr;
 }
 
-bool holds_field(Format format, const MeshField& field) {
-  const FormatRow& row = row_of(format);
-  return row.holds_field != nullptr && row.holds_field(field);
+bool stores_field(Format format, const MeshField& field) {
+  const FormatRow& row = find_row(format);
+  return row.stores_field != nullptr && row.stores_field(field);
 }
 
 std::string triangle_formats(const std::string& last) {

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-/// The writers and readers of formats, which the table of formats (format_table.cpp) has. A
-/// writer's mesh is numbered as its file shall be; a reader checks that the file is whole and
-/// leaves the rest to read_mesh.
+/// The writers and readers of formats; format_table.cpp has the table of them. A writer receives a
+/// mesh whose numbers are those of the file. A reader checks that the file is complete and leaves
+/// everything else to read_mesh.
 namespace calotte::io_detail {
 
 // ---- Streams
@@ -49,7 +49,7 @@ RawMesh get_ply(std::istream& in, const std::string& name);
 RawMesh get_msh(std::istream& in, const std::string& name);
 RawMesh get_geojson(std::istream& in, const std::string& name);
 
-/// Triangles of `points` columns.
+/// Reads triangles whose ids are below `points`.
 Triangles get_triangles_text(std::istream& in, const std::string& name, std::int64_t points);
 
 // ---- Files of their own making. \throws Error invalid_argument, file.
@@ -64,24 +64,25 @@ void write_fesom(const std::string& path, const Mesh& mesh, const WriteOptions& 
 void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOptions& options);
 
 class NetcdfReader;
-/// Whether an open file is of the kind.
+/// Whether an open file has the format.
 bool is_ugrid(const NetcdfReader& file);
 bool is_scrip(const NetcdfReader& file);
 bool is_esmf(const NetcdfReader& file);
 bool is_exodus(const NetcdfReader& file);
 bool is_icon(const NetcdfReader& file);
-/// \pre it is. \throws Error parse, file.
+/// \pre the file has the format. \throws Error parse, file.
 RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 RawMesh read_scrip(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 RawMesh read_esmf(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 RawMesh read_exodus(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 RawMesh read_icon(const NetcdfReader& file, FieldChoice choice = FieldChoice::all);
 RawMesh read_fesom(const std::string& path);
-/// The cells with their corners' lists as the file has them. \pre it has corners, and as many
-/// centres or none.
+/// Reads the cells, with the lists of corners as in the file.
+/// \pre the file has corners.
+/// \param centres one for each cell, or none.
 Polygons read_scrip_cells(const NetcdfReader& file, const Points3& centres);
 Polygons read_esmf_cells(const NetcdfReader& file, const Points3& centres);
-Points3 read_esmf_centres(const NetcdfReader& file); ///< none where the file has none
+Points3 read_esmf_centres(const NetcdfReader& file); ///< none if the file has none
 RawMesh read_mpi_scvt(const std::string& path);
 
 } // namespace calotte::io_detail

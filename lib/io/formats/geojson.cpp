@@ -16,13 +16,13 @@
 #include <cmath>
 #include <span>
 
-// GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. As a polygon does not tell its site,
-// the site's coordinates are properties.
+// GeoJSON (Butler et al., RFC 7946, 2016), with a feature for each cell. Coordinates of the site
+// are properties, since the polygon does not determine it.
 
 namespace calotte::io_detail {
 namespace {
 
-/// A number that readers take for the same double: -0 would be read as the integer 0.
+/// Writes a number such that readers get the same double: -0 would be read as the integer 0.
 void put_number(Writer& out, double value) {
   if (!std::isfinite(value))
     out.text("null");
@@ -32,22 +32,22 @@ void put_number(Writer& out, double value) {
     out.number(value);
 }
 
-void put_place(Writer& out, const LonLat& place) {
+void put_position(Writer& out, const LonLat& position) {
   out.text("[");
-  put_number(out, place.longitude);
+  put_number(out, position.longitude);
   out.text(",");
-  put_number(out, place.latitude);
+  put_number(out, position.latitude);
   out.text("]");
 }
 
-/// A polygon's coordinates: one ring, which ends where it starts.
+/// Writes the coordinates of a polygon: one ring, which repeats its first position at the end.
 void put_polygon(Writer& out, const std::vector<LonLat>& ring) {
   out.text("[[");
-  for (const LonLat& place : ring) {
-    put_place(out, place);
+  for (const LonLat& position : ring) {
+    put_position(out, position);
     out.text(",");
   }
-  put_place(out, ring.front());
+  put_position(out, ring.front());
   out.text("]]");
 }
 
@@ -71,16 +71,16 @@ void put_property(Writer& out, const char* name, double value) {
   put_number(out, value);
 }
 
-std::vector<Vec3> corners_of(const Polygons& cells, std::int64_t cell) {
+std::vector<Vec3> list_corners(const Polygons& cells, std::int64_t cell) {
   std::vector<Vec3> corners;
   for (const std::int32_t id : cells.ids[cell])
     corners.push_back(column(cells.corners, id));
   return corners;
 }
 
-/// In a plane x and y stand in place of longitude and latitude.
-std::vector<std::vector<LonLat>> rings_of(const Polygons& cells, std::int64_t cell) {
-  const std::vector<Vec3> corners = corners_of(cells, cell);
+/// The rings of a cell. In a plane x and y replace longitude and latitude.
+std::vector<std::vector<LonLat>> make_rings(const Polygons& cells, std::int64_t cell) {
+  const std::vector<Vec3> corners = list_corners(cells, cell);
   if (cells.surface.is_sphere())
     return cell_outline(corners);
   std::vector<LonLat> ring;
@@ -93,12 +93,12 @@ constexpr std::array of_polygons{"id", "x", "y", "z", "area"};
 constexpr std::array of_voronoi_cells{"id",      "x",       "y",       "z",     "area",
                                       "density", "spacing", "quality", "degree"};
 
-/// Those of the cells that have no name of another property.
-std::vector<const MeshField*> cell_fields_of(const WriteOptions& options,
-                                             std::span<const char* const> own_properties) {
+/// Selects the fields at cells whose name is not that of another property.
+std::vector<const MeshField*> select_cell_fields(const WriteOptions& options,
+                                                 std::span<const char* const> own_properties) {
   std::vector<const MeshField*> fields;
   for (const MeshField& field : options.fields)
-    if (holds_field(Format::geojson, field) &&
+    if (stores_field(Format::geojson, field) &&
         std::find(own_properties.begin(), own_properties.end(), field.name) == own_properties.end())
       fields.push_back(&field);
   return fields;
@@ -119,16 +119,16 @@ void put_collection(Writer& out, std::int64_t cells, const auto& put_cell) {
   out.text("\n]}\n").flush();
 }
 
-/// \param properties puts those after the id.
+/// \param properties writes the properties after the id.
 void put_feature(Writer& out, const Polygons& cells, std::int64_t cell, const auto& properties) {
   out.text(R"({"type":"Feature","geometry":)");
-  put_geometry(out, rings_of(cells, cell));
+  put_geometry(out, make_rings(cells, cell));
   out.text(R"(,"properties":{"id":)").number(cell);
   properties();
   out.text("}}");
 }
 
-/// As JSON; bytes that are no UTF-8 become its replacement character.
+/// A text as JSON. Bytes that are not UTF-8 become the replacement character.
 std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -149,7 +149,7 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
   Voronoi voronoi = calotte::voronoi(mesh);
   const CellFields fields = make_cell_fields(voronoi, options);
   const Polygons cells = with_merged_corners(polygons_of(std::move(voronoi)), fields.area);
-  const std::vector<const MeshField*> others = cell_fields_of(options, of_voronoi_cells);
+  const std::vector<const MeshField*> others = select_cell_fields(options, of_voronoi_cells);
   Writer out(sink);
   put_collection(out, cells.size(), [&](std::int64_t i) {
     put_feature(out, cells, i, [&] {
@@ -167,7 +167,7 @@ void put_geojson(const Sink& sink, const Mesh& mesh, const WriteOptions& options
 void put_geojson(const Sink& sink, const Polygons& given, const WriteOptions& options) {
   const DoubleVector areas = areas_of(given);
   const Polygons polygons = with_merged_corners(given, areas);
-  const std::vector<const MeshField*> others = cell_fields_of(options, of_polygons);
+  const std::vector<const MeshField*> others = select_cell_fields(options, of_polygons);
   Writer out(sink);
   put_collection(out, polygons.size(), [&](std::int64_t i) {
     put_feature(out, polygons, i, [&] {

@@ -26,9 +26,9 @@
 #include <utility>
 #include <vector>
 
-// GeoJSON (Butler et al., RFC 7946, 2016): a feature a cell. Features with a site, which are
-// Voronoi cells as calotte writes them or points, give the sites; polygons of others give cells,
-// and so do Voronoi cells of which some were left out.
+// GeoJSON (Butler et al., RFC 7946, 2016), with a feature for each cell. Features with a site,
+// which are points or Voronoi cells as calotte writes them, give the sites. Polygons of others give
+// cells; so do Voronoi cells, if some cells are missing.
 
 namespace calotte::io_detail {
 namespace {
@@ -39,7 +39,7 @@ constexpr const char* no_collection = "no GeoJSON FeatureCollection; give one of
 
 constexpr std::array axes{"x", "y", "z"};
 
-/// Numbers for each feature under one name; NaN where a feature has none.
+/// Values of one property of all features; NaN if a feature does not have it.
 struct FeatureValues {
   std::vector<double> values;
   bool integer = true;
@@ -52,7 +52,7 @@ struct FeatureValues {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The features of a collection, one after the other.
+/// Collects the features of a file.
 class Features {
 public:
   explicit Features(const std::string& name) : name_(name) {}
@@ -70,13 +70,13 @@ public:
     if (is_cell != (count_ > 0 ? !rings_.empty() && voronoi_ == 0 : is_cell))
       fail(is_cell ? "is a cell, unlike those before it" : "is no polygon, unlike those before it");
     if (is_cell)
-      rings_.push_back(ring_of(geometry, type));
+      rings_.push_back(read_ring(geometry, type));
     else if (is_voronoi)
       take_voronoi_cell(geometry, type);
     if (site)
       sites_.push_back(*site);
     else if (!is_cell)
-      sites_.push_back(place_of_point(geometry, type));
+      sites_.push_back(point_site(geometry, type));
     ++count_;
   }
 
@@ -91,12 +91,12 @@ public:
         set_column(raw.points, i, sites_[static_cast<std::size_t>(i)]);
     }
     if (voronoi_ > 0 && !are_part_of_sphere())
-      rings_.clear(); // their sites tell all
+      rings_.clear(); // the sites determine the cells
     else if (!unread_.empty())
       throw Error(ErrorCode::parse, unread_);
     if (!rings_.empty())
       raw.polygons = polygons(has_sites ? directions_of(raw.points) : Points3());
-    raw.has_cells = voronoi_ == count_; // or polygons
+    raw.has_cells = voronoi_ == count_; // otherwise the features are polygons
     raw.turns_each = true;
     add_fields(has_sites, raw);
     raw.ignored.assign(ignored_.begin(), ignored_.end());
@@ -131,19 +131,19 @@ private:
                 properties["z"].get<double>()};
   }
 
-  /// Its ring is of use only if other cells of the sphere are missing.
+  /// Reads a Voronoi cell. Its ring is needed only if other cells of the sphere are missing.
   void take_voronoi_cell(const json& geometry, const std::string& type) {
     ++voronoi_;
     rings_.emplace_back();
     try {
-      rings_.back() = ring_of(geometry, type);
+      rings_.back() = read_ring(geometry, type);
     } catch (const Error& error) {
       if (unread_.empty())
         unread_ = error.what();
     }
   }
 
-  /// Whether Voronoi cells of the sphere leave at least one uncovered.
+  /// Whether the Voronoi cells leave an area of at least one cell of the sphere uncovered.
   bool are_part_of_sphere() const {
     const std::vector<double>& areas = columns_.at("area").values;
     if (voronoi_ < count_ || std::ssize(areas) < count_ ||
@@ -154,55 +154,57 @@ private:
            whole * (1 - 0.5 / static_cast<double>(count_));
   }
 
-  /// Those that only Voronoi cells of calotte have.
+  /// Whether a feature has the properties of the Voronoi cells that calotte writes.
   static bool is_voronoi_cell(const json& properties) {
     return has_numbers(properties, std::array{"area", "spacing", "quality", "degree"});
   }
 
-  static bool is_place(const json& place) {
-    return is_position(place) && std::abs(place[1].get<double>()) <= 90;
+  static bool is_lonlat(const json& position) {
+    return is_position(position) && std::abs(position[1].get<double>()) <= 90;
   }
 
-  static Vec3 on_sphere_at(const json& place) {
-    return from_lonlat(place[0].get<double>(), place[1].get<double>());
+  static Vec3 on_sphere_at(const json& position) {
+    return from_lonlat(position[0].get<double>(), position[1].get<double>());
   }
 
-  Vec3 place_of_point(const json& geometry, const std::string& type) const {
-    const json place = type == "Point" ? geometry.value("coordinates", json()) : json();
-    if (!is_place(place))
+  Vec3 point_site(const json& geometry, const std::string& type) const {
+    const json position = type == "Point" ? geometry.value("coordinates", json()) : json();
+    if (!is_lonlat(position))
       fail("is neither a polygon nor a point that is the site of its cell; give it a geometry, or "
            "numbers x, y and z as properties");
-    return on_sphere_at(place);
+    return on_sphere_at(position);
   }
 
-  /// A cell that the meridian of 180 degrees cuts has several polygons, which are joined there.
-  CornerRing ring_of(const json& geometry, const std::string& type) {
+  /// Reads the ring of a cell. A cell that the meridian of 180 degrees cuts has several polygons,
+  /// which are joined there.
+  CornerRing read_ring(const json& geometry, const std::string& type) {
     const json coordinates = geometry.value("coordinates", json());
     if (type == "Polygon")
-      return ring_of(coordinates);
+      return read_ring(coordinates);
     if (!coordinates.is_array() || coordinates.empty())
       fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
-    CornerRing whole = ring_of(coordinates[0]);
+    CornerRing whole = read_ring(coordinates[0]);
     for (std::size_t k = 1; k < coordinates.size(); ++k)
-      if (!corners_.join(ring_of(coordinates[k]), whole))
+      if (!corners_.join(read_ring(coordinates[k]), whole))
         fail("is a MultiPolygon whose parts do not share one side; only cells of one ring are "
              "read, so give it as one Polygon, whose longitudes may exceed 180 degrees");
     return whole;
   }
 
-  /// Without consecutive equal places, and without the way to a pole and back along one meridian by
-  /// which a ring around the pole is closed in the plane of longitude and latitude.
-  CornerRing ring_of(const json& rings) {
+  /// Reads a ring without consecutive equal positions, and without the detour to a pole and back
+  /// along one meridian that closes a ring around the pole in the plane of longitude and latitude.
+  CornerRing read_ring(const json& rings) {
     if (!rings.is_array() || rings.empty() || !rings[0].is_array())
       fail("has no ring of positions; give GeoJSON as RFC 7946 has it");
     if (rings.size() > 1)
       fail("has a hole; only cells of one ring are read");
     CornerRing ring;
-    std::int32_t cut = -1; // the corner at which the way to a pole begins and ends
-    for (const json& place : rings[0]) {
-      if (!is_place(place))
+    std::int32_t cut = -1; // the corner at which the detour to a pole begins and ends
+    for (const json& position : rings[0]) {
+      if (!is_lonlat(position))
         fail("has a position that is no longitude and latitude in degrees; correct it");
-      const std::int32_t corner = corners_.id_of(place[0].get<double>(), place[1].get<double>());
+      const std::int32_t corner =
+          corners_.id_of(position[0].get<double>(), position[1].get<double>());
       if (corners_.push(corner, ring))
         cut = corner;
     }
@@ -240,7 +242,7 @@ private:
     return polygons;
   }
 
-  /// Without those that a writer makes anew.
+  /// Whether a field is one that a writer computes.
   bool is_derived(const std::string& name, const DoubleVector& values, bool has_sites,
                   const RawMesh& raw) const {
     if (name == "x" || name == "y" || name == "z")
@@ -269,11 +271,11 @@ private:
 
   const std::string& name_;
   std::int64_t count_ = 0;
-  std::vector<Vec3> sites_; ///< of the features that have one
+  std::vector<Vec3> sites_; ///< sites of the features
   GeoCorners corners_;
-  std::vector<CornerRing> rings_; ///< of all features, or none
-  std::int64_t voronoi_ = 0;      ///< features that are Voronoi cells of calotte
-  std::string unread_;            ///< what the first of them says whose ring is not read; or ""
+  std::vector<CornerRing> rings_; ///< rings of all features, or none
+  std::int64_t voronoi_ = 0;      ///< number of features that are Voronoi cells of calotte
+  std::string unread_;            ///< error of the first ring that could not be read; or ""
   std::map<std::string, FeatureValues> columns_;
   std::set<std::string> ignored_;
 };

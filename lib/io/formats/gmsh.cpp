@@ -12,16 +12,16 @@
 #include <vector>
 
 // Meshes of Gmsh (Geuzaine and Remacle, Int. J. Numer. Methods Eng. 79, 2009; the formats MSH 2 and
-// 4 of its manual, as text): sections from $Name to $EndName; nodes and elements have numbers of
-// their own. Lines and points of the geometry are elements, too.
+// 4 of its manual, as text) consist of sections from $Name to $EndName. Nodes and elements have
+// numbers of their own. Lines and points of the geometry are elements, too.
 
 namespace calotte::io_detail {
 namespace {
 
 enum class Shape { triangle, less, more };
 
-/// What the types of the manual are; the corners of a triangle come before its other nodes.
-Shape shape_of(std::int64_t type) {
+/// Classifies the types of the manual. The corners of a triangle precede its other nodes.
+Shape classify(std::int64_t type) {
   constexpr std::array<std::int64_t, 8> triangles{2, 9, 20, 21, 22, 23, 24, 25},
       lines_and_points{1, 8, 15, 26, 27, 28, 62, 63};
   const auto is_in = [&](const auto& types) {
@@ -87,7 +87,7 @@ private:
     return values;
   }
 
-  std::int64_t count_of(std::int64_t number) const {
+  std::int64_t require_count(std::int64_t number) const {
     if (number < 0 || number > most_entries)
       reader_.fail("{} is not a number of lines", number);
     return number;
@@ -105,49 +105,49 @@ private:
 
   /// Calls block(kind, lines) for each block of a section of version 4.
   template <class Block> void blocks(const std::string& name, const Block& block) {
-    const std::int64_t count = count_of(columns<std::int64_t, 2>(next(name))[0]);
+    const std::int64_t count = require_count(columns<std::int64_t, 2>(next(name))[0]);
     for (std::int64_t i = 0; i < count; ++i) {
       const auto head = columns<std::int64_t, 4>(next(name));
-      block(head[2], count_of(head[3]));
+      block(head[2], require_count(head[3]));
     }
   }
 
   void nodes() {
     if (version_ >= 4.1) {
       blocks("$Nodes", [&](std::int64_t /*parametric*/, std::int64_t lines) {
-        const std::size_t first = places_.size() / 3;
+        const std::size_t first = coordinates_.size() / 3;
         for (std::int64_t i = 0; i < lines; ++i)
           number_node(columns<std::int64_t, 1>(next("$Nodes"))[0],
                       first + static_cast<std::size_t>(i));
         for (std::int64_t i = 0; i < lines; ++i)
-          add_place(columns<double, 3>(next("$Nodes")));
+          add_point(columns<double, 3>(next("$Nodes")));
       });
       return;
     }
-    const auto lines_of = [&](std::int64_t lines) {
+    const auto read_lines = [&](std::int64_t lines) {
       for (std::int64_t i = 0; i < lines; ++i) {
         const std::string_view line = next("$Nodes");
         const auto row = columns<double, 4>(line);
-        number_node(columns<std::int64_t, 1>(line)[0], places_.size() / 3);
-        add_place({row[1], row[2], row[3]});
+        number_node(columns<std::int64_t, 1>(line)[0], coordinates_.size() / 3);
+        add_point({row[1], row[2], row[3]});
       }
     };
     if (version_ >= 4)
-      blocks("$Nodes", [&](std::int64_t, std::int64_t lines) { lines_of(lines); });
+      blocks("$Nodes", [&](std::int64_t, std::int64_t lines) { read_lines(lines); });
     else
-      lines_of(count_of(columns<std::int64_t, 1>(next("$Nodes"))[0]));
+      read_lines(require_count(columns<std::int64_t, 1>(next("$Nodes"))[0]));
   }
 
-  void number_node(std::int64_t node, std::size_t place) {
-    if (!place_of_.emplace(node, place).second)
+  void number_node(std::int64_t node, std::size_t index) {
+    if (!index_of_.emplace(node, index).second)
       reader_.fail("the node {} comes twice; make the file again", node);
   }
 
-  void add_place(const std::array<double, 3>& place) {
-    for (const double x : place)
+  void add_point(const std::array<double, 3>& point) {
+    for (const double x : point)
       if (!std::isfinite(x))
         reader_.fail("NaN or an infinite number; correct it");
-    places_.insert(places_.end(), place.begin(), place.end());
+    coordinates_.insert(coordinates_.end(), point.begin(), point.end());
   }
 
   void elements() {
@@ -158,7 +158,7 @@ private:
       });
       return;
     }
-    const std::int64_t lines = count_of(columns<std::int64_t, 1>(next("$Elements"))[0]);
+    const std::int64_t lines = require_count(columns<std::int64_t, 1>(next("$Elements"))[0]);
     for (std::int64_t i = 0; i < lines; ++i) {
       const std::string_view line = next("$Elements");
       const auto [number, type, tags] = columns<std::int64_t, 3>(line);
@@ -170,7 +170,7 @@ private:
 
   /// \param first the column of its first node.
   void element(std::string_view line, std::int64_t type, std::size_t first) {
-    const Shape shape = shape_of(type);
+    const Shape shape = classify(type);
     if (shape == Shape::more)
       reader_.fail("an element of type {}{}; only triangles are read, so mesh the surfaces with "
                    "triangles alone",
@@ -185,27 +185,27 @@ private:
   /// Only the nodes of triangles are sites: others belong to the geometry, such as the centre of a
   /// sphere.
   RawMesh raw() const {
-    std::vector<std::int32_t> site(places_.size() / 3, -1);
-    const auto place_of = [&](std::int64_t node) {
-      const auto found = place_of_.find(node);
-      if (found == place_of_.end() || found->second >= site.size())
+    std::vector<std::int32_t> site(coordinates_.size() / 3, -1);
+    const auto index_of = [&](std::int64_t node) {
+      const auto found = index_of_.find(node);
+      if (found == index_of_.end() || found->second >= site.size())
         fail_file(reader_.name(),
                   "a triangle has the node {}, which $Nodes does not have; make the file again",
                   node);
       return found->second;
     };
     for (const std::int64_t node : corners_)
-      site[place_of(node)] = 0;
+      site[index_of(node)] = 0;
     std::int32_t sites = 0;
     for (std::int32_t& id : site)
       id = id < 0 ? -1 : sites++;
     RawMesh raw{.points = Points3(3, sites)};
     for (std::size_t k = 0; k < site.size(); ++k)
       if (site[k] >= 0)
-        raw.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(places_.data() + 3 * k);
+        raw.points.col(site[k]) = Eigen::Map<const Eigen::Vector3d>(coordinates_.data() + 3 * k);
     raw.triangles.resize(3, std::ssize(corners_) / 3);
     for (std::size_t k = 0; k < corners_.size(); ++k)
-      raw.triangles.data()[k] = site[place_of(corners_[k])];
+      raw.triangles.data()[k] = site[index_of(corners_[k])];
     return raw;
   }
 
@@ -214,9 +214,9 @@ private:
 
   LineReader reader_;
   double version_ = 2;
-  std::unordered_map<std::int64_t, std::size_t> place_of_; ///< by the number of a node
-  std::vector<double> places_;                             ///< x y z of a node after another
-  std::vector<std::int64_t> corners_;                      ///< of triangles: numbers of nodes
+  std::unordered_map<std::int64_t, std::size_t> index_of_; ///< by number of a node: its index
+  std::vector<double> coordinates_;                        ///< x y z of each node
+  std::vector<std::int64_t> corners_;                      ///< numbers of the nodes of triangles
 };
 
 } // namespace

@@ -3,8 +3,8 @@
 #include "io/cells/netcdf_fields.h"
 #include "io/formats/formats.h"
 
-// The grid file of ICON (Zangl et al., Q. J. R. Meteorol. Soc. 141, 2015): its cells are triangles,
-// whose corners, its "vertices", are the sites here. Ids are from 1 on, and the corners of a
+// The grid file of ICON (Zangl et al., Q. J. R. Meteorol. Soc. 141, 2015). Its cells are triangles;
+// their corners, its "vertices", are the sites of Calotte. Ids count from 1, and the corners of a
 // triangle are the slower dimension.
 
 namespace calotte::io_detail {
@@ -57,7 +57,7 @@ RawMesh read_icon(const NetcdfReader& file, FieldChoice choice) {
   for (int i = 0; i < 3; ++i)
     raw.triangles.row(i) = Eigen::Map<const Eigen::Matrix<std::int32_t, 1, Eigen::Dynamic>>(
                                ids.data() + i * cells, cells)
-                               .cwiseMax(0) // one below 1 becomes -1, which is refused
+                               .cwiseMax(0) // an id below 1 becomes -1, which is refused
                                .array() -
                            1;
   read_fields(file, icon_names, choice, raw);

@@ -27,7 +27,7 @@ struct Area {
   MeshField mask;
 };
 
-Area area_of(const Mesh& mesh, const Surface& region, Numbering numbering) {
+Area make_area(const Mesh& mesh, const Surface& region, Numbering numbering) {
   const Mesh sorted = renumbered(mesh, numbering);
   const Ids mask = limited_area_mask(
       neighbours(sorted),
@@ -42,7 +42,7 @@ Area area_of(const Mesh& mesh, const Surface& region, Numbering numbering) {
   return area;
 }
 
-CutReport report_of(const Area& area, const WriteOptions& options) {
+CutReport make_report(const Area& area, const WriteOptions& options) {
   CutReport report;
   report.cells = area.cells.cells.cols();
   report.edges = area.cells.cells_on_edge.cols();
@@ -63,11 +63,11 @@ CutReport write_limited_area(const std::string& target, const Mesh& mesh, const 
   resolved.vertex_order = options.vertex_order.value_or(VertexOrder::before_edges);
   resolved.site_density = {};
   require_options(target, resolved);
-  Area area = area_of(mesh, region, numbering_of(resolved));
-  const CutReport report = report_of(area, resolved);
+  Area area = make_area(mesh, region, choose_numbering(resolved));
+  const CutReport report = make_report(area, resolved);
   resolved.fields = {std::move(area.mask)};
-  Points3 places = on_sphere(area.cells.cells, resolved.sphere_radius);
-  write_mpas(target, std::move(area.cells), std::move(places), resolved);
+  Points3 points = on_sphere(area.cells.cells, resolved.sphere_radius);
+  write_mpas(target, std::move(area.cells), std::move(points), resolved);
   Monitor(options.progress).finish("write");
   return report;
 }

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-// Files of MPI-SCVT (Jacobsen et al., Geosci. Model Dev. 6, 2013): SaveVertices has a generator
-// x y z a line, SaveTriangles three generators a line, counted from 0 and in no order of turning,
-// SaveDensity the density at each generator.
+// Files of MPI-SCVT (Jacobsen et al., Geosci. Model Dev. 6, 2013). SaveVertices has a generator x y
+// z on each line. SaveTriangles has three generators on each line, counted from 0, in either
+// orientation. SaveDensity has the density at each generator.
 
 namespace calotte::io_detail {
 namespace {
@@ -33,7 +33,7 @@ void put_values(const Sink& sink, const DoubleVector& values) {
   out.flush();
 }
 
-/// Turns the triangles counter-clockwise. False where one has no direction of turning.
+/// Orients the triangles counter-clockwise. Returns false if one has no orientation.
 bool orient(const Points3& points, Triangles& triangles) {
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     const int turning =
@@ -47,15 +47,15 @@ bool orient(const Points3& points, Triangles& triangles) {
   return true;
 }
 
-/// Whether the triangles close the sphere: 2n - 4 that have all their neighbours.
+/// Whether the triangles cover the sphere: there are 2n - 4, and all have three neighbours.
 bool close_sphere(const Points3& points, const Triangles& triangles) {
   return triangles.cols() == 2 * points.cols() - 4 &&
          neighbours_of(triangles, points.cols()).minCoeff() >= 0;
 }
 
-/// The triangles of the file beside the points, where they fit: those of another run, or a part of
-/// them, do not close the sphere.
-Triangles triangles_of(const std::string& path, const Points3& points) {
+/// Reads the triangles from the file beside the points, if they match: those of another run, or a
+/// part of them, do not cover the sphere.
+Triangles read_triangles(const std::string& path, const Points3& points) {
   const std::string file = beside_vertices(path, triangles_name);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
     return {};
@@ -71,8 +71,8 @@ Triangles triangles_of(const std::string& path, const Points3& points) {
   return {};
 }
 
-/// The density of the file beside the points, where it has a finite number for each that is not
-/// negative; otherwise the file is ignored.
+/// Reads the density from the file beside the points. The file is ignored unless it has a finite,
+/// non-negative number for each point.
 void read_density(const std::string& path, RawMesh& raw) {
   const std::string file = beside_vertices(path, density_name);
   if (std::error_code error; !std::filesystem::is_regular_file(file, error))
@@ -119,7 +119,7 @@ void write_mpi_scvt(const std::string& path, const Mesh& mesh, const WriteOption
 
 RawMesh read_mpi_scvt(const std::string& path) {
   RawMesh raw{read_points(path), {}};
-  raw.triangles = triangles_of(path, raw.points);
+  raw.triangles = read_triangles(path, raw.points);
   read_density(path, raw);
   return raw;
 }

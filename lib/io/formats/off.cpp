@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-// The Object File Format of Geomview: "OFF", the counts of points, faces and edges, a point a line,
-// then a face a line with its number of corners first. Faces that are not all triangles are cells.
+// The Object File Format of Geomview: "OFF"; the numbers of points, faces and edges; a point on
+// each line; then a face on each line, after its number of corners. If not all faces are triangles,
+// they are cells.
 
 namespace calotte::io_detail {
 namespace {
@@ -33,7 +34,7 @@ void put_face(Writer& out, std::span<const std::int32_t> ids) {
   out.text("\n");
 }
 
-/// The corners of the next face.
+/// Reads the corners of the next face.
 void take_face(LineReader& reader, std::int64_t points, const std::string& awaited,
                std::vector<std::int64_t>& face, std::vector<std::int32_t>& ids) {
   const std::string_view line = line_with(reader, awaited);
@@ -90,7 +91,7 @@ RawMesh get_off(std::istream& in, const std::string& name) {
   poly_data.points = Eigen::Map<const Points3>(points.data(), 3, std::ssize(points) / 3);
   poly_data.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
                    Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
-  return raw_mesh_of(name, std::move(poly_data));
+  return make_raw_mesh(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

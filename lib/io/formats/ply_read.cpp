@@ -22,7 +22,7 @@ namespace {
 struct Property {
   std::string name;
   Scalar type = Scalar::float64;
-  std::optional<Scalar> count; ///< type of the number of items before them, for a list
+  std::optional<Scalar> count; ///< for a list: type of the number of items that precedes them
 };
 
 struct Element {
@@ -56,7 +56,7 @@ constexpr std::array<std::pair<std::string_view, Scalar>, 18> ply_types{
      {"double", Scalar::float64},
      {"float64", Scalar::float64}}};
 
-Scalar type_of(std::string_view word, const std::string& name) {
+Scalar parse_type(std::string_view word, const std::string& name) {
   for (const auto& [text, type] : ply_types)
     if (text == word)
       return type;
@@ -73,7 +73,7 @@ void read_format(std::string_view words, const std::string& name, Head& head) {
                  in_quotes(format));
 }
 
-Element element_of(std::string_view words, const std::string& name) {
+Element parse_element(std::string_view words, const std::string& name) {
   Element element{std::string(take_word(words)), 0, {}};
   const std::string_view count = take_word(words);
   std::int32_t number = -1;
@@ -84,25 +84,25 @@ Element element_of(std::string_view words, const std::string& name) {
   return element;
 }
 
-Property property_of(std::string_view words, const std::string& name) {
+Property parse_property(std::string_view words, const std::string& name) {
   std::string_view word = take_word(words);
   Property property;
   if (word == "list") {
-    property.count = type_of(take_word(words), name);
+    property.count = parse_type(take_word(words), name);
     word = take_word(words);
   }
-  property.type = type_of(word, name);
+  property.type = parse_type(word, name);
   property.name = take_word(words);
   return property;
 }
 
-/// \throws Error parse for a file that starts as no .ply file does.
+/// \throws Error parse for a file that does not start as a .ply file.
 void require_ply(std::string_view start, const std::string& name) {
   if (take_word(start) != "ply")
     fail_file(name, "it does not start with the line \"ply\", so it is no .ply file");
 }
 
-/// Takes the head, up to the end of its last line, from the file's contents.
+/// Removes the head, up to the end of its last line, from the content of a file, and parses it.
 Head take_head(std::string_view& content, const std::string& name) {
   constexpr int most_lines = 100'000; // so that memory stays in proportion to the file
   Head head;
@@ -119,9 +119,9 @@ Head take_head(std::string_view& content, const std::string& name) {
     if (keyword == "format")
       read_format(line, name, head);
     else if (keyword == "element")
-      head.elements.push_back(element_of(line, name));
+      head.elements.push_back(parse_element(line, name));
     else if (keyword == "property" && !head.elements.empty())
-      head.elements.back().properties.push_back(property_of(line, name));
+      head.elements.back().properties.push_back(parse_property(line, name));
     else if (!first && keyword != "comment" && keyword != "obj_info" && !keyword.empty())
       fail_damaged(name, "{} is not a keyword of the head of a .ply file", in_quotes(keyword));
   }
@@ -130,13 +130,13 @@ Head take_head(std::string_view& content, const std::string& name) {
 
 // ---- The rows
 
-/// What stands after the head, number by number.
+/// The content after the head, number by number.
 class Body {
 public:
   Body(std::string_view rest, const Head& head, const std::string& name)
       : rest_(rest), head_(head), name_(name) {}
 
-  /// \throws Error parse if the file cannot hold an element's rows.
+  /// \throws Error parse if the file is too short for the rows of an element.
   void require_rows(const Element& element) const {
     std::int64_t least = 0;
     for (const Property& property : element.properties)
@@ -160,7 +160,7 @@ public:
     return number;
   }
 
-  /// The number of items of a list, which the file can hold.
+  /// Reads the number of items of a list. The file must be long enough for them.
   std::int64_t take_count(const Element& element, const Property& property, std::int64_t row) {
     const auto count = take<std::int64_t>(element, *property.count, row);
     if (count < 0 || count > size())
@@ -205,8 +205,8 @@ private:
   const std::string& name_;
 };
 
-/// The row of a point that a property is: 0 to 2 for x to z, or -1.
-int coordinate_of(const Property& property) {
+/// The coordinate that a property is: 0 to 2 for x to z, or -1.
+int find_coordinate(const Property& property) {
   const bool coordinate = !property.count && property.name.size() == 1 && 'x' <= property.name[0] &&
                           property.name[0] <= 'z';
   return coordinate ? property.name[0] - 'x' : -1;
@@ -226,17 +226,17 @@ void require_properties(const Element& element, const Wanted& wanted, std::ptrdi
 
 void read_points(const Element& element, const std::string& name, Body& body, PolyData& poly_data) {
   require_properties(
-      element, [](const Property& p) { return coordinate_of(p) >= 0; }, 3,
+      element, [](const Property& p) { return find_coordinate(p) >= 0; }, 3,
       "the properties x, y and z once each", name);
   poly_data.points.resize(3, element.count);
   for (std::int64_t row = 0; row < element.count; ++row)
     for (const Property& property : element.properties)
-      if (const int k = coordinate_of(property); k >= 0)
+      if (const int k = find_coordinate(property); k >= 0)
         poly_data.points(k, row) = body.take<double>(element, property.type, row);
       else
         body.skip(element, property, row);
   for (const Property& property : element.properties)
-    if (coordinate_of(property) < 0)
+    if (find_coordinate(property) < 0)
       poly_data.ignored.push_back(property.name);
     else
       poly_data.single |= property.type == Scalar::float32;
@@ -293,7 +293,7 @@ RawMesh get_ply(std::istream& in, const std::string& name) {
   }
   body.finish();
   require_polygons(name, poly_data, {"face", "face"});
-  return raw_mesh_of(name, std::move(poly_data));
+  return make_raw_mesh(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

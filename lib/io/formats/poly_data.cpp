@@ -19,17 +19,17 @@ namespace {
 constexpr const char* site_name = "site";
 constexpr const char* triangle_name = "triangle";
 
-/// How far a direction may turn by rounding to single precision, and the circumcentre of three such
-/// directions with it, radians.
+/// Maximum error of a direction in single precision, and of the circumcentre of three such
+/// directions, in radians.
 constexpr double single_rounding = 4 * 0x1p-24;
 
-/// Of the cells; written with each mesh, and computed from it.
+/// Whether an array of the cells is computed from the mesh whenever it is written.
 bool is_derived(const std::string& name) {
   constexpr std::array<std::string_view, 4> derived{"area", "spacing", "quality", "degree"};
   return std::find(derived.begin(), derived.end(), name) != derived.end();
 }
 
-bool holds_centres(const std::string& name) { return name == site_name || name == "Center"; }
+bool has_centres(const std::string& name) { return name == site_name || name == "Center"; }
 
 const DataArray* find(const PolyData& poly_data, const std::string& name, bool of_polygons) {
   const auto found =
@@ -39,7 +39,7 @@ const DataArray* find(const PolyData& poly_data, const std::string& name, bool o
   return found == poly_data.arrays.end() ? nullptr : &*found;
 }
 
-Points3 points_of(const DataArray& array) {
+Points3 as_points(const DataArray& array) {
   return Eigen::Map<const Points3>(array.values.data(), 3, array.values.size() / 3);
 }
 
@@ -52,7 +52,7 @@ bool all_triangles(const PolyData& poly_data) {
 
 // ---- Voronoi cells as calotte writes them
 
-Triangles triangles_of(const std::string& name, const DataArray& array, std::int64_t sites) {
+Triangles read_triangles(const std::string& name, const DataArray& array, std::int64_t sites) {
   Triangles triangles(3, array.values.size() / 3);
   for (Eigen::Index k = 0; k < array.values.size(); ++k) {
     const auto id = number_as<std::int32_t>(array.values[k]);
@@ -67,8 +67,8 @@ Triangles triangles_of(const std::string& name, const DataArray& array, std::int
   return triangles;
 }
 
-/// Each corner of a cell belongs to a triangle of the cell's site. Another program may have removed
-/// or renumbered cells.
+/// Requires that each corner of a cell belongs to a triangle of its site. Another program may have
+/// removed or renumbered cells.
 void require_triangles_of_cells(const std::string& name, const PolyData& poly_data,
                                 const Triangles& triangles) {
   for (std::int64_t i = 0; i < poly_data.size(); ++i)
@@ -97,7 +97,7 @@ void add_field(DataArray& array, FieldLocation location, std::set<std::string>& 
         {.name = std::move(array.name), .location = location, .values = std::move(array.values)});
 }
 
-/// Adds the arrays of one component.
+/// Adds arrays of one component as fields.
 void add_fields(PolyData& poly_data, bool polygons_are_cells, RawMesh& raw) {
   std::set<std::string> names;
   raw.ignored = std::move(poly_data.ignored);
@@ -118,20 +118,20 @@ Points3 directions(const std::string& name, const Points3& points) {
   return on_sphere(points, 1);
 }
 
-RawMesh cells_of(const std::string& name, PolyData& poly_data, const DataArray* centres) {
+RawMesh make_cells(const std::string& name, PolyData& poly_data, const DataArray* centres) {
   RawMesh raw;
   if (lies_in_plane(poly_data.points)) {
     if (centres == nullptr)
       refuse_path(name, "z is 0 at all points; of a plane only triangles, and cells with an array "
                         "site, are read");
-    raw.points = points_of(*centres);
+    raw.points = as_points(*centres);
     raw.polygons = {std::move(poly_data.points), std::move(poly_data.ids), raw.points,
                     Surface::plane()};
     return raw;
   }
   raw.polygons = {directions(name, poly_data.points), std::move(poly_data.ids), Points3(3, 0)};
   if (centres != nullptr) {
-    raw.points = points_of(*centres);
+    raw.points = as_points(*centres);
     raw.polygons.centres = directions(in_array(name, centres->name), raw.points);
   }
   raw.corner_rounding = poly_data.single ? single_rounding : 0;
@@ -146,7 +146,7 @@ std::string in_array(const std::string& name, const std::string& array) {
 
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components) {
   return components == 1 ||
-         (components == 3 && (of_polygons ? holds_centres(name) : name == triangle_name));
+         (components == 3 && (of_polygons ? has_centres(name) : name == triangle_name));
 }
 
 void require_polygons(const std::string& name, const PolyData& poly_data,
@@ -176,17 +176,17 @@ void require_polygons(const std::string& name, const PolyData& poly_data,
               count, used);
 }
 
-RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data) {
+RawMesh make_raw_mesh(const std::string& name, PolyData&& poly_data) {
   const DataArray* const site = find(poly_data, site_name, true);
   const DataArray* const triangle = find(poly_data, triangle_name, false);
   const bool cells = poly_data.size() > 0 && (site != nullptr || !all_triangles(poly_data));
   RawMesh raw;
   if (cells && site != nullptr && triangle != nullptr) {
-    raw.points = points_of(*site);
-    raw.triangles = triangles_of(name, *triangle, poly_data.size());
+    raw.points = as_points(*site);
+    raw.triangles = read_triangles(name, *triangle, poly_data.size());
     require_triangles_of_cells(name, poly_data, raw.triangles);
   } else if (cells) {
-    raw = cells_of(name, poly_data, site != nullptr ? site : find(poly_data, "Center", true));
+    raw = make_cells(name, poly_data, site != nullptr ? site : find(poly_data, "Center", true));
   } else {
     raw.points = std::move(poly_data.points);
     raw.triangles = Eigen::Map<const Triangles>(poly_data.ids.items.data(), 3, poly_data.size());

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Polygons with data, as files of graphics programs hold them: VTK and PLY.
+/// Polygons with data, as in files of graphics programs: VTK and PLY.
 namespace calotte::io_detail {
 
 template <class T> using Column = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::DontAlign>;
@@ -21,24 +21,24 @@ struct DataArray {
   std::string name;
   bool of_polygons = false;
   int components = 1;
-  DoubleVector values; ///< tuple after tuple
+  DoubleVector values; ///< all components of one tuple, then those of the next
 };
 
-/// A file's contents, before it is known whether its points are sites or corners of cells.
+/// The contents of a file, before it is known whether its points are sites or corners of cells.
 struct PolyData {
   Points3 points;                   ///< as in the file
-  bool single = false;              ///< the file holds the points in single precision
-  IdLists ids;                      ///< of each polygon: 0-based points, in order around it
-  std::vector<DataArray> arrays;    ///< those that is_read() selects, others are left out
+  bool single = false;              ///< whether the points in the file have single precision
+  IdLists ids;                      ///< corners of each polygon: 0-based points, in order
+  std::vector<DataArray> arrays;    ///< arrays that is_read() selects
   std::vector<std::string> ignored; ///< names of other arrays
 
   std::int64_t size() const { return ids.size(); } ///< number of polygons
 };
 
-/// Whether raw_mesh_of() uses an array of that name.
+/// Whether make_raw_mesh() uses an array of that name.
 bool is_read(const std::string& name, bool of_polygons, std::int64_t components);
 
-/// What a file calls the parts of poly data, for messages.
+/// The names of the parts of poly data in a file, for messages.
 struct PolyDataNames {
   std::string offsets = "offsets", ids = "connectivity";
 };
@@ -58,7 +58,7 @@ void require_polygons(const std::string& name, const PolyData& poly_data,
 /// Arrays of one component become fields, `density` of the cells the density. Those that calotte
 /// derives from a mesh are left out.
 /// \throws Error parse; invalid_argument for polygons in a plane without centres.
-RawMesh raw_mesh_of(const std::string& name, PolyData&& poly_data);
+RawMesh make_raw_mesh(const std::string& name, PolyData&& poly_data);
 
 /// The name of an array of a file, for messages.
 std::string in_array(const std::string& name, const std::string& array);

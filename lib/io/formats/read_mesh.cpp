@@ -25,9 +25,9 @@ using namespace io_detail;
 
 // ---- Which format
 
-/// Whether the file is NetCDF: its name says so, or its contents where the name says nothing.
-/// \throws Error invalid_argument, where neither says a format.
-bool holds_netcdf(const std::string& path) {
+/// Whether a file is NetCDF, by its name; by its contents, if the name does not determine a format.
+/// \throws Error invalid_argument, if neither determines a format.
+bool is_netcdf_mesh(const std::string& path) {
   const std::optional<Format> format = format_of_name(path);
   if (!format && !is_netcdf_file(path))
     refuse_name(path);
@@ -40,15 +40,15 @@ bool holds_netcdf(const std::string& path) {
 
 // ---- Files of each kind
 
-/// The row that reads a file, and the file, open if it is NetCDF.
+/// The row that reads a file, and the file, opened if it is NetCDF.
 struct OpenFile {
   explicit OpenFile(const std::string& path) {
-    if (!holds_netcdf(path)) {
-      row = &row_of(*format_of_name(path));
+    if (!is_netcdf_mesh(path)) {
+      row = &find_row(*format_of_name(path));
       return;
     }
     netcdf.emplace(path);
-    row = row_of(*netcdf);
+    row = find_row(*netcdf);
     if (row == nullptr)
       refuse_netcdf(*netcdf);
   }
@@ -73,9 +73,9 @@ MeshFile read_any(const std::string& path, FieldChoice choice) {
 
 // ---- Points alone
 
-/// Without what goes with them where that costs a look or may fail.
+/// Reads the sites only, where reading the rest is slow or may fail.
 /// \throws Error invalid_argument, for cells without centres.
-Points3 sites_of(const std::string& path) {
+Points3 read_sites_of_mesh(const std::string& path) {
   const OpenFile file(path);
   const InputFile input = file.input(path, FieldChoice::none);
   if (file.row->read_sites != nullptr)
@@ -126,7 +126,7 @@ Mesh read_mesh(const std::string& path, const Points3* points) {
 }
 
 Points3 read_sites(const std::string& path) {
-  Points3 sites = sites_of(path);
+  Points3 sites = read_sites_of_mesh(path);
   require_sphere(path, sites);
   require_directions(path, sites);
   return sites;

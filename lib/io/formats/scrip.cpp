@@ -8,13 +8,13 @@
 #include "io/formats/formats.h"
 
 // The grid file of SCRIP, a package for conservative remapping (Jones, Mon. Weather Rev. 127,
-// 1999), which CDO, ESMF, NCO and TempestRemap read, too: each cell has copies of its corners.
+// 1999). CDO, ESMF, NCO and TempestRemap read it, too. Each cell has its own copies of its corners.
 // Bounds and coordinates make it a file of the CF conventions.
 
 namespace calotte::io_detail {
 namespace {
 
-/// A longitude or latitude.
+/// The attributes of a longitude or latitude.
 NetcdfAttributes angle(const std::string& standard_name, const std::string& of) {
   return {{"units", std::string("degrees")},
           {"standard_name", standard_name},
@@ -27,7 +27,7 @@ NetcdfAttributes centre_angle(const std::string& standard_name, const std::strin
   return attributes;
 }
 
-/// Of the cells' corners; the last one fills the row.
+/// An angle of the corners of the cells. The last corner fills the rest of a row.
 NetcdfWriter::Fill<double> corner_angles(const Polygons& cells, double LonLat::*angle) {
   return table<double>(most_corners(cells), [&cells, angle](std::int64_t cell, std::int64_t k) {
     return eastern_lonlat_of(column(cells.corners, corner_or_last(cells, cell, k))).*angle;

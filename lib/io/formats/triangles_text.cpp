@@ -7,7 +7,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// For each site its lowest input column, or itself where the mesh does not say.
+/// The lowest input column of each site; the site itself, if the mesh does not have the columns.
 std::vector<std::int32_t> input_of_site(const Mesh& mesh) {
   std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
   if (mesh.site_of_input.empty())

@@ -14,7 +14,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The first variable that describes a mesh of faces, or nothing.
+/// Finds the first variable that describes a mesh of faces; "" without one.
 std::string mesh_variable(const NetcdfReader& file) {
   for (const std::string& name : file.variable_names())
     if (file.text(name, "cf_role") == "mesh_topology" &&
@@ -23,7 +23,7 @@ std::string mesh_variable(const NetcdfReader& file) {
   return "";
 }
 
-/// Latitude, or y.
+/// Whether a variable is the second coordinate: latitude, or y.
 bool is_second(const NetcdfReader& file, const std::string& name) {
   const std::string standard_name = file.text(name, "standard_name");
   return standard_name == "latitude" || standard_name == "projection_y_coordinate" ||
@@ -40,7 +40,7 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-Topology topology_of(const NetcdfReader& file) {
+Topology read_topology(const NetcdfReader& file) {
   const std::string mesh = mesh_variable(file);
   Topology topology{
       file.text(mesh, "face_node_connectivity"),     file.text(mesh, "face_dimension"),
@@ -68,10 +68,10 @@ Topology topology_of(const NetcdfReader& file) {
 
 namespace {
 
-/// Node ids, 0-based, a face a column; -1 past its last corner.
+/// The 0-based ids of nodes, with a column for each face; -1 after its last corner.
 using FaceNodes = Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::DontAlign>;
 
-/// Turns what a file holds into such ids.
+/// Converts ids of a file to such ids.
 struct FaceNodesReader {
   const NetcdfReader& file;
   const std::string& name;
@@ -101,10 +101,10 @@ struct FaceNodesReader {
   }
 };
 
-/// Without the attribute ids count from 0; those of FESOM's files, from 1: one is the number of
-/// nodes, and none is 0.
-double start_index_of(const NetcdfReader& file, const std::string& name, std::int64_t nodes,
-                      const std::vector<double>& ids) {
+/// The first id. Without the attribute ids count from 0, but in files of FESOM from 1: one id is
+/// the number of nodes, and no id is 0.
+double find_start_index(const NetcdfReader& file, const std::string& name, std::int64_t nodes,
+                        const std::vector<double>& ids) {
   const auto has = [&](std::int64_t id) {
     return std::find(ids.begin(), ids.end(), static_cast<double>(id)) != ids.end();
   };
@@ -112,9 +112,9 @@ double start_index_of(const NetcdfReader& file, const std::string& name, std::in
   return start != -1 ? start : has(nodes) && !has(0) ? 1 : 0;
 }
 
-FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std::int64_t nodes) {
+FaceNodes read_face_nodes(const NetcdfReader& file, const Topology& topology, std::int64_t nodes) {
   const std::string& name = topology.face_nodes;
-  // Doubles hold every padding that others use, whatever its type.
+  // Doubles represent every padding value that other programs use, whatever its type.
   const std::vector<double> values = file.doubles(name, {-1, -1});
   const std::vector<std::int64_t> shape = file.shape_of(name);
   const std::vector<std::string> dimensions = file.dimensions_of(name);
@@ -122,7 +122,7 @@ FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std:
       dimensions[1] == topology.face_dimension && dimensions[0] != topology.face_dimension;
   const std::int64_t faces = shape[faces_last ? 1 : 0], most = shape[faces_last ? 0 : 1];
 
-  const FaceNodesReader reader{file, name, nodes, start_index_of(file, name, nodes, values)};
+  const FaceNodesReader reader{file, name, nodes, find_start_index(file, name, nodes, values)};
   FaceNodes result(most, faces);
   for (std::int64_t face = 0; face < faces; ++face) {
     for (std::int64_t k = 0; k < most; ++k)
@@ -133,37 +133,39 @@ FaceNodes face_nodes_of(const NetcdfReader& file, const Topology& topology, std:
   return result;
 }
 
-/// Unit vectors; in a plane places with z = 0. \param names of longitude and latitude, or x and y.
+/// Reads unit vectors, or points with z = 0 in a plane.
+/// \param names of longitude and latitude, or x and y.
 Points3 read_pairs(const NetcdfReader& file, const Topology& topology,
                    const std::vector<std::string>& names, std::int64_t count = -1) {
   if (!topology.planar)
     return read_lonlats(file, names[0], names[1], {count});
   const std::vector<double> x = cf_values(file, names[0], {count}),
                             y = cf_values(file, names[1], {std::ssize(x)});
-  Points3 places = Points3::Zero(3, std::ssize(x));
-  places.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), places.cols());
-  places.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), places.cols());
-  if (!places.allFinite())
+  Points3 points = Points3::Zero(3, std::ssize(x));
+  points.row(0) = Eigen::Map<const Eigen::RowVectorXd>(x.data(), points.cols());
+  points.row(1) = Eigen::Map<const Eigen::RowVectorXd>(y.data(), points.cols());
+  if (!points.allFinite())
     file.fail("{} and {} hold a number that is no place (NaN or infinite); make the file again",
               names[0], names[1]);
-  return places;
+  return points;
 }
 
-/// The faces' places as given. \param count -1 for any number.
-Points3 read_places(const NetcdfReader& file, const std::vector<std::string>& names,
-                    std::int64_t count) {
-  Points3 places;
+/// Reads Cartesian coordinates.
+/// \param count -1 for any number.
+Points3 read_cartesian(const NetcdfReader& file, const std::vector<std::string>& names,
+                       std::int64_t count) {
+  Points3 points;
   for (int row = 0; row < 3; ++row) {
     const std::vector<double> values = file.doubles(names[static_cast<std::size_t>(row)], {count});
-    places.resize(3, std::ssize(values));
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), places.cols());
-    count = places.cols();
+    points.resize(3, std::ssize(values));
+    points.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), points.cols());
+    count = points.cols();
   }
-  return places;
+  return points;
 }
 
 /// The faces as polygons.
-Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
+Polygons make_polygons(const FaceNodes& faces, Points3 nodes, Points3 centres, bool planar) {
   Polygons polygons{std::move(nodes),
                     {Offsets(faces.cols() + 1), {}},
                     std::move(centres),
@@ -178,28 +180,29 @@ Polygons faces_of(const FaceNodes& faces, Points3 nodes, Points3 centres, bool p
   return polygons;
 }
 
-/// The first node that three faces do not surround.
-std::int64_t first_without_triangle(const Dual& dual) {
-  if (dual.failed >= 0)
-    return dual.failed;
+/// Finds the first node that other than three faces surround.
+std::int64_t find_incomplete_node(const Dual& make_triangles) {
+  if (make_triangles.failed >= 0)
+    return make_triangles.failed;
   std::int64_t node = 0;
-  while (node < dual.corner.size() && dual.corner[node] == node)
+  while (node < make_triangles.corner.size() && make_triangles.corner[node] == node)
     ++node;
   return node;
 }
 
-/// One triangle of faces a node.
-Triangles dual(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
-  Dual dual = make_dual(faces_of(faces, {}, {}, false), nodes);
-  if (dual.failed >= 0 || dual.triangles.cols() < nodes)
+/// Makes a triangle of faces at each node.
+Triangles make_triangles(const NetcdfReader& file, const FaceNodes& faces, std::int64_t nodes) {
+  Dual make_triangles = make_dual(make_polygons(faces, {}, {}, false), nodes);
+  if (make_triangles.failed >= 0 || make_triangles.triangles.cols() < nodes)
     file.fail("the faces around node {} (0-based) are not three that share edges; make the file "
               "again",
-              first_without_triangle(dual));
-  return std::move(dual.triangles);
+              find_incomplete_node(make_triangles));
+  return std::move(make_triangles.triangles);
 }
 
-/// Everything that the mesh variable names is not a field.
-NetcdfMeshNames names_of(const NetcdfReader& file, const Topology& topology, bool sites_are_nodes) {
+/// The names of the variables that the mesh variable refers to. They are not fields.
+NetcdfMeshNames list_mesh_names(const NetcdfReader& file, const Topology& topology,
+                                bool sites_are_nodes) {
   const std::vector<std::string> of_faces = file.dimensions_of(topology.face_nodes);
   const std::string nodes = file.dimensions_of(topology.nodes[0]).front();
   const std::string faces =
@@ -208,7 +211,7 @@ NetcdfMeshNames names_of(const NetcdfReader& file, const Topology& topology, boo
                         sites_are_nodes ? faces : nodes,
                         {topology.mesh, topology.face_nodes}};
   if (!topology.sites.empty())
-    names.variables.insert("cell_area"); // as written here
+    names.variables.insert("cell_area"); // Calotte writes it
   for (const auto* list : {&topology.nodes, &topology.sites, &topology.faces})
     names.variables.insert(list->begin(), list->end());
   for (const char* attribute :
@@ -230,19 +233,19 @@ bool is_ugrid(const NetcdfReader& file) { return !mesh_variable(file).empty(); }
 
 Polygons read_ugrid_faces(const NetcdfReader& file, const Topology& topology) {
   Points3 nodes = read_pairs(file, topology, topology.nodes);
-  const FaceNodes faces = face_nodes_of(file, topology, nodes.cols());
+  const FaceNodes faces = read_face_nodes(file, topology, nodes.cols());
   Points3 centres;
   if (!topology.faces.empty())
     centres = read_pairs(file, topology, topology.faces, faces.cols());
-  return faces_of(faces, std::move(nodes), std::move(centres), topology.planar);
+  return make_polygons(faces, std::move(nodes), std::move(centres), topology.planar);
 }
 
 RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
-  const Topology topology = topology_of(file);
+  const Topology topology = read_topology(file);
   const std::vector<std::int64_t> nodes = file.shape_of(topology.nodes[0]);
   if (nodes.size() != 1)
     file.fail("{} is not a list of nodes; make the file again", topology.nodes[0]);
-  const FaceNodes faces = face_nodes_of(file, topology, nodes[0]);
+  const FaceNodes faces = read_face_nodes(file, topology, nodes[0]);
 
   RawMesh raw;
   const std::vector<std::string>& sites = topology.sites;
@@ -251,11 +254,11 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
   const bool sites_are_nodes = !sites_are_faces && (!sites.empty() || all_triangles(faces));
   raw.has_cells = !sites_are_nodes;
   if (sites_are_faces) {
-    raw.points = read_places(file, sites, faces.cols());
-    raw.triangles = dual(file, faces, nodes[0]);
+    raw.points = read_cartesian(file, sites, faces.cols());
+    raw.triangles = make_triangles(file, faces, nodes[0]);
   } else if (sites_are_nodes) {
     raw.points = sites.empty() ? read_pairs(file, topology, topology.nodes)
-                               : read_places(file, sites, nodes[0]);
+                               : read_cartesian(file, sites, nodes[0]);
     raw.triangles = faces.topRows(3);
   } else {
     if (!topology.faces.empty())
@@ -264,11 +267,11 @@ RawMesh read_ugrid(const NetcdfReader& file, FieldChoice choice) {
       file.fail("the mesh variable {} names no face_coordinates, which cells of a plane need; add "
                 "the attribute",
                 topology.mesh);
-    raw.polygons =
-        faces_of(faces, read_pairs(file, topology, topology.nodes), raw.points, topology.planar);
+    raw.polygons = make_polygons(faces, read_pairs(file, topology, topology.nodes), raw.points,
+                                 topology.planar);
     raw.corner_rounding = file.is_float(topology.nodes[0]) ? float_rounding : 0;
   }
-  read_fields(file, names_of(file, topology, sites_are_nodes), choice, raw);
+  read_fields(file, list_mesh_names(file, topology, sites_are_nodes), choice, raw);
   drop_derived_fields(raw);
   return raw;
 }

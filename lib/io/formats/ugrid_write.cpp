@@ -18,34 +18,35 @@ std::string three_names(const std::string& prefix) {
   return prefix + "_x " + prefix + "_y " + prefix + "_z";
 }
 
-/// Longitudes and latitudes; in a plane x and y.
-std::string coordinates_of(const std::string& prefix, bool on_sphere) {
+/// The names of longitude and latitude, or of x and y in a plane.
+std::string coordinate_names(const std::string& prefix, bool on_sphere) {
   std::string names = prefix;
   names.append(on_sphere ? "_lon " : "_x ").append(prefix).append(on_sphere ? "_lat" : "_y");
   return names;
 }
 
-/// The variable that says what the others are.
-/// \param sites the prefix of the variables of the sites' places; empty for none.
+/// Adds the mesh variable, which names the others.
+/// \param sites prefix of the coordinate variables of the sites; empty for none.
 void add_topology(NetcdfGridFile& file, const std::string& what, const std::string& sites,
-                  bool face_places, bool on_sphere) {
+                  bool has_face_coordinates, bool on_sphere) {
   NetcdfAttributes attributes{
       {"cf_role", std::string("mesh_topology")},
       long_name(what),
       {"units", std::string("1")},
       {"topology_dimension", std::int32_t{2}},
-      {"node_coordinates", coordinates_of(node_name, on_sphere)},
+      {"node_coordinates", coordinate_names(node_name, on_sphere)},
       {"face_node_connectivity", face_nodes_name},
       {"face_dimension", face_name},
   };
   if (!sites.empty())
     attributes.push_back({site_coordinates, three_names(sites)});
-  if (face_places)
-    attributes.push_back({"face_coordinates", coordinates_of(face_name, on_sphere)});
+  if (has_face_coordinates)
+    attributes.push_back({"face_coordinates", coordinate_names(face_name, on_sphere)});
   file.ints(mesh_name, {}, attributes, constant(0));
 }
 
-/// x and y in a plane. \param of in words.
+/// Adds x and y in a plane.
+/// \param of noun in the long name.
 void add_projected(NetcdfGridFile& file, const std::string& prefix, int dimension,
                    const std::string& of, const Points3& points) {
   for (int row = 0; row < 2; ++row) {
@@ -60,8 +61,9 @@ void add_projected(NetcdfGridFile& file, const std::string& prefix, int dimensio
   }
 }
 
-/// Longitudes and latitudes of nodes or faces. \param of in words. \param bounds whether these have
-/// bounds, see add_bounds().
+/// Adds longitudes and latitudes of nodes or faces.
+/// \param of noun in the long name.
+/// \param bounds whether they have bounds, see add_bounds().
 void add_lonlats(NetcdfGridFile& file, const std::string& prefix, int dimension,
                  const std::string& of, const Points3& points, bool bounds = false) {
   const auto add = [&](const std::string& axis, const std::string& name, const std::string& units,
@@ -76,9 +78,8 @@ void add_lonlats(NetcdfGridFile& file, const std::string& prefix, int dimension,
   add("_lat", "latitude", "degrees_north", latitudes_of(points));
 }
 
-/// The corners of the faces once more, as bounds of their longitudes and latitudes by the CF
-/// conventions, without which CDO knows no area of a face. The last corner fills what is left of a
-/// row.
+/// Adds the corners of the faces as bounds of their longitudes and latitudes, as the CF conventions
+/// define them; without bounds CDO cannot compute areas. The last corner fills the rest of a row.
 /// \param corner(face, k) the k-th corner of a face, k < most; the last one from there on.
 template <class Corner>
 void add_bounds(NetcdfGridFile& file, int faces, std::int64_t most, const Corner& corner) {
@@ -91,12 +92,12 @@ void add_bounds(NetcdfGridFile& file, int faces, std::int64_t most, const Corner
                    return angle(eastern_lonlat_of(corner(face, k)));
                  }));
   };
-  add("_lon", "longitude", "degrees_east", [](const LonLat& place) { return place.longitude; });
-  add("_lat", "latitude", "degrees_north", [](const LonLat& place) { return place.latitude; });
+  add("_lon", "longitude", "degrees_east", [](const LonLat& lonlat) { return lonlat.longitude; });
+  add("_lat", "latitude", "degrees_north", [](const LonLat& lonlat) { return lonlat.latitude; });
 }
 
-void add_places(NetcdfGridFile& file, const std::string& prefix, int dimension,
-                const Points3& points) {
+void add_cartesian(NetcdfGridFile& file, const std::string& prefix, int dimension,
+                   const Points3& points) {
   for (int row = 0; row < 3; ++row) {
     const std::string axis(1, "xyz"[row]);
     std::string name = prefix + "_";
@@ -107,7 +108,7 @@ void add_places(NetcdfGridFile& file, const std::string& prefix, int dimension,
   }
 }
 
-/// \param node of face and corner; -1 past the last.
+/// \param node(face, k) the k-th node of a face; -1 past the last.
 template <class Node>
 void add_face_nodes(NetcdfGridFile& file, int faces, std::int64_t most, const Node& node) {
   const int corners = file.netcdf().dimension("mesh_max_face_nodes", most);
@@ -122,8 +123,8 @@ void add_face_nodes(NetcdfGridFile& file, int faces, std::int64_t most, const No
 
 constexpr const char* conventions = "CF-1.8 UGRID-1.0";
 
-/// Attributes of a variable of data at faces or nodes. \param coordinates the names of those of
-/// their places; empty for none.
+/// Attributes of a data variable at faces or nodes.
+/// \param coordinates names of their coordinates; empty for none.
 NetcdfAttributes located(const std::string& location, const std::string& coordinates) {
   NetcdfAttributes attributes{{"mesh", mesh_name}, {"location", location}};
   if (!coordinates.empty())
@@ -131,11 +132,11 @@ NetcdfAttributes located(const std::string& location, const std::string& coordin
   return attributes;
 }
 
-/// A variable of data at the faces: without one, CDO sees no unstructured grid.
-void add_areas(NetcdfGridFile& file, int faces, const DoubleVector& areas, bool face_places,
-               bool on_sphere) {
+/// Adds a data variable at the faces. Without one, CDO does not recognise an unstructured grid.
+void add_areas(NetcdfGridFile& file, int faces, const DoubleVector& areas,
+               bool has_face_coordinates, bool on_sphere) {
   NetcdfAttributes attributes =
-      located("face", face_places ? coordinates_of(face_name, on_sphere) : "");
+      located("face", has_face_coordinates ? coordinate_names(face_name, on_sphere) : "");
   attributes.push_back({"units", std::string(on_sphere ? "radians^2" : "m2")});
   attributes.push_back(
       long_name(on_sphere ? "area of the face on the unit sphere" : "area of the face"));
@@ -173,7 +174,7 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
   const int nodes = file.netcdf().dimension(node_name, cells.corners.cols());
   const int faces = file.netcdf().dimension(face_name, cells.size());
   add_areas(file, faces, grid.area, has_centres,
-            on_sphere); // first: CDO takes its grid for the file's
+            on_sphere); // first, because CDO uses its grid for the file
   add_topology(file, has_sites ? "Voronoi cells of the sites" : "cells", has_sites ? face_name : "",
                has_centres, on_sphere);
   add_coordinates(node_name, nodes, "the node, a corner of cells", cells.corners);
@@ -186,11 +187,11 @@ void write_ugrid(const std::string& path, const CellGrid& grid, const WriteOptio
       return column(cells.corners, corner_or_last(cells, cell, k));
     });
   if (has_sites)
-    add_places(file, face_name, faces, sites);
+    add_cartesian(file, face_name, faces, sites);
   add_fields(
       file, options,
-      {.cells = {faces, located("face", has_centres ? coordinates_of(face_name, on_sphere) : "")},
-       .vertices = {nodes, located("node", coordinates_of(node_name, on_sphere))}},
+      {.cells = {faces, located("face", has_centres ? coordinate_names(face_name, on_sphere) : "")},
+       .vertices = {nodes, located("node", coordinate_names(node_name, on_sphere))}},
       ugrid_names(true));
   file.commit();
 }
@@ -213,12 +214,12 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Writ
     add_bounds(file, faces, 3, [&](std::int64_t triangle, std::int64_t k) {
       return column(directions, mesh.triangles(k, triangle));
     });
-  add_places(file, node_name, nodes, sites);
-  add_fields(
-      file, options,
-      {.cells = {nodes, located("node", coordinates_of(node_name, true))},
-       .vertices = {faces, located("face", mesh.closed() ? coordinates_of(face_name, true) : "")}},
-      ugrid_names(false));
+  add_cartesian(file, node_name, nodes, sites);
+  add_fields(file, options,
+             {.cells = {nodes, located("node", coordinate_names(node_name, true))},
+              .vertices = {faces, located("face",
+                                          mesh.closed() ? coordinate_names(face_name, true) : "")}},
+             ugrid_names(false));
   file.commit();
 }
 

@@ -11,8 +11,8 @@
 namespace calotte::io_detail {
 namespace {
 
-/// VTK's name of a type that is not read (vtkCellType.h).
-std::string name_of(std::int32_t type) {
+/// The name of a type that is not read (vtkCellType.h).
+std::string type_name(std::int32_t type) {
   constexpr std::array<std::pair<std::int32_t, std::string_view>, 17> names{
       {{0, "empty cell"},
        {1, "vertex"},
@@ -47,7 +47,7 @@ void require_cell_types(const std::string& name, const PolyData& poly_data, cons
       fail_file(in_array(name, array), i,
                 "cell {} has the type {}{}; only 5 (triangle), 7 (polygon) and 9 (quad) are read, "
                 "remove the others",
-                i, type, name_of(type));
+                i, type, type_name(type));
     const std::int64_t corners = poly_data.ids.count(i);
     if ((type == triangle_type && corners != 3) || (type == quad_type && corners != 4))
       fail_file(in_array(name, array), i,

@@ -14,8 +14,8 @@ inline constexpr std::int32_t triangle_type = 5, polygon_type = 7, quad_type = 9
 
 /// Accepts the cell types triangle (5), polygon (7) and quad (9) of VTK.
 /// \param types one for each polygon.
-/// \throws Error parse, naming the first cell of another type, or one whose corners are not as many
-/// as its type has.
+/// \throws Error parse, naming the first cell of another type, or with a number of corners that its
+/// type does not have.
 void require_cell_types(const std::string& name, const PolyData& poly_data, const Ids& types,
                         const std::string& array = "types");
 

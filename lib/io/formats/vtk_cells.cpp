@@ -10,11 +10,11 @@ namespace {
 
 constexpr const char* cell_data = "CellData Scalars=\"spacing\"";
 
-/// Points, connectivity, offsets and types.
+/// Adds points, connectivity, offsets and types.
 void add_shapes(const Points3& corners, const Polygons& cells, VtkHead& head,
                 std::vector<VtkContent>& contents) {
   add_points(corners.cols(), head);
-  contents.push_back(content_of(corners));
+  contents.push_back(make_content(corners));
   add_cells(cells.ids.items.size(), head);
   contents.emplace_back([&cells](Writer& out) {
     for (const std::int32_t corner : cells.ids.items)
@@ -47,7 +47,7 @@ void put_vtk_cells(const Sink& sink, const Mesh& mesh, const WriteOptions& optio
   add_field_arrays("CellData", head.cells, head);
   add_field_contents(fields, contents);
   head.arrays.push_back({cell_data, "Float64", "site", head.cells, 3});
-  contents.push_back(content_of(mesh.points));
+  contents.push_back(make_content(mesh.points));
   add_fields(cell_data, options.fields, FieldLocation::cells, head, contents);
   add_shapes(corners, cells, head, contents);
   put_vtk(sink, head, contents);
@@ -63,7 +63,7 @@ void put_vtk_cells(const Sink& sink, const Polygons& polygons, const WriteOption
   add_fields("CellData", own, FieldLocation::cells, head, contents);
   if (polygons.centres.cols() > 0) {
     head.arrays.push_back({"CellData", "Float64", "site", head.cells, 3});
-    contents.push_back(content_of(polygons.centres));
+    contents.push_back(make_content(polygons.centres));
   }
   add_fields("CellData", options.fields, FieldLocation::cells, head, contents);
   add_shapes(polygons.corners, polygons, head, contents);

@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, Scalar>, 15> legacy_types{
      {"unsigned_int", Scalar::uint32},
      {"long", Scalar::int64},
      {"unsigned_long", Scalar::uint64},
-     {"vtkidtype", Scalar::int32}, // the writers put it as an int
+     {"vtkidtype", Scalar::int32}, // VTK writes it as an int
      {"vtktypeint64", Scalar::int64},
      {"vtktypeuint64", Scalar::uint64},
      {"vtktypeint32", Scalar::int32},
@@ -120,7 +120,7 @@ LegacyText::Type LegacyText::type() {
   return type;
 }
 
-/// Bytes start after the end of the line.
+/// Skips to the end of the line, where bytes start.
 void LegacyText::start_numbers() {
   if (binary_)
     line();
@@ -130,7 +130,8 @@ template <class T>
 Column<T> LegacyText::numbers(const std::string& array, Scalar type, std::int64_t count) {
   start_numbers();
   const auto size = static_cast<std::int64_t>(rest_.size());
-  if (count > (binary_ ? size / size_of(type) : (size + 1) / 2)) // a digit and white space
+  if (count >
+      (binary_ ? size / size_of(type) : (size + 1) / 2)) // at least a digit and white space each
     fail_damaged(in_array(name_, array), "the file ends before its {} numbers", count);
   Column<T> numbers(count);
   if (binary_) {
@@ -156,7 +157,7 @@ void LegacyText::skip_bytes(const std::string& array, std::int64_t count) {
   rest_.remove_prefix(static_cast<std::size_t>(count));
 }
 
-/// A length, whose first two bits tell how many bytes it takes, then the characters.
+/// Skips a string: a length, whose first two bits encode its number of bytes, then the characters.
 void LegacyText::skip_string(const std::string& array) {
   const auto first =
       rest_.empty() ? 0U : static_cast<unsigned>(static_cast<unsigned char>(rest_[0]));
@@ -172,7 +173,7 @@ void LegacyText::skip_string(const std::string& array) {
 
 void LegacyText::skip(const std::string& array, const Type& type, std::int64_t count) {
   start_numbers();
-  if (count > 8 * (static_cast<std::int64_t>(rest_.size()) + 1)) // a bit each is the least
+  if (count > 8 * (static_cast<std::int64_t>(rest_.size()) + 1)) // at least a bit each
     skip_bytes(array, count);
   if (!binary_ && type.name == "string") {
     line();

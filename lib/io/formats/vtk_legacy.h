@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-/// VTK's legacy files: the words of their text, and the numbers between, as text or as bytes with
-/// the most significant one first.
+/// The legacy files of VTK: words of text, and numbers between them, as text or in big-endian
+/// bytes.
 namespace calotte::io_detail {
 
-/// \throws Error parse for a file that starts as no legacy VTK file does.
+/// \throws Error parse for a file that does not start as a legacy VTK file.
 void require_legacy_vtk(std::string_view start, const std::string& name);
 
 class LegacyText {
@@ -26,32 +26,34 @@ public:
 
   const std::string& name() const { return name_; } ///< of the file
 
-  /// The next word of the text, in any line; empty at the end.
+  /// Reads the next word of the text, in any line; empty at the end.
   std::string_view word();
-  /// The next word of this line; empty at its end.
+  /// Reads the next word of this line; empty at its end.
   std::string_view word_of_line();
-  /// Whether the next word is this one, whatever its case; takes it then.
+  /// Whether the next word is the keyword, in any case. If so, reads it.
   bool take(std::string_view keyword);
-  /// The rest of the line.
+  /// Reads the rest of the line.
   std::string_view line();
 
-  /// The next word as a number of things from 0 to 2147483647. \throws Error parse.
+  /// Reads the next word as a number from 0 to 2147483647. \throws Error parse.
   std::int64_t count(const std::string& what);
-  /// A name in which %XX stands for other characters.
+  /// Reads a name, in which %XX encodes a character.
   std::string decoded_name();
-  /// The next word as a type of numbers; none for bits and strings. \throws Error parse, for a word
-  /// that is no type.
+  /// Reads the next word as a type of numbers; none for bits and strings. \throws Error parse, for
+  /// a word that is not a type.
   struct Type {
     std::string name;
     std::optional<Scalar> scalar;
   };
   Type type();
 
-  /// Numbers from the next line on. \param array for messages. \throws Error parse.
+  /// Reads numbers from the next line on.
+  /// \param array for messages.
+  /// \throws Error parse.
   template <class T> Column<T> numbers(const std::string& array, Scalar type, std::int64_t count);
-  /// Passes over values. \throws Error parse.
+  /// Skips values. \throws Error parse.
   void skip(const std::string& array, const Type& type, std::int64_t count);
-  /// Passes over the lines of METADATA, which end with an empty one.
+  /// Skips the lines of METADATA, up to an empty one.
   void skip_metadata();
 
 private:

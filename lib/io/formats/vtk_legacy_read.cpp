@@ -24,7 +24,7 @@ Scalar type_of_numbers(LegacyText& text, const std::string& array) {
   return *type.scalar;
 }
 
-/// The points of cells of one kind. As of version 5.1: offsets from 0 on, and the points.
+/// Reads the corners of cells of one kind, as of version 5.1: offsets from 0 on, then points.
 IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t offsets,
                      std::int64_t points) {
   IdLists cells;
@@ -39,7 +39,8 @@ IdLists read_offsets(LegacyText& text, const std::string& section, std::int64_t 
   return cells;
 }
 
-/// Before version 5.1: the number of points before those of each cell.
+/// Reads the corners of cells as before version 5.1: the number of points of each cell, then its
+/// points.
 IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t count,
                    std::int64_t size) {
   const auto list = text.numbers<std::int32_t>(section, Scalar::int32, size);
@@ -47,14 +48,14 @@ IdLists read_lists(LegacyText& text, const std::string& section, std::int64_t co
     fail_damaged(in_array(text.name(), section), "its {} numbers cannot hold {} cells", size,
                  count);
   IdLists cells{Offsets::Zero(count + 1), Ids(size - count)};
-  std::int64_t place = 0, end = 0;
+  std::int64_t offset = 0, end = 0;
   for (std::int64_t i = 0; i < count; ++i) {
-    const std::int64_t corners = place < size ? list[place] : -1;
-    if (corners < 0 || corners > size - place - 1 || end + corners > cells.items.size())
+    const std::int64_t corners = offset < size ? list[offset] : -1;
+    if (corners < 0 || corners > size - offset - 1 || end + corners > cells.items.size())
       fail_file(in_array(text.name(), section), i, "cell {} runs beyond the {} numbers{}", i, size,
                 damaged);
-    cells.items.segment(end, corners) = list.segment(place + 1, corners);
-    place += corners + 1;
+    cells.items.segment(end, corners) = list.segment(offset + 1, corners);
+    offset += corners + 1;
     end += corners;
     cells.begin[i + 1] = end;
   }
@@ -159,7 +160,7 @@ private:
     return true;
   }
 
-  /// Attributes of a name and a type, with a number of components that the keyword gives.
+  /// Reads attributes with a name and a type. The keyword determines the number of components.
   bool read_plain(const std::string& keyword) {
     constexpr std::array<std::pair<std::string_view, int>, 7> plain{{{"vectors", 3},
                                                                      {"normals", 3},
@@ -177,7 +178,7 @@ private:
     return false;
   }
 
-  /// Colours are bytes in binary files, fractions in others.
+  /// The type of colours: bytes in binary files, fractions in text files.
   static LegacyText::Type colours() { return {"unsigned_char", Scalar::uint8}; }
 
   void read_scalars() {
@@ -193,7 +194,8 @@ private:
     read_array(name, type, components, tuples_);
   }
 
-  /// Arrays, each with sizes of its own. Before the data of points and cells they are the file's.
+  /// Reads arrays, each with its own size. Arrays before the data of points and cells belong to the
+  /// file.
   void read_field() {
     text_.word();
     const std::int64_t count = text_.count("arrays");
@@ -244,7 +246,7 @@ private:
     return std::move(poly_data_);
   }
 
-  /// Drops the values of vertices and lines, which come first.
+  /// Removes the values of vertices and lines, which come first.
   void keep_values_of_faces(DataArray& array) const {
     const std::int64_t skipped = array.of_polygons ? before_ : 0,
                        used = array.of_polygons ? poly_data_.size() : poly_data_.points.cols();
@@ -262,16 +264,16 @@ private:
   bool grid_ = false;
   PolyData poly_data_;
   Ids types_;
-  std::int64_t before_ = 0;      ///< vertices and lines
-  std::optional<bool> of_cells_; ///< whose data come; none before the first
-  std::int64_t tuples_ = 0;      ///< as announced
+  std::int64_t before_ = 0;      ///< number of vertices and lines
+  std::optional<bool> of_cells_; ///< whether data of cells follow; none before any data
+  std::int64_t tuples_ = 0;      ///< number of tuples, as announced
 };
 
 } // namespace
 
 RawMesh get_vtk_legacy(std::istream& in, const std::string& name) {
   const std::string content = read_all(in, name, require_legacy_vtk);
-  return raw_mesh_of(name, Reader(content, name).read());
+  return make_raw_mesh(name, Reader(content, name).read());
 }
 
 } // namespace calotte::io_detail

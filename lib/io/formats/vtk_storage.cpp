@@ -18,17 +18,19 @@
 namespace calotte::io_detail {
 namespace {
 
-/// An array of a file, for messages.
-struct Place {
+/// An array of a file. Messages contain both names.
+struct ArrayInFile {
   const VtkStorage& storage;
-  const XmlElement& array;
+  const XmlElement& element;
 
-  std::string name() const { return in_array(storage.name, array.attribute("Name", array.name)); }
+  std::string name() const {
+    return in_array(storage.name, element.attribute("Name", element.name));
+  }
 };
 
 // ---- Bytes
 
-/// Bytes of the file, or decoded ones.
+/// Bytes of the file, or decoded bytes that it owns.
 class StoredBytes {
 public:
   explicit StoredBytes(std::string_view bytes) : bytes_(bytes) {}
@@ -43,8 +45,8 @@ private:
 /// The stored bytes of an array from its header on.
 class Source {
 public:
-  Source(const Place& place, std::string_view stored, bool base64)
-      : place_(place), raw_(stored), base64_(stored), is_base64_(base64) {}
+  Source(const ArrayInFile& array, std::string_view stored, bool base64)
+      : array_(array), raw_(stored), base64_(stored), is_base64_(base64) {}
 
   std::int64_t most() const {
     return is_base64_ ? base64_.most() : static_cast<std::int64_t>(raw_.size());
@@ -53,7 +55,7 @@ public:
   /// \throws Error parse if there are fewer.
   StoredBytes take(std::uint64_t count) {
     if (count > static_cast<std::uint64_t>(most()))
-      fail_damaged(place_.name(), "its data end early");
+      fail_damaged(array_.name(), "its data end early");
     if (!is_base64_) {
       const std::string_view taken = raw_.substr(0, count);
       raw_.remove_prefix(count);
@@ -63,12 +65,12 @@ public:
     out.reserve(count);
     base64_.take(static_cast<std::int64_t>(count), out);
     if (out.size() != count)
-      fail_damaged(place_.name(), "its base64 text ends early or has another character");
+      fail_damaged(array_.name(), "its base64 text ends early or has another character");
     return StoredBytes(std::move(out));
   }
 
   std::uint64_t take_length() {
-    const VtkStorage& storage = place_.storage;
+    const VtkStorage& storage = array_.storage;
     const StoredBytes bytes = take(static_cast<std::uint64_t>(size_of(storage.length_type)));
     return storage.length_type == Scalar::uint64
                ? stored<std::uint64_t>(bytes.view().data(), storage.swapped)
@@ -76,21 +78,22 @@ public:
   }
 
 private:
-  const Place& place_;
+  const ArrayInFile& array_;
   std::string_view raw_;
   Base64Reader base64_;
   bool is_base64_;
 };
 
-/// \param size how many bytes there must be; -1 for any number.
-void require_size(const Place& place, std::uint64_t bytes, std::int64_t size) {
+/// \param size required number of bytes; -1 for any number.
+void require_size(const ArrayInFile& array, std::uint64_t bytes, std::int64_t size) {
   if (size >= 0 && bytes != static_cast<std::uint64_t>(size))
-    fail_damaged(place.name(), "it has {} bytes, but {} belong there", bytes, size);
+    fail_damaged(array.name(), "it has {} bytes, but {} belong there", bytes, size);
 }
 
 // ---- Compression
 
-/// The header of a compressed array: blocks of one size, the last one of another, unless that is 0.
+/// The header of a compressed array: blocks of one size, followed by one of another size, unless
+/// that is 0.
 struct Blocks {
   std::uint64_t size = 0, last = 0;
   std::vector<std::uint64_t> compressed; ///< size of each
@@ -105,18 +108,18 @@ bool is_plausible(std::uint64_t size, std::uint64_t compressed) {
   return size / 1100 <= compressed + 1;
 }
 
-Blocks take_blocks(const Place& place, Source& source) {
+Blocks take_blocks(const ArrayInFile& array, Source& source) {
   const std::uint64_t count = source.take_length();
   Blocks blocks{.size = source.take_length(), .last = source.take_length(), .compressed = {}};
-  if (count > static_cast<std::uint64_t>(source.most() / size_of(place.storage.length_type)))
-    fail_damaged(place.name(), "its header announces {} blocks, more than there are", count);
+  if (count > static_cast<std::uint64_t>(source.most() / size_of(array.storage.length_type)))
+    fail_damaged(array.name(), "its header announces {} blocks, more than there are", count);
   for (std::uint64_t i = 0; i < count; ++i)
     blocks.compressed.push_back(source.take_length());
   auto left = static_cast<std::uint64_t>(source.most());
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t compressed = blocks.compressed[i], size = blocks.size_of_block(i);
     if (compressed > left || !is_plausible(size, compressed))
-      fail_damaged(place.name(),
+      fail_damaged(array.name(),
                    "its header announces block {} of {} bytes for {} bytes, which cannot be", i,
                    compressed, size);
     left -= compressed;
@@ -124,8 +127,8 @@ Blocks take_blocks(const Place& place, Source& source) {
   return blocks;
 }
 
-/// Appends what a block decompresses to. The memory grows with the bytes, not with what the header
-/// announces. False if they are not `size` bytes.
+/// Decompresses a block and appends the bytes. Memory grows with the bytes, not with the size in
+/// the header. Returns false if there are not `size` bytes.
 bool inflate_block(std::string_view compressed, std::uint64_t size, std::string& out) {
   constexpr std::uint64_t chunk = std::uint64_t{1} << 20;
   z_stream stream{};
@@ -148,17 +151,17 @@ bool inflate_block(std::string_view compressed, std::uint64_t size, std::string&
   return result == Z_STREAM_END && out.size() - before == size;
 }
 
-StoredBytes take_compressed(const Place& place, Source& source, std::int64_t size) {
-  const Blocks blocks = take_blocks(place, source);
+StoredBytes take_compressed(const ArrayInFile& array, Source& source, std::int64_t size) {
+  const Blocks blocks = take_blocks(array, source);
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < blocks.compressed.size(); ++i)
     sum += blocks.size_of_block(i);
-  require_size(place, sum, size);
+  require_size(array, sum, size);
   std::string out;
   for (std::size_t i = 0; i < blocks.compressed.size(); ++i) {
     const StoredBytes block = source.take(blocks.compressed[i]);
     if (!inflate_block(block.view(), blocks.size_of_block(i), out))
-      fail_damaged(place.name(), "block {} is not {} bytes compressed by zlib", i,
+      fail_damaged(array.name(), "block {} is not {} bytes compressed by zlib", i,
                    blocks.size_of_block(i));
   }
   return StoredBytes(std::move(out));
@@ -166,44 +169,44 @@ StoredBytes take_compressed(const Place& place, Source& source, std::int64_t siz
 
 // ---- An array
 
-Source source_of(const Place& place, bool appended) {
-  const VtkStorage& storage = place.storage;
+Source open_source(const ArrayInFile& array, bool appended) {
+  const VtkStorage& storage = array.storage;
   if (!appended)
-    return {place, place.array.text, true};
+    return {array, array.element.text, true};
   if (!storage.appended)
-    fail_damaged(place.name(), "its data are appended, but the file has no AppendedData");
-  const std::string text = place.array.attribute("offset");
+    fail_damaged(array.name(), "its data are appended, but the file has no AppendedData");
+  const std::string text = array.element.attribute("offset");
   std::int64_t offset = -1;
   if (!parse_number(text, Scalar::int64, offset) || offset < 0 ||
       offset > static_cast<std::int64_t>(storage.appended->size()))
-    fail_damaged(place.name(), "its offset is {}, which is not within the {} bytes of AppendedData",
+    fail_damaged(array.name(), "its offset is {}, which is not within the {} bytes of AppendedData",
                  in_quotes(text), storage.appended->size());
-  return {place, storage.appended->substr(static_cast<std::size_t>(offset)),
+  return {array, storage.appended->substr(static_cast<std::size_t>(offset)),
           storage.appended_base64};
 }
 
-StoredBytes bytes_of(const Place& place, bool appended, std::int64_t size) {
-  Source source = source_of(place, appended);
-  if (place.storage.compressed)
-    return take_compressed(place, source, size);
+StoredBytes read_bytes(const ArrayInFile& array, bool appended, std::int64_t size) {
+  Source source = open_source(array, appended);
+  if (array.storage.compressed)
+    return take_compressed(array, source, size);
   const std::uint64_t bytes = source.take_length();
-  require_size(place, bytes, size);
+  require_size(array, bytes, size);
   return source.take(bytes);
 }
 
 template <class T>
-void read_text(const Place& place, Scalar type, std::int64_t count, const Room<T>& room) {
+void read_text(const ArrayInFile& array, Scalar type, std::int64_t count, const Room<T>& room) {
   std::vector<T> numbers;
-  std::string_view text = place.array.text;
+  std::string_view text = array.element.text;
   for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
     T number{};
     if (!parse_number(word, type, number))
-      fail_file(place.name(), "{} at place {} is not a number of its type; correct it",
+      fail_file(array.name(), "{} at place {} is not a number of its type; correct it",
                 in_quotes(word), numbers.size());
     numbers.push_back(number);
   }
   if (count >= 0 && std::ssize(numbers) != count)
-    fail_damaged(place.name(), "it has {} numbers, but {} belong there", numbers.size(), count);
+    fail_damaged(array.name(), "it has {} numbers, but {} belong there", numbers.size(), count);
   std::copy(numbers.begin(), numbers.end(), room(std::ssize(numbers)));
 }
 
@@ -228,23 +231,23 @@ std::optional<Scalar> vtk_type(const std::string& name) {
 }
 
 template <class T>
-void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count,
+void read_vtk_numbers(const VtkStorage& storage, const XmlElement& element, std::int64_t count,
                       const Room<T>& room) {
-  const Place place{storage, array};
-  const std::optional<Scalar> type = vtk_type(array.attribute("type"));
+  const ArrayInFile array{storage, element};
+  const std::optional<Scalar> type = vtk_type(element.attribute("type"));
   if (!type)
-    fail_file(place.name(), "its type {} is not one of numbers",
-              in_quotes(array.attribute("type")));
-  const std::string format = array.attribute("format", "ascii");
+    fail_file(array.name(), "its type {} is not one of numbers",
+              in_quotes(element.attribute("type")));
+  const std::string format = element.attribute("format", "ascii");
   if (format == "ascii")
-    return read_text<T>(place, *type, count, room);
+    return read_text<T>(array, *type, count, room);
   if (format != "binary" && format != "appended")
-    fail_file(place.name(), "its format {} is not ascii, binary or appended", in_quotes(format));
+    fail_file(array.name(), "its format {} is not ascii, binary or appended", in_quotes(format));
   const std::int64_t width = size_of(*type);
-  const StoredBytes bytes = bytes_of(place, format == "appended", count < 0 ? -1 : width * count);
+  const StoredBytes bytes = read_bytes(array, format == "appended", count < 0 ? -1 : width * count);
   const auto size = static_cast<std::int64_t>(bytes.view().size());
   if (size % width != 0)
-    fail_damaged(place.name(), "it has {} bytes, which are not numbers of {}", size, width);
+    fail_damaged(array.name(), "it has {} bytes, which are not numbers of {}", size, width);
   copy_numbers(bytes.view().data(), size / width, *type, storage.swapped, room(size / width));
 }
 

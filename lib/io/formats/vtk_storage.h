@@ -12,31 +12,31 @@
 #include <string>
 #include <string_view>
 
-/// How VTK's XML files store the numbers of an array: as text, in base64, or after the XML; behind
-/// a header of lengths; compressed or not.
+/// The storage of the numbers of an array in XML files of VTK: as text, in base64, or after the
+/// XML; after a header of lengths; compressed or not.
 namespace calotte::io_detail {
 
-/// What the file's first elements say about all arrays.
+/// The storage of all arrays, according to the first elements of the file.
 struct VtkStorage {
   std::string name; ///< of the file, for messages
   bool swapped = false;
-  Scalar length_type = Scalar::uint32;                     ///< of the lengths before a block
+  Scalar length_type = Scalar::uint32;                     ///< type of the lengths before a block
   bool compressed = false;                                 ///< by zlib
-  std::optional<std::string_view> appended = std::nullopt; ///< the bytes that offsets refer to
+  std::optional<std::string_view> appended = std::nullopt; ///< bytes that offsets refer to
   bool appended_base64 = false;
 };
 
-/// The type of an array's numbers; none for strings and bits.
+/// The type of the numbers of an array; none for strings and bits.
 std::optional<Scalar> vtk_type(const std::string& name);
 
-/// Makes room for so many numbers.
+/// Allocates memory for `count` numbers.
 template <class T> using Room = std::function<T*(std::int64_t count)>;
 
-/// Reads the numbers of an array (T: double, std::int32_t or std::int64_t), converted as
+/// Reads the numbers of an array (T: double, std::int32_t or std::int64_t), converted as in
 /// number_as().
-/// \param count how many there must be; -1 for any number.
-/// \param room called once, when the file is known to have that many.
-/// \throws Error parse. The memory is in proportion to the bytes that the file has.
+/// \param count required number; -1 for any number.
+/// \param room called once, when it is known that the file has that many.
+/// \throws Error parse. The memory is proportional to the size of the file.
 template <class T>
 void read_vtk_numbers(const VtkStorage& storage, const XmlElement& array, std::int64_t count,
                       const Room<T>& room);

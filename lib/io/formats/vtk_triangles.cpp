@@ -30,7 +30,7 @@ void put_vtk_triangles(const Sink& sink, const Mesh& mesh, const WriteOptions& o
   add_fields("CellData", options.fields, FieldLocation::vertices, head, contents);
   add_points(head.points, head);
   add_cells(3 * head.cells, head);
-  contents.push_back(content_of(mesh.points));
+  contents.push_back(make_content(mesh.points));
   contents.emplace_back([&](Writer& out) {
     for (std::int64_t i = 0; i < 3 * triangles; ++i)
       out.raw(std::int64_t{mesh.triangles.data()[i]});

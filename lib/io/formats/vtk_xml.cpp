@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::string_view tail = "\n  </AppendedData>\n</VTKFile>\n";
 
-/// The element's name alone ends it.
-std::string end_of(const std::string& element) { return element.substr(0, element.find(' ')); }
+/// The name of an element without its attributes, as in its end tag.
+std::string tag_name(const std::string& element) { return element.substr(0, element.find(' ')); }
 
-/// Text within the quotes of an attribute.
+/// Escapes text for an attribute.
 std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text)
@@ -21,8 +21,8 @@ std::string xml_text(const std::string& text) {
   return out;
 }
 
-/// Everything before the first block.
-std::string text_of(const VtkHead& head) {
+/// The text before the first block.
+std::string make_head(const VtkHead& head) {
   const VtkFlavour& flavour = head.flavour;
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + flavour.data_set +
                      "\" version=\"1.0\" byte_order=\"" +
@@ -32,7 +32,7 @@ std::string text_of(const VtkHead& head) {
                      flavour.cell_counts + std::to_string(head.cells) + "\">\n";
   std::int64_t offset = 0;
   std::string open;
-  const auto close = [&] { text += open.empty() ? "" : "      </" + end_of(open) + ">\n"; };
+  const auto close = [&] { text += open.empty() ? "" : "      </" + tag_name(open) + ">\n"; };
   for (const VtkArray& array : head.arrays) {
     if (array.element != open) {
       close();
@@ -58,7 +58,7 @@ std::int64_t VtkArray::bytes() const {
 
 void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents) {
   Writer out(sink);
-  out.text(text_of(head));
+  out.text(make_head(head));
   for (std::size_t i = 0; i < contents.size(); ++i) {
     out.raw(head.arrays[i].bytes());
     contents[i](out);
@@ -67,7 +67,7 @@ void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent
 }
 
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head) {
-  // ParaView colours by the scalars named here.
+  // ParaView colours by the scalars that are named here.
   for (const char* name : {"area", "density", "spacing", "quality"})
     head.arrays.push_back({element + " Scalars=\"spacing\"", "Float64", name, cells});
   head.arrays.push_back({element + " Scalars=\"spacing\"", "Int32", "degree", cells});
@@ -102,7 +102,7 @@ void add_points(std::int64_t points, VtkHead& head) {
   head.arrays.push_back({"Points", "Float64", "Points", points, 3});
 }
 
-VtkContent content_of(const Points3& points) {
+VtkContent make_content(const Points3& points) {
   return [&points](Writer& out) { out.text(bytes_of(points.data(), points.size())); };
 }
 

@@ -6,22 +6,22 @@
 
 #include <calotte/voronoi.h>
 
-/// Writing VTK's XML files with appended raw blocks, each after its length as UInt64: what PolyData
-/// (.vtp) and UnstructuredGrid (.vtu) have in common.
+/// Writes XML files of VTK with appended raw blocks, each after its length as UInt64. This is the
+/// common part of PolyData (.vtp) and UnstructuredGrid (.vtu).
 namespace calotte::io_detail {
 
-/// In what the two differ.
+/// The differences between the two.
 struct VtkFlavour {
   std::string data_set; ///< the name of the data set's element
   std::string
       cell_counts;   ///< attributes of Piece that count the cells, up to the number of those here
-  std::string cells; ///< the element that holds connectivity and offsets
-  bool types;        ///< whether a UInt8 type follows for each cell
+  std::string cells; ///< the element with connectivity and offsets
+  bool types;        ///< whether a UInt8 type of each cell follows
 };
 
-/// An array as the head announces it.
+/// An array, as announced in the head.
 struct VtkArray {
-  std::string element; ///< it stands in, of several arrays in a row
+  std::string element; ///< the element that contains it and arrays next to it
   std::string type, name;
   std::int64_t tuples = 0;
   int components = 1;
@@ -29,30 +29,31 @@ struct VtkArray {
   std::int64_t bytes() const;
 };
 
-/// All that the head of a file says.
+/// The contents of the head of a file.
 struct VtkHead {
   VtkFlavour flavour;
   std::int64_t points = 0, cells = 0;
   std::vector<VtkArray> arrays;
 };
 
-/// Puts the bytes of an array.
+/// Writes the bytes of an array.
 using VtkContent = std::function<void(Writer&)>;
 
 /// \param contents of the head's arrays.
 void put_vtk(const Sink& sink, const VtkHead& head, const std::vector<VtkContent>& contents);
 
-/// CellFields as arrays of an element, and their contents; the fields must outlive these.
+/// Adds CellFields as arrays of an element, and their contents. The fields must outlive the
+/// contents.
 void add_field_arrays(const std::string& element, std::int64_t cells, VtkHead& head);
 void add_field_contents(const CellFields& fields, std::vector<VtkContent>& contents);
-/// Fields of one location as Float64 arrays of an element, and their contents; those that have the
-/// name of an array before them are left out. The fields must outlive these.
+/// Adds fields of one location as Float64 arrays of an element, and their contents. Fields with the
+/// name of an earlier array are left out. The fields must outlive the contents.
 void add_fields(const std::string& element, const std::vector<MeshField>& fields,
                 FieldLocation location, VtkHead& head, std::vector<VtkContent>& contents);
-/// Points Float64, which stay where they are until they are put.
+/// Adds points as Float64. They must outlive the contents.
 void add_points(std::int64_t points, VtkHead& head);
-VtkContent content_of(const Points3& points);
-/// Connectivity, offsets and types of cells with so many corners in all.
+VtkContent make_content(const Points3& points);
+/// Adds connectivity, offsets and types of cells with `corners` corners in total.
 void add_cells(std::int64_t corners, VtkHead& head);
 
 // ---- The two kinds of files, a file for each

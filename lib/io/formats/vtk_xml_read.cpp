@@ -17,19 +17,19 @@ namespace {
 
 // ---- The XML and the appended data
 
-/// A file's text in two parts, and what stands between them, which need not be XML.
+/// The XML of a file, in two parts, and the appended data between them, which need not be XML.
 struct Parts {
   std::vector<std::string_view> xml;
   std::optional<std::string_view> appended;
 };
 
-/// \throws Error parse for a file that starts as no file of XML does.
+/// \throws Error parse for a file that does not start as XML.
 void require_xml(std::string_view start, const std::string& name) {
   if (start.find('<') == std::string_view::npos)
     fail_damaged(name, "it does not start with XML, so it is no VTK file of XML");
 }
 
-Parts parts_of(std::string_view content, const std::string& name) {
+Parts split(std::string_view content, const std::string& name) {
   constexpr std::string_view start_tag = "<AppendedData", end_tag = "</AppendedData>";
   const std::size_t tag = content.find(start_tag);
   const std::size_t close = content.find('>', tag);
@@ -81,8 +81,8 @@ bool is_compressed(const XmlElement& root, const std::string& name) {
   return !compressor.empty();
 }
 
-VtkFile file_of(std::string_view content, const std::string& name) {
-  const Parts parts = parts_of(content, name);
+VtkFile parse_file(std::string_view content, const std::string& name) {
+  const Parts parts = split(content, name);
   VtkFile file{.document = parse_xml(parts.xml, name), .type = {}, .storage = {}};
   const XmlElement& root = file.document.front();
   file.type = root.attribute("type");
@@ -108,8 +108,8 @@ VtkFile file_of(std::string_view content, const std::string& name) {
 
 // ---- The piece
 
-/// A count among the attributes of a piece; 0 where it is not given.
-std::int64_t count_of(const XmlElement& piece, const std::string& key, const std::string& name) {
+/// Reads a count from the attributes of a piece; 0 without it.
+std::int64_t read_count(const XmlElement& piece, const std::string& key, const std::string& name) {
   const std::string text = piece.attribute(key, "0");
   std::int32_t count = -1;
   if (!parse_number(text, Scalar::int64, count) || count < 0)
@@ -117,29 +117,30 @@ std::int64_t count_of(const XmlElement& piece, const std::string& key, const std
   return count;
 }
 
-/// What a piece holds, by its attributes.
+/// The numbers in the attributes of a piece.
 struct Counts {
   std::int64_t points = 0;
   std::int64_t before = 0;   ///< vertices and lines, which come before the polygons in cell data
-  std::int64_t polygons = 0; ///< or cells of an UnstructuredGrid
+  std::int64_t polygons = 0; ///< polygons, or cells of an UnstructuredGrid
   std::int64_t strips = 0;
 
   bool empty() const { return points == 0 && before == 0 && polygons == 0 && strips == 0; }
 };
 
-Counts counts_of(const VtkFile& file, const XmlElement& piece) {
+Counts read_counts(const VtkFile& file, const XmlElement& piece) {
   const std::string& name = file.storage.name;
   if (file.type == "UnstructuredGrid")
-    return {.points = count_of(piece, "NumberOfPoints", name),
-            .polygons = count_of(piece, "NumberOfCells", name)};
-  return {.points = count_of(piece, "NumberOfPoints", name),
-          .before = count_of(piece, "NumberOfVerts", name) + count_of(piece, "NumberOfLines", name),
-          .polygons = count_of(piece, "NumberOfPolys", name),
-          .strips = count_of(piece, "NumberOfStrips", name)};
+    return {.points = read_count(piece, "NumberOfPoints", name),
+            .polygons = read_count(piece, "NumberOfCells", name)};
+  return {.points = read_count(piece, "NumberOfPoints", name),
+          .before =
+              read_count(piece, "NumberOfVerts", name) + read_count(piece, "NumberOfLines", name),
+          .polygons = read_count(piece, "NumberOfPolys", name),
+          .strips = read_count(piece, "NumberOfStrips", name)};
 }
 
 /// The only piece that is not empty, or else the first.
-const XmlElement& piece_of(const VtkFile& file) {
+const XmlElement& find_piece(const VtkFile& file) {
   const std::string& name = file.storage.name;
   const XmlElement* const data = file.child(file.document.front(), file.type);
   const std::vector<const XmlElement*> pieces =
@@ -148,7 +149,7 @@ const XmlElement& piece_of(const VtkFile& file) {
     fail_damaged(name, "it has no Piece of {}", file.type);
   std::vector<const XmlElement*> full;
   for (const XmlElement* const piece : pieces)
-    if (!counts_of(file, *piece).empty())
+    if (!read_counts(file, *piece).empty())
       full.push_back(piece);
   if (full.size() > 1)
     fail_file(name,
@@ -254,9 +255,9 @@ void ignore_field_data(const VtkFile& file, PolyData& poly_data) {
 
 RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
   const std::string content = read_all(in, name, require_xml);
-  const VtkFile file = file_of(content, name);
-  const XmlElement& piece = piece_of(file);
-  const Counts counts = counts_of(file, piece);
+  const VtkFile file = parse_file(content, name);
+  const XmlElement& piece = find_piece(file);
+  const Counts counts = read_counts(file, piece);
   if (counts.strips > 0)
     refuse_strips(name, counts.strips);
   PolyData poly_data;
@@ -265,7 +266,7 @@ RawMesh get_vtk_xml(std::istream& in, const std::string& name) {
   require_polygons(name, poly_data);
   ignore_field_data(file, poly_data);
   read_data(file, piece, counts, poly_data);
-  return raw_mesh_of(name, std::move(poly_data));
+  return make_raw_mesh(name, std::move(poly_data));
 }
 
 } // namespace calotte::io_detail

@@ -33,7 +33,7 @@ void require_options(const std::string& path, const WriteOptions& options) {
   evaluate(options.density, Points3(3, 0)); // throws where it is ill-formed
 }
 
-Numbering numbering_of(const WriteOptions& options) {
+Numbering choose_numbering(const WriteOptions& options) {
   if (options.numbering != Numbering::by_format)
     return options.numbering;
   return info_of(options.format).netcdf ? Numbering::curve : Numbering::input;
@@ -60,7 +60,7 @@ void require_ids(const std::string& path, const Mesh& mesh) {
     refuse_path(path, "the mesh has an id that is not one of its {} points", sites);
 }
 
-MeshSizes sizes_of(const Mesh& mesh) {
+MeshSizes count_sizes(const Mesh& mesh) {
   return {mesh.points.cols(), mesh.triangles.cols(), mesh.closed()};
 }
 
@@ -93,21 +93,21 @@ void require_input_numbering(const std::string& path, Numbering numbering) {
 
 /// \param mesh its own is freed as early as the format allows.
 void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions& options) {
-  constexpr double numbered = 0.2; // of the time, where the cells are numbered anew
+  constexpr double numbered = 0.2; // share of the time if cells are renumbered
   WriteOptions resolved = options;
   resolved.format = format_of(path, options.format);
   require_options(path, resolved);
   require_mesh(path, mesh.mesh, resolved.format);
-  require_values(path, sizes_of(mesh.mesh), resolved);
+  require_values(path, count_sizes(mesh.mesh), resolved);
   if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
   Monitor monitor(options.progress);
   monitor.begin("number", numbered, 1);
-  const Numbering numbering = numbering_of(resolved);
+  const Numbering numbering = choose_numbering(resolved);
   const bool stays = numbering == Numbering::input ||
                      (numbering == Numbering::curve && is_in_curve_order(mesh.mesh));
   resolved.progress = progress_from(options.progress, stays ? 0 : numbered);
-  const FormatRow& format = row_of(resolved.format);
+  const FormatRow& format = find_row(resolved.format);
   if (stays) {
     format.write_mesh(path, mesh, resolved);
   } else {
@@ -119,7 +119,7 @@ void write_sphere(const std::string& path, WrittenMesh mesh, const WriteOptions&
   monitor.finish("write");
 }
 
-/// Those that files of polygons do not compute.
+/// Adds fields of cells that files of polygons do not compute.
 void add_cell_fields(const Voronoi& voronoi, WriteOptions& options) {
   const CellFields fields = make_cell_fields(voronoi, options);
   options.fields.push_back({.name = "density", .values = fields.density});
@@ -135,7 +135,7 @@ void write_cells(const std::string& path, Voronoi cells, WriteOptions options) {
     add_cell_fields(cells, options);
   DoubleVector area = std::move(cells.cell_area);
   const CellGrid grid{polygons_of(std::move(cells)), std::move(area), {}};
-  row_of(options.format).write_polygons(path, grid, options);
+  find_row(options.format).write_polygons(path, grid, options);
 }
 
 void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& options) {
@@ -144,12 +144,12 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
   resolved.format = format_of(path, options.format);
   require_planar_format(path, surface, resolved.format);
   if (options.site_density.size() == 0 && !options.density.uniform())
-    resolved.site_density = evaluate(options.density, mesh.points, surface); // held by site
+    resolved.site_density = evaluate(options.density, mesh.points, surface); // given by site
   resolved.density = {};
   require_options(path, resolved);
   require_input_numbering(path, options.numbering);
   require_ids(path, mesh);
-  require_values(path, sizes_of(mesh), resolved);
+  require_values(path, count_sizes(mesh), resolved);
   if (info_of(resolved.format).netcdf)
     replace_names(resolved.fields);
   resolved.progress = progress_from(options.progress, 0);
@@ -158,7 +158,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
                   [](const MeshField& field) { return field.location != FieldLocation::cells; });
     write_cells(path, voronoi(mesh), resolved);
   } else {
-    row_of(resolved.format).write_mesh(path, {mesh}, resolved);
+    find_row(resolved.format).write_mesh(path, {mesh}, resolved);
   }
   Monitor(options.progress).finish("write");
 }
@@ -167,7 +167,7 @@ void write_plane(const std::string& path, const Mesh& mesh, const WriteOptions& 
 
 void require_planar_format(const std::string& path, const Surface& plane, Format format) {
   const bool periodic = plane.period().maxCoeff() > 0, bounded = plane.is_bounded();
-  const Planes& planes = row_of(format).planes;
+  const Planes& planes = find_row(format).planes;
   if (periodic ? planes.periodic : planes.whole || (bounded && planes.clipped))
     return;
   const std::string triangles = triangle_formats();

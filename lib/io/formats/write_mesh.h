@@ -9,26 +9,27 @@
 
 #include <string>
 
-/// What the writers of a mesh and of the contents of a file have in common.
+/// Common code of the writers of a mesh and of the contents of a file.
 namespace calotte::io_detail {
 
 /// \throws Error invalid_argument, for a radius out of range or an ill-formed density.
 void require_options(const std::string& path, const WriteOptions& options);
 
 /// The order of the cells in a file of the options' format, which is known.
-Numbering numbering_of(const WriteOptions& options);
+Numbering choose_numbering(const WriteOptions& options);
 
-/// A file from front to back. \param sites their number, or that of the cells.
+/// Writes a file from front to back.
+/// \param sites number of sites or cells, for progress.
 template <class Put>
 void put_file(const std::string& path, const WriteOptions& options, std::int64_t sites,
               const Put& put) {
   OutputFile file(path);
-  file.watch(options.progress, row_of(options.format).bytes_a_site * sites);
+  file.watch(options.progress, find_row(options.format).bytes_a_site * sites);
   put([&](std::string_view bytes) { file.append(bytes); });
   file.commit();
 }
 
-/// A caller's callback for the part of a run from one fraction on.
+/// A callback that maps its progress to the part of a run from one fraction on.
 ProgressCallback progress_from(const ProgressCallback& progress, double from);
 
 } // namespace calotte::io_detail

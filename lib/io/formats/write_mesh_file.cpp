@@ -30,13 +30,13 @@ namespace {
 
 using namespace io_detail;
 
-/// \throws Error invalid_argument, where the format does not hold cells of any shape.
+/// \throws Error invalid_argument, if the format does not support cells of any shape.
 void require_polygon_format(const std::string& path, const MeshFile& file, Format format) {
   const std::string why = message("{}; write {}", file.not_voronoi.text(),
                                   polygon_formats(file.polygons->surface.is_sphere()));
   if (format == Format::mpas_minimal)
     refuse_path(path, "minimal MPAS files need Voronoi cells without a boundary, but {}", why);
-  if (!row_of(format).polygons_as)
+  if (!find_row(format).polygons_as)
     refuse_path(path, "the format holds triangles, but the mesh consists of cells, and {}", why);
   for (std::int64_t i = 0; i < file.polygons->size(); ++i)
     if (file.polygons->ids.count(i) == 0)
@@ -47,9 +47,9 @@ void require_polygon_format(const std::string& path, const MeshFile& file, Forma
           i, triangle_formats(", "));
 }
 
-/// The points of the cells where these have the polygons' places, which keeps their bits; none in a
-/// plane.
-Points3 places_of(const MeshFile& file, double radius) {
+/// The generators. Points of the mesh, if they correspond to the centres, keep their bits. None in
+/// a plane.
+Points3 make_generators(const MeshFile& file, double radius) {
   const Points3& centres = file.polygons->centres;
   if (!file.polygons->surface.is_sphere())
     return {};
@@ -62,23 +62,23 @@ void write_open_mpas(const std::string& path, const MeshFile& file, const WriteO
   if (!cells.problem.passed())
     refuse_path(path, "MPAS needs Voronoi cells, but {}; write {}", cells.problem.text(),
                 polygon_formats(file.polygons->surface.is_sphere()));
-  write_mpas(path, cells.voronoi, places_of(file, options.sphere_radius), options);
+  write_mpas(path, cells.voronoi, make_generators(file, options.sphere_radius), options);
 }
 
-/// Whether a field is of polygons: at the cells, or, but in MPAS, which numbers them otherwise, and
-/// in a periodic plane, at their corners.
-bool is_of(const Polygons& polygons, const MeshField& field, Format format) {
+/// Whether a field is at the cells or at the corners of polygons. Corners do not count in MPAS,
+/// which numbers them differently, and in a periodic plane.
+bool is_on_polygons(const Polygons& polygons, const MeshField& field, Format format) {
   return field.location == FieldLocation::cells ||
          (field.location == FieldLocation::vertices && format != Format::mpas &&
           !(polygons.surface.period().maxCoeff() > 0) &&
           has_values_for(field, polygons.corners.cols()));
 }
 
-void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptions options) {
+void write_polygons(const std::string& path, const MeshFile& file, WriteOptions options) {
   require_options(path, options);
   require_polygon_format(path, file, options.format);
   std::erase_if(options.fields, [&](const MeshField& field) {
-    return !is_of(*file.polygons, field, options.format);
+    return !is_on_polygons(*file.polygons, field, options.format);
   });
   const bool has_density = file.density.size() == file.polygons->size();
   if (options.format == Format::mpas) {
@@ -93,7 +93,7 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
     Polygons polygons = unwrapped(*file.polygons);
     if (options.format == Format::scrip && polygons.centres.cols() == 0)
       polygons.centres = centroids_of(polygons);
-    const FormatRow& format = row_of(options.format);
+    const FormatRow& format = find_row(options.format);
     if (!polygons.surface.is_sphere() && !format.planes.clipped && format.info.cells)
       refuse_path(path,
                   "the format holds cells of the sphere, but the mesh is planar; write {}, or mpas",
@@ -103,13 +103,14 @@ void write_polygons_of(const std::string& path, const MeshFile& file, WriteOptio
   Monitor(options.progress).finish("write");
 }
 
-/// What of a file a format holds: its polygons, or a mesh.
+/// The part of the contents that a format supports: polygons, or a mesh.
 struct WrittenShape {
   bool polygons = false;
-  std::optional<Mesh> inner = {}; ///< triangles of the clipped cells of a plane; else the file's
+  std::optional<Mesh> inner = {}; ///< triangles of the clipped cells of a plane
 };
 
-/// Cells are written as they are, to formats of triangles only where the file has no triangles.
+/// Cells are written as they are. Formats of triangles get triangles of cells only if the file has
+/// no triangles.
 WrittenShape shape_for(const MeshFile& file, Format format) {
   if (!file.polygons || info_of(format).cells)
     return {.polygons = file.polygons && !file.is_clipped()};
@@ -121,8 +122,8 @@ WrittenShape shape_for(const MeshFile& file, Format format) {
   return {.polygons = !inner, .inner = std::move(inner)};
 }
 
-/// Voronoi cells exist only for a Delaunay triangulation, of which edges between cocircular sites
-/// may be the others.
+/// Requires a Delaunay triangulation, without which there are no Voronoi cells. Edges between
+/// cocircular sites may differ.
 void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
   if (!info_of(format).cells)
     return;
@@ -134,22 +135,23 @@ void require_voronoi(const std::string& path, const Mesh& mesh, Format format) {
                 edges.not_delaunay, edges.first[0], edges.first[1], triangle_formats(", "));
 }
 
-/// Whether a field stands at the corners of the file's cells, of which only some are triangles.
+/// Whether a field has values at all corners of the cells of the file, not only at those that are
+/// triangles of the mesh.
 bool is_at_corners(const MeshFile& file, const MeshField& field) {
   return field.location == FieldLocation::vertices && file.mesh && file.polygons &&
          !has_values_for(field, file.mesh->triangles.cols());
 }
 
-/// Names of the fields that a format cannot hold. Masks at edges and vertices follow in MPAS files
-/// alone.
+/// The names of the fields that a format cannot store. Only MPAS files derive masks at edges and
+/// vertices.
 std::vector<std::string> dropped_fields(const MeshFile& file, Format format, bool polygons) {
   const bool clipped = !polygons && file.is_clipped() && info_of(format).cells;
   std::vector<std::string> dropped;
   const auto is_held = [&](const MeshField& field) {
     if (format == Format::mpas && is_derived_mask(field.name, file.fields))
       return true;
-    return holds_field(format, field) && !(clipped && field.location != FieldLocation::cells) &&
-           !(polygons && !is_of(*file.polygons, field, format)) &&
+    return stores_field(format, field) && !(clipped && field.location != FieldLocation::cells) &&
+           !(polygons && !is_on_polygons(*file.polygons, field, format)) &&
            !(!polygons && is_at_corners(file, field));
   };
   for (const MeshField& field : file.fields)
@@ -174,8 +176,8 @@ WrittenFields write(const std::string& path, const MeshFile& file, const WriteOp
     written.renamed = replace_names(resolved.fields);
   const WrittenShape shape = shape_for(file, resolved.format);
   if (shape.polygons) {
-    resolved.format = row_of(resolved.format).polygons_as.value_or(resolved.format);
-    write_polygons_of(path, file, resolved);
+    resolved.format = find_row(resolved.format).polygons_as.value_or(resolved.format);
+    write_polygons(path, file, resolved);
   } else {
     if (options.density.uniform() && options.site_density.size() == 0)
       resolved.site_density = file.density;
