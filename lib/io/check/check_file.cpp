@@ -16,8 +16,8 @@ using namespace io_detail;
 
 namespace {
 
-/// \param file a MeshFile&&, which is freed on the way, or a const MeshFile&.
-template <class File> std::vector<Deviation> deviations_of(const std::string& path, File&& file) {
+/// \param file a MeshFile&&, whose memory is freed early, or a const MeshFile&.
+template <class File> std::vector<Deviation> find_deviations(const std::string& path, File&& file) {
   if (!is_netcdf(file))
     return {};
   const NetcdfReader stored(path);
@@ -47,11 +47,11 @@ template <class File> std::vector<Deviation> deviations_of(const std::string& pa
 } // namespace
 
 std::vector<Deviation> check_file(const std::string& path, const MeshFile& file) {
-  return deviations_of(path, file);
+  return find_deviations(path, file);
 }
 
 std::vector<Deviation> check_file(const std::string& path, MeshFile&& file) {
-  return deviations_of(path, std::move(file));
+  return find_deviations(path, std::move(file));
 }
 
 } // namespace calotte

@@ -30,13 +30,13 @@ void add_law(const std::string& names, const Broken& found, const std::string& p
 
 void check_orientation(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
   const Broken found = broken(areas.size(), [&](std::int64_t i) {
-    // Files of others have cells without corners where their mask is 0.
+    // Files of other programs have cells without corners where the mask is 0.
     return grid.polygons.ids.count(i) < 3 ? Verdict::untested : verdict_of(areas[i] > 0);
   });
   add_law(grid.lists, found, "do not run counter-clockwise seen from outside", deviations);
 }
 
-/// Whether a cell comes to a corner twice.
+/// Checks that no cell has a corner twice.
 void check_distinct_corners(const StoredGrid& grid, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
@@ -87,7 +87,7 @@ double turn_around(const Polygons& polygons, std::int64_t i, const Vec3& centre)
   return turn;
 }
 
-/// In a plane a site may be on the boundary, even at a corner.
+/// Tolerance: in a plane a site may be on the boundary, even at a corner.
 constexpr double on_boundary = 1e-3;
 
 void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations& deviations) {
@@ -102,7 +102,7 @@ void check_inside(const StoredGrid& grid, const DoubleVector& areas, Deviations&
   add_law(grid.centres, found, "have their centres outside", deviations);
 }
 
-/// Distances that are equal but for rounding.
+/// A range of distances, which may be equal up to rounding.
 struct DistanceRange {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   void add(const Vec3& apart) {
@@ -115,8 +115,9 @@ struct DistanceRange {
   }
 };
 
-/// The centre of each triangle is as far from all its corners, if it is in most.
-/// \returns whether that is so in most.
+/// Checks that the centre of each triangle has the same distance from all its corners, if this
+/// holds for most triangles.
+/// \returns whether it holds for most.
 bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
   const Polygons& polygons = grid.polygons;
   const Broken found = broken(polygons.size(), [&](std::int64_t i) {
@@ -131,7 +132,7 @@ bool check_circumcentres(const StoredGrid& grid, Deviations& deviations) {
   return found.is_law();
 }
 
-/// Of a corner of three or more cells.
+/// Whether a corner of three or more cells has the same distance from all centres.
 Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t node) {
   if (sides.from.count(node) < 3)
     return Verdict::untested;
@@ -141,7 +142,7 @@ Verdict is_equidistant(const StoredGrid& grid, const Sides& sides, std::int64_t 
   return verdict_of(range.is_one(grid.rounding));
 }
 
-/// Whether all tested corners of a cell break the law, so that its centre is wrong.
+/// Whether all tested corners of a cell break the law. Then its centre is wrong.
 bool centre_is_wrong(const StoredGrid& grid, const Sides& sides, std::int64_t cell) {
   return std::ranges::none_of(grid.polygons.ids[cell], [&](std::int32_t node) {
     return is_equidistant(grid, sides, node) == Verdict::keeps;
@@ -180,7 +181,7 @@ void check_polygons(const StoredGrid& grid, const Sides& sides, Deviations& devi
   if (grid.polygons.centres.cols() != grid.polygons.size())
     return;
   if (has_triangles_only(grid.polygons) && check_circumcentres(grid, deviations))
-    return; // those of obtuse triangles are outside
+    return; // centres of obtuse triangles are outside
   check_inside(grid, areas, deviations);
   check_voronoi(grid, sides, deviations);
 }

@@ -16,13 +16,13 @@
 namespace calotte::io_detail {
 namespace {
 
-double rounding_of(const NetcdfReader& file, const std::string& variable) {
+double find_rounding(const NetcdfReader& file, const std::string& variable) {
   return file.has_variable(variable) && file.is_float(variable) ? float_rounding : 0;
 }
 
 // ---- Attributes
 
-/// The names that an attribute of a variable lists must be variables.
+/// Checks that the names in an attribute of a variable are variables.
 void check_names(const std::string& variable, const std::string& attribute,
                  Deviations& deviations) {
   for (const std::string& name : names_in(deviations.file().text(variable, attribute)))
@@ -41,7 +41,7 @@ void check_all_names(Deviations& deviations) {
       check_names(variable, attribute, deviations);
 }
 
-/// Of longitudes and latitudes.
+/// Checks the units of longitudes and latitudes.
 void check_units(const std::string& variable, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   if (file.has_variable(variable) && file.text(variable, "units").empty())
@@ -79,7 +79,7 @@ void check_ugrid_attributes(const Topology& topology, Deviations& deviations) {
 
 // ---- Sites
 
-/// Cartesian places against longitudes and latitudes.
+/// Compares Cartesian coordinates with longitudes and latitudes.
 void check_sites(const std::vector<std::string>& names, const Points3& points, double rounding,
                  const MeshFile& file, Deviations& deviations) {
   const double stored_radius = deviations.file().number("", "sphere_radius", 0);
@@ -91,7 +91,7 @@ void check_sites(const std::vector<std::string>& names, const Points3& points, d
     const std::string& name = names[static_cast<std::size_t>(axis)];
     if (!deviations.has(name, {points.cols()}))
       continue;
-    const double of_floats = rounding + rounding_of(deviations.file(), name);
+    const double of_floats = rounding + find_rounding(deviations.file(), name);
     deviations.check_rows<double>(
         name, "the place at the longitude and latitude, on the sphere of sphere_radius",
         [&](std::int64_t i, const double* stored, Differences& out) {
@@ -103,8 +103,8 @@ void check_sites(const std::vector<std::string>& names, const Points3& points, d
 
 // ---- Bounds
 
-/// The bounds of the faces' longitudes or latitudes against their nodes. What follows the last
-/// corner is any of them, or no number.
+/// Compares the bounds of longitudes or latitudes of the faces with their nodes. Values after the
+/// last corner may be any of the corners, or NaN.
 void check_bounds(const std::string& variable, bool longitude, const StoredGrid& grid,
                   Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
@@ -113,7 +113,7 @@ void check_bounds(const std::string& variable, bool longitude, const StoredGrid&
     return;
   const double unit = degrees_per_unit(file, variable), fill = file.number(name, "_FillValue", NAN),
                degree = std::numbers::pi / 180,
-               tolerance = 1e-9 + (grid.rounding + rounding_of(file, name)) / degree;
+               tolerance = 1e-9 + (grid.rounding + find_rounding(file, name)) / degree;
   const Polygons& faces = grid.polygons;
   const std::int64_t width = deviations.width(name);
   const auto corner_at = [&](std::int64_t face, std::int64_t k) {
@@ -162,7 +162,8 @@ void check_grid_dims(std::int64_t cells, Deviations& deviations) {
 
 // ---- ESMF
 
-/// Whether an entry after an element's last node is one more: a node that is not the last again.
+/// Whether an entry after the last node of an element is another node. The last node again is
+/// padding.
 bool is_node(std::int32_t id, std::int32_t last, std::int32_t start, double fill,
              std::int64_t nodes) {
   return id != last && id != fill && id >= start && id < start + nodes;
@@ -195,13 +196,13 @@ void check_ugrid(const MeshFile& file, Deviations& deviations) {
   const StoredGrid grid{read_ugrid_faces(stored, topology), topology.face_nodes,
                         topology.nodes[0] + ", " + topology.nodes[1],
                         topology.faces.empty() ? "" : topology.faces[0] + ", " + topology.faces[1],
-                        rounding_of(stored, topology.nodes[0])};
+                        find_rounding(stored, topology.nodes[0])};
   if (!topology.sites.empty()) {
     const bool at_nodes =
         stored.dimensions_of(topology.sites[0]) == stored.dimensions_of(topology.nodes[0]);
-    const Points3& places = at_nodes ? grid.polygons.corners : grid.polygons.centres;
-    if (places.cols() > 0)
-      check_sites(topology.sites, places, grid.rounding, file, deviations);
+    const Points3& points = at_nodes ? grid.polygons.corners : grid.polygons.centres;
+    if (points.cols() > 0)
+      check_sites(topology.sites, points, grid.rounding, file, deviations);
   }
   const Sides sides(grid.polygons);
   check_polygons(grid, sides, deviations);
@@ -227,7 +228,7 @@ void check_scrip(const MeshFile& /*file*/, Deviations& deviations) {
     return;
   const StoredGrid grid{read_scrip_cells(stored, centres), "grid_corner_lon, grid_corner_lat",
                         "grid_corner_lon, grid_corner_lat", "grid_center_lon, grid_center_lat",
-                        rounding_of(stored, "grid_corner_lon")};
+                        find_rounding(stored, "grid_corner_lon")};
   check_polygons(grid, Sides(grid.polygons), deviations);
   check_areas(grid, "grid_area", deviations);
 }
@@ -240,7 +241,7 @@ void check_esmf(const MeshFile& /*file*/, Deviations& deviations) {
   if (!stored.has_variable("elementConn"))
     return;
   const StoredGrid grid{read_esmf_cells(stored, read_esmf_centres(stored)), "elementConn",
-                        "nodeCoords", "centerCoords", rounding_of(stored, "nodeCoords")};
+                        "nodeCoords", "centerCoords", find_rounding(stored, "nodeCoords")};
   check_mask("elementMask", grid.polygons.size(), deviations);
   check_padding(grid.polygons.corners.cols(), deviations);
   check_polygons(grid, Sides(grid.polygons), deviations);

@@ -23,13 +23,13 @@ double mean_width(const Voronoi& voronoi) {
   return std::sqrt(voronoi.cell_area.sum() / static_cast<double>(voronoi.cell_area.size()));
 }
 
-double radius_of(const NetcdfReader& file, const MeshFile& mesh) {
+double stored_radius(const NetcdfReader& file, const MeshFile& mesh) {
   const double radius = file.number("", "sphere_radius", 0);
   return radius > 0 && std::isfinite(radius) ? radius : mesh.sphere_radius;
 }
 
-/// The tessellation is voronoi(mesh), but for its numbers.
-/// \param density as MeshFile has it; without effect unless it has a value for each cell.
+/// Checks a closed mesh, whose tessellation is voronoi(mesh) with other numbers.
+/// \param density as in MeshFile; ignored unless it has a value for each cell.
 void check_closed(Mesh mesh, double radius, DoubleVector density, Deviations& deviations) {
   BegunVoronoi cells = begun(mesh);
   release(mesh.points);
@@ -101,7 +101,7 @@ void check_mpas(MeshFile file, Deviations& deviations) {
   check_attributes(deviations, on_sphere);
   if (!on_sphere && !file.plane())
     return;
-  const double radius = on_sphere ? radius_of(deviations.file(), file) : 1;
+  const double radius = on_sphere ? stored_radius(deviations.file(), file) : 1;
   const bool closed =
       on_sphere ? file.mesh->closed() : !file.polygons && file.mesh->surface.is_box();
   try {

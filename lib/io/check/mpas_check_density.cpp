@@ -9,7 +9,7 @@
 namespace calotte::io_detail {
 namespace {
 
-/// An open mesh may have lost the cells of the greatest density.
+/// Checks the maximum of the density. An open mesh may lack the cells of the greatest density.
 void check_density(const MpasCheck& check) {
   if (!check.has(mpas::mesh_density))
     return;
@@ -25,7 +25,8 @@ void check_density(const MpasCheck& check) {
                          message("meshDensity: its maximum is {} instead of 1", greatest));
 }
 
-/// A sum over all cells, to which a wrong density of a single one contributes little.
+/// Compares nominal spacings. They are a sum over all cells, to which a single wrong density
+/// contributes little.
 void check_nominal_spacing(const MpasCheck& check, double stored, double derived) {
   const NetcdfReader& file = check.deviations.file();
   if (!file.has_variable(mpas::nominal_min_dc))
@@ -37,8 +38,8 @@ void check_nominal_spacing(const MpasCheck& check, double stored, double derived
   check.add(mpas::nominal_min_dc, differences);
 }
 
-/// Where the nominal spacing of an open mesh is too far from that of its cells. A CVT's median is
-/// within 1% of it, that of independent random sites within 2%.
+/// Reports a nominal spacing of an open mesh that is too far from that of its cells. The median of
+/// a CVT is within 1% of it, that of independent random sites within 2%.
 void check_median(const MpasCheck& check, double stored, double derived, const SpacingFit& fit) {
   constexpr double factor = 1.25;
   if (fit.median > 1 / factor && fit.median < factor)
@@ -52,8 +53,8 @@ void check_median(const MpasCheck& check, double stored, double derived, const S
       -1, std::abs(fit.median - 1));
 }
 
-/// Where the density does not follow the cells. After smoothing 90% of the ratios lie within 2 to
-/// 10% in a CVT, however steep its density, and within 46% for independent random sites.
+/// Reports a density that does not match the cells. After smoothing, 90% of the ratios are within 2
+/// to 10% in a CVT, however steep its density, and within 46% for independent random sites.
 void check_spread(const MpasCheck& check, const SpacingFit& fit) {
   constexpr double factor = 1.6;
   if (fit.high < factor * fit.low)
@@ -69,8 +70,8 @@ void check_spread(const MpasCheck& check, const SpacingFit& fit) {
 
 } // namespace
 
-/// The nominal spacing of a closed mesh follows from the density; that of an open one, and the
-/// density, must fit the cells.
+/// Checks density and nominal spacing. In a closed mesh the spacing follows from the density. In an
+/// open one, spacing and density must match the cells.
 void check_mpas_density(const MpasCheck& check) {
   check_density(check);
   const bool has_density = check.density.size() == check.voronoi.cells.cols(),

@@ -18,15 +18,17 @@
 #include <limits>
 #include <utility>
 
-// The part of a tessellation that an open mesh has, in the numbering of its file. Places of
-// vertices that lack a cell are the file's; all else follows from these and from the cells.
+// The part of a tessellation that an open mesh has, with the numbers of its file. Positions of
+// vertices that lack a cell come from the file. Everything else follows from these and from the
+// cells.
 
 namespace calotte::io_detail {
 namespace {
 
 // ---- Ids
 
-/// Edges of a single cell have it first. \returns by edge whether it is the second in the file.
+/// Sets the edges. If an edge has a single cell, it becomes the first one.
+/// \returns by edge, whether the single cell is the second one in the file.
 Array<std::uint8_t> set_edges(const OpenLists& lists, Voronoi& out) {
   const std::int64_t edges = lists.cells_on_edge.rows();
   out.cells_on_edge = Eigen::Map<const Pairs>(lists.cells_on_edge.ids.data(), 2, edges);
@@ -48,8 +50,8 @@ void set_vertices(const OpenLists& lists, Voronoi& out) {
   out.edges_on_vertex = Eigen::Map<const Triangles>(lists.edges_on_vertex.ids.data(), 3, vertices);
 }
 
-/// The rows without their padding.
-IdLists lists_of(const IdTable& table, const Offsets& begin) {
+/// The rows of a table without their padding.
+IdLists without_padding(const IdTable& table, const Offsets& begin) {
   IdLists lists{begin, Ids(begin[begin.size() - 1])};
   for (std::int64_t i = 0; i < lists.size(); ++i)
     for (std::int64_t k = 0; k < lists.count(i); ++k)
@@ -62,31 +64,31 @@ void set_cells(const OpenLists& lists, Voronoi& out) {
   begin[0] = 0;
   for (std::int64_t i = 0; i < lists.cells; ++i)
     begin[i + 1] = begin[i] + lists.edge_count[static_cast<std::size_t>(i)];
-  out.edges_on_cell = lists_of(lists.edges_on_cell, begin);
-  out.vertices_on_cell = lists_of(lists.vertices_on_cell, begin);
-  out.cells_on_cell = lists_of(lists.cells_on_cell, begin);
+  out.edges_on_cell = without_padding(lists.edges_on_cell, begin);
+  out.vertices_on_cell = without_padding(lists.vertices_on_cell, begin);
+  out.cells_on_cell = without_padding(lists.cells_on_cell, begin);
 }
 
-// ---- Places and measures
+// ---- Positions and measures
 
-/// The vertices, or edges, as the file has them, or none.
-Points3 stored_places(const MpasKind& kind, std::int64_t count, bool on_sphere,
-                      Deviations& deviations) {
-  Points3 places(3, std::max<std::int64_t>(count, 0));
+/// Reads the coordinates of vertices or edges; none if the file has none.
+Points3 read_points(const MpasKind& kind, std::int64_t count, bool on_sphere,
+                    Deviations& deviations) {
+  Points3 points(3, std::max<std::int64_t>(count, 0));
   for (int row = 0; row < 3; ++row) {
     const std::string name = kind.axis(row);
     if (!deviations.has(name, {count}))
       return {};
     const std::vector<double> values = deviations.file().doubles(name, {count});
-    places.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
+    points.row(row) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), count);
   }
   if (on_sphere)
-    for (auto place : places.colwise())
-      place /= place.norm();
-  return places;
+    for (auto point : points.colwise())
+      point /= point.norm();
+  return points;
 }
 
-void place_vertices(Points3 stored, Voronoi& out) {
+void set_vertex_positions(Points3 stored, Voronoi& out) {
   out.vertices = std::move(stored);
   for (Eigen::Index v = 0; v < out.cells_on_vertex.cols(); ++v) {
     if (out.cells_on_vertex.col(v).minCoeff() < 0)
@@ -95,37 +97,37 @@ void place_vertices(Points3 stored, Voronoi& out) {
   }
 }
 
-/// A file that was cut from another keeps the edges towards missing cells where they were, and
-/// their lengths; programs that compute these anew take the middle of the vertices. \returns the
-/// places of the edges that were kept; NaN for others.
+/// If a file was cut from another, edges towards missing cells kept their positions and lengths.
+/// Programs that compute the edges use the midpoint of the vertices.
+/// \returns the positions of edges that were kept; NaN for others.
 Points3 cut_edges(const Voronoi& part, double radius, Deviations& deviations) {
-  constexpr double halves_agree = 1e-5; // the edge is half way to the missing cell
+  constexpr double halves_agree = 1e-5; // tolerance for half the distance to the missing cell
   const std::int64_t edges = part.cells_on_edge.cols();
-  Points3 places = stored_places(mpas_edge, edges, part.surface.is_sphere(), deviations);
-  if (places.cols() == 0 || !deviations.has(mpas::dc_edge, {edges}))
+  Points3 points = read_points(mpas_edge, edges, part.surface.is_sphere(), deviations);
+  if (points.cols() == 0 || !deviations.has(mpas::dc_edge, {edges}))
     return {};
   const std::vector<double> lengths = deviations.file().doubles(mpas::dc_edge, {edges});
   for (std::int64_t e = 0; e < edges; ++e) {
-    const Vec3 &edge = column(places, e), &cell = column(part.cells, part.cells_on_edge(0, e));
+    const Vec3 &edge = column(points, e), &cell = column(part.cells, part.cells_on_edge(0, e));
     const double dc = lengths[static_cast<std::size_t>(e)] / radius,
                  way = part.surface.is_sphere()
                            ? 2 * std::asin(std::min(norm(edge - cell) / 2, 1.0))
                            : norm(Plane(part.surface.period()).offset(cell, edge));
     if (part.cells_on_edge(1, e) >= 0 || !(std::abs(dc - 2 * way) < halves_agree * dc))
-      places.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
+      points.col(e).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  return places;
+  return points;
 }
 
-/// What a file has for an incomplete cell is -1, whatever its unit.
+/// Sets the area of incomplete cells to -1 in the unit of the file.
 void mark_incomplete_cells(double radius, Voronoi& out) {
   for (double& area : out.cell_area)
     if (!(area > 0))
       area = -1 / (radius * radius);
 }
 
-/// The cells as the file has them.
-Points3 cells_of(const MeshFile& file) {
+/// The points of the mesh; on the sphere, as unit vectors.
+Points3 unit_points(const MeshFile& file) {
   Points3 cells = file.mesh->points;
   if (file.sphere())
     for (auto unit : cells.colwise())
@@ -135,7 +137,7 @@ Points3 cells_of(const MeshFile& file) {
 
 // ---- Masks of a limited area
 
-/// Those of edges and vertices follow from that of the cells.
+/// Checks the masks of edges and vertices, which follow from that of the cells.
 void check_masks(const Voronoi& part, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
   const std::vector<std::int64_t> by_cell{part.cells.cols()};
@@ -168,11 +170,10 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   Voronoi part;
   OpenLists lists;
   part.surface = file.mesh->surface;
-  part.cells = cells_of(file);
+  part.cells = unit_points(file);
   MpasCheck check{.deviations = deviations, .voronoi = part, .radius = radius, .closed = false};
-  Points3 vertices =
-      stored_places(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
-                    part.surface.is_sphere(), deviations);
+  Points3 vertices = read_points(mpas_vertex, deviations.file().dimension(mpas_vertex.dimension()),
+                                 part.surface.is_sphere(), deviations);
   const bool whole = read_open_lists(part.cells.cols(), lists, deviations) && vertices.cols() > 0 &&
                      lists.cells_on_edge.rows() > 0;
   if (!whole)
@@ -182,7 +183,7 @@ void check_open_mpas(const MeshFile& file, double radius, Deviations& deviations
   check.flipped = set_edges(lists, part);
   set_vertices(lists, part);
   set_cells(lists, part);
-  place_vertices(std::move(vertices), part);
+  set_vertex_positions(std::move(vertices), part);
   voronoi_detail::measure_open(part, cut_edges(part, radius, deviations));
   mark_incomplete_cells(radius, part);
   check_masks(part, deviations);

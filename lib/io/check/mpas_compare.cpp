@@ -9,23 +9,23 @@
 #include <algorithm>
 #include <vector>
 
-// The writer puts its variables here instead of into a file.
+// Receives variables from the writer, which puts them here instead of into a file.
 
 namespace calotte::io_detail {
 namespace {
 
-/// Whether what the writer puts has the rows and the ids of the file.
+/// Whether the values of the writer have the rows and ids of the file.
 bool is_comparable(const MpasCheck& check, const MpasVariable& variable) {
   if (variable.name == mpas::boundary_vertex && check.closed)
-    return true; // 0, whatever the vertices are
+    return true; // independent of the vertices
   if (check.closed &&
       (variable.name == mpas::cells_on_edge || variable.name == mpas::cells_on_vertex))
-    return false; // by which find_numbering() found edges and vertices
+    return false; // find_numbering() used it to identify edges and vertices
   const bool is_list = variable.numbers == MpasNumbers::cells ||
                        variable.numbers == MpasNumbers::edges ||
                        variable.numbers == MpasNumbers::vertices;
   if (is_list && !check.closed && variable.name != mpas::edges_on_edge)
-    return false; // an open mesh has the lists of its file
+    return false; // an open mesh uses the lists of its file
   const bool of_edges =
       variable.rows == MpasDimension::edges || variable.numbers == MpasNumbers::edges;
   const bool of_vertices =
@@ -33,15 +33,15 @@ bool is_comparable(const MpasCheck& check, const MpasVariable& variable) {
   return (check.has_edges || !of_edges) && (check.has_vertices || !of_vertices);
 }
 
-/// One of the variables that are put together.
+/// A variable of a group.
 struct Column {
   const MpasVariable& variable;
-  std::int64_t width;            ///< of a row that is put
-  std::int64_t stored_width = 0; ///< 0: it is not compared
+  std::int64_t width;            ///< values in a row of the writer
+  std::int64_t stored_width = 0; ///< values in a row of the file; 0 if it is not compared
   Array<double> stored = {};     ///< some rows
 };
 
-/// Room for some rows of variables.
+/// Memory for some rows of variables.
 template <class T> class Rows {
 public:
   T* add(std::int64_t values) {
@@ -62,7 +62,7 @@ using Rules = std::map<std::string, MpasRule>;
 void compare_block(const Rules& rules, const std::vector<Column>& columns,
                    const NetcdfWriter::GroupFill& contents, std::int64_t first, std::int64_t begin,
                    std::int64_t end, std::vector<Differences>& out) {
-  constexpr std::int64_t most = 512; // rows at once, which the caches hold
+  constexpr std::int64_t most = 512; // number of rows at once, which fit into the caches
   Rows<std::int32_t> ints;
   Rows<double> doubles;
   std::vector<MpasRows> rows;
@@ -92,7 +92,7 @@ std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
                                      std::vector<Column>& columns,
                                      const NetcdfWriter::GroupFill& contents) {
   constexpr std::int64_t at_once = std::int64_t{1} << 22; // values in memory
-  std::int64_t values = 1;                                // of a row
+  std::int64_t values = 1;                                // values in a row
   for (const Column& column : columns)
     values += column.stored_width;
   const std::int64_t rows = check.rows(columns[0].variable.rows),
@@ -118,7 +118,8 @@ std::vector<Differences> differences(const MpasCheck& check, const Rules& rules,
   return all;
 }
 
-/// Whether a known fault explains all values is counted where some differ.
+/// Adds differences of a variable. If there are any, determines whether a known fault explains all
+/// values.
 void add_differences(const MpasCheck& check, const std::string& variable, Differences differences) {
   const Fault fault = mpas_fault(check, variable);
   if (differences.count > 0 && fault.explains)

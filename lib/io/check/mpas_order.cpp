@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-// A tessellation takes over the free choices of a file: numbers of edges and vertices, starts of
-// lists, ways of edges.
+// Applies the free choices of a file to a tessellation: numbers of edges and vertices, starts of
+// lists, directions of edges.
 
 namespace calotte::io_detail {
 namespace {
 
-/// Column i becomes column from[i], and its entry j entry turned(i, j) of that.
+/// Replaces column i by column from[i], with its entries in the order turned(i, j).
 template <class Columns, class Turned>
 void reorder(const Array<std::int32_t>& from, const Turned& turned, Columns& columns) {
   Columns ordered;
@@ -29,7 +29,7 @@ void reorder(const Array<std::int32_t>& from, const Turned& turned, Columns& col
   columns = std::move(ordered);
 }
 
-/// Each id becomes its name.
+/// Replaces each id by its name.
 template <class Ids> void rename(const Array<std::int32_t>& names, Ids& ids) {
   std::int32_t* const all = ids.data();
   for_each_block(ids.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -60,7 +60,7 @@ void number_vertices(const MpasNumbering& numbering, Voronoi& out) {
 
 // ---- Lists around cells
 
-/// Turns all lists of a cell so that that entry comes first.
+/// Rotates all lists of a cell so that entry `first` comes first.
 void turn_lists(std::int64_t cell, std::ptrdiff_t first, Voronoi& out) {
   for (IdLists* lists : {&out.edges_on_cell, &out.vertices_on_cell, &out.cells_on_cell}) {
     const std::span<std::int32_t> ids = (*lists)[cell];
@@ -68,8 +68,10 @@ void turn_lists(std::int64_t cell, std::ptrdiff_t first, Voronoi& out) {
   }
 }
 
-/// Starts each cell's lists where the first id in a variable tells, if the file has it as a table.
-/// \param lists of that variable. \param after so many entries after the first comes the start.
+/// Starts the lists of each cell at the first id of a variable, if the file has that variable as a
+/// table.
+/// \param lists of that variable.
+/// \param after distance from the first id to the start.
 bool take_starts(const std::string& variable, const IdLists& lists, std::ptrdiff_t after,
                  MpasCheck& check) {
   const NetcdfReader& file = check.deviations.file();
@@ -82,7 +84,7 @@ bool take_starts(const std::string& variable, const IdLists& lists, std::ptrdiff
       variable, [&](std::int64_t cell, const std::int32_t* row, Differences&) {
         const std::span<const std::int32_t> ids = lists[cell];
         const std::ptrdiff_t first = std::ranges::find(ids, row[0] - 1) - ids.begin();
-        if (first < std::ssize(ids)) // another is reported with the variable
+        if (first < std::ssize(ids)) // an unknown id is reported with the variable
           turn_lists(cell, (first + after) % std::ssize(ids), check.voronoi);
       });
   return true;
@@ -99,9 +101,10 @@ void start_lists(MpasCheck& check) {
   take_starts(mpas::cells_on_cell, of.cells_on_cell, 0, check);
 }
 
-/// Rows of a file that are none of the mesh, or come again, stand for what no row has, so that all
-/// other rows and variables are compared, too.
-/// \param of_row those of the mesh by row; \param row_of the reverse; -1: none.
+/// Assigns rows of a file that are not in the mesh, or repeat another, to items without a row, so
+/// that all other rows and variables are compared, too.
+/// \param of_row item of the mesh by row.
+/// \param row_of the reverse; -1 for none.
 void complete(Array<std::int32_t>& of_row, Array<std::int32_t>& row_of) {
   std::int32_t free = 0;
   for (std::int32_t row = 0; row < of_row.size(); ++row) {

@@ -10,23 +10,23 @@
 #include <numbers>
 #include <vector>
 
-// How far the values of a file may be from those that the writer puts.
+// Tolerances for the values of a file, relative to those of the writer.
 
 namespace calotte::io_detail {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A value that is not the derived one.
+/// A value that differs from the derived one.
 struct Entry {
-  std::int64_t row, column, at; ///< at: its place in the variable
+  std::int64_t row, column, at; ///< at: its index in the variable
   double stored, derived;
   std::int32_t edge; ///< of a weight; -1 in the padding
 };
 
-/// How far a value may be from the derived one: so many times a scale. With a period, values that
-/// differ by whole ones are one. A value without tolerance must be the derived one; with an
-/// infinite one, any number may stand there.
+/// The tolerance of a value, as a multiple of a scale. With a period, values that differ by whole
+/// periods are equal. Without tolerance, the value must be the derived one. With an infinite one,
+/// any number is accepted.
 struct Closeness {
   double scale = 1, tolerance = 0, period = 0;
 };
@@ -39,15 +39,16 @@ void compare(Entry entry, const Closeness& within, Differences& out) {
     return out.note(entry.at, entry.stored, entry.derived, std::numeric_limits<double>::infinity());
   if (within.period > 0) {
     const double turns = std::round((entry.stored - entry.derived) / within.period);
-    if (std::abs(turns) <= 2) // with more, it is no longitude that anyone writes
+    if (std::abs(turns) <= 2) // a larger difference is an error
       entry.derived += within.period * turns;
   }
   out.compare(entry.at, entry.stored, entry.derived, within.scale, within.tolerance);
 }
 
-/// \param derived those of the rows.
-/// \param closeness_of(entry) may change the derived value to another that is as right.
-/// \param all also of values that are equal: the derived one may be wrong before that change.
+/// \param derived values of the rows.
+/// \param closeness_of(entry) may replace the derived value by an alternative that is also correct.
+/// \param all whether to compare equal values, too: the derived one may be wrong until it is
+///        replaced.
 template <class T, class ClosenessOf>
 void compare(MpasRows rows, const T* derived, const ClosenessOf& closeness_of, bool all,
              Differences& out) {
@@ -78,11 +79,11 @@ template <class ClosenessOf> MpasRule rule(const ClosenessOf& closeness_of, bool
   };
 }
 
-// ---- Places
+// ---- Coordinates
 
 /// The distance of a vertex from its cells.
 double circumradius(const Voronoi& voronoi, std::int64_t v) {
-  const std::int32_t cell = voronoi.cells_on_vertex.col(v).maxCoeff(); // one that is there
+  const std::int32_t cell = voronoi.cells_on_vertex.col(v).maxCoeff(); // a cell that is not missing
   const Vec3 apart = column(voronoi.vertices, v) - column(voronoi.cells, cell);
   if (voronoi.surface.is_sphere())
     return norm(apart);
@@ -93,11 +94,12 @@ double circumradius(const Voronoi& voronoi, std::int64_t v) {
                    nearest(apart.y, voronoi.surface.period()[1]), 0});
 }
 
-/// \param reach of a row: the scale of its place's error.
+/// \param reach(row) scale of the error of its coordinates.
 template <class Reach>
-void add_places(const MpasCheck& check, const MpasKind& kind, const Points3& points,
-                const Reach& reach, std::map<std::string, MpasRule>& rules) {
-  // Near the poles a latitude that is the arc sine of z has half of a double's digits.
+void add_coordinate_rules(const MpasCheck& check, const MpasKind& kind, const Points3& points,
+                          const Reach& reach, std::map<std::string, MpasRule>& rules) {
+  // Near the poles, a latitude that is computed as the arc sine of z has half the digits of a
+  // double.
   constexpr double arc_sine_rounding = 2e-8;
   const double exact = rounding_of_others * check.width + arc_sine_rounding,
                of_latitude = exact + turn * check.rounding(kind.latitude()),
@@ -105,7 +107,7 @@ void add_places(const MpasCheck& check, const MpasKind& kind, const Points3& poi
   rules[kind.latitude()] = rule([=](const Entry&) { return Closeness{1, of_latitude}; });
   rules[kind.longitude()] = rule([=, &points](const Entry& entry) {
     const double across = norm(Vec3{points(0, entry.row), points(1, entry.row), 0});
-    return Closeness{1, of_longitude / across, turn}; // any at a pole
+    return Closeness{1, of_longitude / across, turn}; // any longitude at a pole
   });
   for (int k = 0; k < 3; ++k) {
     const double period = k < 2 ? check.voronoi.surface.period()[k] : 0.0,
@@ -119,7 +121,8 @@ void add_places(const MpasCheck& check, const MpasKind& kind, const Points3& poi
 
 // ---- Edges
 
-/// East turns by the edge's place, infinitely fast at a pole; the normal by that of its cells.
+/// The angle depends on the direction of east at the edge, which is singular at a pole, and on the
+/// normal, which depends on its cells.
 MpasRule angle_rule(const MpasCheck& check) {
   const double digits = 0x1p-50 + check.rounding(mpas::angle_edge);
   return rule(
@@ -154,8 +157,8 @@ Closeness of_triangle(const MpasCheck& check, std::int64_t v) {
           check.tolerance};
 }
 
-/// Where cells are missing, the kites of a file may have those of the mesh that it was cut from,
-/// and the area of a triangle is their sum, too. Other programs give missing cells none.
+/// If cells are missing, the kites in a file may be those of the mesh that it was cut from, and the
+/// area of a triangle is their sum. Other programs give missing cells no kites.
 MpasRule triangle_rule(const MpasCheck& check) {
   const NetcdfReader& file = check.deviations.file();
   const std::vector<std::int64_t> shape{check.voronoi.cells_on_vertex.cols(), 3};
@@ -177,7 +180,7 @@ MpasRule triangle_rule(const MpasCheck& check) {
 // ---- Values that the table has a function for
 
 Closeness of_value(const MpasCheck& check, const MpasVariable& variable, const Entry& entry) {
-  if (variable.name != mpas::boundary_vertex && // known where cells are missing
+  if (variable.name != mpas::boundary_vertex && // also known if cells are missing
       ((variable.rows == MpasDimension::edges && !check.has_weights(entry.row)) ||
        (variable.rows == MpasDimension::vertices && !check.has_triangle(entry.row))))
     return any_number;
@@ -203,11 +206,11 @@ bool MpasCheck::is_right(std::int64_t v) const {
 std::map<std::string, MpasRule> mpas_rules(const MpasCheck& check) {
   const Voronoi& voronoi = check.voronoi;
   std::map<std::string, MpasRule> rules;
-  add_places(
+  add_coordinate_rules(
       check, mpas_cell, voronoi.cells, [](std::int64_t) { return 1.0; }, rules);
-  add_places(
+  add_coordinate_rules(
       check, mpas_edge, voronoi.edges, [&](std::int64_t e) { return voronoi.dc[e]; }, rules);
-  add_places(
+  add_coordinate_rules(
       check, mpas_vertex, voronoi.vertices,
       [&](std::int64_t v) { return circumradius(voronoi, v); }, rules);
   for (const MpasVariable& variable : mpas_variables())

@@ -3,7 +3,8 @@
 
 #include "io/room.h"
 
-/// What a file says of its own mesh, compared with what would be written for that mesh.
+/// Compares the variables of a file that describe its mesh with those that would be written for the
+/// mesh.
 ///
 /// In: a file and its mesh. Out: a report of the variables that differ.
 namespace calotte::io_detail {}

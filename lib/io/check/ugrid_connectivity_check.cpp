@@ -19,8 +19,8 @@ struct Connectivity : IdTable {
   std::string name;
 };
 
-/// The table that an attribute of the mesh variable names; nothing without one, or of another
-/// shape. Tables with a column for each face or edge, which UGRID allows, are not read.
+/// Reads the table that an attribute of the mesh variable names; none without one, or with another
+/// shape. Transposed tables, which UGRID allows, are not read.
 Connectivity read_connectivity(const std::string& mesh, const std::string& attribute,
                                std::int64_t rows, std::int64_t bound, Deviations& deviations) {
   const NetcdfReader& file = deviations.file();
@@ -48,7 +48,8 @@ Connectivity read_connectivity(const std::string& mesh, const std::string& attri
   return table;
 }
 
-/// Adds a deviation for the first row of a table that breaks its rule. \returns whether none does.
+/// Adds a deviation for the first row of a table that breaks its rule. \returns whether no row
+/// does.
 /// \param holds(row) runs in parallel.
 template <class Holds>
 bool check_rows(const Connectivity& table, const std::string& problem, const Holds& holds,
@@ -61,7 +62,7 @@ bool check_rows(const Connectivity& table, const std::string& problem, const Hol
   return !found.any();
 }
 
-/// The ids of a row, without those that are missing.
+/// The ids of a row, sorted, without missing ones.
 std::vector<std::int32_t> sorted_ids(const Connectivity& table, std::int64_t row) {
   std::vector<std::int32_t> ids;
   for (std::int64_t k = 0; k < table.width; ++k)
@@ -72,17 +73,17 @@ std::vector<std::int32_t> sorted_ids(const Connectivity& table, std::int64_t row
 }
 
 /// The faces to the left and to the right of an edge; -1 for none.
-std::pair<std::int32_t, std::int32_t> faces_of(const Connectivity& edges, const Sides& sides,
-                                               std::int64_t edge) {
+std::pair<std::int32_t, std::int32_t> find_faces(const Connectivity& edges, const Sides& sides,
+                                                 std::int64_t edge) {
   const std::int32_t from = edges.at(edge, 0), to = edges.at(edge, 1);
   return from < 0 || to < 0 ? std::pair(-1, -1)
                             : std::pair(sides.polygon_of(from, to), sides.polygon_of(to, from));
 }
 
-/// Whether each edge is a side of faces and no two are one.
+/// Checks that each edge is a side of faces and that edges differ.
 bool check_edge_nodes(const Connectivity& table, const Sides& sides, Deviations& deviations) {
   const auto is_side = [&](std::int64_t row) {
-    const auto [left, right] = faces_of(table, sides, row);
+    const auto [left, right] = find_faces(table, sides, row);
     return left >= 0 || right >= 0;
   };
   if (!check_rows(table, "is no side of a face", is_side, deviations))
@@ -97,7 +98,7 @@ bool check_edge_nodes(const Connectivity& table, const Sides& sides, Deviations&
   return false;
 }
 
-/// Each face has as many different edges as corners, all of them sides of it.
+/// Checks that each face has as many different edges as corners, all of them sides of it.
 void check_face_edges(const Connectivity& table, const Connectivity& edges,
                       const Polygons& polygons, const Sides& sides, Deviations& deviations) {
   const auto holds = [&](std::int64_t face) {
@@ -105,7 +106,7 @@ void check_face_edges(const Connectivity& table, const Connectivity& edges,
     return std::ssize(ids) == polygons.ids.count(face) &&
            std::adjacent_find(ids.begin(), ids.end()) == ids.end() &&
            std::ranges::all_of(ids, [&](std::int32_t e) {
-             const auto [left, right] = faces_of(edges, sides, e);
+             const auto [left, right] = find_faces(edges, sides, e);
              return left == face || right == face;
            });
   };
@@ -131,7 +132,7 @@ void check_face_faces(const Connectivity& table, const Polygons& polygons, const
 void check_edge_faces(const Connectivity& table, const Connectivity& edges, const Sides& sides,
                       Deviations& deviations) {
   const auto holds = [&](std::int64_t row) {
-    const auto [left, right] = faces_of(edges, sides, row);
+    const auto [left, right] = find_faces(edges, sides, row);
     const std::int32_t a = table.at(row, 0), b = table.width > 1 ? table.at(row, 1) : -1;
     return (a == left && b == right) || (a == right && b == left);
   };

@@ -20,7 +20,7 @@ bool contains_any(const Names& names, const std::vector<std::string>& some) {
   return std::ranges::any_of(some, [&](const std::string& name) { return names.contains(name); });
 }
 
-Names words_of(const NetcdfReader& file, const std::string& variable, const char* attribute) {
+Names read_words(const NetcdfReader& file, const std::string& variable, const char* attribute) {
   std::istringstream text(file.text(variable, attribute));
   Names words;
   for (std::string word; text >> word;)
@@ -28,10 +28,10 @@ Names words_of(const NetcdfReader& file, const std::string& variable, const char
   return words;
 }
 
-/// Names of variables in the attributes of one.
+/// Adds the names of variables that the attributes of a variable contain.
 void add_named(const NetcdfReader& file, const std::string& variable, Names& named) {
   for (const char* const attribute : {"coordinates", "bounds", "climatology", "formula_terms"})
-    named.merge(words_of(file, variable, attribute));
+    named.merge(read_words(file, variable, attribute));
 }
 
 class Carriers {
@@ -47,40 +47,40 @@ public:
       add_named(file, field, named_);
       for (const std::string& dimension : file.dimensions_of(field))
         if (!own_.contains(dimension))
-          of_places_.insert(dimension);
+          of_location_.insert(dimension);
     }
   }
 
   std::vector<Carried> variables() {
-    Names chosen;
+    Names selected;
     for (const NetcdfVariable& variable : file_.variables())
       if (belongs(variable))
-        choose(variable.name, chosen);
-    // Those name others in turn: a level its bounds and its terms.
+        select(variable.name, selected);
+    // These name others in turn: a level names its bounds and terms.
     std::size_t before = 0;
     do {
-      before = chosen.size();
+      before = selected.size();
       for (const NetcdfVariable& variable : file_.variables())
         if (named_.contains(variable.name) && can_be_carried(variable))
-          choose(variable.name, chosen);
-    } while (before != chosen.size());
+          select(variable.name, selected);
+    } while (before != selected.size());
     std::vector<Carried> out;
     for (const NetcdfVariable& variable : file_.variables()) // in the order of the file
-      if (chosen.contains(variable.name))
+      if (selected.contains(variable.name))
         out.push_back(read(variable));
     return out;
   }
 
 private:
-  void choose(const std::string& name, Names& chosen) {
-    if (chosen.insert(name).second)
+  void select(const std::string& name, Names& selected) {
+    if (selected.insert(name).second)
       add_named(file_, name, named_);
   }
 
   bool can_be_carried(const NetcdfVariable& variable) const {
     const std::vector<std::int64_t> shape = file_.shape_of(variable.name);
     return variable.type && !fields_.contains(variable.name) &&
-           !contains_any(of_places_, file_.dimensions_of(variable.name)) &&
+           !contains_any(of_location_, file_.dimensions_of(variable.name)) &&
            std::ranges::find(shape, 0) == shape.end();
   }
 
@@ -98,7 +98,7 @@ private:
     for (const std::string& name : file_.dimensions_of(variable.name))
       out.dimensions.push_back({name, file_.dimension(name), file_.is_unlimited(name)});
     for (const std::string& field : fields_)
-      if (words_of(file_, field, "coordinates").contains(variable.name))
+      if (read_words(file_, field, "coordinates").contains(variable.name))
         out.of.push_back(field);
     out.bytes.resize(static_cast<std::size_t>(file_.product(id, 0, rank) * size_of(out.type)));
     file_.stored_rows(id, 0, 0, rank > 0 ? out.dimensions.front().size : 1, out.bytes.data());
@@ -106,7 +106,7 @@ private:
   }
 
   const NetcdfReader& file_;
-  Names fields_, own_, of_places_, named_;
+  Names fields_, own_, of_location_, named_;
 };
 
 } // namespace

@@ -12,20 +12,20 @@
 
 namespace calotte::io_detail {
 
-/// A variable that goes from file to file as it is.
+/// A variable that is copied from file to file.
 struct Carried {
   std::string name;
   NetcdfType type;
   std::vector<FieldDimension> dimensions; ///< the slowest first
   NetcdfAttributes attributes;
-  std::string bytes;                ///< as classic files have them
-  std::vector<std::string> of = {}; ///< fields that name it as their coordinate
+  std::string bytes;                ///< in big-endian order
+  std::vector<std::string> of = {}; ///< fields that name it as a coordinate
 };
 
-/// What a file says of the dimensions that its fields have besides those of places, such as times
-/// and levels: variables of these dimensions alone, names of times as text, and what these or the
-/// fields name as bounds, as a coordinate or in formula_terms. (CF conventions 1.11, 4.3.3, 5.7 and
-/// 7.1.)
+/// The variables that describe the dimensions of fields besides those of their cells, such as times
+/// and levels: variables on these dimensions alone, names of times as text, and the variables that
+/// these or the fields name as bounds, as a coordinate or in formula_terms (CF conventions 1.11,
+/// 4.3.3, 5.7 and 7.1).
 /// \throws Error parse, file.
 std::vector<Carried> carried_with(const NetcdfReader& file, const std::vector<MeshField>& fields);
 

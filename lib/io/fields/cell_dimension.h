@@ -8,8 +8,8 @@
 
 namespace calotte::io_detail {
 
-/// What a format of meshes calls the dimension of its cells.
-/// \param format as MeshFile has it.
+/// The name of the dimension of cells in a format of meshes.
+/// \param format as in MeshFile.
 inline std::string cell_dimension(const std::string& format) {
   using Name = std::pair<const char*, const char*>;
   for (const auto& [part, dimension] :

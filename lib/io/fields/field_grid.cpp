@@ -56,9 +56,9 @@ Points3 centres_of(const FieldGrid& grid) {
   return cells.centres.cols() > 0 ? cells.centres : centroids_of(cells);
 }
 
-/// The cell that holds each position; -1 where there is none. Sites without cells, at the corners
-/// of triangles, count for the triangles.
-Ids cells_holding(const FieldGrid& source, const Points3& positions) {
+/// The cell that contains each position; -1 without one. Sites without cells, at corners of
+/// triangles, count for their triangles.
+Ids find_cells(const FieldGrid& source, const Points3& positions) {
   if (source.mesh.polygons)
     return cells_at(*source.mesh.polygons, positions);
   const Locations at = locate(*source.mesh.mesh, positions);
@@ -66,7 +66,7 @@ Ids cells_holding(const FieldGrid& source, const Points3& positions) {
 }
 
 Weights nearest(const FieldGrid& source, const Points3& positions) {
-  const Ids cells = cells_holding(source, positions);
+  const Ids cells = find_cells(source, positions);
   Weights weights(positions.cols(), source.size());
   weights.reserve(cells.size());
   for (Eigen::Index i = 0; i < cells.size(); ++i) {
@@ -78,8 +78,8 @@ Weights nearest(const FieldGrid& source, const Points3& positions) {
   return weights;
 }
 
-/// Weights of the triangles between centres. Of cells without triangles of their own those that are
-/// outside of all cells have none.
+/// Weights of the triangles between centres. If the cells have no triangles of their own, positions
+/// outside of all cells have no weights.
 Weights on_triangles(const FieldGrid& source, const Points3& positions, Interpolation kind) {
   if (source.mesh.mesh)
     return interpolation_weights(*source.mesh.mesh, positions, kind);
@@ -112,9 +112,9 @@ GridWeights conservative(const FieldGrid& source, const FieldGrid& target) {
   return conservative_weights(cells_of(source), cells_of(target));
 }
 
-/// The dimension that stands for so many cells.
+/// Finds the dimension of the cells by its name or size.
 /// \throws Error parse.
-std::string dimension_of_cells(const NetcdfReader& file, const FieldGrid& mesh) {
+std::string find_cell_dimension(const NetcdfReader& file, const FieldGrid& mesh) {
   const std::string usual = cell_dimension(mesh.mesh.format);
   if (file.dimension(usual) == mesh.size())
     return usual;
@@ -128,13 +128,14 @@ std::string dimension_of_cells(const NetcdfReader& file, const FieldGrid& mesh) 
   return found.front();
 }
 
-/// Whether a variable at the cells says where they are.
+/// Whether a variable is a coordinate of the cells.
 bool is_coordinate(const NetcdfReader& file, const std::string& name) {
   return is_longitude(file, name) || is_latitude(file, name) || name == "x" || name == "y";
 }
 
-/// The mask of a mesh file, which no choice of fields leaves out; none where all cells count.
-Ids mask_of(const std::string& path, std::int64_t cells) {
+/// Reads the mask of a mesh file, which is read whatever fields are chosen; none if it excludes no
+/// cell.
+Ids read_mask(const std::string& path, std::int64_t cells) {
   if (!is_netcdf_file(path))
     return {};
   const NetcdfReader file(path);
@@ -151,7 +152,7 @@ Ids mask_of(const std::string& path, std::int64_t cells) {
   return {};
 }
 
-/// Values of cells that do not count are missing, and the mask is no field.
+/// Makes values of masked cells missing, and removes the mask from the fields.
 void apply_mask(FieldGrid& grid) {
   std::erase_if(grid.fields, is_mask);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -161,8 +162,8 @@ void apply_mask(FieldGrid& grid) {
         field.values.segment(i * field.count(), field.count()).setConstant(none);
 }
 
-/// Fields are of no use where each has a dimension of size 0, such as times without records.
-/// \throws Error parse, with its name.
+/// Requires a field without a dimension of size 0, such as times without records.
+/// \throws Error parse, with the name of the dimension.
 void require_records(const std::string& path, const FieldGrid& grid, FieldChoice choice) {
   if (choice == FieldChoice::none || !grid.fields.empty() || !is_netcdf_file(path))
     return;
@@ -181,7 +182,7 @@ bool counts(const FieldGrid& grid, Eigen::Index cell) {
   return grid.mask.size() == 0 || grid.mask[cell] != 0;
 }
 
-/// Weights between cells that count: rows are divided by what is left of them.
+/// Removes masked cells from weights. Rows are divided by the sum that remains.
 void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeights& out) {
   if (source.mask.size() == 0 && target.mask.size() == 0)
     return;
@@ -194,7 +195,7 @@ void leave_masked_out(const FieldGrid& source, const FieldGrid& target, GridWeig
   });
   weights.makeCompressed();
   out.target_fraction.array() *= left.array();
-  DoubleVector shared = DoubleVector::Zero(weights.cols()); // of areas, where these are known
+  DoubleVector shared = DoubleVector::Zero(weights.cols()); // of areas, if these are known
   for (Eigen::Index row = 0; row < weights.rows(); ++row)
     for (Weights::InnerIterator entry(weights, row); entry; ++entry) {
       entry.valueRef() /= left[row];
@@ -239,7 +240,7 @@ FieldGrid read_field_grid(const std::string& path, FieldChoice choice) {
     return true;
   });
   grid.mesh.fields.clear();
-  grid.mask = mask_of(path, grid.size());
+  grid.mask = read_mask(path, grid.size());
   apply_mask(grid);
   require_records(path, grid, choice);
   return grid;
@@ -257,7 +258,7 @@ FieldGrid read_field_grid(const std::string& path, const std::string& mesh_path,
     if (is_coordinate(file, name))
       coordinates.insert(name);
   grid.ignored.assign(coordinates.begin(), coordinates.end());
-  read_fields_on(file, {dimension_of_cells(file, grid)}, coordinates, choice, grid.fields,
+  read_fields_on(file, {find_cell_dimension(file, grid)}, coordinates, choice, grid.fields,
                  grid.ignored);
   grid.name = path;
   apply_mask(grid);

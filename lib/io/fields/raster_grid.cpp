@@ -17,10 +17,10 @@
 namespace calotte::io_detail {
 namespace {
 
-/// The sides of boxes that a variable of bounds gives, in the order of the nodes; none without.
-/// \throws Error parse, where they leave gaps.
-DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
-                      const DoubleVector& nodes) {
+/// Reads the sides of boxes from a variable of bounds, in the order of the nodes; none without one.
+/// \throws Error parse, if there are gaps.
+DoubleVector read_sides(const NetcdfReader& file, const std::string& axis,
+                        const DoubleVector& nodes) {
   const std::string name = file.text(axis, "bounds");
   if (name.empty() || !file.has_variable(name))
     return {};
@@ -34,7 +34,7 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
            &second = bounds[static_cast<std::size_t>(2 * i + 1)];
     if (sign * first > sign * second)
       std::swap(first, second);
-    constexpr double rounding = 1e-4; // degrees, of floats
+    constexpr double rounding = 1e-4; // degrees, in single precision
     if (i > 0 && !(std::abs(first - sides[i]) < rounding))
       file.fail("{}[{}] does not begin where the one before ends; give bounds without gaps, or "
                 "remove them",
@@ -46,11 +46,11 @@ DoubleVector sides_of(const NetcdfReader& file, const std::string& axis,
   return sides;
 }
 
-LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
+LonLatBoxes read_boxes(const NetcdfReader& file, const RasterAxes& axes) {
   const DoubleVector longitudes = to_vector(read_degrees_of_axis(file, axes.longitude)),
                      latitudes = to_vector(read_degrees_of_axis(file, axes.latitude)),
-                     meridians = sides_of(file, axes.longitude, longitudes),
-                     parallels = sides_of(file, axes.latitude, latitudes);
+                     meridians = read_sides(file, axes.longitude, longitudes),
+                     parallels = read_sides(file, axes.latitude, latitudes);
   try {
     LonLatBoxes boxes =
         meridians.size() > 0 && parallels.size() > 0
@@ -67,7 +67,7 @@ LonLatBoxes boxes_of(const NetcdfReader& file, const RasterAxes& axes) {
 
 FieldGrid read_raster_grid(const NetcdfReader& file, const RasterAxes& axes, FieldChoice choice) {
   FieldGrid grid{.name = file.path()};
-  grid.boxes = boxes_of(file, axes);
+  grid.boxes = read_boxes(file, axes);
   read_fields_on(file, {axes.latitude, axes.longitude}, {axes.latitude, axes.longitude}, choice,
                  grid.fields, grid.ignored);
   return grid;

@@ -30,15 +30,15 @@ using remap_detail::WeightRow;
 
 // ---- The grids beside the weights
 
-/// A grid as files of weights describe it: places in degrees.
+/// A grid in a file of weights, with points in degrees.
 struct DescribedGrid {
   std::string name;
-  std::vector<std::int32_t> dimensions; ///< of the grid, the fastest first
+  std::vector<std::int32_t> dimensions; ///< sizes of the dimensions of the grid, the fastest first
   Points3 centres;                      ///< unit columns
-  std::optional<LonLatBoxes> boxes;     ///< or the cells:
-  Polygons cells;                       ///< none where they are unknown
+  std::optional<LonLatBoxes> boxes;     ///< the cells, if they are boxes
+  Polygons cells;                       ///< otherwise the cells; none if they are unknown
   DoubleVector area, fraction;
-  Ids mask; ///< empty for all 1
+  Ids mask; ///< empty if all are 1
 
   std::int64_t corners() const { return boxes ? 4 : most_corners(cells); }
 };
@@ -76,8 +76,8 @@ void require_sphere(const FieldGrid& grid) {
           grid.name);
 }
 
-/// Corner k of a cell.
-base_detail::LonLat corner_place(const DescribedGrid& grid, std::int64_t cell, std::int64_t k) {
+/// The longitude and latitude of corner k of a cell.
+base_detail::LonLat corner_lonlat(const DescribedGrid& grid, std::int64_t cell, std::int64_t k) {
   if (!grid.boxes)
     return base_detail::eastern_lonlat_of(
         base_detail::column(grid.cells.corners, corner_or_last(grid.cells, cell, k)));
@@ -108,7 +108,7 @@ GridNames scrip_grid(const std::string& role) {
           grid + "imask",      grid + "area",       grid + "frac"};
 }
 
-/// Announces a grid; returns the dimension of its cells.
+/// Declares a grid. \returns the dimension of its cells.
 int add_grid(NetcdfGridFile& file, const DescribedGrid& grid, const GridNames& names) {
   const int size = file.netcdf().dimension(names.size, grid.centres.cols()),
             rank = file.netcdf().dimension(names.rank, std::ssize(grid.dimensions));
@@ -123,7 +123,7 @@ int add_grid(NetcdfGridFile& file, const DescribedGrid& grid, const GridNames& n
   const auto put = [&](const std::string& name, double base_detail::LonLat::*angle) {
     file.doubles(name, {size, corners}, units("degrees"),
                  table<double>(width, [&grid, angle](std::int64_t cell, std::int64_t k) {
-                   return corner_place(grid, cell, k).*angle;
+                   return corner_lonlat(grid, cell, k).*angle;
                  }));
   };
   put(names.corner_lat, &base_detail::LonLat::latitude);
@@ -152,8 +152,8 @@ std::string method_name(Interpolation kind, WeightsFormat format) {
   }
 }
 
-/// 1-based rows of the links.
-NetcdfWriter::Fill<std::int32_t> rows_of(const Weights& weights) {
+/// The rows of the links, 1-based.
+NetcdfWriter::Fill<std::int32_t> make_rows(const Weights& weights) {
   return [&weights](std::int64_t begin, std::int64_t end, std::int32_t* out) {
     const int* const first = weights.outerIndexPtr();
     std::int64_t row =
@@ -166,12 +166,12 @@ NetcdfWriter::Fill<std::int32_t> rows_of(const Weights& weights) {
   };
 }
 
-NetcdfWriter::Fill<std::int32_t> columns_of(const Weights& weights) {
+NetcdfWriter::Fill<std::int32_t> make_columns(const Weights& weights) {
   return table<std::int32_t>(
       1, [&weights](std::int64_t k, std::int64_t) { return weights.innerIndexPtr()[k] + 1; });
 }
 
-NetcdfWriter::Fill<double> links_of(const Weights& weights) {
+NetcdfWriter::Fill<double> make_links(const Weights& weights) {
   return table<double>(1,
                        [&weights](std::int64_t k, std::int64_t) { return weights.valuePtr()[k]; });
 }
@@ -179,13 +179,13 @@ NetcdfWriter::Fill<double> links_of(const Weights& weights) {
 void add_links(NetcdfGridFile& file, const Weights& weights, WeightsFormat format) {
   const bool esmf = format == WeightsFormat::esmf;
   const int links = file.netcdf().dimension(esmf ? "n_s" : "num_links", weights.nonZeros());
-  file.ints(esmf ? "col" : "src_address", {links}, {}, columns_of(weights));
-  file.ints(esmf ? "row" : "dst_address", {links}, {}, rows_of(weights));
+  file.ints(esmf ? "col" : "src_address", {links}, {}, make_columns(weights));
+  file.ints(esmf ? "row" : "dst_address", {links}, {}, make_rows(weights));
   if (esmf)
-    file.doubles("S", {links}, {}, links_of(weights));
+    file.doubles("S", {links}, {}, make_links(weights));
   else
     file.doubles("remap_matrix", {links, file.netcdf().dimension("num_wgts", 1)}, {},
-                 links_of(weights));
+                 make_links(weights));
 }
 
 void add_attributes(NetcdfGridFile& file, const DescribedGrid& source, const DescribedGrid& target,
@@ -217,7 +217,7 @@ struct LinkNames {
       source_area, target_area;
 };
 
-std::optional<LinkNames> names_of(const NetcdfReader& file) {
+std::optional<LinkNames> find_names(const NetcdfReader& file) {
   if (file.has_variable("S") && file.has_variable("row") && file.has_variable("col"))
     return LinkNames{"n_a", "n_b", "col", "row", "S", "frac_b", "frac_a", "area_a", "area_b"};
   if (file.has_variable("remap_matrix") && file.has_variable("src_address") &&
@@ -228,7 +228,7 @@ std::optional<LinkNames> names_of(const NetcdfReader& file) {
   return std::nullopt;
 }
 
-/// The weights of links; of several for each the first.
+/// Reads the weights of links; if a link has several, the first.
 std::vector<double> first_weights(const NetcdfReader& file, const std::string& name,
                                   std::int64_t links) {
   const std::vector<std::int64_t> shape = file.shape_of(name);
@@ -245,11 +245,9 @@ std::vector<double> first_weights(const NetcdfReader& file, const std::string& n
   return weights;
 }
 
-/// \param row, column of the links, 1-based. The weights of one pair are added.
-Weights matrix_of_links(std::int64_t rows, std::int64_t columns,
-                        const std::vector<std::int32_t>& row,
-                        const std::vector<std::int32_t>& column,
-                        const std::vector<double>& weight) {
+/// \param row, column of the links, 1-based. Weights of the same pair are added.
+Weights make_matrix(std::int64_t rows, std::int64_t columns, const std::vector<std::int32_t>& row,
+                    const std::vector<std::int32_t>& column, const std::vector<double>& weight) {
   const auto links = base_detail::lists_by_key<WeightRow>(rows, [&](const auto& put) {
     for (std::size_t k = 0; k < row.size(); ++k)
       put(row[k] - 1, Weight{column[k] - 1, weight[k]});
@@ -275,7 +273,7 @@ Weights read_links(const NetcdfReader& file, const LinkNames& names) {
       file.fail(
           "link {} (0-based) joins {} {} and {} {} of {} and {} cells; make the weights again", k,
           names.column, column[k], names.row, row[k], columns, rows);
-  return matrix_of_links(rows, columns, row, column, weight);
+  return make_matrix(rows, columns, row, column, weight);
 }
 
 DoubleVector values_or(const NetcdfReader& file, const std::string& name, std::int64_t size,
@@ -311,7 +309,7 @@ void write_weights(const std::string& path, const GridWeights& weights, const Fi
 GridWeights read_weights(const std::string& path) {
   using namespace io_detail;
   const NetcdfReader file(path);
-  const std::optional<LinkNames> names = names_of(file);
+  const std::optional<LinkNames> names = find_names(file);
   if (!names)
     file.fail("no weights of ESMF (row, col, S) or SCRIP (src_address, dst_address, remap_matrix); "
               "give a file of weights");

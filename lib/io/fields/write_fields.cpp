@@ -23,7 +23,7 @@ namespace {
 
 using base_detail::require;
 
-/// Whether all that have a dimension have it first, as records must.
+/// Whether a dimension is the first of all fields and variables that have it, as records must be.
 bool is_first_of_all(const std::string& name, const std::vector<MeshField>& fields,
                      const std::vector<Carried>& carried) {
   const auto is_first = [&](const std::vector<FieldDimension>& dimensions, bool leads) {
@@ -40,10 +40,10 @@ bool is_first_of_all(const std::string& name, const std::vector<MeshField>& fiel
              carried, [&](const Carried& variable) { return is_first(variable.dimensions, true); });
 }
 
-/// The dimensions that fields have besides those of places, in a file that is written.
+/// The dimensions of fields besides those of their cells, in a file that is written.
 class OtherDimensions {
 public:
-  /// Announces the unlimited one, if all have it first.
+  /// Declares the unlimited dimension, if it is the first of all that have it.
   OtherDimensions(NetcdfWriter& file, const std::vector<MeshField>& fields,
                   const std::vector<Carried>& carried)
       : file_(file) {
@@ -70,11 +70,11 @@ private:
   int id_of_records_ = -1;
 };
 
-/// Fields, and what belongs to their other dimensions.
-/// \param places ids of the dimensions of their cells, the slowest first.
-/// \param coordinates names of variables of the cells.
+/// Declares fields, and variables that describe their other dimensions.
+/// \param of_cells ids of the dimensions of their cells, the slowest first.
+/// \param coordinates names of the coordinate variables of the cells.
 void add_fields(NetcdfGridFile& file, const std::vector<MeshField>& fields,
-                const std::vector<Carried>& carried, const std::vector<int>& places,
+                const std::vector<Carried>& carried, const std::vector<int>& of_cells,
                 const std::string& coordinates) {
   const OtherDimensions others(file.netcdf(), fields, carried);
   for (const Carried& variable : carried) {
@@ -92,7 +92,7 @@ void add_fields(NetcdfGridFile& file, const std::vector<MeshField>& fields,
     NetcdfAttributes attributes;
     if (!all.empty())
       attributes.push_back({"coordinates", all});
-    add_field(file, field, places, others.ids(field.dimensions), attributes, Missing::filled);
+    add_field(file, field, of_cells, others.ids(field.dimensions), attributes, Missing::filled);
   }
 }
 
@@ -114,7 +114,7 @@ void write_raster(const std::string& path, const LonLatBoxes& boxes,
   NetcdfGridFile file(path, options, "CF-1.8");
   const int lat = file.netcdf().dimension("lat", boxes.latitudes.size()),
             lon = file.netcdf().dimension("lon", boxes.longitudes.size()),
-            pair = file.netcdf().field_dimension("bnds", 2); // times have bounds, too
+            pair = file.netcdf().field_dimension("bnds", 2); // shared with the bounds of times
   add_axis(file, "lat", "latitude", "degrees_north", boxes.latitudes, boxes.parallels, lat, pair);
   add_axis(file, "lon", "longitude", "degrees_east", boxes.longitudes, boxes.meridians, lon, pair);
   add_fields(file, fields, carried, {lat, lon}, "");
@@ -156,7 +156,7 @@ bool is_own_name(const std::string& name) {
   return std::ranges::find(own_names, name) != own_names.end();
 }
 
-/// Names that the file's own variables have.
+/// Refuses fields with names of variables of the file.
 void require_free_names(const std::string& path, const std::vector<MeshField>& fields) {
   for (const MeshField& field : fields)
     require(!is_own_name(field.name),
@@ -164,7 +164,7 @@ void require_free_names(const std::string& path, const std::vector<MeshField>& f
             field.name);
 }
 
-/// What belongs to fields of a file.
+/// The variables that describe the other dimensions of fields in a source.
 /// \param renamed their old and new names.
 std::vector<Carried> carried_from(const std::string& source, const std::vector<MeshField>& fields,
                                   const std::vector<std::array<std::string, 2>>& renamed) {
