@@ -31,10 +31,10 @@ void require_output(calotte_mesh** mesh) {
 }
 
 void hand_over(Mesh&& made, calotte_mesh** mesh) {
-  Points2 places;
+  Points2 planar;
   if (!made.surface.is_sphere())
-    places = made.points.topRows<2>();
-  *mesh = new calotte_mesh{std::move(made), std::move(places)};
+    planar = made.points.topRows<2>();
+  *mesh = new calotte_mesh{std::move(made), std::move(planar)};
 }
 
 const Mesh& mesh_of(const calotte_mesh* mesh) {
@@ -46,7 +46,7 @@ namespace {
 
 int rows_of(const Surface& surface) { return surface.is_sphere() ? 3 : 2; }
 
-CheckReport check_of(const Mesh& mesh) {
+CheckReport run_check(const Mesh& mesh) {
   const bool part = mesh.surface.is_sphere() && mesh.surface.is_bounded();
   return part ? check_surface(mesh) : check(mesh);
 }
@@ -88,7 +88,7 @@ calotte_status calotte_mesh_view(const calotte_mesh* mesh, calotte_triangulation
     const bool sphere = made.surface.is_sphere();
     fill(view,
          {0, rows_of(made.surface), made.points.cols(), made.triangles.cols(),
-          sphere ? made.points.data() : mesh->places.data(), made.triangles.data(),
+          sphere ? made.points.data() : mesh->planar_points.data(), made.triangles.data(),
           made.neighbours.data(), std::ssize(made.site_of_input), made.site_of_input.data()},
          "calotte_triangulation");
   });
@@ -96,7 +96,7 @@ calotte_status calotte_mesh_view(const calotte_mesh* mesh, calotte_triangulation
 
 calotte_status calotte_check(const calotte_mesh* mesh, calotte_error* error) {
   return guarded(error, [&] {
-    const CheckReport result = check_of(mesh_of(mesh));
+    const CheckReport result = run_check(mesh_of(mesh));
     require(result.passed(), result.failure);
   });
 }

@@ -15,7 +15,7 @@
 namespace calotte::c_detail {
 namespace {
 
-calotte_report report_of(const CvtReport& report) {
+calotte_report make_report(const CvtReport& report) {
   return {0,
           report.converged ? 1 : 0,
           report.well_centred ? 1 : 0,
@@ -28,7 +28,8 @@ calotte_report report_of(const CvtReport& report) {
           report.off_boundary};
 }
 
-/// Fills one of a caller's arrays of actions. \param value of an action.
+/// Fills one of the arrays of actions of a caller.
+/// \param value of an action.
 template <class Item, class Value>
 void fill_actions(const Schedule& schedule, std::int64_t capacity, Item* out, Value value) {
   const auto& actions = schedule.actions;
@@ -85,7 +86,7 @@ calotte_status calotte_make_grid(const calotte_recipe* recipe, calotte_progress 
     Cvt grid = make_grid(recipe_of(recipe), options);
     hand_over(std::move(grid.mesh), mesh);
     if (report != nullptr)
-      fill(report, report_of(grid.report), "calotte_report");
+      fill(report, make_report(grid.report), "calotte_report");
   });
 }
 

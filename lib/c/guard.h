@@ -21,18 +21,20 @@ using base_detail::require;
 /// The threads of later work of the calling thread; 0 for all cores.
 void set_threads(int count);
 
-/// Does the work in these threads and turns what it throws into a code and *error.
-/// \param error null, or of a caller; without room for a message nothing is done, and the code is
-///        CALOTTE_INVALID_ARGUMENT.
+/// Does the work in these threads. Converts exceptions to a code and *error.
+/// \param error null, or provided by the caller. If there is no memory for a message, nothing is
+///        done, and the code is CALOTTE_INVALID_ARGUMENT.
 calotte_status guarded(calotte_error* error, const std::function<void()>& work);
 
-/// The remedy for a caller's struct that has not been initialised. \param name of its type.
+/// The remedy for a struct of a caller that was not initialised.
+/// \param name of its type.
 inline std::string initialise(const std::string& name) {
   return message("initialise the {} with {}_init()",
                  std::string_view(name).substr(std::string_view("calotte_").size()), name);
 }
 
-/// The size of a caller's struct. \param name of its type.
+/// The size of a struct of a caller.
+/// \param name of its type.
 /// \throws Error invalid_argument for a null pointer and for a size that no struct of this type
 /// has.
 template <class Struct> std::size_t size_of(const Struct* given, const std::string& name) {
@@ -43,8 +45,8 @@ template <class Struct> std::size_t size_of(const Struct* given, const std::stri
   return given->size;
 }
 
-/// A caller's struct with all members that the library knows.
-/// \param usual has those that the caller's lacks. Default: 0.
+/// A struct of a caller, with all members that the library knows.
+/// \param usual has the members that the struct of the caller lacks. Default: 0.
 /// \throws Error invalid_argument as size_of(), and for other members that are not 0.
 template <class Struct>
 Struct known_part(const Struct* given, const std::string& name, const Struct& usual = {}) {
@@ -60,7 +62,7 @@ Struct known_part(const Struct* given, const std::string& name, const Struct& us
   return known;
 }
 
-/// Sets the members that a caller's struct has. \throws Error invalid_argument as size_of().
+/// Sets the members that the struct of a caller has. \throws Error invalid_argument as size_of().
 template <class Struct> void fill(Struct* out, Struct values, const std::string& name) {
   values.size = size_of(out, name);
   std::memcpy(out, &values, std::min(values.size, sizeof values));

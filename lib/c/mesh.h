@@ -8,7 +8,7 @@
 /// What the opaque pointer of C points to.
 struct calotte_mesh {
   calotte::Mesh mesh;
-  calotte::Points2 places; ///< x y of the sites in a plane, as a view has them; empty on the sphere
+  calotte::Points2 planar_points; ///< x y of the sites in a plane; empty on the sphere
 };
 
 namespace calotte::c_detail {

@@ -17,26 +17,27 @@
 namespace calotte::c_detail {
 namespace {
 
-int integer_of(std::int64_t value, const std::string& name) {
+int require_integer(std::int64_t value, const std::string& name) {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   require(value >= -most && value <= most, "{} is {}; give at most {}", name, value, most);
   return static_cast<int>(value);
 }
 
-/// None where the library chooses.
-std::optional<int> choice_of(std::int64_t value, const std::string& name) {
-  return value == CALOTTE_AUTOMATIC ? std::nullopt : std::optional(integer_of(value, name));
+/// An integer, or none if the library chooses.
+std::optional<int> read_choice(std::int64_t value, const std::string& name) {
+  return value == CALOTTE_AUTOMATIC ? std::nullopt : std::optional(require_integer(value, name));
 }
 
-bool flag_of(std::int64_t value, const std::string& name) {
+bool require_flag(std::int64_t value, const std::string& name) {
   require(value == 0 || value == 1, "{} is {}; give 0 or 1", name, value);
   return value == 1;
 }
 
-/// The value of a caller's word. \param usual without one.
+/// The value for a word of the caller.
+/// \param usual value without a word.
 template <class Value>
-Value value_of(const char* word, std::span<const NamedValue<Value>> words, Value usual,
-               const std::string& name) {
+Value require_value(const char* word, std::span<const NamedValue<Value>> words, Value usual,
+                    const std::string& name) {
   if (word == nullptr)
     return usual;
   const auto found = std::ranges::find(words, std::string_view(word), &NamedValue<Value>::word);
@@ -49,7 +50,7 @@ Value value_of(const char* word, std::span<const NamedValue<Value>> words, Value
       message("the {} is '{}'; give one of {}", name, word, base_detail::listed(all)));
 }
 
-Surface::Rings rings_of(const calotte_surface& surface) {
+Surface::Rings read_rings(const calotte_surface& surface) {
   require(surface.rings >= 0, "the number of rings is negative; give 0 or more");
   require(surface.corners != nullptr && surface.begin != nullptr,
           "the corners of the rings, or where each begins, are a null pointer; give both");
@@ -67,7 +68,7 @@ Surface::Rings rings_of(const calotte_surface& surface) {
 
 // ---- Parts of a recipe
 
-Density density_of(calotte_density function, void* data) {
+Density make_density(calotte_density function, void* data) {
   Density density;
   if (function == nullptr)
     return density;
@@ -80,7 +81,7 @@ Density density_of(calotte_density function, void* data) {
   return density;
 }
 
-/// Points with three rows, in a plane with z = 0.
+/// Points with three rows; z = 0 in a plane.
 Points3 spatial_points(const double* values, std::int64_t n, bool sphere, const std::string& name) {
   if (values == nullptr && n == 0)
     return {};
@@ -91,7 +92,7 @@ Points3 spatial_points(const double* values, std::int64_t n, bool sphere, const 
   return points;
 }
 
-/// \pre the surface and the radius are taken.
+/// \pre recipe.surface and recipe.radius_km are set.
 void take_resolution(const calotte_recipe& given, Recipe& recipe) {
   const bool raster = given.widths != nullptr || given.widths_nx != 0 || given.widths_ny != 0,
              file = given.widths_file != nullptr;
@@ -103,7 +104,7 @@ void take_resolution(const calotte_recipe& given, Recipe& recipe) {
         read_widths(given.widths_file, {.radius_km = recipe.radius_km}, recipe.surface);
   if (!raster) {
     if (!file)
-      recipe.resolution = density_of(given.density, given.density_data);
+      recipe.resolution = make_density(given.density, given.density_data);
     return;
   }
   constexpr std::int64_t most = 1 << 20;
@@ -122,33 +123,33 @@ void take_resolution(const calotte_recipe& given, Recipe& recipe) {
       Widths({std::move(x), std::move(y), std::move(widths), !recipe.surface.is_sphere()});
 }
 
-CvtStart start_of(const calotte_recipe& given, bool sphere) {
+CvtStart read_start(const calotte_recipe& given, bool sphere) {
   CvtStart start;
-  start.kind = value_of(given.start, start_words(), start.kind, "start");
+  start.kind = require_value(given.start, start_words(), start.kind, "start");
   start.points =
       spatial_points(given.start_points, given.start_count, sphere, "the start's points");
-  start.bisections = choice_of(given.bisections, "the number of bisections");
-  start.insertion_rounds = choice_of(given.insertion_rounds, "the number of rounds of insertion");
+  start.bisections = read_choice(given.bisections, "the number of bisections");
+  start.insertion_rounds = read_choice(given.insertion_rounds, "the number of rounds of insertion");
   return start;
 }
 
-CvtStop stop_of(const calotte_recipe& given) {
+CvtStop read_stop(const calotte_recipe& given) {
   CvtStop stop;
-  stop.norm = value_of(given.norm, norm_words(), stop.norm, "norm");
+  stop.norm = require_value(given.norm, norm_words(), stop.norm, "norm");
   if (given.tolerance != CALOTTE_AUTOMATIC)
     stop.tolerance = given.tolerance;
-  stop.max_iterations = integer_of(given.max_iterations, "max_iterations");
-  stop.iterations = choice_of(given.iterations, "the number of iterations");
+  stop.max_iterations = require_integer(given.max_iterations, "max_iterations");
+  stop.iterations = read_choice(given.iterations, "the number of iterations");
   if (given.well_centred != CALOTTE_AUTOMATIC)
-    stop.well_centred = flag_of(given.well_centred, "well_centred");
+    stop.well_centred = require_flag(given.well_centred, "well_centred");
   stop.least_spacing = given.least_spacing;
   return stop;
 }
 
-/// The method, and what becomes of equal points.
+/// Sets the method, and the treatment of equal points.
 void take_method(const calotte_recipe& given, Recipe& recipe) {
-  recipe.method = value_of(given.method, method_words(), recipe.method, "method");
-  if (flag_of(given.refuse_duplicates, "refuse_duplicates"))
+  recipe.method = require_value(given.method, method_words(), recipe.method, "method");
+  if (require_flag(given.refuse_duplicates, "refuse_duplicates"))
     recipe.duplicates = Duplicates::refuse;
   recipe.merge_within = given.merge_within;
 }
@@ -170,7 +171,7 @@ calotte_recipe usual_recipe() {
   return recipe;
 }
 
-/// A caller's recipe, with the defaults of what its struct lacks.
+/// The recipe of a caller. Members that its struct lacks have their defaults.
 calotte_recipe initialised(const calotte_recipe* pointer) {
   const std::string name = "calotte_recipe";
   const calotte_recipe given = known_part(pointer, name, usual_recipe());
@@ -199,7 +200,7 @@ Surface surface_of(const calotte_surface* given) {
   require(!sphere || !repeats, "a period is that of a plane; give the kind CALOTTE_PLANE");
   const Surface whole =
       sphere ? Surface::sphere() : (repeats ? Surface::periodic(period) : Surface::plane());
-  return surface.rings == 0 ? whole : whole.within(rings_of(surface));
+  return surface.rings == 0 ? whole : whole.within(read_rings(surface));
 }
 
 Recipe recipe_of(const calotte_recipe* pointer) {
@@ -210,13 +211,13 @@ Recipe recipe_of(const calotte_recipe* pointer) {
   const bool sphere = recipe.surface.is_sphere();
   recipe.radius_km = given.earth_radius_km;
   take_resolution(given, recipe);
-  recipe.limited_area = flag_of(given.limited_area, "limited_area");
-  recipe.walls = {flag_of(given.walls_x, "walls_x"), flag_of(given.walls_y, "walls_y")};
-  if (flag_of(given.boundary_generators, "boundary_generators"))
+  recipe.limited_area = require_flag(given.limited_area, "limited_area");
+  recipe.walls = {require_flag(given.walls_x, "walls_x"), require_flag(given.walls_y, "walls_y")};
+  if (require_flag(given.boundary_generators, "boundary_generators"))
     recipe.boundary = Boundary::generators;
   recipe.fixed = spatial_points(given.fixed, given.fixed_count, sphere, "the fixed points");
-  recipe.start = start_of(given, sphere);
-  recipe.stop = stop_of(given);
+  recipe.start = read_start(given, sphere);
+  recipe.stop = read_stop(given);
   recipe.seed = static_cast<std::uint64_t>(given.seed);
   take_method(given, recipe);
   return recipe;

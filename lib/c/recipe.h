@@ -14,7 +14,9 @@
 
 namespace calotte::c_detail {
 
-/// A caller's points, in place. \param rows numbers of a point. \param name for the message.
+/// Points of a caller, without a copy.
+/// \param rows numbers of a point.
+/// \param name for the message.
 /// \throws Error invalid_argument for a count out of range and for a null pointer to points.
 Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, int rows,
                                          const std::string& name);
@@ -22,7 +24,7 @@ Eigen::Map<const DoubleMatrix> points_of(const double* values, std::int64_t n, i
 /// \param given null for the sphere. \throws Error invalid_argument.
 Surface surface_of(const calotte_surface* given);
 
-/// What a caller asks for. It refers to the caller's density and its data.
+/// The recipe of a caller. It refers to the density of the caller and its data.
 /// \throws Error invalid_argument.
 Recipe recipe_of(const calotte_recipe* given);
 

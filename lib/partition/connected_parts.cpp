@@ -21,11 +21,11 @@ using Members = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
 std::size_t at(std::int32_t id) { return static_cast<std::size_t>(id); }
 
-double weight_of(const DoubleVector& weights, std::int32_t cell) {
+double cell_weight(const DoubleVector& weights, std::int32_t cell) {
   return weights.size() == 0 ? 1 : weights[cell];
 }
 
-Members members_of(const std::vector<std::int32_t>& group, std::int64_t groups) {
+Members group_cells(const std::vector<std::int32_t>& group, std::int64_t groups) {
   return lists_by_key<std::vector<std::int32_t>>(groups, [&](const auto& put) {
     for (std::size_t cell = 0; cell < group.size(); ++cell)
       put(group[cell], static_cast<std::int32_t>(cell));
@@ -34,23 +34,24 @@ Members members_of(const std::vector<std::int32_t>& group, std::int64_t groups) 
 
 // ---- Components of parts
 
-/// The components of parts, of which each part shall keep the heaviest.
+/// The components of parts. Each part keeps the heaviest of its components.
 class Fragments {
 public:
   Fragments(const Graph& graph, const DoubleVector& weights, std::int64_t parts,
             Components components, std::vector<std::int32_t>& part)
       : graph_(graph), part_(part), parts_(std::move(components)),
-        cells_(members_of(parts_.of, std::ssize(parts_.first))), weights_(parts_.first.size()),
+        cells_(group_cells(parts_.of, std::ssize(parts_.first))), weights_(parts_.first.size()),
         kept_(parts_.first.size()), of_part_(part_weights(part, parts, weights)),
         limit_((1 + aimed_imbalance) * std::accumulate(of_part_.begin(), of_part_.end(), 0.0) /
                static_cast<double>(parts)) {
     for (std::size_t k = 0; k < weights_.size(); ++k)
       for (const std::int32_t cell : cells_[static_cast<std::int64_t>(k)])
-        weights_[k] += weight_of(weights, cell);
+        weights_[k] += cell_weight(weights, cell);
     keep_heaviest(parts);
   }
 
-  /// Moves all others. As the graph is connected, one of them has a neighbour that stays.
+  /// Moves all other components. The graph is connected, so that one of them has a neighbour that
+  /// stays.
   void move_others() {
     std::vector<std::size_t> left;
     for (std::size_t k = 0; k < kept_.size(); ++k)
@@ -73,16 +74,16 @@ private:
         kept_[at(k)] = true;
   }
 
-  /// By weight, then by cells, as weights may be 0.
+  /// Compares components by weight, then by number of cells, since weights may be 0.
   bool is_heavier(std::size_t a, std::size_t b) const {
     return std::pair(weights_[a], count(a)) > std::pair(weights_[b], count(b));
   }
 
   std::int64_t count(std::size_t k) const { return cells_.count(static_cast<std::int64_t>(k)); }
 
-  /// Moves a component to a neighbouring part; false where none of its neighbours stays.
+  /// Moves a component to a neighbouring part. Returns false if it has no neighbour that stays.
   bool move(std::size_t k) {
-    std::unordered_map<std::int32_t, std::int64_t> edges; // by part
+    std::unordered_map<std::int32_t, std::int64_t> edges; // number of edges by part
     for (const std::int32_t cell : cells_[static_cast<std::int64_t>(k)])
       for (const std::int32_t id : graph_[cell])
         if (kept_[at(parts_.of[at(id)])] && at(parts_.of[at(id)]) != k)
@@ -102,7 +103,8 @@ private:
     return true;
   }
 
-  /// Of a part for a component: within the limit, then by edges, the lightest, the lowest.
+  /// The rank of a part as a target for a component: within the limit, then most edges, then the
+  /// lightest, then the lowest.
   std::tuple<bool, std::int64_t, double, std::int32_t> rank(std::size_t k, std::int32_t part,
                                                             std::int64_t edges) const {
     const bool own = part == part_[at(parts_.first[k])];
@@ -116,13 +118,13 @@ private:
   Members cells_;               ///< by component
   std::vector<double> weights_; ///< by component
   std::vector<bool> kept_;      ///< by component: connected with the rest of its part
-  std::vector<double> of_part_; ///< weights
-  double limit_;                ///< of the weight of a part
+  std::vector<double> of_part_; ///< weight of each part
+  double limit_;                ///< upper limit of the weight of a part
 };
 
 // ---- Parts without cells
 
-/// A part of several cells, which may be split. The greatest is the heaviest.
+/// A part of several cells, which can be split. The heaviest compares greatest.
 struct Divisible {
   double weight;
   std::int64_t cells;
@@ -133,14 +135,14 @@ struct Divisible {
   }
 };
 
-/// The cells of a connected part from its lowest cell on, each after the one that it was reached
-/// from, and the index of that one.
+/// A spanning tree of a connected part from its lowest cell: each cell comes after its parent.
+/// `parent` contains indices.
 struct Tree {
   std::vector<std::int32_t> cells, parent;
 };
 
-Tree tree_of(const Graph& graph, const std::vector<std::int32_t>& part, std::int32_t root,
-             std::vector<bool>& seen) {
+Tree make_tree(const Graph& graph, const std::vector<std::int32_t>& part, std::int32_t root,
+               std::vector<bool>& seen) {
   Tree tree{{root}, {-1}};
   seen[at(root)] = true;
   for (std::size_t k = 0; k < tree.cells.size(); ++k)
@@ -155,18 +157,18 @@ Tree tree_of(const Graph& graph, const std::vector<std::int32_t>& part, std::int
   return tree;
 }
 
-/// Gives the branch of a tree that is nearest to half of its weight to another part. Both the
+/// Gives to another part the branch of a tree whose weight is nearest to half of the total. The
 /// branch and the rest are connected. \pre the tree has several cells
 void split(const Tree& tree, const DoubleVector& weights, std::int32_t to,
            std::vector<std::int32_t>& part) {
   const std::size_t count = tree.cells.size();
-  std::vector<double> branch(count); // a small share of each cell splits cells of no weight, too
+  std::vector<double> branch(count); // a small term for each cell splits cells of weight 0, too
   double whole = 0;
   for (const std::int32_t cell : tree.cells)
-    whole += weight_of(weights, cell);
+    whole += cell_weight(weights, cell);
   const double share = whole > 0 ? 1e-9 * whole / static_cast<double>(count) : 1;
   for (std::size_t k = count; k-- > 0;) {
-    branch[k] += weight_of(weights, tree.cells[k]) + share;
+    branch[k] += cell_weight(weights, tree.cells[k]) + share;
     if (k > 0)
       branch[at(tree.parent[k])] += branch[k];
   }
@@ -186,7 +188,7 @@ void split(const Tree& tree, const DoubleVector& weights, std::int32_t to,
 /// \pre parts with cells are connected.
 void fill_empty(const Graph& graph, const DoubleVector& weights, std::int64_t parts,
                 std::vector<std::int32_t>& part) {
-  const Members members = members_of(part, parts);
+  const Members members = group_cells(part, parts);
   std::vector<std::int32_t> empty, lowest(static_cast<std::size_t>(parts), -1);
   std::priority_queue<Divisible> heaviest;
   const std::vector<double> sums = part_weights(part, parts, weights);
@@ -205,7 +207,7 @@ void fill_empty(const Graph& graph, const DoubleVector& weights, std::int64_t pa
       if (part[at(cell)] == k) {
         if (of.cells++ == 0)
           lowest[at(k)] = cell;
-        of.weight += weight_of(weights, cell);
+        of.weight += cell_weight(weights, cell);
       }
     if (of.cells > 1)
       heaviest.push(of);
@@ -213,7 +215,7 @@ void fill_empty(const Graph& graph, const DoubleVector& weights, std::int64_t pa
   for (const std::int32_t k : empty) { // there are more cells than parts with cells
     const std::int32_t from = heaviest.top().part;
     heaviest.pop();
-    const Tree tree = tree_of(graph, part, lowest[at(from)], seen);
+    const Tree tree = make_tree(graph, part, lowest[at(from)], seen);
     split(tree, weights, k, part);
     offer(from, tree.cells);
     offer(k, tree.cells);
@@ -226,13 +228,13 @@ std::vector<double> part_weights(const std::vector<std::int32_t>& part, std::int
                                  const DoubleVector& weights) {
   std::vector<double> sums(static_cast<std::size_t>(parts));
   for (std::size_t cell = 0; cell < part.size(); ++cell)
-    sums[at(part[cell])] += weight_of(weights, static_cast<std::int32_t>(cell));
+    sums[at(part[cell])] += cell_weight(weights, static_cast<std::int32_t>(cell));
   return sums;
 }
 
 std::vector<std::int32_t> connected_parts(const Graph& graph, const DoubleVector& weights,
                                           std::int64_t parts, std::vector<std::int32_t> part) {
-  Components components = components_of(graph, part);
+  Components components = find_components(graph, part);
   std::vector<bool> has_cells(static_cast<std::size_t>(parts));
   for (const std::int32_t cell : components.first)
     has_cells[at(part[at(cell)])] = true;

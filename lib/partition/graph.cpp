@@ -25,7 +25,7 @@ void gather(const IdLists& neighbours, std::int64_t cell, std::vector<std::int32
   out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-/// Calls body(cell, its neighbours) for all cells, in parallel.
+/// Calls body(cell, neighbours of the cell) for all cells, in parallel.
 template <class Body> void for_each_cell(const IdLists& neighbours, const Body& body) {
   for_each_block(neighbours.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::vector<std::int32_t> list;
@@ -64,7 +64,7 @@ void require_mutual(const Graph& graph) {
 
 } // namespace
 
-Graph graph_of(const IdLists& neighbours) {
+Graph make_graph(const IdLists& neighbours) {
   const std::int64_t cells = neighbours.size();
   require_count(cells, 1, "the number of cells");
   require_ids(neighbours);
@@ -81,7 +81,7 @@ Graph graph_of(const IdLists& neighbours) {
   return graph;
 }
 
-Components components_of(const Graph& graph, std::span<const std::int32_t> part) {
+Components find_components(const Graph& graph, std::span<const std::int32_t> part) {
   const auto cells = static_cast<std::size_t>(graph.size());
   Components out{std::vector<std::int32_t>(cells, -1), {}};
   std::vector<std::int32_t> reached;

@@ -15,23 +15,25 @@ namespace calotte::partition_detail {
 using Graph = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
 /// \throws Error invalid_argument as partition(), for neighbours.
-Graph graph_of(const IdLists& neighbours);
+Graph make_graph(const IdLists& neighbours);
 
 /// The connected components of cells, numbered by their lowest cell.
 struct Components {
-  std::vector<std::int32_t> of;    ///< by cell
-  std::vector<std::int32_t> first; ///< lowest cell, by component
+  std::vector<std::int32_t> of;    ///< component of each cell
+  std::vector<std::int32_t> first; ///< lowest cell of each component
 };
 
-/// \param part of each cell: only neighbours of the same part are connected. Empty: all are.
-Components components_of(const Graph& graph, std::span<const std::int32_t> part = {});
+/// The connected components.
+/// \param part of each cell: only neighbours in the same part are connected. Empty: all neighbours
+///        are.
+Components find_components(const Graph& graph, std::span<const std::int32_t> part = {});
 
-/// The graph with one more edge for each component but the first, from its lowest cell to the cell
-/// before that one: the graph is then connected. Cells whose numbers are close are close in most
-/// meshes. Such an edge is the last of its lists.
+/// Connects a graph: adds one edge for each component but the first, from its lowest cell to the
+/// preceding cell. In most meshes, cells with close numbers are close. These edges are the last
+/// ones of their lists.
 Graph joined(const Graph& graph, const Components& components);
 
-/// Pairs of neighbours in different parts.
+/// The number of pairs of neighbours in different parts.
 std::int64_t edge_cut(const Graph& graph, std::span<const std::int32_t> part);
 
 } // namespace calotte::partition_detail

@@ -23,9 +23,9 @@ namespace {
 /// METIS sums weights in its integers; half of their range leaves room for rounding.
 constexpr double greatest_sum = 0.5 * std::numeric_limits<std::int32_t>::max();
 
-/// Whole numbers in proportion to the weights: these themselves if they are whole and not too
-/// large, else some 1000 on average, as with larger ones METIS balances worse. Positive ones stay
-/// positive.
+/// Whole numbers in proportion to the weights: the weights themselves, if they are whole and not
+/// too large. Otherwise about 1000 on average, because METIS balances worse with larger numbers.
+/// Positive weights remain positive.
 std::vector<idx_t> whole_weights(const DoubleVector& weights) {
   const double sum = weights.sum();
   const bool whole = sum <= greatest_sum && (weights.array() == weights.array().floor()).all();
@@ -37,17 +37,17 @@ std::vector<idx_t> whole_weights(const DoubleVector& weights) {
   return out;
 }
 
-/// The imbalance that METIS is asked for, in thousandths: 30 as it has by default; of less than 50
-/// cells a part up to one cell more. Where a bound admits no whole numbers of cells, METIS spoils
-/// the cut without reaching it: 5273 instead of 2977 edges for 192 parts of 4628 cells.
+/// The imbalance that METIS is asked for, in thousandths: 30, its default; for fewer than 50 cells
+/// in each part, up to one more cell. If whole numbers of cells cannot meet a bound, METIS degrades
+/// the cut without meeting it: 5273 instead of 2977 edges for 192 parts of 4628 cells.
 idx_t imbalance_for(idx_t parts, idx_t cells) {
   const double usual = 30, cell = 1000 * static_cast<double>(parts) / static_cast<double>(cells);
   return static_cast<idx_t>(std::min(usual + cell, std::max(usual, 1.5 * cell)));
 }
 
-/// What METIS changes in the process, by one thread at a time: the numbers of rand(), which glibc
-/// takes from the state of random(), and the handlers of its signals for errors, which METIS puts
-/// back without their flags and masks.
+/// Restores the state of the process that METIS changes, for one thread at a time: the numbers of
+/// rand(), which glibc takes from the state of random(), and the signal handlers for errors, which
+/// METIS restores without their flags and masks.
 class ProcessState {
 public:
   ProcessState() : lock_(one_at_a_time) {
@@ -67,7 +67,7 @@ private:
   inline static std::mutex one_at_a_time;
   const std::scoped_lock<std::mutex> lock_;
   struct sigaction on_abort_ = {}, on_term_ = {};
-  alignas(long) std::array<char, 128> numbers_{}; ///< of the size that a process has by default
+  alignas(long) std::array<char, 128> numbers_{}; ///< the default size in a process
   char* before_;
 };
 
@@ -76,12 +76,13 @@ private:
 struct Metis::Arrays {
   std::vector<idx_t> begin, neighbours, weights;
 
-  /// METIS's code. \param out the part of each cell.
+  /// Calls METIS. \returns its code.
+  /// \param out the part of each cell.
   int partition(idx_t parts, int attempt, idx_t* out) {
     idx_t cells = static_cast<idx_t>(begin.size()) - 1, constraints = 1, cut = 0;
     std::array<idx_t, METIS_NOPTIONS> options{};
     METIS_SetDefaultOptions(options.data());
-    // Another seed changes nothing for small graphs, which METIS does not make coarser.
+    // Another seed has no effect on small graphs, which METIS does not coarsen.
     options[METIS_OPTION_CONTIG] = attempt % 2 == 0;
     options[METIS_OPTION_UFACTOR] = imbalance_for(parts, cells) * (4 - attempt / 2) / 4;
     return METIS_PartGraphKway(&cells, &constraints, begin.data(), neighbours.data(),

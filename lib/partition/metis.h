@@ -12,20 +12,20 @@
 
 namespace calotte::partition_detail {
 
-/// A graph as METIS takes it. The only class that knows METIS.
+/// A graph in the format of METIS. The only class that uses METIS.
 class Metis {
 public:
   /// \param graph connected.
   /// \param weights by cell, or empty.
-  /// \throws Error invalid_argument beyond METIS's integers.
+  /// \throws Error invalid_argument, if the graph is too large for the integers of METIS.
   Metis(const Graph& graph, const DoubleVector& weights);
   Metis(const Metis&) = delete;
   Metis& operator=(const Metis&) = delete;
   ~Metis();
 
-  /// The part of each cell, 0 to parts - 1. Some may have several components, or no cells, above
-  /// all very small ones. Any thread may call it; METIS runs in one at a time.
-  /// \param attempt 0 at first; each other number up to 3 gives other parts.
+  /// The part of each cell, 0 to parts - 1. Parts may have several components or no cells, above
+  /// all very small parts. Any thread may call it; calls of METIS are serialised.
+  /// \param attempt 0 at first. Other numbers up to 3 give other parts.
   /// \pre parts from 2 to the number of cells.
   /// \throws Error internal; std::bad_alloc.
   std::vector<std::int32_t> partition(std::int64_t parts, int attempt) const;

@@ -38,11 +38,11 @@ void require_parts(std::int64_t parts, std::int64_t cells) {
         parts);
 }
 
-/// A graph that several numbers of parts share.
+/// Partitions one graph into several numbers of parts.
 class Partitioner {
 public:
   Partitioner(const IdLists& neighbours, const DoubleVector& weights)
-      : graph_(graph_of(neighbours)), components_(components_of(graph_)),
+      : graph_(make_graph(neighbours)), components_(find_components(graph_)),
         joined_(is_connected() ? Graph() : joined(graph_, components_)), weights_(weights),
         metis_(connected(), weights_) {}
 
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  static constexpr int attempts = 4; ///< for parts that are not balanced
+  static constexpr int attempts = 4; ///< number of attempts for balanced parts
 
   bool is_connected() const { return components_.first.size() == 1; }
   const Graph& connected() const { return is_connected() ? graph_ : joined_; }
@@ -86,7 +86,7 @@ private:
   std::int64_t unconnected(const std::vector<std::int32_t>& part, std::int64_t parts) const {
     if (is_connected())
       return 0;
-    const Components components = components_of(graph_, part);
+    const Components components = find_components(graph_, part);
     std::vector<int> count(static_cast<std::size_t>(parts));
     for (const std::int32_t cell : components.first)
       ++count[static_cast<std::size_t>(part[static_cast<std::size_t>(cell)])];
@@ -128,7 +128,7 @@ CellParts partition(const IdLists& neighbours, std::int64_t parts,
 }
 
 std::vector<std::int64_t> component_sizes(const IdLists& neighbours) {
-  const Components components = components_of(graph_of(neighbours));
+  const Components components = find_components(make_graph(neighbours));
   std::vector<std::int64_t> sizes(components.first.size());
   for (const std::int32_t component : components.of)
     ++sizes[static_cast<std::size_t>(component)];

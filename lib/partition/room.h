@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "base/require.h"
 
-/// Partitions of cells for the processes of a model, by METIS, which no other room uses. Its files
-/// belong to calotte::io, as the core does without METIS.
+/// Partitions of cells for the processes of a model, by METIS, which only this room uses. Its files
+/// belong to the target calotte::io, since the core does not need METIS.
 ///
 /// In: the neighbours of each cell, their weights, numbers of parts. Out: the part of each cell.
 namespace calotte::partition_detail {

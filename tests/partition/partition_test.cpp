@@ -287,7 +287,7 @@ TEST_CASE("METIS leaves the random numbers and the handlers of the process alone
 
 TEST_CASE("fragments go to a neighbouring part, and empty parts get cells") {
   using partition_detail::connected_parts;
-  const Graph chain = partition_detail::graph_of(lists_of(8, lattice(8, 1)));
+  const Graph chain = partition_detail::make_graph(lists_of(8, lattice(8, 1)));
   const auto made = [&](std::vector<std::int32_t> part, std::int64_t parts) {
     return connected_parts(chain, {}, parts, std::move(part));
   };
