@@ -26,9 +26,9 @@ using base_detail::Vec3;
 
 namespace {
 
-std::pair<std::uint64_t, std::uint64_t> bits_of(const LonLat& place) {
-  return {std::bit_cast<std::uint64_t>(place.longitude),
-          std::bit_cast<std::uint64_t>(place.latitude)};
+std::pair<std::uint64_t, std::uint64_t> bits_of(const LonLat& point) {
+  return {std::bit_cast<std::uint64_t>(point.longitude),
+          std::bit_cast<std::uint64_t>(point.latitude)};
 }
 
 /// Twice the area of a ring on the map, positive for counter-clockwise.
@@ -63,13 +63,13 @@ TEST_CASE("a corner has the bits of its longitude and latitude in the ring of ea
         corners.push_back(base_detail::column(cells.corners, corner));
       for (const std::vector<LonLat>& ring : io_detail::cell_outline(corners)) {
         whole += twice_area(ring) / 2;
-        std::set<std::pair<std::uint64_t, std::uint64_t>> places;
+        std::set<std::pair<std::uint64_t, std::uint64_t>> points;
         for (std::size_t k = 0; k < ring.size(); ++k) {
-          const LonLat &place = ring[k], &next = ring[(k + 1) % ring.size()];
-          const bool added = std::abs(place.longitude) == 180 || std::abs(place.latitude) == 90;
-          CHECK((added || of_corners.contains(bits_of(place))));
-          CHECK(places.insert(bits_of(place)).second); // no place comes again
-          CHECK(std::hypot(place.longitude - next.longitude, place.latitude - next.latitude) >
+          const LonLat &point = ring[k], &next = ring[(k + 1) % ring.size()];
+          const bool added = std::abs(point.longitude) == 180 || std::abs(point.latitude) == 90;
+          CHECK((added || of_corners.contains(bits_of(point))));
+          CHECK(points.insert(bits_of(point)).second); // no point is repeated
+          CHECK(std::hypot(point.longitude - next.longitude, point.latitude - next.latitude) >
                 1e-12); // nor an ulp apart
         }
       }

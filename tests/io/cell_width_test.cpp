@@ -53,10 +53,10 @@ Raster constant(double width) {
   return sampled_field([=](double, double) { return width; }, 12, 6);
 }
 
-Points3 points_at(const std::vector<std::pair<double, double>>& places) {
-  Points3 points(3, static_cast<Eigen::Index>(places.size()));
+Points3 points_at(const std::vector<std::pair<double, double>>& lonlats) {
+  Points3 points(3, static_cast<Eigen::Index>(lonlats.size()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const auto& [longitude, latitude] = places[static_cast<std::size_t>(i)];
+    const auto& [longitude, latitude] = lonlats[static_cast<std::size_t>(i)];
     const base_detail::Vec3 p = base_detail::from_lonlat(longitude, latitude);
     points.col(i) << p.x, p.y, p.z;
   }
@@ -770,14 +770,14 @@ std::string ring_text(const Corners& corners, bool backwards = false) {
 Corners circle_corners(double longitude, double latitude, double radius, int corners = 200) {
   const Eigen::Vector3d centre = points_at({{longitude, latitude}}).col(0),
                         a = centre.unitOrthogonal(), b = centre.cross(a);
-  Corners places;
+  Corners all;
   for (int k = 0; k < corners; ++k) {
     const double turn = 2 * pi * k / corners;
     const Eigen::Vector3d p = std::cos(radius * degree) * centre +
                               std::sin(radius * degree) * (std::cos(turn) * a + std::sin(turn) * b);
-    places.emplace_back(std::atan2(p.y(), p.x()) / degree, std::asin(p.z()) / degree);
+    all.emplace_back(std::atan2(p.y(), p.x()) / degree, std::asin(p.z()) / degree);
   }
-  return places;
+  return all;
 }
 
 constexpr PolygonWidths coastal{.inside = 30, .outside = 130, .transition = 2000};
@@ -825,18 +825,18 @@ TEST_CASE("a round polygon has the widths of the cap, wherever it lies and howev
 TEST_CASE("a place inside decides, for all rings of its feature") {
   const InputFolder folder;
   const Eigen::Vector3d centre = points_at({{10, 20}}).col(0);
-  const auto text = [&](const std::string& place, const std::string& rings) {
-    return R"({"type":"Feature","properties":{"inside":)" + place + R"(},"geometry":)" +
+  const auto text = [&](const std::string& inside, const std::string& rings) {
+    return R"({"type":"Feature","properties":{"inside":)" + inside + R"(},"geometry":)" +
            polygon(rings) + "}";
   };
   const std::string outer = ring_text(circle_corners(10, 20, 50)),
                     hole = ring_text(circle_corners(10, 20, 25), true);
   const auto angle = [&](const Eigen::Vector3d& p) { return angle_between(p, centre); };
-  for (const std::string place : {"[10,20]", "[10,57]", "[190,-80]"}) // within, between, beyond
+  for (const std::string inside : {"[10,20]", "[10,57]", "[190,-80]"}) // within, between, beyond
     for (const std::string& rings : {outer + "," + hole, hole + "," + outer}) {
-      const double sign = place == "[10,57]" ? 1 : -1;
+      const double sign = inside == "[10,57]" ? 1 : -1;
       check_widths(
-          read_cell_width(folder("told.geojson", text(place, rings)), coastal),
+          read_cell_width(folder("told.geojson", text(inside, rings)), coastal),
           [&](const Eigen::Vector3d& p) {
             return sign * std::max(25 * degree - angle(p), angle(p) - 50 * degree);
           },

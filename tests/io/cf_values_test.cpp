@@ -253,7 +253,7 @@ TEST_CASE("what a file says of times, levels and members goes along with its fie
                 a = file.variable("lev_a", NC_INT, {lev}),
                 h = file.variable("height", NC_DOUBLE, {}),
                 s = file.variable("scale", NC_SHORT, {}),
-                of_places = file.variable("area", NC_DOUBLE, {lat, lon});
+                area = file.variable("area", NC_DOUBLE, {lat, lon});
       file.text(t, "units", "days since 1850-01-01");
       file.text(t, "bounds", "time_bnds");
       file.text(l, "formula_terms", "a: lev_a p0: scale ps: f");
@@ -284,7 +284,7 @@ TEST_CASE("what a file says of times, levels and members goes along with its fie
       file.put(a, {7, -8});
       file.put(h, {2});
       file.put(s, {-3});
-      file.put(of_places, std::vector<double>(12, 1));
+      file.put(area, std::vector<double>(12, 1));
       std::vector<double> values(size);
       for (double& value : values)
         value = random.integer(-500, 500);

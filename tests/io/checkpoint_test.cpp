@@ -247,15 +247,15 @@ TEST_CASE("with every method a run resumes from its checkpoint to the same bits"
     const auto ruled = std::find_if(states.begin(), states.end(), [](const CvtState& state) {
       return State::of(state).memory.final_rule;
     });
-    std::set<std::ptrdiff_t> places{
+    std::set<std::ptrdiff_t> steps{
         0, 1, 2, ruled - states.begin() - 1, ruled - states.begin(), ruled - states.begin() + 1};
-    for (std::ptrdiff_t place = 5; place < std::ssize(states); place += 11)
-      places.insert(place);
-    for (const std::ptrdiff_t place : places) {
-      CAPTURE(place);
-      if (place < 0 || place >= std::ssize(states))
+    for (std::ptrdiff_t step = 5; step < std::ssize(states); step += 11)
+      steps.insert(step);
+    for (const std::ptrdiff_t step : steps) {
+      CAPTURE(step);
+      if (step < 0 || step >= std::ssize(states))
         continue;
-      write_checkpoint(scratch.path, states[static_cast<std::size_t>(place)], configuration);
+      write_checkpoint(scratch.path, states[static_cast<std::size_t>(step)], configuration);
       const Cvt resumed =
           make_grid(recipe, {.state = read_checkpoint(scratch.path, configuration)});
       CHECK(equal(resumed.mesh.points, whole.mesh.points));
@@ -287,10 +287,10 @@ TEST_CASE("damage to any byte is found") {
   const CheckpointFile scratch;
   write_checkpoint(scratch.path, State::wrapped(some_state()), configuration);
   const std::string whole = scratch.bytes();
-  for (std::size_t place = 0; place < whole.size(); place += test::cut_step) {
-    CAPTURE(place);
+  for (std::size_t offset = 0; offset < whole.size(); offset += test::cut_step) {
+    CAPTURE(offset);
     std::string damaged = whole;
-    damaged[place] = static_cast<char>(damaged[place] ^ (1 << place % 8));
+    damaged[offset] = static_cast<char>(damaged[offset] ^ (1 << offset % 8));
     scratch.put(damaged);
     CHECK(refusal_of_checkpoint(scratch).code() == ErrorCode::parse);
   }

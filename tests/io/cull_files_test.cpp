@@ -316,12 +316,12 @@ TEST_CASE(
   CullOptions options;
   options.coast = gshhg('i');
   options.mask_path = mask;
-  const auto place = [](double lon, double lat) {
+  const auto point = [](double lon, double lat) {
     const base_detail::Vec3 x = base_detail::from_lonlat(lon, lat);
     return Eigen::Vector3d(x.x, x.y, x.z);
   };
   Points3 gibraltar(3, 2);
-  gibraltar << place(-7.5, 35.9), place(-3.5, 36);
+  gibraltar << point(-7.5, 35.9), point(-3.5, 36);
   options.passages = {gibraltar};
   const CullReport report = cull(source, target, options);
   check_none(target);

@@ -414,8 +414,8 @@ TEST_CASE("coasts of GeoJSON: orientation does not matter, holes, a cut along th
         "cannot read " + absent +
             ": No such file; it comes with Debian's package gmt-gshhg-high, in "
             "/usr/share/gmt-gshhg; install it, or give other polygons of land");
-  const auto area_around = [&](const std::string& place) {
-    write_text(path, R"({"type":"Feature","properties":{"inside":)" + place +
+  const auto area_around = [&](const std::string& inside) {
+    write_text(path, R"({"type":"Feature","properties":{"inside":)" + inside +
                          R"(},"geometry":{"type":"Polygon","coordinates":[)" + turned + "," + hole +
                          "]}}");
     return read_coast(path).area;
@@ -446,7 +446,7 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
   constexpr int bins = 4, rows = 2, unit = 65535;
   struct Segment {
     int bin, level, entry;
-    std::vector<std::pair<double, double>> places; ///< degrees from the bin's south-west corner
+    std::vector<std::pair<double, double>> points; ///< degrees from the bin's south-west corner
   };
   const std::vector<Segment> segments{{0, 1, 1, {{90, 10}, {80, 10}, {80, 0}}},
                                       {1, 1, 0, {{10, 0}, {10, 10}, {0, 10}}},
@@ -460,10 +460,10 @@ TEST_CASE("coasts of GSHHG: segments of bins join to polygons; only land counts"
     if (count[bin]++ == 0)
       first_segment[bin] = static_cast<int>(facts.size());
     first_point.push_back(static_cast<int>(x.size()));
-    facts.push_back(static_cast<int>(segment.places.size()) << 9 | segment.level << 6 |
+    facts.push_back(static_cast<int>(segment.points.size()) << 9 | segment.level << 6 |
                     segment.entry << 3 | segment.entry);
     polygon.push_back(segment.entry < 4 ? 7 : static_cast<int>(facts.size()) + 20);
-    for (const auto& [east, north] : segment.places) {
+    for (const auto& [east, north] : segment.points) {
       x.push_back(static_cast<int>(std::lround(east / 90 * unit)));
       y.push_back(static_cast<int>(std::lround(north / 90 * unit)));
     }

@@ -29,7 +29,7 @@ namespace {
 
 const Eigen::Vector3d centre_of_cut = Eigen::Vector3d(0.3, -0.5, 0.6).normalized();
 
-/// Places within an angle of the centre.
+/// Points within an angle of the centre.
 std::function<bool(const Eigen::Vector3d&)> within_angle(double angle) {
   return [angle](const Eigen::Vector3d& p) {
     return p.normalized().dot(centre_of_cut) > std::cos(angle);
@@ -137,19 +137,19 @@ void check_cut(const std::string& source, const std::string& target, double angl
   check_none(target);
 }
 
-using Place = std::pair<double, double>;
+using Position = std::pair<double, double>;
 
 /// The neighbours of each cell, all by longitude and latitude.
-std::map<Place, std::set<Place>> neighbours_of(const Contents& file) {
-  const auto place = [&](int i) {
-    return Place{file.at("lonCell", static_cast<std::size_t>(i)),
-                 file.at("latCell", static_cast<std::size_t>(i))};
+std::map<Position, std::set<Position>> neighbours_of(const Contents& file) {
+  const auto position = [&](int i) {
+    return Position{file.at("lonCell", static_cast<std::size_t>(i)),
+                    file.at("latCell", static_cast<std::size_t>(i))};
   };
-  std::map<Place, std::set<Place>> neighbours;
+  std::map<Position, std::set<Position>> neighbours;
   for (std::size_t i = 0; i < file.dimensions.at("nCells"); ++i)
     for (std::size_t k = 0; k < static_cast<std::size_t>(file.at("nEdgesOnCell", i)); ++k)
       if (const int other = file.id("cellsOnCell", i, k); other >= 0)
-        neighbours[place(static_cast<int>(i))].insert(place(other));
+        neighbours[position(static_cast<int>(i))].insert(position(other));
   return neighbours;
 }
 

@@ -80,7 +80,7 @@ Polygons regular(const Eigen::Vector3d& around, int corners, double radius) {
   return polygon;
 }
 
-/// The integral of the place over a triangle, by parts ever smaller.
+/// The integral of the position over a triangle, by ever smaller parts.
 Eigen::Vector3d moment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                        int depth) {
   if (depth == 0) {
@@ -126,12 +126,12 @@ TEST_CASE("GeoJSON: polygons are cells of either orientation, their numbers fiel
 
 TEST_CASE("GeoJSON: a ring around a pole, from any of its places on") {
   const Scratch scratch;
-  const std::vector<std::string> places{"[-180,80]", "[-60,80]", "[60,80]",
-                                        "[180,80]",  "[180,90]", "[-180,90]"};
-  for (std::size_t first = 0; first < places.size(); ++first) {
+  const std::vector<std::string> positions{"[-180,80]", "[-60,80]", "[60,80]",
+                                           "[180,80]",  "[180,90]", "[-180,90]"};
+  for (std::size_t first = 0; first < positions.size(); ++first) {
     std::string ring = "[[";
-    for (std::size_t k = 0; k <= places.size(); ++k)
-      ring += (k > 0 ? "," : "") + places[(first + k) % places.size()];
+    for (std::size_t k = 0; k <= positions.size(); ++k)
+      ring += (k > 0 ? "," : "") + positions[(first + k) % positions.size()];
     CAPTURE(ring);
     write_text(scratch / "cap.geojson", collection({cell(ring + "]]")}));
     const MeshFile file = calotte::read_mesh_file(scratch / "cap.geojson");
@@ -320,8 +320,8 @@ TEST_CASE("lines that are refused, by their feature") {
     CHECK(error.code() == ErrorCode::parse);
     return std::string(error.what()).substr(path.size() + 2);
   };
-  const auto line = [](const std::string& places) {
-    return R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)" + places + "}}";
+  const auto line = [](const std::string& positions) {
+    return R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)" + positions + "}}";
   };
   const std::string good = line("[[0,0],[1,1]]");
   CHECK(message(collection({})) == "no lines; give LineString or MultiLineString geometries");

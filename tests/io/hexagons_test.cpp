@@ -97,10 +97,10 @@ TEST_CASE("at walls cells are whole hexagons, as planar_hex has them after its c
     for (int column = 0; column < 5; ++column) { // row + 1 of 6 in planar_hex
       const Eigen::Vector3d expected(d * (column + (row % 2 == 0 ? 1 : 0.5)),
                                      d * (row + 2) * root3 / 2, 0);
-      const Eigen::Vector3d place = channel.polygons->centres.col(5 * row + column);
-      CHECK(apart(place, expected, channel.polygons->surface.period()) < 1e-12);
-      CHECK(place.y() == doctest::Approx(expected.y()).epsilon(1e-15));
-      CHECK((place.x() >= 0 && place.x() < 50));
+      const Eigen::Vector3d centre = channel.polygons->centres.col(5 * row + column);
+      CHECK(apart(centre, expected, channel.polygons->surface.period()) < 1e-12);
+      CHECK(centre.y() == doctest::Approx(expected.y()).epsilon(1e-15));
+      CHECK((centre.x() >= 0 && centre.x() < 50));
     }
   CHECK(areas(*channel.polygons).sum() == doctest::Approx(20 * root3 / 2 * d * d));
   // An odd number of rows needs no period in y.

@@ -147,11 +147,11 @@ TEST_CASE("numbers of lines and of stations are no coordinates, and further colu
     const int first = random.integer(-3, 400), lines = random.integer(3, 40);
     std::string text, named = "nr;lon;lat\n", plain;
     for (int k = 0; k < lines; ++k) {
-      const std::string place = std::to_string(random.real(-180, 180)) + ";" +
-                                std::to_string(random.real(-90, 90)) + "\n";
-      text += std::to_string(first + k) + ";" + place;
-      named += std::to_string(first + k) + ";" + place;
-      plain += place;
+      const std::string lonlat = std::to_string(random.real(-180, 180)) + ";" +
+                                 std::to_string(random.real(-90, 90)) + "\n";
+      text += std::to_string(first + k) + ";" + lonlat;
+      named += std::to_string(first + k) + ";" + lonlat;
+      plain += lonlat;
     }
     CHECK(has(refusal(text), remedy));
     CHECK(read(named, Columns::lonlat).points == read(plain, Columns::lonlat).points);
@@ -278,21 +278,21 @@ TEST_CASE("longitude and latitude out of range, or too few, name their line") {
 }
 
 TEST_CASE("longitude and latitude are exact at multiples of 90 degrees") {
-  const auto check_place = [](const std::string& lonlat, double x, double y, double z) {
+  const auto check_direction = [](const std::string& lonlat, double x, double y, double z) {
     CAPTURE(lonlat);
     CHECK(equal_bits(points_of(lonlat, Columns::lonlat), Eigen::Vector3d(x, y, z)));
   };
   for (const char* turn : {"0 0", "360 0", "-360 0", "720 0", "-0 -0"})
-    check_place(turn, 1, 0, 0);
+    check_direction(turn, 1, 0, 0);
   for (const char* turn : {"90 0", "-270 0", "450 0"})
-    check_place(turn, 0, 1, 0);
+    check_direction(turn, 0, 1, 0);
   for (const char* turn : {"180 0", "-180 0", "540 0"})
-    check_place(turn, -1, 0, 0);
+    check_direction(turn, -1, 0, 0);
   for (const char* turn : {"-90 0", "270 0"})
-    check_place(turn, 0, -1, 0);
+    check_direction(turn, 0, -1, 0);
   for (const char* longitude : {"0", "17.3", "-180", "90", "123456"}) {
-    check_place(std::string(longitude) + " 90", 0, 0, 1);
-    check_place(std::string(longitude) + " -90", 0, 0, -1);
+    check_direction(std::string(longitude) + " 90", 0, 0, 1);
+    check_direction(std::string(longitude) + " -90", 0, 0, -1);
   }
 }
 

@@ -67,10 +67,10 @@ TEST_CASE("jigsaw: a line that ends at a ring leaves it a ring") {
       read_jigsaw_geometry(jigsaw_file(scratch, river + "10;4;0\n8;0;0\n9;11;0\n"));
   CHECK(geometry.surface.rings().size() == 2);
   CHECK(geometry.surface.area() == 81 - 4);
-  Eigen::Index places = 0;
+  Eigen::Index points = 0;
   for (const Points3& line : geometry.lines)
-    places += line.cols();
-  CHECK(places >= 5);
+    points += line.cols();
+  CHECK(points >= 5);
 }
 
 TEST_CASE("jigsaw: an ellipsoid with equal radii is a sphere, its edges lines") {

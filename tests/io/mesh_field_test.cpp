@@ -96,9 +96,9 @@ void shuffle_edges(const std::string& path) {
   file.put(cells);
 }
 
-/// The places in an MPAS file, and its edges.
-struct Places {
-  explicit Places(const std::string& path) {
+/// The coordinates in an MPAS file, and its edges.
+struct Coordinates {
+  explicit Coordinates(const std::string& path) {
     const Patch file(path);
     for (const char* axis : {"x", "y", "z"}) {
       cells.push_back(file.get(std::string(axis) + "Cell").values);
@@ -123,8 +123,8 @@ struct Places {
 
 using Index = std::vector<std::size_t>;
 
-/// Fields of every kind, each from the places in the file.
-std::vector<Added> fields_of(const Places& p) {
+/// Fields of every kind, each computed from the coordinates in the file.
+std::vector<Added> fields_of(const Coordinates& p) {
   return {{"u", {"nEdges", "nLevels"}, [&](const Index& i) { return (1. + i[1]) * p.flow(i[0]); }},
           {"gradient",
            {"Time", "nEdges"},
@@ -150,8 +150,8 @@ const Dimensions sizes{{"times", 2}, {"nLevels", 3}};
 void write_foreign(const std::string& path, const Mesh& mesh) {
   calotte::write(path, mesh);
   shuffle_edges(path);
-  const Places places(path);
-  std::vector<Added> all = fields_of(places);
+  const Coordinates coordinates(path);
+  std::vector<Added> all = fields_of(coordinates);
   for (Added& added : all) // the library's Time has no records
     std::replace(added.dimensions.begin(), added.dimensions.end(), std::string("Time"),
                  std::string("times"));
@@ -207,8 +207,8 @@ TEST_CASE("fields at edges, of levels and of times follow their places to anothe
     const calotte::WrittenFields written = calotte::write(copy, file, {.numbering = numbering});
     CHECK(written.dropped.empty());
     CHECK(written.renamed.empty());
-    const Places places(copy);
-    for (const Added& field : fields_of(places))
+    const Coordinates coordinates(copy);
+    for (const Added& field : fields_of(coordinates))
       if (field.name != "zone")
         check_field(copy, field);
     CHECK(Patch(copy).get("warmth").dimensions == Names{"times", "nCells", "nLevels"});
@@ -227,15 +227,15 @@ TEST_CASE("integers stay integers, and a missing one is missing; packed values a
   CHECK(file.fields[5].values.array().isNaN().count() == 1);
   calotte::write(copy, file, {.numbering = Numbering::curve});
   CHECK(type_in(copy, "zone") == NC_INT);
-  const Places places(copy);
+  const Coordinates coordinates(copy);
   const std::vector<double> zone = Patch(copy).get("zone").values;
   constexpr double none = -2147483647; // NC_FILL_INT
   CHECK(std::count(zone.begin(), zone.end(), none) == 1);
   for (std::size_t i = 0; i < zone.size(); ++i)
-    CHECK((zone[i] == none || zone[i] == std::floor(1e6 * places.cells[2][i])));
+    CHECK((zone[i] == none || zone[i] == std::floor(1e6 * coordinates.cells[2][i])));
   const std::vector<double> height = Patch(copy).get("height").values;
   for (std::size_t e = 0; e < height.size(); ++e)
-    CHECK(height[e] == doctest::Approx(1 + 2 * places.height(e)));
+    CHECK(height[e] == doctest::Approx(1 + 2 * coordinates.height(e)));
   CHECK(calotte::read_mesh_file(copy).fields[5].values.array().isNaN().count() == 1);
 }
 

@@ -98,7 +98,7 @@ Polygons cube_of_quads(int n) {
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
     const double sign = face % 2 == 0 ? 1 : -1;
-    const auto place = [&](double u, double v) {
+    const auto point = [&](double u, double v) {
       Eigen::Vector3d p;
       p[axis] = sign;
       p[(axis + 1) % 3] = sign * u; // counter-clockwise from outside on either face
@@ -109,8 +109,8 @@ Polygons cube_of_quads(int n) {
       for (int j = 0; j < n; ++j) {
         const double u = -1 + 2.0 * i / n, v = -1 + 2.0 * j / n, step = 2.0 / n;
         for (const auto& [du, dv] : {std::pair{0., 0.}, {step, 0.}, {step, step}, {0., step}})
-          ids.push_back(id_of(place(u + du, v + dv)));
-        add(centres, place(u + step / 2, v + step / 2));
+          ids.push_back(id_of(point(u + du, v + dv)));
+        add(centres, point(u + step / 2, v + step / 2));
       }
   }
   const auto count = static_cast<Eigen::Index>(centres.size() / 3);

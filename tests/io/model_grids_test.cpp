@@ -95,8 +95,8 @@ double require_counter_clockwise(const CellPolygons& cells, std::size_t cell) {
 void require_voronoi(const CellPolygons& cells) {
   for (std::size_t cell = 0; cell < cells.corners.size(); ++cell)
     for (const Vec3& corner : cells.corners[cell]) {
-      const Eigen::Vector3d place(corner.x, corner.y, corner.z);
-      const Eigen::ArrayXd cosines = cells.centres.transpose() * place;
+      const Eigen::Vector3d point(corner.x, corner.y, corner.z);
+      const Eigen::ArrayXd cosines = cells.centres.transpose() * point;
       const double own = cosines[static_cast<Eigen::Index>(cell)];
       REQUIRE(cosines.maxCoeff() < own + 1e-12);
       REQUIRE((cosines > own - 1e-12).count() >= 3);
@@ -125,7 +125,7 @@ void require_tessellation(const CellPolygons& cells, const Mesh& mesh) {
 // ---- Files as they are
 
 /// Longitudes and latitudes in range, as unit columns.
-Points3 places(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
+Points3 from_lonlats(const std::vector<double>& longitudes, const std::vector<double>& latitudes) {
   Points3 points(3, std::ssize(longitudes));
   for (std::size_t i = 0; i < longitudes.size(); ++i) {
     REQUIRE((longitudes[i] >= 0 && longitudes[i] < 360 && !std::signbit(longitudes[i])));
@@ -136,15 +136,15 @@ Points3 places(const std::vector<double>& longitudes, const std::vector<double>&
   return points;
 }
 
-Points3 places(const NetcdfReader& file, const std::string& longitude,
-               const std::string& latitude) {
+Points3 read_points(const NetcdfReader& file, const std::string& longitude,
+                    const std::string& latitude) {
   CHECK(file.text(longitude, "standard_name") == "longitude");
   CHECK(file.text(latitude, "standard_name") == "latitude");
-  return places(file.doubles(longitude, {-1}), file.doubles(latitude, {-1}));
+  return from_lonlats(file.doubles(longitude, {-1}), file.doubles(latitude, {-1}));
 }
 
 /// Columns of pairs.
-Points3 places_of_pairs(const NetcdfReader& file, const std::string& name) {
+Points3 read_pairs(const NetcdfReader& file, const std::string& name) {
   CHECK(file.text(name, "units") == "degrees");
   const std::vector<double> pairs = file.doubles(name, {-1, 2});
   std::vector<double> longitudes, latitudes;
@@ -152,7 +152,7 @@ Points3 places_of_pairs(const NetcdfReader& file, const std::string& name) {
     longitudes.push_back(pairs[i]);
     latitudes.push_back(pairs[i + 1]);
   }
-  return places(longitudes, latitudes);
+  return from_lonlats(longitudes, latitudes);
 }
 
 void require_attributes(const NetcdfReader& file, double radius, const std::string& history) {
@@ -215,14 +215,15 @@ std::vector<std::vector<Vec3>> polygons(const NetcdfReader& file, const std::str
 }
 
 CellPolygons ugrid_polygons(const NetcdfReader& file) {
-  const Points3 nodes = places(file, "mesh_node_lon", "mesh_node_lat");
-  return {
-      places(file, "mesh_face_lon", "mesh_face_lat"), polygons(file, "mesh_face_nodes", nodes), {}};
+  const Points3 nodes = read_points(file, "mesh_node_lon", "mesh_node_lat");
+  return {read_points(file, "mesh_face_lon", "mesh_face_lat"),
+          polygons(file, "mesh_face_nodes", nodes),
+          {}};
 }
 
 CellPolygons esmf_polygons(const NetcdfReader& file) {
-  const Points3 nodes = places_of_pairs(file, "nodeCoords");
-  CellPolygons cells{places_of_pairs(file, "centerCoords"), polygons(file, "elementConn", nodes),
+  const Points3 nodes = read_pairs(file, "nodeCoords");
+  CellPolygons cells{read_pairs(file, "centerCoords"), polygons(file, "elementConn", nodes),
                      file.doubles("elementArea", {-1})};
   const std::vector<std::int32_t> counts = file.ints("numElementConn", {std::ssize(cells.corners)});
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -231,12 +232,12 @@ CellPolygons esmf_polygons(const NetcdfReader& file) {
 }
 
 CellPolygons scrip_polygons(const NetcdfReader& file) {
-  CellPolygons cells{places(file, "grid_center_lon", "grid_center_lat"),
+  CellPolygons cells{read_points(file, "grid_center_lon", "grid_center_lat"),
                      {},
                      file.doubles("grid_area", {file.dimension("grid_size")})};
   const std::int64_t size = file.dimension("grid_size"), most = file.dimension("grid_corners");
-  const Points3 corners = places(file.doubles("grid_corner_lon", {size, most}),
-                                 file.doubles("grid_corner_lat", {size, most}));
+  const Points3 corners = from_lonlats(file.doubles("grid_corner_lon", {size, most}),
+                                       file.doubles("grid_corner_lat", {size, most}));
   for (std::int64_t i = 0; i < size; ++i) {
     std::int64_t count = most; // padding repeats the last corner
     while (count > 1 && corners.col(i * most + count - 1) == corners.col(i * most + count - 2))
@@ -422,8 +423,8 @@ TEST_CASE("UGRID of triangles holds the mesh and its circumcentres") {
     io_detail::write_ugrid_triangles(scratch / "grid.nc", c.mesh, {.history = "a test"});
     const NetcdfReader file(scratch / "grid.nc");
     require_attributes(file, 1, "a test");
-    const Points3 sites = places(file, "mesh_node_lon", "mesh_node_lat");
-    const Points3 centres = places(file, "mesh_face_lon", "mesh_face_lat");
+    const Points3 sites = read_points(file, "mesh_node_lon", "mesh_node_lat");
+    const Points3 centres = read_points(file, "mesh_face_lon", "mesh_face_lat");
     const std::vector<std::int32_t> ids =
         file.ints("mesh_face_nodes", {c.mesh.triangles.cols(), 3});
     for (std::int64_t t = 0; t < c.mesh.triangles.cols(); ++t) {
@@ -526,14 +527,14 @@ TEST_CASE("places computed together have the bits of single ones") {
     }
   for (const double far : {0.0, 1e6}) { // beyond a few turns the loop is another
     longitudes.back() += far;
-    std::vector<Vec3> places(longitudes.size());
+    std::vector<Vec3> points(longitudes.size());
     base_detail::from_lonlats(longitudes.data(), latitudes.data(), std::ssize(longitudes),
-                              places.data());
+                              points.data());
     bool same = true;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 p = base_detail::from_lonlat(longitudes[i], latitudes[i]);
       const Vec3 turned = base_detail::from_lonlat(longitudes[i] - 720, latitudes[i]);
-      same = same && p.x == places[i].x && p.y == places[i].y && p.z == places[i].z;
+      same = same && p.x == points[i].x && p.y == points[i].y && p.z == points[i].z;
       CHECK(norm(p - turned) < 1e-12);
       CHECK(std::abs(p.z - std::sin(latitudes[i] * pi / 180)) < 4e-16);
       CHECK(std::abs(p.x - std::cos(latitudes[i] * pi / 180) *

@@ -71,19 +71,19 @@ struct File {
     const auto of = shape(name);
     return {of.size() == 2 ? of[1] : 1, reader.ints(name, of)};
   }
-  std::vector<Vec3> places(const std::string& kind) const {
+  std::vector<Vec3> points(const std::string& kind) const {
     const auto x = doubles("x" + kind), y = doubles("y" + kind), z = doubles("z" + kind);
-    std::vector<Vec3> places;
+    std::vector<Vec3> points;
     for (std::int64_t i = 0; i < x.rows(); ++i)
-      places.push_back({x(i), y(i), z(i)});
-    return places;
+      points.push_back({x(i), y(i), z(i)});
+    return points;
   }
 
   NetcdfReader reader;
   std::int64_t n;
 };
 
-/// Everything that the laws speak of. Ids stay 1-based: places[id - 1].
+/// The variables that the laws refer to. Ids remain 1-based: cells[id - 1].
 struct Grid {
   explicit Grid(const std::string& path)
       : file(path), sphere(file.reader.text("", "on_a_sphere") == "YES"),
@@ -94,8 +94,8 @@ struct Grid {
   bool sphere;
   double radius;
   Vec3 period;
-  std::vector<Vec3> cells = file.places("Cell"), edges = file.places("Edge"),
-                    vertices = file.places("Vertex");
+  std::vector<Vec3> cells = file.points("Cell"), edges = file.points("Edge"),
+                    vertices = file.points("Vertex");
   Table<std::int32_t> cells_on_edge = file.ints("cellsOnEdge"),
                       vertices_on_edge = file.ints("verticesOnEdge"),
                       degree = file.ints("nEdgesOnCell"), edges_on_cell = file.ints("edgesOnCell"),
@@ -205,15 +205,15 @@ void check_attributes(const Grid& grid, const WriteOptions& options) {
   }
 }
 
-void check_places(const Grid& grid) {
+void check_coordinates(const Grid& grid) {
   for (const std::string kind : {"Cell", "Edge", "Vertex"}) {
     CAPTURE(kind);
-    const auto places = grid.file.places(kind);
+    const auto points = grid.file.points(kind);
     const auto latitude = grid.file.doubles("lat" + kind),
                longitude = grid.file.doubles("lon" + kind);
     const auto number = grid.file.ints("indexTo" + kind + "ID");
-    for (std::int64_t i = 0; i < std::ssize(places); ++i) {
-      const Vec3 p = places[static_cast<std::size_t>(i)];
+    for (std::int64_t i = 0; i < std::ssize(points); ++i) {
+      const Vec3 p = points[static_cast<std::size_t>(i)];
       law(number(i) == i + 1, "its number", i);
       if (!grid.sphere) {
         law(latitude(i) == 0 && longitude(i) == 0 && p.z == 0, "flat", i);
@@ -255,8 +255,8 @@ void check_edges(const Grid& grid) {
 
     const Vec3 middle = grid.edge(static_cast<std::int32_t>(e) + 1);
     const Vec3 half = a + 0.5 * normal;
-    const Vec3 place = grid.sphere ? (grid.radius / norm(half)) * half : half;
-    law(norm(grid.step(place, middle)) <= 8 * epsilon * norm(half), "xEdge is the midpoint", e);
+    const Vec3 point = grid.sphere ? (grid.radius / norm(half)) * half : half;
+    law(norm(grid.step(point, middle)) <= 8 * epsilon * norm(half), "xEdge is the midpoint", e);
     law(near(grid.dc(e), grid.distance(a, grid.cell(c2)), 16 * epsilon * grid.scale()),
         "dcEdge is the distance of the cells", e);
     law(grid.dv(e) >= 0 && near(grid.dv(e), grid.distance(p, grid.vertex(v2)), error),
@@ -547,7 +547,7 @@ void check_file(const std::string& path, const WriteOptions& options) {
   const Grid grid(path);
   check_dimensions(grid);
   check_attributes(grid, options);
-  check_places(grid);
+  check_coordinates(grid);
   check_edges(grid);
   check_angles(grid);
   check_cells(grid);

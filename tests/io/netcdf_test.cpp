@@ -244,7 +244,7 @@ TEST_CASE("CDF-5 if a variable takes 4 GiB") {
   CHECK(needs_cdf5({8, limit, 8}));
   CHECK(needs_cdf5({std::int64_t{1} << 40}));
 
-  // What begin() leaves beside the place, whose values are holes.
+  // What begin() leaves beside the target, whose values are holes.
   const Scratch scratch;
   for (const bool wide : {false, true}) {
     // begin() reserves the space: 4 GiB, which a small disk has.

@@ -72,7 +72,7 @@ Polygons patch(int rows, int columns, double west, double south, double step, bo
       centre_lon.push_back(x + half);
       centre_lat.push_back(y + half);
     }
-  const auto places = [](const std::vector<double>& x, const std::vector<double>& y) {
+  const auto directions = [](const std::vector<double>& x, const std::vector<double>& y) {
     Points3 points(3, std::ssize(x));
     for (std::size_t k = 0; k < x.size(); ++k)
       points.col(static_cast<Eigen::Index>(k))
@@ -80,8 +80,8 @@ Polygons patch(int rows, int columns, double west, double south, double step, bo
           std::cos(pi / 180 * y[k]) * std::sin(pi / 180 * x[k]), std::sin(pi / 180 * y[k]);
     return points;
   };
-  out.corners = places(lon, lat);
-  out.centres = places(centre_lon, centre_lat);
+  out.corners = directions(lon, lat);
+  out.centres = directions(centre_lon, centre_lat);
   out.ids = {Eigen::Map<const Offsets>(begin.data(), std::ssize(begin)),
              Eigen::Map<const Ids>(ids.data(), std::ssize(ids))};
   return out;

@@ -171,9 +171,9 @@ TEST_CASE("PLY: what is not a mesh is refused by name") {
 TEST_CASE("PLY: ids out of range and invalid numbers of corners name their face") {
   const Scratch scratch;
   for (const std::string& format : ply_formats) {
-    const auto error = [&](std::size_t place, double value) {
+    const auto error = [&](std::size_t index, double value) {
       Faces faces = faces_of(calotte::delaunay(octahedron()));
-      faces.ids[place] = value;
+      faces.ids[index] = value;
       write_text(scratch / "mesh.ply", ply_text(faces, {.format = format}));
       return error_of([&] { calotte::read_mesh_file(scratch / "mesh.ply"); });
     };

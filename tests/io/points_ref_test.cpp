@@ -211,11 +211,11 @@ TEST_CASE("any kind of matrix gives the same mesh of the sphere") {
 
 TEST_CASE("any kind of matrix gives the same mesh of the plane") {
   const Surface box = Surface::periodic({1, 1});
-  const Points2 places = random_points(5000, unit_square(), {}, 3).topRows<2>();
-  const Mesh mesh = delaunay(places, Surface::plane()), periodic = delaunay(places, box);
+  const Points2 points = random_points(5000, unit_square(), {}, 3).topRows<2>();
+  const Mesh mesh = delaunay(points, Surface::plane()), periodic = delaunay(points, box);
   const Density bump = tanh_bump({0.5, 0.5, 0}, 0.2, 0.1, 0.1);
-  const Eigen::VectorXd rho = evaluate(bump, places, box);
-  for_each_kind(places, [&](const char* kind, const auto& other) {
+  const Eigen::VectorXd rho = evaluate(bump, points, box);
+  for_each_kind(points, [&](const char* kind, const auto& other) {
     CAPTURE(kind);
     CHECK(identical_planes(delaunay(other, Surface::plane()), mesh));
     CHECK(identical_planes(delaunay(other, box), periodic));
@@ -230,13 +230,13 @@ TEST_CASE("centres of regions are 3 x k, in the plane 2 x k or 3 x k") {
   const Triangulation sphere = triangulate(points, {}, options);
   CHECK(identical(sphere.mesh, delaunay(points)));
   CHECK(sphere.report.regions == 9);
-  const Points2 places = random_points(2000, unit_square(), {}, 3).topRows<2>();
+  const Points2 planar = random_points(2000, unit_square(), {}, 3).topRows<2>();
   for (const Eigen::Index rows : {2, 3}) {
     Eigen::MatrixXd centres = Eigen::MatrixXd::Constant(rows, 9, 5);
     centres.topRows(2) = random_points(9, unit_square(), {}, 4).topRows<2>();
     options.decomposition.given_centres = centres;
-    const Triangulation plane = triangulate(places, Surface::plane(), options);
-    CHECK(identical_planes(plane.mesh, delaunay(places, Surface::plane())));
+    const Triangulation plane = triangulate(planar, Surface::plane(), options);
+    CHECK(identical_planes(plane.mesh, delaunay(planar, Surface::plane())));
     CHECK(plane.report.regions == 9);
   }
 }

@@ -124,13 +124,13 @@ TEST_CASE("a triangulation is cancelled in any stage, and the next one is whole"
 
 TEST_CASE("triangulations of the plane, of a box and of few sites report progress") {
   const Surface square = rectangle({0, 0}, {1, 1});
-  const Points2 places = random_points(20'000, square, {}, 3).topRows<2>();
+  const Points2 points = random_points(20'000, square, {}, 3).topRows<2>();
   const Points3 few = random_sphere(50, 3);
   check_told([&](const ProgressCallback& progress) {
-    delaunay(places, Surface::plane(), with(progress));
+    delaunay(points, Surface::plane(), with(progress));
   });
   check_told([&](const ProgressCallback& progress) {
-    delaunay(places, Surface::periodic({1, 1}), with(progress));
+    delaunay(points, Surface::periodic({1, 1}), with(progress));
   });
   check_told([&](const ProgressCallback& progress) { delaunay(few, {}, with(progress)); });
 }

@@ -272,8 +272,8 @@ std::vector<Ring> rings_of(const json& geometry) {
   for (const json& polygon : several ? geometry["coordinates"] : json{geometry["coordinates"]}) {
     REQUIRE(polygon.size() == 1);
     Ring ring;
-    for (const json& place : polygon[0])
-      ring.emplace_back(place.at(0).get<double>(), place.at(1).get<double>());
+    for (const json& position : polygon[0])
+      ring.emplace_back(position.at(0).get<double>(), position.at(1).get<double>());
     rings.push_back(ring);
   }
   CHECK(rings.size() == (several ? 2 : 1));
@@ -357,7 +357,7 @@ TEST_CASE("GeoJSON: a cell is around its site") {
     const std::vector<Ring> rings = rings_of(features[std::size_t(i)]["geometry"]);
     cut += rings.size() > 1;
     poles += std::any_of(rings[0].begin(), rings[0].end(),
-                         [](const auto& place) { return std::abs(place.second) == 90; });
+                         [](const auto& position) { return std::abs(position.second) == 90; });
     if (const double latitude = std::asin(p.z()) * degrees; std::abs(latitude) < 80)
       CHECK(std::count_if(rings.begin(), rings.end(), [&](const Ring& ring) {
               return is_inside(ring, std::atan2(p.y(), p.x()) * degrees, latitude);

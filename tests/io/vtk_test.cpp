@@ -84,9 +84,9 @@ template <class T> bool has_values(std::string_view block, const T& values) {
 
 /// Whether the element stands before the other, and both are there.
 bool stands_in(const std::string& file, const std::string& name, const std::string& element) {
-  const std::size_t begin = file.find("<" + element), place = file.find("Name=\"" + name + "\""),
+  const std::size_t begin = file.find("<" + element), offset = file.find("Name=\"" + name + "\""),
                     end = file.find("</" + element + ">");
-  return begin < place && place < end && end != std::string::npos;
+  return begin < offset && offset < end && end != std::string::npos;
 }
 
 void check_cell_fields(const std::string& file, const std::string& element, const Mesh& mesh,
@@ -215,16 +215,16 @@ TEST_CASE("VTK: other cells and ids out of range are refused") {
   for (const std::int64_t bad : {std::int64_t{6}, std::int64_t{-1}, std::int64_t{1} << 32}) {
     for (const FormatFile& kind : of_triangles)
       CHECK(error(kind, [&](std::string& text) {
-              const std::size_t place =
+              const std::size_t offset =
                   std::size_t(block_of(text, "connectivity").data() - text.data());
-              std::memcpy(&text[place + 8 * 16], &bad, 8);
+              std::memcpy(&text[offset + 8 * 16], &bad, 8);
             }).index() == 5);
     if (const auto narrow = std::int32_t(bad); narrow == bad)
       for (const FormatFile& kind : of_cells)
         CHECK(error(kind, [&](std::string& text) {
-                const std::size_t place =
+                const std::size_t offset =
                     std::size_t(block_of(text, "triangle").data() - text.data());
-                std::memcpy(&text[place + 4 * 16], &narrow, 4);
+                std::memcpy(&text[offset + 4 * 16], &narrow, 4);
               }).index() == 5);
   }
   const auto tetrahedron = [](std::string& text) {
