@@ -41,7 +41,9 @@ double chord_length(const Voronoi& cells, const Vec3& from, const Vec3& to) {
                      [&](const auto& space) { return norm(space.offset(from, to)); });
 }
 
-/// The distance of a vertex from the circumcentre of its cells, relative to the tolerance.
+/// The distance of a vertex from the circumcentre of its cells, divided by the width or by the
+/// distance of the circumcentre from the cells, whichever is larger.
+/// \param width mean width of a cell.
 double distance_from_circumcentre(const Voronoi& cells, Eigen::Index v, double width) {
   const Vec3 centre = cell_circumcentre(cells, v);
   const double reach =
