@@ -3,6 +3,7 @@
 
 #include "base/room.h"
 
+#include <charconv>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -12,12 +13,24 @@
 #include <string_view>
 #include <type_traits>
 
-/// The text of messages.
+/// The text of messages. A shared library hides its functions, and the command has them, too: all
+/// of them are inline.
 namespace calotte::base_detail {
 
 /// A number as it was given, if nine digits hold it, else with six. So a value that misses a bound
 /// by little does not look like the bound.
-std::string shortly(double value);
+inline std::string shortly(double value) {
+  const auto with = [value](int digits) {
+    char text[32]; // to_chars() is the same in any locale
+    const auto end =
+        std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+    return std::string(text, end.ptr);
+  };
+  const std::string nine = with(9);
+  double read = 0;
+  std::from_chars(nine.data(), nine.data() + nine.size(), read);
+  return read == value ? nine : with(6);
+}
 
 /// A value as messages show it, see shortly().
 template <class Value> std::string shown(const Value& value) {
@@ -51,8 +64,16 @@ template <class... Values> struct Pattern {
   std::string_view text;
 };
 
-/// The pattern with the texts in place of its {}.
-std::string filled(std::string_view pattern, std::initializer_list<std::string> texts);
+/// The pattern with the texts in brace of its {}.
+inline std::string filled(std::string_view pattern, std::initializer_list<std::string> texts) {
+  std::string all;
+  for (const std::string& text : texts) {
+    const std::size_t brace = pattern.find("{}");
+    all.append(pattern.substr(0, brace)).append(text);
+    pattern.remove_prefix(brace + 2);
+  }
+  return all.append(pattern);
+}
 
 /// The pattern with the values in place of its {}: message("site {} is {} km away", i, distance).
 template <class... Values>
@@ -60,12 +81,14 @@ std::string message(std::type_identity_t<Pattern<Values...>> pattern, const Valu
   return filled(pattern.text, {shown(values)...});
 }
 
-/// Words with commas between them. \param last stands before the last one.
-template <class Words> std::string listed(const Words& words, std::string_view last = ", ") {
+/// Words with commas, or another separator, between them. \param last stands before the last one.
+template <class Words>
+std::string listed(const Words& words, std::string_view last = ", ",
+                   std::string_view between = ", ") {
   std::string list;
   std::size_t left = std::size(words);
   for (const auto& word : words)
-    list.append(list.empty() ? "" : left == 1 ? last : ", ").append(word), --left;
+    list.append(list.empty() ? "" : left == 1 ? last : between).append(word), --left;
   return list;
 }
 

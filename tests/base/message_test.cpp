@@ -33,6 +33,7 @@ TEST_CASE("words are listed with commas, and another mark before the last") {
   CHECK(listed(Words{"a"}, " or ") == "a");
   CHECK(listed(Words{"a", "b"}) == "a, b");
   CHECK(listed(std::set<std::string>{"c", "a", "b"}, " or ") == "a, b or c");
+  CHECK(listed(Words{"a", "b", "c"}, " or ", " ") == "a b or c");
 }
 
 TEST_CASE("a condition says what it required, and no word if it holds") {
