@@ -41,6 +41,18 @@ template <class Value, class... Values>
   fail_file(name, index, message(pattern, value, values...));
 }
 
+/// \throws Error parse: what is wrong with a line of a file, "PATH line LINE: problem".
+[[noreturn]] inline void fail_at(const std::string& path, std::int64_t line,
+                                 const std::string& problem) {
+  throw Error(ErrorCode::parse, message("{} line {}: {}", path, line, problem), line);
+}
+template <class Value, class... Values>
+[[noreturn]] void fail_at(const std::string& path, std::int64_t line,
+                          std::type_identity_t<Pattern<Value, Values...>> pattern,
+                          const Value& value, const Values&... values) {
+  fail_at(path, line, message(pattern, value, values...));
+}
+
 /// The same for a file that its writer has not completed.
 template <class... Values>
 [[noreturn]] void fail_damaged(const std::string& name,

@@ -2,6 +2,7 @@
 #include "io/bytes/text.h"
 
 #include "io/bytes/file.h"
+#include "io/bytes/file_error.h"
 
 #include <calotte/error.h>
 
@@ -130,10 +131,6 @@ bool LineReader::next_content(std::string_view& line) {
       return true;
   }
   return false;
-}
-
-void fail_at(const std::string& path, std::int64_t line, const std::string& problem) {
-  throw Error(ErrorCode::parse, message("{} line {}: {}", path, line, problem), line);
 }
 
 void LineReader::fail(const std::string& problem) const { fail_at(name_, number_, problem); }

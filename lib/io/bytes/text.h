@@ -17,9 +17,6 @@ namespace calotte::io_detail {
 
 // ---- Reading
 
-/// \throws Error parse, always: "PATH line LINE: problem".
-[[noreturn]] void fail_at(const std::string& path, std::int64_t line, const std::string& problem);
-
 /// The lines of a stream, which end in LF, CRLF or CR; the last may lack its ending. A UTF-8 byte
 /// order mark before the first is skipped.
 class LineReader {

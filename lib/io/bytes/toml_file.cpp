@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/message.h"
 #include "io/bytes/file_error.h"
-#include "io/bytes/text.h"
 #include "io/command.h"
 #include "io/toml.h"
 
@@ -92,9 +90,8 @@ toml::table read_toml(const std::string& path) {
   try {
     return toml::parse(read_text(path), path);
   } catch (const toml::parse_error& error) {
-    io_detail::fail_at(
-        path, error.source().begin.line,
-        base_detail::message("{}; write key = value, with text in quotes", error.description()));
+    io_detail::fail_at(path, error.source().begin.line,
+                       "{}; write key = value, with text in quotes", error.description());
   }
 }
 

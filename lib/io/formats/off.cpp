@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/message.h"
+#include "io/bytes/file_error.h"
 #include "io/formats/formats.h"
 #include "io/formats/poly_data.h"
 

@@ -43,8 +43,8 @@ public:
 
   [[noreturn]] void refuse(const std::string& key, const std::string& problem) const {
     const toml::node* const node = table_.get(key);
-    fail_at(path_, (node != nullptr ? node->source() : table_.source()).begin.line,
-            message("{} {}", key, problem));
+    fail_at(path_, (node != nullptr ? node->source() : table_.source()).begin.line, "{} {}", key,
+            problem);
   }
 
   /// Whether the table has a key that was not taken before. Takes it.
@@ -58,7 +58,7 @@ public:
   double number(const std::string& key) {
     const toml::node* const node = take(key);
     if (node == nullptr)
-      fail_at(path_, table_.source().begin.line, message("the rule needs {}; give a number", key));
+      fail_at(path_, table_.source().begin.line, "the rule needs {}; give a number", key);
     const std::optional<double> value = node->value<double>();
     if (!value || !(*value > 0) || !std::isfinite(*value))
       refuse(key, "is not a positive number; give one");
@@ -119,8 +119,8 @@ public:
     for (const auto& [key, node] : table_)
       if (!taken_.contains(std::string(key.str())))
         fail_at(path_, key.source().begin.line,
-                message("the rule does not take {}; it takes {}; see calotte help widths",
-                        key.str(), listed(taken_)));
+                "the rule does not take {}; it takes {}; see calotte help widths", key.str(),
+                listed(taken_));
   }
 
   /// Calls make(). Adds path and line to the messages of its errors.
@@ -233,12 +233,10 @@ private:
       keys.push_back(known.name);
     }
     if (rule.empty())
-      fail_at(path_, rule.source().begin.line,
-              message("a rule has one of the keys {}", listed(keys)));
+      fail_at(path_, rule.source().begin.line, "a rule has one of the keys {}", listed(keys));
     const toml::key& other = rule.begin()->first;
-    fail_at(path_, other.source().begin.line,
-            message("a rule has one of the keys {}; this one has {}", listed(keys),
-                    std::string_view(other.str())));
+    fail_at(path_, other.source().begin.line, "a rule has one of the keys {}; this one has {}",
+            listed(keys), std::string_view(other.str()));
   }
 
   /// The names of the rules of a minimum, or of the one rule, such as "by-distance coast.geojson".
