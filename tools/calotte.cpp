@@ -2,7 +2,9 @@
 #include "commands.h"
 #include "help/help.h"
 #include "help/unknown_word.h"
+#include "options/warning.h"
 #include "run/exit_code.h"
+#include "text/text.h"
 
 #include <calotte/error.h>
 #include <calotte/version.h>
@@ -27,14 +29,6 @@
 
 namespace calotte::tools {
 namespace {
-
-/// Replaces line ends, so that a message is one line.
-void complain(std::string message) {
-  for (char& c : message)
-    if (c == '\n')
-      c = ' ';
-  std::cerr << "calotte: " + message + "\n";
-}
 
 constexpr const char* no_memory = "not enough memory; try fewer points";
 
@@ -85,16 +79,16 @@ void run(CLI::App& app, int argc, char** argv) {
 }
 
 /// A message of the library, with the option that is its remedy here.
-std::string with_option(const std::string& message) {
+std::string with_option(const std::string& text) {
   static const std::vector<std::pair<std::string, std::string>> options{
       {"read them as longitude and latitude, or as places in a plane", " (--lonlat, --plane)"},
       {"read it as one of the plane", " (--plane)"},
       {"read it as one of the sphere", " (without --plane)"},
       {"give the points they refer to", " (--points FILE)"}};
   for (const auto& [remedy, option] : options)
-    if (message.ends_with(remedy))
-      return message + option;
-  return message;
+    if (text.ends_with(remedy))
+      return text + option;
+  return text;
 }
 
 /// The message about a command line that cannot be read. A misspelt option comes first: the option
@@ -104,7 +98,7 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& error) {
   if (extras || dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     if (const std::string unknown = unknown_word(app); !unknown.empty())
       return unknown;
-  return std::string(error.what()) + "; see " + help_of(app);
+  return message("{}; see {}", error.what(), help_of(app));
 }
 
 /// Shows the help or the version, unless these belong to a command that is unknown.

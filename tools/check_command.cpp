@@ -5,6 +5,7 @@
 #include "run/exit_code.h"
 #include "run/progress.h"
 #include "run/shapes.h"
+#include "text/text.h"
 
 #include <calotte/check.h>
 #include <calotte/mesh_file.h>
@@ -32,10 +33,6 @@ struct Findings {
   std::string failure;             ///< why the check fails; empty if it passes
 };
 
-std::string first_edge(const EdgeCounts& edges) {
-  return std::to_string(edges.first[0]) + " to " + std::to_string(edges.first[1]);
-}
-
 /// A mesh whose edges are all Delaunay passes: a foreign mesh may have the other diagonals of
 /// cocircular sites, or a boundary that is not convex.
 Findings findings_of(const Mesh& mesh) {
@@ -49,12 +46,11 @@ Findings findings_of(const Mesh& mesh) {
   found.failure = found.check.failure;
   if (!found.failure.empty())
     return found;
-  found.edges = count_edges(mesh);
-  if (found.edges->not_delaunay > 0)
-    found.failure = std::to_string(found.edges->not_delaunay) + " of " +
-                    std::to_string(found.edges->edges) +
-                    " edges are not Delaunay; the first is from site " + first_edge(*found.edges);
-  else if (found.edges->boundary == 0 && found.edges->cocircular == 0)
+  const EdgeCounts& edges = found.edges.emplace(count_edges(mesh));
+  if (edges.not_delaunay > 0)
+    found.failure = message("{} of {} edges are not Delaunay; the first is from site {} to {}",
+                            edges.not_delaunay, edges.edges, edges.first[0], edges.first[1]);
+  else if (edges.boundary == 0 && edges.cocircular == 0)
     found.failure = strict;
   return found;
 }
@@ -100,8 +96,8 @@ std::string table(const PolygonShapes& found, const MeshFile& file) {
   out << "cells           " << file.polygons->size() << "\n"
       << "corners         " << file.polygons->corners.cols() << "\n"
       << "Voronoi         no: " << file.not_voronoi.text() << "\n";
-  const bool counted = !file.sphere() || !file.mesh->closed(); // with the open mesh
-  return out.str() + shape_rows(found, counted ? std::nullopt : file.mesh, 16);
+  const bool open = !file.sphere() || !file.mesh->closed(); // its edges are counted with the mesh
+  return out.str() + shape_rows(found, open ? std::nullopt : file.mesh, 16);
 }
 
 std::string deviation_lines(const std::vector<Deviation>& deviations) {
@@ -117,8 +113,8 @@ std::string failure_of(const std::vector<Deviation>& deviations) {
                                    [](const Deviation& deviation) { return !deviation.known; });
   if (count == 0)
     return "";
-  return std::to_string(count) + (count == 1 ? " variable deviates" : " variables deviate") +
-         " from the mesh or the format";
+  return message("{} {} from the mesh or the format", counted(count, "variable"),
+                 count == 1 ? "deviates" : "deviate");
 }
 
 void run_check(const MeshSource& source) {
@@ -150,11 +146,8 @@ void run_check(const MeshSource& source) {
       failure = failure_of(deviations);
   }
   std::cout << text;
-  if (failure.empty())
-    return;
-  std::cout.flush();
-  std::cerr << "calotte: " + source.path + ": " + failure + "\n";
-  finish(check_failed);
+  if (!failure.empty())
+    finish(check_failed, message("{}: {}", source.path, failure));
 }
 
 } // namespace

@@ -44,15 +44,15 @@ void require_request(const ConvertRequest& request) {
   const Format format = options_of(*request.format, request.output)
                             .format; // throws for a file that cannot be written
   if (request.depths.given() && format != Format::fesom)
-    refuse(request.output + ": --depth-levels applies to FESOM's nod2d.out; leave it out");
+    refuse_path(request.output, "--depth-levels applies to FESOM's nod2d.out; leave it out");
   const WidthWords& widths = request.density->widths;
   require_outputs({{"mesh", request.output}},
                   {source.path, source.points, widths.file, widths.raster,
                    request.domain->file.value_or(""), *request.config});
   if (source.points.empty() && (source.path == "-" || holds_triangles(source.path)))
-    refuse(source.path +
-           " holds triangles without points; give the points with --points FILE, or, if "
-           "the file holds points, triangulate them with calotte delaunay");
+    refuse(message("{} holds triangles without points; give the points with --points FILE, or, if "
+                   "the file holds points, triangulate them with calotte delaunay",
+                   source.path));
 }
 
 /// An Earth in kilometres, as JIGSAW's meshes have it; NetCDF formats are in metres.
@@ -90,25 +90,23 @@ WriteOptions write_options(const ConvertRequest& request, const Density& density
 std::string describe_mesh(const MeshFile& file) {
   const Mesh* plane = file.plane();
   if (plane && file.polygons)
-    return std::to_string(file.polygons->size()) + (plane->surface.period().maxCoeff() > 0
-                                                        ? " cells of a channel"
-                                                        : " clipped cells of a plane");
-  if (plane)
-    return std::to_string(plane->points.cols()) + " sites, " +
-           std::to_string(plane->triangles.cols()) + " triangles, a " +
-           (plane->surface.is_box() ? "periodic plane" : "plane");
-  if (const Polygons* cells = file.other_cells())
-    return std::to_string(cells->size()) + " cells, not Voronoi cells: " + file.not_voronoi.text();
-  return std::to_string(file.mesh->points.cols()) + " sites, " +
-         std::to_string(file.mesh->triangles.cols()) + " triangles, " +
-         (file.mesh->closed() ? "closed" : "open");
+    return message("{} {}", file.polygons->size(),
+                   plane->surface.period().maxCoeff() > 0 ? "cells of a channel"
+                                                          : "clipped cells of a plane");
+  if (const Polygons* cells = plane ? nullptr : file.other_cells())
+    return message("{} cells, not Voronoi cells: {}", cells->size(), file.not_voronoi.text());
+  const Mesh& mesh = *file.mesh;
+  return message("{} sites, {} triangles, {}", mesh.points.cols(), mesh.triangles.cols(),
+                 !plane                  ? (mesh.closed() ? "closed" : "open")
+                 : mesh.surface.is_box() ? "a periodic plane"
+                                         : "a plane");
 }
 
 std::string renamed(const std::vector<std::array<std::string, 2>>& names) {
-  std::string list;
+  std::vector<std::string> list;
   for (const auto& [from, to] : names)
-    list.append(list.empty() ? "\"" : ", \"").append(from).append("\" became ").append(to);
-  return list;
+    list.push_back(message("\"{}\" became {}", from, to));
+  return listed(list);
 }
 
 /// What the output does not hold of the input, and a unit that was taken for granted.
@@ -117,15 +115,15 @@ std::string remarks(const ConvertRequest& request, const MeshFile& file,
   std::string lines;
   if (is_in_kilometres(file.sphere_radius) && keeps_radius(request) &&
       request.output.ends_with(".nc"))
-    lines += request.output + ": the radius " + shortest(file.sphere_radius) +
-             " is taken as kilometres and written as " + shortest(options.sphere_radius) +
-             " metres\n";
+    lines += message("{}: the radius {} is taken as kilometres and written as {} metres\n",
+                     request.output, shortest(file.sphere_radius), shortest(options.sphere_radius));
   if (!written.dropped.empty())
-    lines += request.output + ": the format does not hold " + joined(written.dropped) + "\n";
+    lines += message("{}: the format does not hold {}\n", request.output, listed(written.dropped));
   if (!written.renamed.empty())
-    lines += request.output + ": names that NetCDF refuses: " + renamed(written.renamed) + "\n";
+    lines +=
+        message("{}: names that NetCDF refuses: {}\n", request.output, renamed(written.renamed));
   if (!file.ignored.empty())
-    lines += request.output + ": not converted: " + joined(file.ignored) + "\n";
+    lines += message("{}: not converted: {}\n", request.output, listed(file.ignored));
   if (options.site_density.size() > 0)
     lines += derived_density(request.output, options.site_density);
   if (!file.plane())
@@ -139,14 +137,14 @@ MeshFile read_input(const ConvertRequest& request) {
   const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;
   const std::optional<Surface> part = surface_of(*request.domain);
   if (part && !unbounded)
-    refuse(request.source->path + " holds no mesh of a bounded plane; leave --domain and "
-                                  "--rectangle out");
+    refuse(message("{} holds no mesh of a bounded plane; leave --domain and --rectangle out",
+                   request.source->path));
   const Format format = options_of(*request.format, request.output).format;
   if (part)
     file.mesh->surface = *part;
   else if (unbounded && !file.polygons && info_of(format).cells)
-    refuse(request.output + ": the cells of a bounded plane need its domain, which clips them; "
-                            "give --domain FILE or --rectangle X0,Y0,X1,Y1");
+    refuse_path(request.output, "the cells of a bounded plane need its domain, which clips them; "
+                                "give --domain FILE or --rectangle X0,Y0,X1,Y1");
   return file;
 }
 
@@ -163,9 +161,9 @@ EarReport remove_ears(const ConvertRequest& request, MeshFile& file) {
 std::string describe_ears(const ConvertRequest& request, const EarReport& ears) {
   if (ears.triangles == 0 && ears.sites == 0)
     return "";
-  return request.output + ": without " + std::to_string(ears.triangles) +
-         " triangles of fewer than two neighbours, and without the " + std::to_string(ears.sites) +
-         " nodes that no triangle has then: FESOM refuses them\n";
+  return message("{}: without {} triangles of fewer than two neighbours, and without the {} nodes "
+                 "that no triangle has then: FESOM refuses them\n",
+                 request.output, ears.triangles, ears.sites);
 }
 
 void run(const ConvertRequest& request) {
@@ -181,17 +179,14 @@ void run(const ConvertRequest& request) {
     const WriteOptions options = write_options(request, density, file);
     const WrittenFields written = write(request.output, file, options);
     words = changes_of(*request.source, file) + describe_ears(request, ears) +
-            remarks(request, file, options, written) + request.output + ": " + describe_mesh(file) +
-            "\n";
+            remarks(request, file, options, written) +
+            message("{}: {}\n", request.output, describe_mesh(file));
     if (file.polygons)
       fault = without_area(shapes(*file.polygons));
   }
   std::cout << words;
-  if (fault.empty())
-    return;
-  std::cout.flush();
-  std::cerr << "calotte: " + request.source->path + ": " + fault + "\n";
-  finish(check_failed);
+  if (!fault.empty())
+    finish(check_failed, message("{}: {}", request.source->path, fault));
 }
 
 } // namespace

@@ -80,8 +80,8 @@ std::vector<Points3> read_all_lines(const std::vector<std::string>& files) {
   return all;
 }
 
-/// Places "LON,LAT".
-Points3 places_of(const std::vector<std::string>& words) {
+/// The points of words LON,LAT.
+Points3 points_of(const std::vector<std::string>& words) {
   if (words.empty())
     return {};
   std::string lines;
@@ -111,7 +111,7 @@ CullOptions options_of(const CullRequest& request) {
   options.passages = read_all_lines(request.passages);
   options.barriers = read_all_lines(request.barriers);
   options.fill = !request.no_fill;
-  options.seeds = places_of(request.seeds);
+  options.seeds = points_of(request.seeds);
   options.mask_path = request.mask;
   options.cell_map_folder = request.cell_map;
   if (const ModelNeeds* const model = model_of(request.model)) {
@@ -135,7 +135,7 @@ std::string describe_cull(const CullRequest& request, const CullReport& report) 
   const SeaReport& sea = report.sea;
   std::string lines;
   for (const std::string& name : report.left_out)
-    lines += request.output + ": without the variable " + name + "\n";
+    lines += message("{}: without the variable {}\n", request.output, name);
   lines += line("cells of land", report.land);
   if (!request.barriers.empty())
     lines += line("closed by barriers", sea.closed);
@@ -145,9 +145,9 @@ std::string describe_cull(const CullRequest& request, const CullReport& report) 
     lines += line("filled, of one neighbour", sea.filled);
   lines += line("parts of the sea", sea.parts);
   lines += line("cells in parts left out", sea.severed);
-  return lines + request.output + ": " + std::to_string(report.cells) + " cells, " +
-         std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-         " vertices\n" +
+  return lines +
+         message("{}: {} cells, {} edges, {} vertices\n", request.output, report.cells,
+                 report.edges, report.vertices) +
          suited_models(request.output, {.format = Format::mpas,
                                         .sphere_radius = report.sphere_radius,
                                         .vertex_order = report.vertex_order,

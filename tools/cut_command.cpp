@@ -7,6 +7,7 @@
 #include "options/region_option.h"
 #include "options/sphere_radius_option.h"
 #include "run/progress.h"
+#include "text/text.h"
 
 #include <calotte/cut.h>
 #include <calotte/version.h>
@@ -51,28 +52,26 @@ CutOptions options_of(const CutRequest& request) {
     options.vertex_order = model->vertex_order;
     options.dimensions = model->dimensions;
   }
-  options.history = "calotte " CALOTTE_VERSION " cut: " + request.source + " --region " +
-                    request.region + (request.inside.empty() ? "" : " --inside " + request.inside) +
-                    " --rings " + std::to_string(request.rings);
+  options.history = message(
+      "calotte " CALOTTE_VERSION " cut: {} --region {}{} --rings {}", request.source,
+      request.region, request.inside.empty() ? "" : " --inside " + request.inside, request.rings);
   return options;
 }
 
 std::string rings_in_words(int rings, std::int64_t inside, std::int64_t around) {
   if (rings == 0)
     return "all in the region, without rings";
-  return std::to_string(inside) + " in the region and " + std::to_string(around) + " in " +
-         std::to_string(rings) + (rings == 1 ? " ring around it" : " rings around it");
+  return message("{} in the region and {} in {} around it", inside, around, counted(rings, "ring"));
 }
 
 std::string describe_cut(const CutRequest& request, const CutReport& report) {
   const std::int64_t inside = report.cells_by_mask.front();
   std::string lines;
   for (const std::string& name : report.left_out)
-    lines += request.output + ": without the variable " + name + "\n";
-  lines += request.output + ": " + std::to_string(report.cells) + " cells, " +
-           rings_in_words(request.rings, inside, report.cells - inside) + ", " +
-           std::to_string(report.edges) + " edges, " + std::to_string(report.vertices) +
-           " vertices\n";
+    lines += message("{}: without the variable {}\n", request.output, name);
+  lines += message("{}: {} cells, {}, {} edges, {} vertices\n", request.output, report.cells,
+                   rings_in_words(request.rings, inside, report.cells - inside), report.edges,
+                   report.vertices);
   if (request.keep_radius)
     return lines;
   return lines + suited_models(request.output, {.format = Format::mpas,

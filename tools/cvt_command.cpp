@@ -80,47 +80,41 @@ struct CvtOutcome {
   CvtReport report;
   Mesh mesh; ///< empty after it is written
   std::int64_t cells = 0;
-  std::string grid;        ///< a line about the part of the mesh that is written, or ""
-  std::string worst_place; ///< of the cell of the worst shape: " (at ...)", or ""
-  double area = 0;         ///< of the surface
-  int signal = 0;          ///< the signal that ended it early
-  bool kept = false;       ///< its state then
-  std::size_t before = 0;  ///< iterations of the earlier parts of a resumed run
+  std::string grid;           ///< a line about the part of the mesh that is written, or ""
+  std::string worst_position; ///< of the cell of the worst shape: " (at ...)", or ""
+  double area = 0;            ///< of the surface
+  int signal = 0;             ///< the signal that ended it early
+  bool kept = false;          ///< its state then
+  std::size_t before = 0;     ///< iterations of the earlier parts of a resumed run
   std::vector<KeptState> states;
   int threads = 0;
 };
 
 /// Returns false and prints a line if a full disk, for example, prevents it.
-bool keep(const CvtState& state, Keeper& keeper, Progress& progress, const std::string& then) {
+/// \param files a Keeper or KeptStates.
+template <class Files>
+bool keep(const CvtState& state, Files& files, Progress& progress, const std::string& then) {
   try {
-    keeper.keep(state);
+    files.keep(state);
   } catch (const Error& error) {
-    progress.say("calotte: " + std::string(error.what()) + then);
+    progress.say(error.what() + then);
     return false;
   }
   return true;
 }
 
-/// Keeps a state; a full disk, for example, does not end the run.
-void keep(const CvtState& state, KeptStates& states, Progress& progress) {
-  try {
-    states.keep(state);
-  } catch (const Error& error) {
-    progress.say("calotte: " + std::string(error.what()) + " (the run continues)");
-  }
-}
-
 /// Shows progress, keeps states and checkpoints, and ends the run after a signal.
 ProgressReply after_iteration(const CvtProgress& now, const Schedule& schedule, Keeper& keeper,
                               KeptStates& states, Progress& progress, CvtOutcome& outcome) {
+  const std::string continues = " (the run continues)";
   progress.stage(describe(now, schedule), std::to_string(now.bisections_left));
   if (states.due(now.report))
-    keep(now.state, states, progress);
+    keep(now.state, states, progress, continues);
   outcome.signal = Interruption::signal();
   if (outcome.signal != 0)
     outcome.kept = keep(now.state, keeper, progress, "");
   else if (keeper.due(now.report)) // a full disk may have space again by the next time
-    keep(now.state, keeper, progress, " (the run continues)");
+    keep(now.state, keeper, progress, continues);
   return outcome.signal != 0 ? ProgressReply::stop : ProgressReply::proceed;
 }
 
@@ -150,21 +144,21 @@ Run prepare(const CvtRequest& request, Progress& progress) {
     return run;
   }
   for (const std::string& note : notes_on(request, run.input, run.schedule))
-    progress.say("calotte: " + note);
+    progress.say(note);
   return run;
 }
 
 /// Where the cell of the worst shape is: " (at ...)"; "" without one.
-std::string worst_place(const CvtOutcome& outcome) {
+std::string worst_position(const CvtOutcome& outcome) {
   const std::int64_t cell = outcome.report.worst_cell;
   if (cell < 0)
     return "";
   if (!outcome.mesh.surface.is_sphere()) {
     const Eigen::Vector3d at = outcome.mesh.points.col(cell);
-    return " (at x " + formatted("%.6g", at.x()) + ", y " + formatted("%.6g", at.y()) + ")";
+    return message(" (at x {}, y {})", at.x(), at.y());
   }
   const Points2 at = to_lonlat(outcome.mesh.points.col(cell));
-  return " (at " + lonlat_words(at(0, 0), at(1, 0)) + ")";
+  return message(" (at {})", lonlat_words(at(0, 0), at(1, 0)));
 }
 
 /// \param run its state is moved out.
@@ -193,7 +187,7 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   outcome.cells = outcome.mesh.points.cols();
   outcome.area = run.schedule.recipe.surface.area();
   outcome.states = states.all();
-  outcome.worst_place = worst_place(outcome);
+  outcome.worst_position = worst_position(outcome);
   return outcome;
 }
 
@@ -203,16 +197,16 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
 [[noreturn]] void finish_interrupted(const CvtRequest& request, const CvtOutcome& outcome) {
   const std::vector<CvtIteration>& iterations = outcome.report.iterations;
   const std::string residual = residual_words(request, outcome.report);
-  std::cerr << std::string("calotte: stopped by ") +
-                   (outcome.signal == SIGINT ? "SIGINT" : "SIGTERM") + " after iteration " +
-                   std::to_string(iterations.size()) + ", at " +
-                   std::to_string(iterations.back().cells) + " cells" +
-                   (residual.empty() ? "" : ", " + residual) + "; the mesh is written as it is; " +
-                   (outcome.kept
-                        ? "to continue: calotte cvt --resume " + checkpoint_of(request) + "\n"
-                        : "to continue from it: calotte cvt " + request.mesh +
-                              ", with the options of the run\n");
-  finish(outcome.signal == SIGINT ? interrupted : terminated);
+  const bool by_user = outcome.signal == SIGINT;
+  finish(
+      by_user ? interrupted : terminated,
+      message("stopped by {} after iteration {}, at {} cells{}; the mesh is written as it is; {}",
+              by_user ? "SIGINT" : "SIGTERM", iterations.size(), iterations.back().cells,
+              residual.empty() ? "" : ", " + residual,
+              outcome.kept
+                  ? "to continue: calotte cvt --resume " + checkpoint_of(request)
+                  : message("to continue from it: calotte cvt {}, with the options of the run",
+                            request.mesh)));
 }
 
 /// The mesh is a good CVT, but not all shapes are those asked for.
@@ -221,43 +215,38 @@ CvtOutcome tessellate(const CvtRequest& request, Run& run, Progress& progress) {
   // A file of a part of the cells numbers them anew; a run that had ended does not know its worst.
   const bool part =
       request.part.limited_area || (request.domain->walls && !request.domain->walls->empty());
-  const std::string where =
-      part ? outcome.worst_place
-           : " at cell " + std::to_string(report.worst_cell) + outcome.worst_place;
-  const std::string cells = report.worst_cell < 0
-                                ? "a shape is "
-                                : std::to_string(report.cells_beyond_limits) + " of " +
-                                      std::to_string(report.iterations.back().cells) +
-                                      " cells with shapes beyond their limits, the worst, ";
-  std::cout.flush();
-  std::cerr << "calotte: not well-centred: " + cells +
-                   formatted("%.2g", report.iterations.back().shape_excess) + " beyond" +
-                   (report.worst_cell < 0 ? " its limit" : "," + where) +
-                   "; the mesh is written; " +
-                   (request.density->widths.uniform   ? ""
-                    : request.density->widths.in_km() ? "make the widths smoother (--gradient), or "
-                                                      : "make the density smoother, or ") +
-                   "give more cells\n";
-  finish(not_well_centred);
+  const CvtIteration& last = report.iterations.back();
+  const std::string excess = formatted("%.2g", last.shape_excess),
+                    cell = part ? "" : message(" at cell {}", report.worst_cell),
+                    shapes =
+                        report.worst_cell < 0
+                            ? message("a shape is {} beyond its limit", excess)
+                            : message("{} of {} cells with shapes beyond their limits, the worst, "
+                                      "{} beyond,{}{}",
+                                      report.cells_beyond_limits, last.cells, excess, cell,
+                                      outcome.worst_position);
+  finish(not_well_centred,
+         message("not well-centred: {}; the mesh is written; {}give more cells", shapes,
+                 request.density->widths.uniform   ? ""
+                 : request.density->widths.in_km() ? "make the widths smoother (--gradient), or "
+                                                   : "make the density smoother, or "));
 }
 
 [[noreturn]] void finish_not_converged(const CvtRequest& request, const CvtStop& stop,
                                        const CvtReport& report) {
-  std::cout.flush();
-  std::cerr << "calotte: not converged: " + residual_words(request, report) +
-                   " is above the tolerance " + shortest(*stop.tolerance) + " after " +
-                   std::to_string(stop.max_iterations) +
-                   " iterations; the mesh is written; increase --max-iterations\n";
-  finish(not_converged);
+  finish(not_converged,
+         message("not converged: {} is above the tolerance {} after {} iterations; "
+                 "the mesh is written; increase --max-iterations",
+                 residual_words(request, report), *stop.tolerance, stop.max_iterations));
 }
 
 /// The periods and walls of a mesh.
 std::string kind_of_plane(const Eigen::Vector2d& period) {
   const auto side = [](const char* name, double length) {
-    return length > 0 ? "periodic in " + std::string(name) + ", " + shortest(length)
-                      : "with walls in " + std::string(name);
+    return length > 0 ? message("periodic in {}, {}", name, shortest(length))
+                      : message("with walls in {}", name);
   };
-  return side("x", period.x()) + "; " + side("y", period.y());
+  return message("{}; {}", side("x", period.x()), side("y", period.y()));
 }
 
 /// Whether a cell is one polygon is known only now. If not, the triangles keep the run's result.
@@ -265,7 +254,7 @@ std::string kind_of_plane(const Eigen::Vector2d& period) {
   const std::string kept = path + ".vtp";
   mesh.surface = Surface::plane();
   write(kept, mesh);
-  throw Error(error.code(), path + ": " + error.what() + "; " + kept + " has the triangles",
+  throw Error(error.code(), message("{}: {}; {} has the triangles", path, error.what(), kept),
               error.index());
 }
 
@@ -284,12 +273,12 @@ GridFile write_file_of(const CvtRequest& request, const Run& run, Mesh& mesh,
 
 /// A line about a file that holds a part of the mesh; "" for others.
 std::string part_line(const std::string& path, const Recipe& asked, const GridFile& file) {
-  const std::string cells = path + ": " + std::to_string(file.cells) + " cells, ";
   if (asked.limited_area)
-    return cells + std::to_string(file.inside) + " in the region and " +
-           std::to_string(file.cells - file.inside) + " in the rings around it\n";
+    return message("{}: {} cells, {} in the region and {} in the rings around it\n", path,
+                   file.cells, file.inside, file.cells - file.inside);
   if (asked.walls.x || asked.walls.y)
-    return cells + kind_of_plane(file.period) + "; the others fill the gap beyond the walls\n";
+    return message("{}: {} cells, {}; the others fill the gap beyond the walls\n", path, file.cells,
+                   kind_of_plane(file.period));
   return "";
 }
 
@@ -328,19 +317,17 @@ std::string models_of(const CvtRequest& request) {
 void warn_of_result(const CvtRequest& request, const Schedule& schedule,
                     const CvtOutcome& outcome) {
   if (request.points.empty() && outcome.cells != schedule.recipe.cells && !request.domain->walls)
-    std::cerr << "calotte: " + std::to_string(outcome.cells) + " cells instead of " +
-                     std::to_string(schedule.recipe.cells) + ": " +
-                     (schedule.recipe.start.kind == CvtStart::Kind::hexagonal
-                          ? "the hexagonal lattice has whole rows and columns; --start density "
-                          : "bisections of a domain with a boundary leave out midpoints outside "
-                            "it; --start multilevel ") +
-                     "gives exactly as many\n";
+    complain(message("{} cells instead of {}: {} gives exactly as many", outcome.cells,
+                     schedule.recipe.cells,
+                     schedule.recipe.start.kind == CvtStart::Kind::hexagonal
+                         ? "the hexagonal lattice has whole rows and columns; --start density"
+                         : "bisections of a domain with a boundary leave out midpoints outside "
+                           "it; --start multilevel"));
   if (outcome.report.off_boundary > 0)
-    warn("the mesh leaves the boundary of the region in places: " +
-         std::to_string(outcome.report.off_boundary) + " of its outer edges do not join the " +
-         std::to_string(schedule.on_boundary) +
-         " generators on the boundary; where the region or what it leaves out is narrower than its "
-         "cells, give more cells");
+    warn(message("the mesh leaves the boundary of the region in places: {} of its outer edges do "
+                 "not join the {} generators on the boundary; where the region or what it leaves "
+                 "out is narrower than its cells, give more cells",
+                 outcome.report.off_boundary, schedule.on_boundary));
 }
 
 /// Writes the grid of --hexagons, which is the optimal one of its density: there is nothing to run.
@@ -348,14 +335,13 @@ void write_hexagons(const CvtRequest& request) {
   require_hexagons(request);
   const MeshFile file = hexagons_of(*request.domain);
   WriteOptions options = write_options(request);
-  options.history = "calotte " + std::string(CALOTTE_VERSION) + " cvt --hexagons " +
-                    *request.domain->hexagons +
-                    (request.domain->walls ? " --walls " + *request.domain->walls : "");
+  options.history =
+      message("calotte " CALOTTE_VERSION " cvt --hexagons {}{}", *request.domain->hexagons,
+              request.domain->walls ? " --walls " + *request.domain->walls : "");
   write(request.mesh, file, options);
-  const bool open = file.polygons.has_value();
-  std::cout << request.mesh + ": " +
-                   std::to_string(open ? file.polygons->size() : file.mesh->points.cols()) +
-                   " hexagons, " + kind_of_plane(file.surface().period()) + "\n";
+  const std::int64_t hexagons = file.polygons ? file.polygons->size() : file.mesh->points.cols();
+  std::cout << message("{}: {} hexagons, {}\n", request.mesh, hexagons,
+                       kind_of_plane(file.surface().period()));
 }
 
 void run(CvtRequest request) {

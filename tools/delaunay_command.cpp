@@ -45,8 +45,8 @@ void require_request(const DelaunayRequest& request) {
   if (request.plane && request.format->sphere_radius)
     refuse("--sphere-radius does not apply with --plane; leave it out");
   if (request.plane && holds_points(request.points))
-    refuse(request.points +
-           ": --plane requires text with x y on each line; leave --plane out for a mesh");
+    refuse_path(request.points,
+                "--plane requires text with x y on each line; leave --plane out for a mesh");
   period_of(request.periodic);               // throws for an invalid box
   options_of(*request.format, request.mesh); // throws for a file that cannot be written
   require_outputs({{"mesh", request.mesh}, {"report", request.report}},
@@ -73,9 +73,10 @@ Triangulation triangulate(PointFile&& input, const DelaunayRequest& request,
 
 WriteOptions write_options(const DelaunayRequest& request, std::int64_t points) {
   WriteOptions options = options_of(*request.format, request.mesh);
-  options.history = "calotte " CALOTTE_VERSION " delaunay: " + request.points + ", " +
-                    std::to_string(points) + " points; duplicates " + request.delaunay->duplicates +
-                    "; merge-within " + shortest(request.delaunay->merge_within);
+  options.history =
+      message("calotte " CALOTTE_VERSION " delaunay: {}, {} points; duplicates {}; merge-within {}",
+              request.points, points, request.delaunay->duplicates,
+              shortest(request.delaunay->merge_within));
   return options;
 }
 
@@ -114,18 +115,14 @@ std::string kind_of(const Mesh& mesh) {
     return mesh.closed() ? "closed" : "open: all sites lie in a hemisphere";
   if (mesh.closed())
     return "periodic";
-  return std::to_string(2 * mesh.points.cols() - 2 - mesh.triangles.cols()) + " sites on the hull";
+  return message("{} sites on the hull", 2 * mesh.points.cols() - 2 - mesh.triangles.cols());
 }
 
 std::string summary(const DelaunayRequest& request, const Triangulation& result) {
   const std::int64_t duplicates = result.report.duplicates;
-  std::string line = request.mesh + ": " + std::to_string(result.mesh.points.cols()) + " sites, " +
-                     std::to_string(result.mesh.triangles.cols()) + " triangles, ";
-  line += kind_of(result.mesh);
-  if (duplicates > 0)
-    line += ", " + std::to_string(duplicates) + (duplicates == 1 ? " duplicate" : " duplicates") +
-            " merged";
-  return line + "\n";
+  return message("{}: {} sites, {} triangles, {}{}\n", request.mesh, result.mesh.points.cols(),
+                 result.mesh.triangles.cols(), kind_of(result.mesh),
+                 duplicates > 0 ? message(", {} merged", counted(duplicates, "duplicate")) : "");
 }
 
 /// What a model reads of the file.
@@ -147,8 +144,8 @@ std::string warning_of(const std::string& points, bool closed) {
     const MeshFile file = read_mesh_file(points, nullptr, FieldChoice::none);
     if (!file.mesh || file.mesh->closed())
       return {};
-    return points + ": its mesh is open, with " + std::to_string(file.mesh->triangles.cols()) +
-           " triangles; the new one closes the sphere\n";
+    return message("{}: its mesh is open, with {} triangles; the new one closes the sphere\n",
+                   points, file.mesh->triangles.cols());
   } catch (const Error&) {
     return {}; // the points alone are used
   }
@@ -164,7 +161,7 @@ std::string triangulate_file(const DelaunayRequest& request, const DelaunayOptio
                           : read_point_file(request.points, request.lonlat);
   });
   const std::int64_t points = input.points.cols();
-  progress.stage("triangulating " + std::to_string(points) + " points");
+  progress.stage(message("triangulating {} points", points));
   const Triangulation result = triangulate(std::move(input), request, options);
   progress.stage("writing " + request.mesh);
   WriteOptions output = write_options(request, points);

@@ -35,16 +35,16 @@ void draw_reports(const DrawArguments& arguments) {
     histories.push_back(read_history(report));
   }
   draw_history(arguments.output, histories, arguments.options.look.size);
-  std::cout << arguments.output << ": convergence of " << histories.size()
-            << (histories.size() == 1 ? " run\n" : " runs\n");
+  std::cout << message("{}: convergence of {}\n", arguments.output,
+                       counted(std::ssize(histories), "run"));
 }
 
 /// Throws for a density without an option that uses it, and for a missing density.
 void require_density(const DrawArguments& arguments) {
   const bool wanted = arguments.spacing_law || arguments.options.colouring == Colouring::density;
   if (wanted && !arguments.has_density()) {
-    refuse(std::string(arguments.spacing_law ? "--spacing-law" : "--colour density") +
-           " requires a density; give --density or --cell-width");
+    refuse(message("{} requires a density; give --density or --cell-width",
+                   arguments.spacing_law ? "--spacing-law" : "--colour density"));
   }
   if (!wanted && arguments.has_density()) {
     refuse("a mesh with a density requires --colour density or --spacing-law; give one of "
@@ -143,8 +143,8 @@ DrawOptions options_for(const DrawArguments& arguments, const MeshFile& file) {
 /// Cells that are not Voronoi cells have no triangles and no spacing law.
 void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
   const Polygons& cells = *file.polygons;
-  const std::string not_voronoi = arguments.source->path + ": the cells are not Voronoi cells (" +
-                                  file.not_voronoi.text() + ")";
+  const std::string not_voronoi = message("{}: the cells are not Voronoi cells ({})",
+                                          arguments.source->path, file.not_voronoi.text());
   if (arguments.spacing_law ||
       (arguments.what->count() > 0 && arguments.options.shapes != Shapes::cells)) {
     refuse(not_voronoi + "; draw them with --what cells");
@@ -157,8 +157,8 @@ void draw_cells(const DrawArguments& arguments, const MeshFile& file) {
     options.field = field_of(options, arguments.source->path, file, cells.size());
   }
   draw(arguments.output, cells, options);
-  std::cout << changes_of(*arguments.source, file) << arguments.output << ": picture of "
-            << cells.size() << " cells\n";
+  std::cout << changes_of(*arguments.source, file)
+            << message("{}: picture of {} cells\n", arguments.output, cells.size());
 }
 
 void draw_mesh(const DrawArguments& arguments) {
@@ -176,7 +176,8 @@ void draw_mesh(const DrawArguments& arguments) {
   DrawOptions options = options_for(arguments, file);
   options.density = density;
   if (!plane && file.plane()) {
-    refuse(arguments.source->path + ": it holds a mesh of the plane; read it as one of the plane");
+    refuse_path(arguments.source->path,
+                "it holds a mesh of the plane; read it as one of the plane");
   }
   if (!plane && file.other_cells()) {
     draw_cells(arguments, file);
@@ -202,15 +203,16 @@ void draw_mesh(const DrawArguments& arguments) {
   } else {
     draw(arguments.output, mesh, options);
   }
-  std::cout << (plane ? "" : changes_of(*arguments.source, file)) << arguments.output << ": "
-            << (arguments.spacing_law ? "spacing law of " : "picture of ") << mesh.points.cols()
-            << " sites, " << mesh.triangles.cols() << " triangles\n";
+  std::cout << (plane ? "" : changes_of(*arguments.source, file))
+            << message("{}: {} of {} sites, {} triangles\n", arguments.output,
+                       arguments.spacing_law ? "spacing law" : "picture", mesh.points.cols(),
+                       mesh.triangles.cols());
 }
 
 std::string title_of(const DensityWords& words) {
   const std::vector<std::string> names = density_names(words);
   return names.size() == 1 ? names.front()
-                           : std::to_string(names.size()) + " bumps, their " + words.join;
+                           : message("{} bumps, their {}", names.size(), words.join);
 }
 
 std::function<DoubleVector(const Points3&)> spacings_by(const Density& density, double unit) {
@@ -227,7 +229,8 @@ SphereField field_of(const DrawArguments& arguments) {
   if (resolution.widths && !resolution.widths->of_plane() && !density_asked) {
     const WidthField& widths = *resolution.widths;
     return {spacings_by(density, widths.least()),
-            title + ", " + range_text(widths.least(), widths.greatest(), "km"), "cell width, km"};
+            message("{}, {}", title, range_text(widths.least(), widths.greatest(), "km")),
+            "cell width, km"};
   }
   if (asked && !density_asked) {
     return {spacings_by(density, 1), title, "spacing by the density, over that where it is 1"};

@@ -24,11 +24,12 @@ namespace calotte::tools {
 namespace {
 
 LonLat parse_view(const std::string& text) {
-  const auto place = numbers_of<2>(text);
-  if (!place || std::abs((*place)[0]) > 360 || std::abs((*place)[1]) > 90)
-    refuse("--view " + text +
-           " is not a location; give longitude and latitude in degrees, as in --view 15,-30");
-  return {(*place)[0], (*place)[1]};
+  const auto degrees = numbers_of<2>(text);
+  require(
+      degrees && std::abs((*degrees)[0]) <= 360 && std::abs((*degrees)[1]) <= 90,
+      "--view {} is not a location; give longitude and latitude in degrees, as in --view 15,-30",
+      text);
+  return {(*degrees)[0], (*degrees)[1]};
 }
 
 constexpr std::string_view field_prefix = "field:", error_prefix = "error:";
@@ -53,12 +54,13 @@ void add_colour(CLI::App& command, DrawArguments& arguments) {
     if (field || is_error(text) || words.contains(text))
       return "";
     if (text.starts_with(error_prefix))
-      return "\"" + text +
-             "\" is not error: with one of divergence, gradient, laplacian, curl, tangential, "
-             "kinetic_energy";
-    return "\"" + text +
-           "\" is not one of spacing, angle, valence (or degree), "
-           "area, quality, density, region, field:NAME, error:OPERATOR, none";
+      return message("\"{}\" is not error: with one of divergence, gradient, laplacian, curl, "
+                     "tangential, kinetic_energy",
+                     text);
+    return message(
+        "\"{}\" is not one of spacing, angle, valence (or degree), area, quality, density, "
+        "region, field:NAME, error:OPERATOR, none",
+        text);
   };
   DrawOptions& options = arguments.options;
   const auto choose = [&options, &error_of = arguments.error_of](const std::string& text) {
@@ -97,9 +99,10 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
     } else if (number && (*number)[0] >= 1 && (*number)[0] <= most_zoom) {
       zoom = (*number)[0];
     } else {
-      refuse("--zoom " + word +
-             " is no enlargement; give auto, whole or a number "
-             "from 1 to 2000, as in --zoom 5");
+      refuse(
+          message("--zoom {} is no enlargement; give auto, whole or a number from 1 to {}, as in "
+                  "--zoom 5",
+                  word, most_zoom));
     }
   };
   command
@@ -115,11 +118,11 @@ void add_zoom(CLI::App& command, std::optional<double>& zoom) {
 void add_range(CLI::App& command, std::optional<ColourRange>& range) {
   const auto set = [&range](const std::string& text) {
     const auto ends = numbers_of<2>(text);
-    if (!ends || !((*ends)[0] < (*ends)[1])) {
-      refuse("--range " + text +
-             " is no range of a colour bar; give its lower and its upper end, as in "
-             "--range 30,120");
-    }
+    require(
+        ends && (*ends)[0] < (*ends)[1],
+        "--range {} is no range of a colour bar; give its lower and its upper end, as in --range "
+        "30,120",
+        text);
     range = {(*ends)[0], (*ends)[1]};
   };
   command

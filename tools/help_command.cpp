@@ -22,7 +22,7 @@ constexpr const char* command_line = "calotte"; ///< before the name of a comman
   std::vector<std::string> names = command_names(app);
   for (const Topic& topic : topics())
     names.push_back(topic.name);
-  refuse("no help on \"" + name + "\"; " + remedy_for(name, names, "", "calotte --help"));
+  refuse(message("no help on \"{}\"; {}", name, remedy_for(name, names, "", "calotte --help")));
 }
 
 /// \param name of a command or a topic; "" for the main command.
@@ -35,7 +35,7 @@ std::string help_on(const CLI::App& app, const std::string& name) {
       return topic.text;
   for (const CLI::App* command : app.get_subcommands({}))
     if (command->get_name() == name)
-      return command->get_formatter()->make_help(command, std::string(command_line) + " " + name,
+      return command->get_formatter()->make_help(command, message("{} {}", command_line, name),
                                                  mode);
   refuse_topic(app, name);
 }

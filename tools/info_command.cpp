@@ -71,14 +71,13 @@ void find_boundary(const EdgeCounts& edges, Measured& measured) {
   measured.cells = edges.not_delaunay == 0;
   if (edges.boundary > 0) {
     measured.open = edges;
-    measured.remarks.push_back(
-        "the mesh is open: " + std::to_string(edges.boundary) + " boundary edges in " +
-        std::to_string(edges.loops) + (edges.loops == 1 ? " loop" : " loops") + "; its triangles" +
-        (measured.cells ? " and whole cells are measured" : " are measured"));
+    measured.remarks.push_back(message(
+        "the mesh is open: {} boundary edges in {}; its triangles {} measured", edges.boundary,
+        counted(edges.loops, "loop"), measured.cells ? "and whole cells are" : "are"));
   }
   if (edges.not_delaunay > 0)
-    measured.remarks.push_back(std::to_string(edges.not_delaunay) +
-                               " edges are not Delaunay; the triangles are measured");
+    measured.remarks.push_back(
+        message("{} edges are not Delaunay; the triangles are measured", edges.not_delaunay));
 }
 
 /// The cells by bdyMaskCell; none if the file does not have it.
@@ -120,8 +119,8 @@ void measure_sphere(const InfoRequest& request, const MeshFile& file, Measured& 
                                      : quality(mesh, density);
   if (measured.quality.flat > 0)
     measured.remarks.push_back(
-        std::to_string(measured.quality.flat) +
-        " triangles along the boundary are flatter than rounding and are not measured");
+        message("{} triangles along the boundary are flatter than rounding and are not measured",
+                measured.quality.flat));
   if (request.operators && measured.cells)
     measured.operators = operator_errors(mesh, density);
   else if (request.operators)
@@ -143,8 +142,8 @@ void measure_plane(const InfoRequest& request, const MeshFile& file,
   if (!covered && file.polygons && file.mesh->surface.period().maxCoeff() > 0)
     return measure_walls(request, file, measured);
   if (!covered)
-    refuse(request.source->path + ": a planar mesh needs its domain, which clips the cells; "
-                                  "give --domain, --rectangle or --periodic");
+    refuse_path(request.source->path, "a planar mesh needs its domain, which clips the cells; "
+                                      "give --domain, --rectangle or --periodic");
   measured.density = density_name(*request.density);
   const Density density = density_of(*request.density, *covered);
   Mesh mesh = *file.mesh;
@@ -170,7 +169,7 @@ std::string remarks_of(const InfoRequest& request, const Measured& measured) {
   std::string lines;
   for (const auto* list : {&measured.changes, &measured.remarks})
     for (const std::string& remark : *list)
-      lines += request.source->path + ": " + remark + "\n";
+      lines += message("{}: {}\n", request.source->path, remark);
   return lines;
 }
 
@@ -215,9 +214,9 @@ std::string read_and_measure(const InfoRequest& request) {
     measure_sphere(request, file, measured);
   if (const std::string given = density_name(*request.density), none = Measured().density;
       given != none && measured.density == none)
-    measured.remarks.push_back("the density " + given +
-                               " is not used: closed meshes and domains of a plane are compared "
-                               "with one");
+    measured.remarks.push_back(message("the density {} is not used: closed meshes and domains of a "
+                                       "plane are compared with one",
+                                       given));
   if (!request.report.empty())
     write_file(request.report,
                by_corners ? to_json(*file.polygons, file.mesh, measured) : to_json(measured));

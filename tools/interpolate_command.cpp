@@ -40,9 +40,9 @@ void require_request(const InterpolateRequest& request) {
   if (request.output.empty() && request.weights.empty())
     refuse("nothing to write; give -o FILE for fields, --weights FILE for weights, or both");
   if (!request.output.empty() && raster_of(request.target) && !request.output.ends_with(".nc"))
-    refuse(request.output + ": a raster is written to NetCDF; give a name that ends in .nc");
+    refuse_path(request.output, "a raster is written to NetCDF; give a name that ends in .nc");
   if (!request.weights.empty() && !request.weights.ends_with(".nc"))
-    refuse(request.weights + ": weights are written to NetCDF; give a name that ends in .nc");
+    refuse_path(request.weights, "weights are written to NetCDF; give a name that ends in .nc");
   require_outputs({{"fields", request.output}, {"weights", request.weights}},
                   {request.source, request.mesh, request.target, request.apply});
 }
@@ -75,16 +75,17 @@ MeshField& field_named(const std::string& name, FieldGrid& source) {
     return *found;
   const std::vector<std::string> names = field_names(source.fields);
   const std::string nearest = nearest_name(name, names);
-  refuse(source.name + " has no field " + name + " at cells" +
-         (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
-         (names.empty() ? "; give a file that has"
-                        : (nearest.empty() ? "; it has " : " It has ") + joined(names)));
+  refuse(message("{} has no field {} at cells{}{}", source.name, name,
+                 nearest.empty() ? "" : message("; did you mean {}?", nearest),
+                 names.empty() ? "; give a file that has"
+                               : (nearest.empty() ? "; it has " : " It has ") + listed(names)));
 }
 
 /// The fields that are asked for; all without names.
 std::vector<MeshField> chosen_fields(const InterpolateRequest& request, FieldGrid& source) {
   if (request.fields.empty() && source.fields.empty())
-    refuse(source.name + " has no fields at cells; give a file that has, or --weights without -o");
+    refuse(message("{} has no fields at cells; give a file that has, or --weights without -o",
+                   source.name));
   if (request.fields.empty())
     return std::move(source.fields);
   std::vector<MeshField> chosen;
@@ -102,7 +103,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 std::string decide_categories(const InterpolateRequest& request, MeshField& field) {
   if (contains(request.categories, field.name)) {
     if (!field.integer)
-      refuse("--categories " + field.name + ": the field does not hold integers; leave it out");
+      refuse(
+          message("--categories {}: the field does not hold integers; leave it out", field.name));
     return "";
   }
   if (!field.integer)
@@ -113,24 +115,25 @@ std::string decide_categories(const InterpolateRequest& request, MeshField& fiel
   }
   const bool numbers = !field.units.empty() && field.units != "1";
   field.integer = !numbers;
-  return numbers ? field.name + " holds integers in " + field.units +
-                       ", taken as numbers; see --categories\n"
-                 : field.name + " holds integers without a unit, taken as categories: each cell "
-                                "has the one of the greatest weight; see --numbers\n";
+  return numbers ? message("{} holds integers in {}, taken as numbers; see --categories\n",
+                           field.name, field.units)
+                 : message("{} holds integers without a unit, taken as categories: each cell has "
+                           "the one of the greatest weight; see --numbers\n",
+                           field.name);
 }
 
 // ---- Weights
 
 void require_fit(const InterpolateRequest& request, const GridWeights& weights,
                  const FieldGrid& source, const FieldGrid& target) {
-  const auto require = [&](std::int64_t known, const FieldGrid& grid, const std::string& role) {
-    if (known != grid.size())
-      refuse(request.apply + ": the weights are for a " + role + " of " + std::to_string(known) +
-             " cells, and " + grid.name + " has " + std::to_string(grid.size()) +
-             "; give the grids for which they were made");
+  const auto require_size = [&](std::int64_t known, const FieldGrid& grid, const char* role) {
+    require(known == grid.size(),
+            "{}: the weights are for a {} of {} cells, and {} has {}; give the grids for which "
+            "they were made",
+            request.apply, role, known, grid.name, grid.size());
   };
-  require(weights.weights.cols(), source, "source");
-  require(weights.weights.rows(), target, "target");
+  require_size(weights.weights.cols(), source, "source");
+  require_size(weights.weights.rows(), target, "target");
 }
 
 GridWeights weights_of(const InterpolateRequest& request, const FieldGrid& source,
@@ -156,36 +159,32 @@ std::int64_t rows_without_weights(const Weights& weights) {
   return count;
 }
 
-std::string plural(std::int64_t count, const std::string& one, const std::string& more) {
-  return std::to_string(count) + " " + (count == 1 ? one : more);
-}
-
 std::string describe_weights(const InterpolateRequest& request, const FieldGrid& source,
                              const GridWeights& weights, const std::vector<MeshField>& fields) {
   std::string lines;
   const std::string& name = request.output.empty() ? request.weights : request.output;
   const std::int64_t outside = rows_without_weights(weights.weights);
   if (outside > 0)
-    lines += name + ": " + plural(outside, "cell is", "cells are") + " outside of " + source.name +
-             ", and missing\n";
+    lines += message("{}: {} {} outside of {}, and missing\n", name, counted(outside, "cell"),
+                     outside == 1 ? "is" : "are", source.name);
   for (const MeshField& field : fields)
     if (const std::int64_t more = missing(field) - outside * field.count(); more > 0)
-      lines += name + ": " + field.name + ": " + plural(more, "value is", "values are") +
-               " missing where " + source.name + " has none\n";
+      lines += message("{}: {}: {} {} missing where {} has none\n", name, field.name,
+                       counted(more, "value"), more == 1 ? "is" : "are", source.name);
   if (!request.weights.empty())
-    lines += request.weights + ": " + std::to_string(weights.weights.nonZeros()) +
-             " weights from " + std::to_string(weights.weights.cols()) + " to " +
-             std::to_string(weights.weights.rows()) + " cells\n";
+    lines += message("{}: {} weights from {} to {} cells\n", request.weights,
+                     weights.weights.nonZeros(), weights.weights.cols(), weights.weights.rows());
   if (!request.output.empty())
-    lines += request.output + ": " + joined(field_names(fields)) + " at " +
-             plural(weights.weights.rows(), "cell, ", "cells, ") +
-             (request.apply.empty() ? request.method_word : "by " + request.apply) + "\n";
+    lines += message("{}: {} at {}, {}\n", request.output, listed(field_names(fields)),
+                     counted(weights.weights.rows(), "cell"),
+                     request.apply.empty() ? request.method_word : "by " + request.apply);
   return lines;
 }
 
 std::string history_of(const InterpolateRequest& request) {
-  return "calotte " CALOTTE_VERSION " interpolate: " + request.source + " " + request.target +
-         (request.apply.empty() ? " --method " + request.method_word : " --apply " + request.apply);
+  return message(
+      "calotte " CALOTTE_VERSION " interpolate: {} {} {}", request.source, request.target,
+      request.apply.empty() ? "--method " + request.method_word : "--apply " + request.apply);
 }
 
 void run(const InterpolateRequest& request) {

@@ -75,9 +75,10 @@ std::string take_points(const JigFile& jig, Recipe& recipe) {
     return "";
   }
   return free.empty() ? ""
-                      : *file + ": " + std::to_string(free.size()) +
-                            " points without a negative tag have no effect: the grid does not "
-                            "depend on where it starts; with MESH_ITER=0 it has these alone";
+                      : message("{}: {} points without a negative tag have no effect: the grid "
+                                "does not depend on where it starts; with MESH_ITER=0 it has these "
+                                "alone",
+                                *file, free.size());
 }
 
 /// What to mesh, and remarks on options.
@@ -89,7 +90,7 @@ struct Job {
 
 Job job_of(const JigFile& jig) {
   if (const int dimensions = jig.whole("MESH_DIMS").value_or(2); dimensions != 2)
-    jig.refuse("MESH_DIMS", std::to_string(dimensions) + "; only surfaces, 2, are meshed");
+    jig.refuse("MESH_DIMS", message("{}; only surfaces, 2, are meshed", dimensions));
   JigsawGeometry geometry = read_jigsaw_geometry(jig.file("GEOM_FILE"));
   Job job;
   Recipe& recipe = job.recipe;
@@ -133,21 +134,19 @@ void run_jigsaw(const std::string& path) {
   const Job job = job_of(jig);
   if (jig.whole("VERBOSITY").value_or(0) > 0)
     for (const std::string& remark : job.remarks)
-      std::cout << "calotte: " + remark + "\n";
+      std::cout << message("calotte: {}\n", remark);
   Cvt grid = make_mesh(job, threads > 0 ? std::optional(threads) : std::nullopt, progress);
-  const std::int64_t cells = grid.mesh.points.cols();
   progress.stage("writing " + output);
   grid.mesh.points *= job.radius;
   write(output, grid.mesh, {.format = Format::msh});
-  std::cout << output + ": " + std::to_string(cells) + " points, " +
-                   std::to_string(grid.mesh.triangles.cols()) + " triangles, " +
-                   (grid.report.well_centred ? "well-centred, " : "") +
-                   formatted("%.2f", grid.report.seconds) + " s\n";
+  std::cout << message("{}: {} points, {} triangles, {}{} s\n", output, grid.mesh.points.cols(),
+                       grid.mesh.triangles.cols(), grid.report.well_centred ? "well-centred, " : "",
+                       formatted("%.2f", grid.report.seconds));
   if (grid.report.cells_beyond_limits > 0)
-    warn(std::to_string(grid.report.cells_beyond_limits) +
-         " cells have shapes beyond the limits of models" +
-         (jig.text("HFUN_FILE") ? "; make the widths smoother, such as by marche"
-                                : ", beside lines or the boundary; give a smaller HFUN_HMAX"));
+    warn(message(
+        "{} cells have shapes beyond the limits of models{}", grid.report.cells_beyond_limits,
+        jig.text("HFUN_FILE") ? "; make the widths smoother, such as by marche"
+                              : ", beside lines or the boundary; give a smaller HFUN_HMAX"));
 }
 
 } // namespace

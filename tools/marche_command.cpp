@@ -29,7 +29,7 @@ void run_marche(const std::string& path) {
     with_threads(threads > 0 ? std::optional(threads) : std::nullopt,
                  [&] { limit_jigsaw_values(widths, radius); });
   });
-  std::cout << widths + ": gradient limited, " + formatted("%.2f", seconds) + " s\n";
+  std::cout << message("{}: gradient limited, {} s\n", widths, formatted("%.2f", seconds));
 }
 
 } // namespace

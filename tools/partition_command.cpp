@@ -75,15 +75,16 @@ std::string path_of(const PartitionRequest& request, std::int64_t parts) {
 void require_files(const PartitionRequest& request, const std::vector<std::int64_t>& counts) {
   std::vector<Output> outputs{{"report", request.report}};
   for (const std::int64_t parts : counts)
-    outputs.push_back({std::to_string(parts) + " parts", path_of(request, parts)});
+    outputs.push_back({message("{} parts", parts), path_of(request, parts)});
   require_outputs(outputs, {request.mesh, *request.config});
 }
 
 // ---- Input
 
 [[noreturn]] void refuse_triangles(const std::string& path) {
-  refuse(path + " holds triangles or points, and no cells; give a file of cells, such as the MPAS "
-                "file that calotte convert makes of it");
+  refuse(message("{} holds triangles or points, and no cells; give a file of cells, such as the "
+                 "MPAS file that calotte convert makes of it",
+                 path));
 }
 
 MeshFile read_cells(const PartitionRequest& request) {
@@ -95,7 +96,7 @@ MeshFile read_cells(const PartitionRequest& request) {
     refuse_triangles(request.mesh);
   if (const Mesh* const mesh = file.mesh ? &*file.mesh : nullptr;
       mesh && !file.polygons && std::ssize(mesh->site_of_input) != mesh->points.cols())
-    refuse(request.mesh + ": two of its cells have one centre; make the file again");
+    refuse_path(request.mesh, "two of its cells have one centre; make the file again");
   return file;
 }
 
@@ -112,24 +113,19 @@ DoubleVector weights_of(const PartitionRequest& request, const MeshFile& file, s
     }
   if (is_netcdf(file))
     return read_cell_field(request.mesh, request.weights, cells).values;
-  refuse(request.mesh + ": no field " + request.weights + " with one value for each cell; " +
-         (names.empty() ? "the file has none" : "there are " + joined(names)));
+  refuse_path(request.mesh, "no field {} with one value for each cell; {}", request.weights,
+              names.empty() ? "the file has none" : "there are " + listed(names));
 }
 
 // ---- Output
 
-std::string edges_cut(std::int64_t count) {
-  return std::to_string(count) + (count == 1 ? " edge" : " edges") + " cut";
-}
-
 std::string describe_partition(const Row& row) {
   const std::int64_t unconnected = row.parts.unconnected;
-  return row.path + ": " + edges_cut(row.parts.edge_cut) + ", imbalance " +
-         formatted("%.4f", row.parts.imbalance) +
-         (unconnected == 0   ? ""
-          : unconnected == 1 ? ", 1 part is not connected"
-                             : ", " + std::to_string(unconnected) + " parts are not connected") +
-         "\n";
+  return message("{}: {} cut, imbalance {}{}\n", row.path, counted(row.parts.edge_cut, "edge"),
+                 formatted("%.4f", row.parts.imbalance),
+                 unconnected == 0 ? ""
+                                  : message(", {} {} not connected", counted(unconnected, "part"),
+                                            unconnected == 1 ? "is" : "are"));
 }
 
 /// A line on a mesh that is not connected.
@@ -137,10 +133,9 @@ std::string describe_components(const PartitionRequest& request, const Partition
   const std::vector<std::int64_t>& sizes = outcome.components;
   if (sizes.size() < 2)
     return "";
-  return request.mesh + ": the cells are not connected: " + std::to_string(sizes.size()) +
-         " components, the largest of " + std::to_string(sizes.front()) +
-         " cells and the smallest of " + std::to_string(sizes.back()) +
-         "; a part may have cells of several\n";
+  return message("{}: the cells are not connected: {} components, the largest of {} cells and the "
+                 "smallest of {}; a part may have cells of several\n",
+                 request.mesh, sizes.size(), sizes.front(), sizes.back());
 }
 
 std::string to_json(const PartitionRequest& request, const PartitionOutcome& outcome) {
@@ -169,10 +164,10 @@ std::string fault_of(const PartitionOutcome& outcome) {
   const auto first = std::find_if(outcome.rows.begin(), outcome.rows.end(), unbalanced);
   if (first == outcome.rows.end())
     return "";
-  return std::to_string(std::count_if(first, outcome.rows.end(), unbalanced)) + " of " +
-         std::to_string(outcome.rows.size()) +
-         " partitions have a part of more than 1.03 times the mean weight; the first is " +
-         first->path + ", imbalance " + formatted("%.4f", first->parts.imbalance);
+  return message("{} of {} partitions have a part of more than 1.03 times the mean weight; the "
+                 "first is {}, imbalance {}",
+                 std::count_if(first, outcome.rows.end(), unbalanced), outcome.rows.size(),
+                 first->path, formatted("%.4f", first->parts.imbalance));
 }
 
 // ---- The run
@@ -195,7 +190,7 @@ std::vector<Row> write_all(const PartitionRequest& request, const IdLists& neigh
   } catch (const Error& error) {
     if (error.code() != ErrorCode::invalid_argument)
       throw;
-    throw Error(error.code(), request.mesh + ": " + error.what(), error.index());
+    throw Error(error.code(), message("{}: {}", request.mesh, error.what()), error.index());
   }
   std::sort(rows.begin(), rows.end(),
             [](const Row& a, const Row& b) { return a.parts.parts < b.parts.parts; });
@@ -221,8 +216,7 @@ PartitionOutcome partition_file(const PartitionRequest& request,
   options.weights = weights_of(request, file, outcome.cells);
   options.progress = [&](const calotte::Progress& so_far) {
     const auto done = static_cast<std::int64_t>(so_far.fraction * std::ssize(counts) + 0.5);
-    const std::string count = std::to_string(done) + " of " + std::to_string(counts.size());
-    progress.stage("partitioning " + request.mesh + ", " + count,
+    progress.stage(message("partitioning {}, {} of {}", request.mesh, done, counts.size()),
                    std::to_string(std::floor(10 * so_far.fraction)));
     return ProgressReply::proceed;
   };
@@ -246,11 +240,8 @@ void run(const PartitionRequest& request) {
   for (const Row& row : outcome.rows)
     std::cout << describe_partition(row);
   const std::string fault = fault_of(outcome);
-  if (fault.empty())
-    return;
-  std::cout.flush();
-  std::cerr << "calotte: " + request.mesh + ": " + fault + "\n";
-  finish(not_converged);
+  if (!fault.empty())
+    finish(not_converged, message("{}: {}", request.mesh, fault));
 }
 
 } // namespace

@@ -109,35 +109,31 @@ Plan plan_of(const PlanRequest& request, const GridInput& input, const Schedule&
 // ---- Output
 
 std::string interval(double low, double high) {
-  return formatted("%.4g", low) + " to " + formatted("%.4g", high);
+  return message("{} to {}", formatted("%.4g", low), formatted("%.4g", high));
 }
 
 std::string bytes(double count) {
   constexpr double mega = 1e6, giga = 1e9;
-  return count < giga ? formatted("%.3g", count / mega) + " MB"
-                      : formatted("%.3g", count / giga) + " GB";
+  return count < giga ? formatted("%.3g MB", count / mega) : formatted("%.3g GB", count / giga);
 }
 
 std::string duration(double seconds) {
   constexpr double minute = 60, hour = 3600;
   if (seconds < 2 * minute)
-    return formatted("%.2g", seconds) + " s";
-  return seconds < 2 * hour ? formatted("%.2g", seconds / minute) + " min"
-                            : formatted("%.2g", seconds / hour) + " h";
+    return formatted("%.2g s", seconds);
+  return seconds < 2 * hour ? formatted("%.2g min", seconds / minute)
+                            : formatted("%.2g h", seconds / hour);
 }
 
-std::string percent(double share) {
-  constexpr double hundred = 100;
-  return formatted("%5.1f", hundred * share) + "%";
-}
+std::string percent(double share) { return formatted("%5.1f%%", 100 * share); }
 
 std::string gradient_words(const WidthGradient& gradient) {
   if (!(gradient.slope > 0))
     return "0";
-  return formatted("%.2g", gradient.slope) + " at " + place_of(gradient) +
-         (is_too_steep(gradient.slope)
-              ? ", above " + shortest(steepest_width) + ", the limit for most models"
-              : "");
+  return message("{} at {}{}", formatted("%.2g", gradient.slope), lonlat_words(gradient),
+                 is_too_steep(gradient.slope)
+                     ? message(", above {}, the limit for most models", steepest_width)
+                     : "");
 }
 
 std::string table(const Plan& plan) {
@@ -169,9 +165,7 @@ std::string table(const Plan& plan) {
   for (const RuleShare& rule : plan.rules)
     out << "  " << std::left << std::setw(30) << rule.name << " " << percent(rule.area)
         << " of the area, " << percent(rule.cells) << " of the cells\n";
-  out << "estimates for " << plan.threads
-      << (plan.threads == 1 ? " thread, within a factor of 3:\n"
-                            : " threads, within a factor of 3:\n");
+  out << message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread"));
   row("  time of cvt", duration(plan.costs.seconds));
   row("  memory", bytes(plan.costs.memory));
   row("  MPAS file (.nc)", bytes(plan.costs.mpas_file));
@@ -219,7 +213,7 @@ void draw_widths(const PlanRequest& request, const Density& density, const Plan&
   const std::string range = range_text(radius * plan.spacing.least, radius * plan.spacing.greatest,
                                        plan.radius_km ? "km" : "\u00b0");
   draw(request.picture,
-       SphereField{values, plan.density + ", " + grouped(plan.cells) + " cells, " + range,
+       SphereField{values, message("{}, {} cells, {}", plan.density, grouped(plan.cells), range),
                    plan.radius_km ? "cell width, km" : "cell width, degrees"},
        Look{.projection = Projection::plate_carree,
             .graticule = true,

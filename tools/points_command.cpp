@@ -34,17 +34,21 @@ void require_request(const PointsRequest& request) {
   if (request.seed && request.kind != "random" && request.kind != "random-plane")
     refuse("--seed applies to random points only; leave it out");
   if (request.planar() && !request.domain->given())
-    refuse(request.kind + " points need a planar domain; give --domain, --rectangle or --periodic");
+    refuse(message("{} points need a planar domain; give --domain, --rectangle or --periodic",
+                   request.kind));
   if (!request.planar() && request.domain->given())
-    refuse(request.kind +
-           " points lie on the sphere; leave the domain out, or give random-plane or hexagonal");
+    refuse(message(
+        "{} points lie on the sphere; leave the domain out, or give random-plane or hexagonal",
+        request.kind));
   if (request.poles && request.kind != "latlon")
     refuse("--poles applies to latlon points only; leave it out");
   if (request.output == "-")
     return;
   if (holds_points(request.output) || std::filesystem::path(request.output).extension() == ".tri")
-    refuse(request.output + ": points are text with " + (request.planar() ? "x y" : "x y z") +
-           " on each line; give a name such as points.txt; calotte delaunay makes a mesh of them");
+    refuse_path(request.output,
+                "points are text with {} on each line; give a name such as points.txt; calotte "
+                "delaunay makes a mesh of them",
+                request.planar() ? "x y" : "x y z");
   require_outputs({{"points", request.output}}, {request.domain->file.value_or("")});
 }
 
@@ -57,13 +61,13 @@ int level_of(std::int64_t count) {
     if (points == count)
       return level;
     if (points > count)
-      refuse("a bisected icosahedron has 12, 42, 162, 642 and so on points, not " +
-             std::to_string(count) + "; give " + (fewer > 0 ? std::to_string(fewer) + " or " : "") +
-             std::to_string(points));
+      refuse(message("a bisected icosahedron has 12, 42, 162, 642 and so on points, not {}; give "
+                     "{}{}",
+                     count, fewer > 0 ? message("{} or ", fewer) : "", points));
     fewer = points;
   }
-  refuse("a bisected icosahedron of " + std::to_string(count) + " points is too large; give " +
-         std::to_string(fewer) + " or fewer");
+  refuse(
+      message("a bisected icosahedron of {} points is too large; give {} or fewer", count, fewer));
 }
 
 Points3 generate(const PointsRequest& request) {
@@ -94,7 +98,7 @@ template <class Points> void put(const Points& points, const PointsRequest& requ
     return;
   }
   write_points(request.output, points);
-  std::cout << request.output << ": " << points.cols() << " points\n";
+  std::cout << message("{}: {} points\n", request.output, points.cols());
 }
 
 void run(const PointsRequest& request) {

@@ -10,6 +10,7 @@
 #include "options/format_options.h"
 #include "options/mesh_source.h"
 #include "options/region_option.h"
+#include "options/warning.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
 #include "text/text.h"
@@ -22,7 +23,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -39,8 +39,8 @@ struct Verb {
   const char* purpose;
   const char* widths;
   const char* factor;
-  const char* left;                  ///< of cells that do not meet the demand
-  std::array<const char*, 2> missed; ///< the same of those not at the boundary: around their number
+  const char* left;                          ///< of cells that do not meet the demand
+  base_detail::Pattern<std::int64_t> missed; ///< the same of so many not at the boundary
   ChangedMesh (*change)(const Mesh&, const WidthDemand&, const RefineOptions&);
 };
 
@@ -49,8 +49,8 @@ constexpr Verb refining{"refine",
                         "Widths, in km, that cells become as narrow as where they are wider",
                         "How many times as narrow cells of the region become, more than 1 to 100",
                         "wider",
-                        {"", " cells are wider than demanded by more than 0.3; refine the result "
-                             "again, or give a larger --gradient"},
+                        "{} cells are wider than demanded by more than 0.3; refine the result "
+                        "again, or give a larger --gradient",
                         refine};
 constexpr Verb coarsening{
     "coarsen",
@@ -58,8 +58,8 @@ constexpr Verb coarsening{
     "Widths, in km, that cells become as wide as where they are narrower",
     "How many times as wide cells of the region become, more than 1 to 100",
     "narrower",
-    {"the demand is met in none of its ",
-     " cells: coarser ones grow from those around; give a larger region or --gradient"},
+    "the demand is met in none of its {} cells: coarser ones grow from those around; give a larger "
+    "region or --gradient",
     coarsen};
 
 struct RefineRequest {
@@ -100,8 +100,8 @@ void set_known_surface(const RefineRequest& request, MeshFile& file) {
     return;
   const std::optional<Surface> domain = given ? given : filled_surface(file);
   if (!domain)
-    refuse(request.source->path + ": a planar mesh needs its domain, which clips the cells; give "
-                                  "--domain or --rectangle");
+    refuse_path(request.source->path, "a planar mesh needs its domain, which clips the cells; give "
+                                      "--domain or --rectangle");
   set_surface(*file.mesh, *domain);
 }
 
@@ -116,8 +116,9 @@ WidthDemand demand_of(const RefineRequest& request, const MeshFile& file) {
     return demand;
   }
   if (!surface.is_sphere())
-    refuse(request.source->path + " is a mesh of a plane; give --cell-width with rules (.toml), a "
-                                  "region is one of the sphere");
+    refuse(message("{} is a mesh of a plane; give --cell-width with rules (.toml), a region is one "
+                   "of the sphere",
+                   request.source->path));
   demand.region = region_of(request.region, request.inside, demand.radius_km);
   demand.factor = *request.factor;
   return demand;
@@ -130,9 +131,9 @@ RefineOptions options_of(const RefineRequest& request, Progress& progress) {
   options.decomposition = options_of(*request.delaunay).decomposition;
   options.progress = [&progress](const calotte::Progress& now) {
     if (now.run != nullptr)
-      progress.stage(std::to_string(now.run->report.iterations.back().cells) +
-                     " cells of a patch, evaluation " +
-                     std::to_string(now.run->report.iterations.size()));
+      progress.stage(message("{} cells of a patch, evaluation {}",
+                             now.run->report.iterations.back().cells,
+                             now.run->report.iterations.size()));
     return ProgressReply::proceed;
   };
   return options;
@@ -146,8 +147,8 @@ WriteOptions write_options(const RefineRequest& request, const MeshFile& file) {
     options.vertex_order = file.vertex_order;
   if (!request.format->order)
     options.numbering = Numbering::input;
-  options.history = std::string("calotte " CALOTTE_VERSION " ") + request.verb->name + ": " +
-                    request.source->path;
+  options.history =
+      message("calotte " CALOTTE_VERSION " {}: {}", request.verb->name, request.source->path);
   return options;
 }
 
@@ -190,7 +191,7 @@ std::string describe_change(const RefineRequest& request, const std::vector<std:
   std::string lines;
   const auto list = [&](const std::string& what, const std::vector<std::string>& names) {
     if (!names.empty())
-      lines += request.output + ": " + what + ": " + joined(names) + "\n";
+      lines += message("{}: {}: {}\n", request.output, what, listed(names));
   };
   list("fields at new cells are means over their areas", request.methods.conservative);
   list("fields at new cells are those of the nearest old one", file.nearest);
@@ -200,29 +201,27 @@ std::string describe_change(const RefineRequest& request, const std::vector<std:
   const std::int64_t cells = changed.new_of_old.size(),
                      kept = (changed.new_of_old.array() >= 0).count(),
                      added = (changed.old_of_new.array() < 0).count();
-  return lines + request.output + ": " + std::to_string(changed.mesh.points.cols()) + " cells, " +
-         std::to_string(kept) + " of " + std::to_string(cells) + " kept (" +
-         formatted("%.2f", 100.0 * static_cast<double>(kept) / static_cast<double>(cells)) +
-         "%), " + std::to_string(added) + " new in " + std::to_string(changed.patches.size()) +
-         (changed.patches.size() == 1 ? " patch\n" : " patches\n");
+  const double percent = 100.0 * static_cast<double>(kept) / static_cast<double>(cells);
+  return lines + message("{}: {} cells, {} of {} kept ({}%), {} new in {} {}\n", request.output,
+                         changed.mesh.points.cols(), kept, cells, formatted("%.2f", percent), added,
+                         changed.patches.size(), changed.patches.size() == 1 ? "patch" : "patches");
 }
 
 /// A line about what falls short, with its exit code.
 void judge(const RefineRequest& request, const ChangedMesh& changed) {
   const Totals totals(changed.patches);
+  const auto say = [&](const std::string& text) {
+    complain(message("{}: {}", request.output, text));
+  };
   if (changed.held > 0)
-    std::cerr << "calotte: " + request.output + ": " + std::to_string(changed.held) +
-                     " cells stay " + request.verb->left +
-                     " than demanded, because they are at the boundary or next to it\n";
+    say(message("{} cells stay {} than demanded, because they are at the boundary or next to it",
+                changed.held, request.verb->left));
   if (changed.missed > 0)
-    std::cerr << "calotte: " + request.output + ": " + request.verb->missed[0] +
-                     std::to_string(changed.missed) + request.verb->missed[1] + "\n";
+    say(message(request.verb->missed, changed.missed));
   if (!totals.converged)
-    std::cerr << "calotte: " + request.output + ": not converged\n";
+    say("not converged");
   if (!totals.well_centred)
-    std::cerr << "calotte: " + request.output +
-                     ": not well-centred: " + std::to_string(totals.beyond) +
-                     " cells are beyond the limits of shapes\n";
+    say(message("not well-centred: {} cells are beyond the limits of shapes", totals.beyond));
   if (changed.held > 0 || changed.missed > 0 || !totals.converged)
     finish(not_converged);
   if (!totals.well_centred)
@@ -240,8 +239,8 @@ void run(const RefineRequest& request) {
     const double read =
         seconds_of([&] { base = read_mesh_file(*request.source, FieldChoice::all); });
     if (base.other_cells())
-      refuse(request.source->path + " holds no Voronoi cells: " + base.not_voronoi.text() +
-             "; give the file of a Voronoi mesh");
+      refuse(message("{} holds no Voronoi cells: {}; give the file of a Voronoi mesh",
+                     request.source->path, base.not_voronoi.text()));
     require_fields(base, request.methods);
     set_known_surface(request, base);
     const WidthDemand demand = demand_of(request, base);
@@ -328,14 +327,15 @@ void add(CLI::App& app, const Verb& verb) {
       ->type_name("FILE");
   request->delaunay = add_delaunay_options(*command);
   request->config = add_config(*command);
-  const std::string name = verb.name;
-  set_help(*command,
-           {.common = {"BASE", "--cell-width", "--region", "--factor", "--gradient", "--nearest",
-                       "--conservative", "--output", "--for", "--order", "--report", "--config",
-                       "--threads"},
-            .examples = {"calotte " + name + " global.nc --region bay.geojson --factor 2 -o new.nc",
-                         "calotte " + name +
-                             " global.nc --cell-width bay.toml --gradient 0.05 -o new.nc"}});
+  set_help(
+      *command,
+      {.common = {"BASE", "--cell-width", "--region", "--factor", "--gradient", "--nearest",
+                  "--conservative", "--output", "--for", "--order", "--report", "--config",
+                  "--threads"},
+       .examples = {
+           message("calotte {} global.nc --region bay.geojson --factor 2 -o new.nc", verb.name),
+           message("calotte {} global.nc --cell-width bay.toml --gradient 0.05 -o new.nc",
+                   verb.name)}});
   command->callback([request] { run(*request); });
 }
 

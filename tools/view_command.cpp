@@ -105,7 +105,7 @@ std::vector<ViewInput> read_inputs(const ViewRequest& request, Progress& progres
   inputs.push_back(
       read_input(request, {.path = request.other, .plane = request.source->plane}, progress));
   if (!inputs[0].file.plane() != !inputs[1].file.plane())
-    refuse(request.other + ": one mesh is of the sphere and one of the plane; view them apart");
+    refuse_path(request.other, "one mesh is of the sphere and one of the plane; view them apart");
   for (std::size_t k = 0; k < 2; ++k)
     if (!inputs[k].radius_km)
       inputs[k].radius_km = inputs[1 - k].radius_km;
@@ -173,18 +173,18 @@ void open_in_browser(const std::string& path) {
   if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0 ||
       waitpid(child, &status, 0) != child || status != 0)
     throw Error(ErrorCode::file,
-                path + " is written, but xdg-open cannot show it; open it in a browser");
+                message("{} is written, but xdg-open cannot show it; open it in a browser", path));
 }
 
 std::string summary(const ViewPage& view) {
   std::string text;
   for (std::size_t k = 0; k < view.side_by_side; ++k) {
     const ViewMesh& mesh = view.meshes[k];
-    text += (k > 0 ? " and " : "") + std::to_string(mesh.cells) +
-            (mesh.cells < mesh.total ? " of " + std::to_string(mesh.total) : "") + " cells";
+    text += message("{}{}{} cells", k > 0 ? " and " : "", mesh.cells,
+                    mesh.cells < mesh.total ? message(" of {}", mesh.total) : "");
   }
   if (!view.states.empty())
-    text += ", " + std::to_string(view.states.size()) + " states";
+    text += message(", {} states", view.states.size());
   return text;
 }
 
@@ -198,7 +198,7 @@ void run(const ViewRequest& request) {
     progress.stage("writing " + output);
     write_file(output, page_of(view));
   }
-  std::cout << output << ": page of " << summary(view) << "\n";
+  std::cout << message("{}: page of {}\n", output, summary(view));
   if (request.open)
     open_in_browser(output);
 }

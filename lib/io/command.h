@@ -17,7 +17,7 @@
 #include <vector>
 
 /// Functions on files and formats that the command uses. The header is not installed. Tools include
-/// only this header and io/toml.h from lib/.
+/// only this header, io/toml.h and the headers of messages from lib/.
 CALOTTE_API_BEGIN
 namespace calotte {
 

@@ -33,10 +33,7 @@ bool has_boundary(const Mesh& mesh) { return (mesh.neighbours.array() < 0).any()
 std::string title_of(const Scene& scene, const DrawOptions& options) {
   const Mesh& mesh = *scene.mesh;
   const std::string parts =
-      grouped(mesh.points.cols()) + " cells" +
-      (options.shapes == Shapes::triangles ? ", " + grouped(mesh.triangles.cols()) + " triangles"
-                                           : "") +
-      (has_boundary(mesh) ? ", open boundary" : "");
+      counts_of(mesh, options.shapes) + (has_boundary(mesh) ? ", open boundary" : "");
   return mesh_title(options, parts, "spacing", mean_distances(scene));
 }
 
@@ -121,8 +118,8 @@ namespace {
 /// \throws Error invalid_argument unless the field has one value for each site.
 void require_field(const DrawOptions& options, std::int64_t sites) {
   if (options.field.values.size() != sites) {
-    refuse(options.field_name + " has " + std::to_string(options.field.values.size()) +
-           " values for " + std::to_string(sites) + " sites; give a field of the mesh's cells");
+    refuse(message("{} has {} values for {} sites; give a field of the mesh's cells",
+                   options.field_name, options.field.values.size(), sites));
   }
 }
 
@@ -171,8 +168,8 @@ View view_of_mesh(const DrawOptions& options, const Mesh& mesh) {
 /// \throws Error invalid_argument unless there is a cell for each site.
 void require_cells(const DrawOptions& options, const Mesh& mesh) {
   if (options.cells != nullptr && options.cells->size() != mesh.points.cols()) {
-    refuse("there are " + std::to_string(options.cells->size()) + " cells for " +
-           std::to_string(mesh.points.cols()) + " sites; give the cells of the mesh");
+    refuse(message("there are {} cells for {} sites; give the cells of the mesh",
+                   options.cells->size(), mesh.points.cols()));
   }
 }
 

@@ -30,8 +30,9 @@ std::vector<std::string> names_of(const std::vector<History>& histories) {
   return names;
 }
 
-std::string counted(std::int64_t number, const std::string& thing) {
-  return grouped(number) + " " + thing + (number == 1 ? "" : "s");
+/// As counted(), with the digits in groups.
+std::string counted_in_groups(std::int64_t number, const std::string& thing) {
+  return message("{} {}{}", grouped(number), thing, number == 1 ? "" : "s");
 }
 
 /// The method of a run and its cost.
@@ -40,9 +41,10 @@ std::string summary_of(const History& history) {
                           : history.converged        ? "converged in "
                                                      : "not converged in ";
   const std::string method = history.method.empty() ? "" : ", " + history.method;
-  return method + ": " + counted(history.iterations.back().cells, "cell") + ", " + end +
-         counted(static_cast<std::int64_t>(history.iterations.size()), "evaluation") + ", " +
-         formatted("%.3g s", history.seconds);
+  return message("{}: {}, {}{}, {}", method,
+                 counted_in_groups(history.iterations.back().cells, "cell"), end,
+                 counted_in_groups(std::ssize(history.iterations), "evaluation"),
+                 formatted("%.3g s", history.seconds));
 }
 
 Rgb faded(const Rgb& colour) {
@@ -414,8 +416,8 @@ Rgb history_colour(std::size_t run) {
 void draw_history(const std::string& path, const std::vector<History>& histories, int size) {
   require_picture(path, size);
   if (histories.empty() || histories.size() > most_histories) {
-    refuse("a picture shows 1 to " + std::to_string(most_histories) + " reports, not " +
-           std::to_string(histories.size()) + "; leave some out");
+    refuse(message("a picture shows 1 to {} reports, not {}; leave some out", most_histories,
+                   histories.size()));
   }
   const HistoryPage page = history_page(histories, size);
   write_picture(path, page.width, page.height,

@@ -30,15 +30,15 @@ using nlohmann::json;
 struct Part {
   const json& value;
   std::string file;
-  std::string place; ///< such as iterations[3].l2; empty for the whole
+  std::string path; ///< such as iterations[3].l2; empty for the whole
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorCode::parse,
-                file + ": " + place + " " + what + "; give a report of calotte cvt --report");
+    fail_file(file, "{} {}; give a report of calotte cvt --report", path, what);
   }
   Part at(const std::string& key) const {
     const bool present = value.is_object() && value.contains(key);
-    Part part = {present ? value.at(key) : value, file, place.empty() ? key : place + "." + key};
+    Part part = {present ? value.at(key) : value, file,
+                 path.empty() ? key : message("{}.{}", path, key)};
     if (!present) {
       part.fail("is missing");
     }
@@ -53,7 +53,7 @@ struct Part {
   }
   std::int64_t count(std::int64_t least) const {
     if (!value.is_number_integer() || value.get<std::int64_t>() < least) {
-      fail("is not an integer >= " + std::to_string(least));
+      fail(message("is not an integer >= {}", least));
     }
     return value.get<std::int64_t>();
   }
@@ -72,11 +72,11 @@ json parse(const std::string& path) {
   } catch (const json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     const auto line = 1 + std::count(text.begin(), end, '\n');
-    refuse_line(path, line,
-                "this is not JSON, or was cut short; give a report of calotte cvt --report");
+    fail_at(path, line,
+            "this is not JSON, or was cut short; give a report of calotte cvt --report");
   } catch (const json::out_of_range&) {
-    throw Error(ErrorCode::parse, path + ": a number in it is too large for a double; give a "
-                                         "report of calotte cvt --report");
+    fail_file(path, "a number in it is too large for a double; give a report of calotte cvt "
+                    "--report");
   }
 }
 
@@ -87,7 +87,7 @@ template <class Value> Value value_of(const Part& part, std::span<const NamedVal
     if (part.value == known.back())
       return word.value;
   }
-  part.fail("is not one of " + joined(known));
+  part.fail("is not one of " + listed(known));
 }
 
 std::vector<std::string> density_of(const Part& part) {
@@ -141,14 +141,14 @@ StateFile state_of(const Part& part) {
   return {part.at("evaluation").count(1), file.value.get<std::string>()};
 }
 
-/// The items of an array, each with its place.
+/// The items of an array, each with its path.
 std::vector<Part> items_of(const Part& array) {
   if (!array.value.is_array()) {
     array.fail("is not an array");
   }
   std::vector<Part> items;
   for (std::size_t i = 0; i < array.value.size(); ++i) {
-    items.push_back({array.value[i], array.file, array.place + "[" + std::to_string(i) + "]"});
+    items.push_back({array.value[i], array.file, message("{}[{}]", array.path, i)});
   }
   return items;
 }

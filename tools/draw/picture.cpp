@@ -44,8 +44,8 @@ struct Stream {
       std::rethrow_exception(failure);
     }
     if (status != CAIRO_STATUS_SUCCESS) {
-      throw Error(ErrorCode::file, path + ": the picture cannot be made: " +
-                                       cairo_status_to_string(status) + "; try a smaller size");
+      throw Error(ErrorCode::file, message("{}: the picture cannot be made: {}; try a smaller size",
+                                           path, cairo_status_to_string(status)));
     }
   }
 };
@@ -78,13 +78,13 @@ PictureFormat picture_format(const std::string& path) {
   if (suffix == ".pdf") {
     return PictureFormat::pdf;
   }
-  refuse(path + ": the suffix names no picture format; use .png, .svg or .pdf");
+  refuse_path(path, "the suffix names no picture format; use .png, .svg or .pdf");
 }
 
 void require_picture(const std::string& path, int width) {
   picture_format(path);
   if (width < 64 || width > 16384) {
-    refuse("a picture is 64 to 16384 pixels wide, not " + std::to_string(width));
+    refuse(message("a picture is 64 to 16384 pixels wide, not {}", width));
   }
 }
 

@@ -311,10 +311,7 @@ void stroke_boundary(cairo_t* context, const Sheet& sheet) {
 /// The spacing is that of the cells for triangles too.
 std::string title_of(const Sheet& sheet) {
   const Mesh& mesh = sheet.mesh;
-  const std::string parts = grouped(mesh.points.cols()) + " cells" +
-                            (sheet.options.shapes == Shapes::triangles
-                                 ? ", " + grouped(mesh.triangles.cols()) + " triangles"
-                                 : "") +
+  const std::string parts = counts_of(mesh, sheet.options.shapes) +
                             (mesh.surface.period().maxCoeff() > 0 ? ", periodic" : "");
   return mesh_title(sheet.options, parts, "spacing", sheet.map.spacing, true);
 }

@@ -80,10 +80,9 @@ std::vector<double> lawful_spacings(const Mesh& mesh, const Density& density,
       continue;
     }
     if (!(value > 0)) {
-      throw Error(ErrorCode::invalid_argument,
-                  "the density is 0 at site " + std::to_string(i) +
-                      ", where the law has no spacing; give a density that is positive",
-                  static_cast<std::int64_t>(i));
+      refuse_at(static_cast<std::int64_t>(i),
+                "the density is 0 at site {}, where the law has no spacing; give a density that is "
+                "positive");
     }
     lawful.push_back(std::pow(value, -0.25));
   }

@@ -28,6 +28,12 @@ std::string range_text(double low, double high, const std::string& unit) {
   return from == to ? to + end : from + (angle ? end : "") + " to " + to + end;
 }
 
+std::string counts_of(const Mesh& mesh, Shapes shapes) {
+  return message(
+      "{} cells{}", grouped(mesh.points.cols()),
+      shapes == Shapes::triangles ? message(", {} triangles", grouped(mesh.triangles.cols())) : "");
+}
+
 std::string mesh_title(const DrawOptions& options, const std::string& parts,
                        const std::string& length, const std::vector<double>& lengths, bool flat) {
   if (!options.look.title.empty())

@@ -12,6 +12,9 @@ namespace calotte::tools {
 /// both ends agree.
 std::string range_text(double low, double high, const std::string& unit);
 
+/// "10 242 cells", and the number of triangles where these are drawn.
+std::string counts_of(const Mesh& mesh, Shapes shapes);
+
 /// The title of a picture of a mesh, marked text: its name, its parts and the range of a length,
 /// such as "a.nc: 10 242 cells, spacing 206 to 251 km"; or that of the look.
 /// \param lengths in radians, for the title in km if the radius is known, otherwise in degrees; of

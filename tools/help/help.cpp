@@ -53,8 +53,8 @@ std::string wrapped(const std::string& head, std::size_t indent, const std::stri
 
 std::string plain_head(const CLI::Option& option) {
   const std::string values = values_of(option);
-  const std::string names = joined(names_of(option), ",");
-  return "  " + names + (values.empty() || names == values ? "" : " " + values);
+  const std::string names = listed(names_of(option), ",", ",");
+  return message("  {}{}", names, values.empty() || names == values ? "" : " " + values);
 }
 
 /// The first sentence of its text.
@@ -114,7 +114,8 @@ private:
     const std::string text =
         (help_.common.empty()
              ? "calotte help exit-codes lists the exit codes"
-             : "calotte " + app.get_name() + " --help-all lists all options and the exit codes") +
+             : message("calotte {} --help-all lists all options and the exit codes",
+                       app.get_name())) +
         (density ? "; calotte help density describes densities." : ".");
     return "\n" + wrapped("", 0, text);
   }

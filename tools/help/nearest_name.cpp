@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/nearest_name.h"
 
+#include "text/text.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -42,7 +44,8 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 std::string remedy_for(const std::string& name, const std::vector<std::string>& names,
                        const std::string& mark, const std::string& help) {
   const std::string nearest = nearest_name(name, names);
-  return (nearest.empty() ? "see " : "did you mean " + mark + nearest + "? See ") + help;
+  return nearest.empty() ? "see " + help
+                         : message("did you mean {}{}? See {}", mark, nearest, help);
 }
 
 } // namespace calotte::tools

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 namespace calotte::tools {
 namespace {
@@ -20,7 +19,7 @@ std::string name_list(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
     names.push_back(option->get_name());
-  return joined(names);
+  return listed(names);
 }
 
 std::string default_of(const CLI::Option& option) {
@@ -32,13 +31,9 @@ std::string default_of(const CLI::Option& option) {
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find(":{"), end = type.find('}');
-  std::vector<std::string> words;
   if (begin == std::string::npos || end == std::string::npos)
-    return words;
-  std::istringstream list(type.substr(begin + 2, end - begin - 2));
-  for (std::string word; std::getline(list, word, ',');)
-    words.push_back(word);
-  return words;
+    return {};
+  return split(type.substr(begin + 2, end - begin - 2), ',');
 }
 
 } // namespace
@@ -80,7 +75,7 @@ std::string whole_text(const CLI::Option& option) {
   std::string text = without_stop(option.get_description()) + default_of(option);
   const std::vector<std::string> choices = choices_of(option);
   if (!choices.empty() && text.find(choices.back()) == std::string::npos)
-    text += ". One of " + joined(choices);
+    text += ". One of " + listed(choices);
   if (const std::string needed = name_list(option.get_needs()); !needed.empty())
     text += ". Requires " + needed;
   if (const std::string excluded = name_list(option.get_excludes()); !excluded.empty())

@@ -226,7 +226,7 @@ std::string formats_text() {
   };
   line("format", "--format", "name", "read", "written");
   for (const FormatInfo& info : formats()) {
-    line(info.title, info.word, joined(info.names),
+    line(info.title, info.word, listed(info.names),
          !info.read    ? "no"
          : info.points ? "yes"
                        : "with points",

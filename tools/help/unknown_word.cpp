@@ -2,6 +2,7 @@
 #include "help/unknown_word.h"
 
 #include "help/nearest_name.h"
+#include "text/text.h"
 
 #include <CLI/App.hpp>
 
@@ -33,8 +34,8 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
   });
   if (word == words.end())
     return "";
-  return "unknown option " + word->substr(0, word->find('=')) + "; " +
-         remedy_for(bare_name(*word), option_names(app), "--", help);
+  return message("unknown option {}; {}", word->substr(0, word->find('=')),
+                 remedy_for(bare_name(*word), option_names(app), "--", help));
 }
 
 } // namespace
@@ -48,15 +49,15 @@ std::vector<std::string> command_names(const CLI::App& app) {
 
 std::string help_of(const CLI::App& app) {
   const auto commands = app.get_subcommands();
-  return "calotte " + (commands.empty() ? "" : commands.back()->get_name() + " ") + "--help";
+  return message("calotte {}--help", commands.empty() ? "" : commands.back()->get_name() + " ");
 }
 
 std::string unknown_word(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const auto commands = app.get_subcommands();
   if (commands.empty() && !words.empty() && !is_option(words.front()))
-    return "unknown command " + words.front() + "; " +
-           remedy_for(words.front(), command_names(app), "", help_of(app));
+    return message("unknown command {}; {}", words.front(),
+                   remedy_for(words.front(), command_names(app), "", help_of(app)));
   const std::string unknown = unknown_option(app, words, "calotte --help");
   if (!unknown.empty() || commands.empty())
     return unknown;

@@ -50,19 +50,33 @@ std::int64_t cells_of_uniform(double implied) {
   return cells >= fewest && cells <= most ? geodesic_count(cells) : 0;
 }
 
+/// The factor on widths that imply a number of cells, in a grid of another number, if that is
+/// given.
+double scale_of(double implied, std::optional<std::int64_t> cells) {
+  return cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
+}
+
 /// The cells that a uniform width requires, and the width in a grid of another number.
 std::string note_on_uniform(double implied, const WidthWords& words,
                             std::optional<std::int64_t> cells) {
   const std::string note =
-      "cells " + name_of(words) + " wide require " + formatted("%.0f", implied) + " cells";
+      message("cells {} wide require {} cells", name_of(words), formatted("%.0f", implied));
   if (!cells || *cells == std::llround(implied))
     return note;
-  const std::string width =
-      formatted("%.4g", *words.uniform * std::sqrt(implied / static_cast<double>(*cells))) +
-      " km wide";
-  if (*cells == cells_of_uniform(implied))
-    return note + "; a symmetric grid near that has " + std::to_string(*cells) + ", " + width;
-  return note + "; the " + std::to_string(*cells) + " cells of the grid are " + width;
+  const std::string width = formatted("%.4g km wide", *words.uniform * scale_of(implied, cells));
+  return *cells == cells_of_uniform(implied)
+             ? message("{}; a symmetric grid near that has {}, {}", note, *cells, width)
+             : message("{}; the {} cells of the grid are {}", note, *cells, width);
+}
+
+/// Whether the number of cells scales widths so that a note says so.
+bool is_scaled(double scale) { return std::abs(scale - 1) > 0.01; }
+
+/// "; with 100 cells, widths are 2 times as large", or "".
+std::string scale_words(double scale, std::optional<std::int64_t> cells) {
+  return is_scaled(scale) ? message("; with {} cells, widths are {} times as large", *cells,
+                                    formatted("%.3g", scale))
+                          : "";
 }
 
 std::vector<std::string> with_doubt(std::vector<std::string> notes, const WidthField& widths,
@@ -82,8 +96,9 @@ PolygonWidths polygons_of(const WidthWords& words) {
 /// \throws Error invalid_argument for a width with a unit.
 void require_no_unit(const WidthWords& words) {
   if (words.with_unit)
-    refuse("--cell-width " + shortest(*words.uniform) +
-           "km: the plane has the unit of its coordinates; give a number in that unit");
+    refuse(message("--cell-width {}km: the plane has the unit of its coordinates; give a number in "
+                   "that unit",
+                   *words.uniform));
 }
 
 /// \throws Error invalid_argument for widths of polygons without polygons.
@@ -93,7 +108,7 @@ void require_polygons(const WidthWords& words) {
                                       {words.outside, "--outside-width"},
                                       {words.transition, "--transition"}})
       if (value)
-        refuse(name_of(words) + " holds no polygons; leave " + name + " out");
+        refuse(message("{} holds no polygons; leave {} out", name_of(words), name));
 }
 
 /// The widths without the command's limit of their gradient.
@@ -114,7 +129,8 @@ CLI::Validator slope() {
             const std::optional<Measure> value = measure_of(text);
             return value && value->unit.empty() && value->value > 0
                        ? std::string()
-                       : "\"" + text + "\" is not a positive number; give km per km, such as 0.03";
+                       : message("\"{}\" is not a positive number; give km per km, such as 0.03",
+                                 text);
           },
           "G"};
 }
@@ -190,15 +206,15 @@ WidthRules read_widths(const WidthWords& words, const Surface& surface) {
 
 std::string width_configuration(const WidthWords& words) {
   if (!words.raster.empty())
-    return "density-raster of " + checksum_of(words.raster) + "\n";
+    return message("density-raster of {}\n", checksum_of(words.raster));
   std::string text =
-      "cell-width " + (words.uniform ? name_of(words) : "of " + checksum_of(words.file)) + "\n";
+      message("cell-width {}\n", words.uniform ? name_of(words) : "of " + checksum_of(words.file));
   if (has_rules(words.file))
     for (const std::string& named : files_of_rules(words.file))
-      text += "rules of " + checksum_of(named) + "\n";
+      text += message("rules of {}\n", checksum_of(named));
   const auto add = [&](const std::string& name, const std::optional<double>& value) {
     if (value)
-      text += name + " " + shortest(*value) + "\n";
+      text += message("{} {}\n", name, shortest(*value));
   };
   add("inside-width", words.inside);
   add("outside-width", words.outside);
@@ -212,7 +228,7 @@ std::string width_configuration(const WidthWords& words) {
 std::string distinct_from(double other, double value) {
   std::string text;
   for (int digits = 2; digits <= 17; ++digits) {
-    text = formatted(("%." + std::to_string(digits) + "g").c_str(), value);
+    text = formatted(message("%.{}g", digits).c_str(), value);
     if (std::stod(text) != other)
       break;
   }
@@ -233,13 +249,12 @@ WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
 /// What makes steep widths less steep.
 std::string remedy_of(const WidthWords& words, bool scaled) {
   if (words.gradient)
-    return std::string("give a smaller --gradient") +
-           (scaled ? ", as --cells scales the widths" : "");
-  return "give --gradient " + shortest(steepest_width) +
-         (words.transition ? ", or increase --transition" : "");
+    return message("give a smaller --gradient{}", scaled ? ", as --cells scales the widths" : "");
+  return message("give --gradient {}{}", steepest_width,
+                 words.transition ? ", or increase --transition" : "");
 }
 
-std::string place_of(const WidthGradient& gradient) {
+std::string lonlat_words(const WidthGradient& gradient) {
   return lonlat_words(gradient.longitude, gradient.latitude);
 }
 
@@ -248,19 +263,17 @@ std::string doubt_of(const WidthField& widths, const WidthWords& words) {
   const double most = widths.greatest();
   if (most <= widest)
     return "";
-  return (words.uniform ? "" : words.file + ": ") + "cells " + formatted("%.6g", most) +
-         " km wide are large; if these are metres, give km";
+  return message("{}cells {} km wide are large; if these are metres, give km",
+                 words.uniform ? "" : words.file + ": ", most);
 }
 
 /// "cells 100 to 200", the unit, and the nodes.
 std::string range_words(const WidthField& widths, const WidthWords& words,
                         const std::string& unit) {
-  return words.file + ": cells " + formatted("%.4g", widths.least()) + " to " +
-         formatted("%.4g", widths.greatest()) + unit + " wide, at " +
-         std::to_string(widths.nodes()) + " nodes" +
-         (widths.apart() > 1 ? " up to " + formatted("%.3g", widths.apart()) + " widths apart"
-                             : "") +
-         ", require ";
+  return message("{}: cells {} to {}{} wide, at {} nodes{}, require ", words.file,
+                 formatted("%.4g", widths.least()), formatted("%.4g", widths.greatest()), unit,
+                 widths.nodes(),
+                 widths.apart() > 1 ? formatted(" up to %.3g widths apart", widths.apart()) : "");
 }
 
 std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,
@@ -268,32 +281,26 @@ std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& wo
   const double implied = implied_cells(widths, {}, words.radius);
   if (words.uniform)
     return with_doubt({note_on_uniform(implied, words, cells)}, widths, words);
-  std::vector<std::string> notes{range_words(widths, words, " km") + formatted("%.0f", implied) +
-                                 " cells"};
-  const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
-  if (std::abs(scale - 1) > 0.01)
-    notes.front() += "; with " + std::to_string(*cells) + " cells, widths are " +
-                     formatted("%.3g", scale) + " times as large";
+  const double scale = scale_of(implied, cells);
   const WidthGradient gradient = steepest_of(widths, words, limit, scale);
-  const std::string usual = shortest(steepest_width),
-                    slope = distinct_from(steepest_width, gradient.slope);
-  notes.front() += "; largest gradient " + slope + " km per km";
+  const std::string slope = distinct_from(steepest_width, gradient.slope);
+  std::vector<std::string> notes{
+      message("{}{} cells{}; largest gradient {} km per km", range_words(widths, words, " km"),
+              formatted("%.0f", implied), scale_words(scale, cells), slope)};
   if (is_too_steep(gradient.slope))
-    notes.push_back("warning: the cell width changes by " + slope + " km per km at " +
-                    place_of(gradient) + ", above " + usual + ", the limit for most models; " +
-                    remedy_of(words, std::abs(scale - 1) > 0.01));
+    notes.push_back(message("warning: the cell width changes by {} km per km at {}, above {}, the "
+                            "limit for most models; {}",
+                            slope, lonlat_words(gradient), steepest_width,
+                            remedy_of(words, is_scaled(scale))));
   return with_doubt(std::move(notes), widths, words);
 }
 
 std::vector<std::string> notes_in_plane(const WidthField& widths, const WidthWords& words,
                                         double implied, std::optional<std::int64_t> cells) {
-  const std::string range = words.uniform ? "cells " + shortest(*words.uniform) + " wide require "
-                                          : range_words(widths, words, "");
-  const double scale = cells ? std::sqrt(implied / static_cast<double>(*cells)) : 1;
-  return {range + formatted("%.0f", implied) + " cells" +
-          (std::abs(scale - 1) > 0.01 ? "; with " + std::to_string(*cells) + " cells, widths are " +
-                                            formatted("%.3g", scale) + " times as large"
-                                      : "")};
+  return {message("{}{} cells{}",
+                  words.uniform ? message("cells {} wide require ", *words.uniform)
+                                : range_words(widths, words, ""),
+                  formatted("%.0f", implied), scale_words(scale_of(implied, cells), cells))};
 }
 
 } // namespace calotte::tools

@@ -62,8 +62,8 @@ std::string width_configuration(const WidthWords& words);
 WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
                           std::optional<double> limit, double scale);
 
-/// "12.5 E 48.2 S".
-std::string place_of(const WidthGradient& gradient);
+/// Where it is: "12.5 E 48.2 S".
+std::string lonlat_words(const WidthGradient& gradient);
 
 /// A summary of widths in km before a run: their range, the cells that they imply and their largest
 /// gradient; also a warning, on its own line, if that exceeds the value that models recommend.

@@ -31,9 +31,10 @@ private:
       const std::string name(key.str());
       if (const toml::table* inner = node.as_table()) {
         if (group)
-          refuse_line(path_, line,
-                      "table " + name + " is nested in table " + std::string(group->str()) +
-                          "; nested tables are not supported; remove the inner one");
+          fail_at(path_, line,
+                  "table {} is nested in table {}; nested tables are not supported; remove the "
+                  "inner one",
+                  name, group->str());
         add(*inner, &key);
       } else if (const toml::array* array = node.as_array()) {
         settings_.push_back({name, line, values(name, line, *array)});
@@ -49,7 +50,7 @@ private:
     for (const toml::node& node : array)
       list.push_back(value(name, line, node));
     if (list.empty())
-      refuse_line(path_, line, name + " is an empty array; leave it out");
+      fail_at(path_, line, "{} is an empty array; leave it out", name);
     return list;
   }
 
@@ -63,13 +64,13 @@ private:
       return {Kind::number, shortest(number->get())};
     if (const auto* text = node.as_string())
       return {Kind::text, text->get()};
-    const std::string what = node.is_table()   ? "a table"
-                             : node.is_array() ? "an array"
-                                               : "a date or time";
-    refuse_line(
-        path_, line,
-        name + " holds " + what +
-            "; give text in quotes, a number, true or false, or an array of texts or numbers");
+    fail_at(path_, line,
+            "{} holds {}; give text in quotes, a number, true or false, or an array of texts or "
+            "numbers",
+            name,
+            node.is_table()   ? "a table"
+            : node.is_array() ? "an array"
+                              : "a date or time");
   }
 
   const std::string& path_;

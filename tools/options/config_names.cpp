@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/config_names.h"
 
+#include "text/text.h"
+
 namespace calotte::tools {
 
 std::string BorrowedName::ours(const std::string& value) const {
@@ -13,12 +15,11 @@ std::string BorrowedName::ours(const std::string& value) const {
 }
 
 std::string BorrowedName::known() const {
-  std::string list;
-  for (const Value& value : values) {
-    list += list.empty() ? "" : ", ";
-    list += value.number.empty() ? value.word : value.number + " (" + value.word + ")";
-  }
-  return list;
+  std::vector<std::string> list;
+  for (const Value& value : values)
+    list.push_back(value.number.empty() ? value.word
+                                        : message("{} ({})", value.number, value.word));
+  return listed(list);
 }
 
 const std::vector<BorrowedName>& borrowed_names() {

@@ -61,12 +61,11 @@ std::string mismatch(const CLI::Option& option, const std::vector<ConfigValue>& 
   if (is_flag(option))
     return values.size() == 1 && values[0].kind == Kind::truth ? "" : "takes true or false";
   if (of_kind(Kind::truth))
-    return "takes " + kind_of(option) + ", not true or false";
+    return message("takes {}, not true or false", kind_of(option));
   if (of_kind(Kind::number) && takes_text_alone(option))
     return "takes text in quotes, not a number";
   if (values.size() > static_cast<std::size_t>(option.get_items_expected_max()))
-    return "takes one value, and the array has " + std::to_string(values.size()) +
-           "; keep one of them";
+    return message("takes one value, and the array has {}; keep one of them", values.size());
   return "";
 }
 
@@ -131,16 +130,16 @@ public:
     } else if (CLI::Option* option = option_of(command_, key)) {
       apply(setting, setting.values, *option);
     } else {
-      refuse(setting, "unknown option \"" + setting.key + "\"; " +
-                          remedy_for(key, known_names(command_), "",
-                                     "calotte " + command_.get_name() + " --help"));
+      refuse(setting, message("unknown option \"{}\"; {}", setting.key,
+                              remedy_for(key, known_names(command_), "",
+                                         message("calotte {} --help", command_.get_name()))));
     }
   }
 
 private:
   [[noreturn]] void refuse(const ConfigSetting& setting, const std::string& problem) const {
     throw Error(ErrorCode::invalid_argument,
-                path_ + " line " + std::to_string(setting.line) + ": " + problem, setting.line);
+                message("{} line {}: {}", path_, setting.line, problem), setting.line);
   }
 
   std::vector<ConfigValue> translated(const ConfigSetting& setting,
@@ -151,7 +150,8 @@ private:
     for (ConfigValue& value : values) {
       const std::string ours = borrowed.ours(value.text);
       if (ours.empty())
-        refuse(setting, setting.key + " " + value.text + " is not one of " + borrowed.known());
+        refuse(setting,
+               message("{} {} is not one of {}", setting.key, value.text, borrowed.known()));
       value = {Kind::text, ours};
     }
     return values;
@@ -177,10 +177,10 @@ private:
              CLI::Option& option) {
     const auto [earlier, fresh] = lines_.emplace(&option, setting.line);
     if (!fresh)
-      refuse(setting, option.get_lnames().front() + " is given twice, also on line " +
-                          std::to_string(earlier->second) + "; leave one out");
+      refuse(setting, message("{} is given twice, also on line {}; leave one out",
+                              option.get_lnames().front(), earlier->second));
     if (const std::string problem = mismatch(option, values); !problem.empty())
-      refuse(setting, setting.key + " " + problem);
+      refuse(setting, message("{} {}", setting.key, problem));
     if (overruled(option) || (is_flag(option) && values[0].text == "false"))
       return;
     try {

@@ -43,19 +43,19 @@ struct BumpWords {
 };
 
 [[noreturn]] void refuse_density(const std::string& text, const std::string& problem) {
-  refuse("--density \"" + text + "\": " + problem);
+  refuse(message("--density \"{}\": {}", text, problem));
 }
 
 [[noreturn]] void refuse_value(const BumpWords& words, const std::string& key,
                                const std::string& remedy) {
-  refuse_density(words.text, key + " \"" + words.values.at(key) + "\" " + remedy);
+  refuse_density(words.text, message("{} \"{}\" {}", key, words.values.at(key), remedy));
 }
 
 void require_known(const std::string& text, const std::string& key, const Grammar& grammar) {
   std::vector<std::string> known(grammar.needed.begin(), grammar.needed.end());
   known.insert(known.end(), grammar.further.begin(), grammar.further.end());
   if (std::find(known.begin(), known.end(), key) == known.end())
-    refuse_density(text, "unknown key \"" + key + "\"; the keys are " + joined(known));
+    refuse_density(text, message("unknown key \"{}\"; the keys are {}", key, listed(known)));
 }
 
 /// The paper's bump by its contrast of widths, such as x8.
@@ -70,14 +70,15 @@ BumpWords parse_bump(const std::string& text, const Grammar& grammar) {
             {{"lon", "270"}, {"lat", "30"}, {"beta", "30deg"}, {"alpha", "0.2"}, {"gamma", text}}};
   constexpr std::string_view kind = "tanh:";
   if (!text.starts_with(kind))
-    refuse_density(text, std::string("not a density; give uniform or, for instance, ") +
-                             (&grammar == &on_sphere ? "x8 or " : "") + grammar.example);
+    refuse_density(text, message("not a density; give uniform or, for instance, {}{}",
+                                 &grammar == &on_sphere ? "x8 or " : "", grammar.example));
   BumpWords words{text, {}};
   std::istringstream rest(text.substr(kind.size()));
   for (std::string word; std::getline(rest, word, ',');) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos)
-      refuse_density(text, "\"" + word + "\" is not key=value; write it as " + grammar.example);
+      refuse_density(text,
+                     message("\"{}\" is not key=value; write it as {}", word, grammar.example));
     const std::string key = word.substr(0, equals);
     require_known(text, key, grammar);
     if (!words.values.emplace(key, word.substr(equals + 1)).second)
@@ -85,11 +86,11 @@ BumpWords parse_bump(const std::string& text, const Grammar& grammar) {
   }
   for (const char* key : grammar.needed)
     if (!words.values.contains(key))
-      refuse_density(text, std::string(key) + " is missing; write it as " + grammar.example);
+      refuse_density(text, message("{} is missing; write it as {}", key, grammar.example));
   const auto [stretch, turn] = grammar.further;
   if (words.values.contains(stretch) != words.values.contains(turn))
-    refuse_density(text, std::string("stretch and ") + turn +
-                             " define an ellipse together; give both or none");
+    refuse_density(text,
+                   message("stretch and {} define an ellipse together; give both or none", turn));
   return words;
 }
 
@@ -116,8 +117,8 @@ double positive_angle(const BumpWords& words, const std::string& key) {
   if (!value || *value <= 0)
     refuse_value(words, key, "is not a positive angle; give radians, or degrees as 30deg");
   if (!in_degrees && *value > std::numbers::pi)
-    warn("--density \"" + words.text + "\": " + key + " is " + shortest(*value) +
-         " radians, more than pi; for degrees give " + key + "=" + shortest(*value) + "deg");
+    warn(message("--density \"{}\": {} is {} radians, more than pi; for degrees give {}={}deg",
+                 words.text, key, *value, key, *value));
   return in_degrees ? *value * std::numbers::pi / 180 : *value;
 }
 
@@ -143,7 +144,7 @@ double stretch_of(const BumpWords& words) {
   return *value;
 }
 
-/// The unit tangent at a place, in the direction so many degrees clockwise from north.
+/// The unit tangent at a point, in the direction so many degrees clockwise from north.
 Eigen::Vector3d heading(double longitude, double latitude, double azimuth) {
   const Eigen::Vector3d east = direction_at(longitude + 90, 0);
   const Eigen::Vector3d north = latitude > 0 ? direction_at(longitude + 180, 90 - latitude)
@@ -276,13 +277,13 @@ std::vector<std::string> density_names(const DensityWords& words) {
 }
 
 std::string density_name(const DensityWords& words) {
-  return joined(density_names(words), " and ");
+  return listed(density_names(words), " and ", " and ");
 }
 
 std::string derived_density(const std::string& path, const DoubleVector& density) {
-  return path + ": no density is given; meshDensity follows from the smoothed spacing of the " +
-         "cells, which varies by a factor of " +
-         formatted("%.3g", std::pow(density.minCoeff(), -0.25)) + "\n";
+  return message("{}: no density is given; meshDensity follows from the smoothed spacing of the "
+                 "cells, which varies by a factor of {}\n",
+                 path, formatted("%.3g", std::pow(density.minCoeff(), -0.25)));
 }
 
 std::string density_configuration(const DensityWords& words) {
@@ -290,8 +291,8 @@ std::string density_configuration(const DensityWords& words) {
     return width_configuration(words.widths);
   std::string text;
   for (const std::string& density : density_names(words))
-    text += "density " + density + "\n";
-  return words.densities.size() > 1 ? text + "join " + words.join + "\n" : text;
+    text += message("density {}\n", density);
+  return words.densities.size() > 1 ? text + message("join {}\n", words.join) : text;
 }
 
 } // namespace calotte::tools

@@ -35,7 +35,7 @@ DoubleVector levels_of(const std::string& word) {
   for (std::string item; in >> item;) {
     const std::optional<double> level = parse_number(item);
     if (!level)
-      refuse("--depth-levels " + word + ": \"" + item + "\" is not a number; give metres");
+      refuse(message("--depth-levels {}: \"{}\" is not a number; give metres", word, item));
     levels.push_back(*level);
   }
   return Eigen::Map<const Eigen::VectorXd>(levels.data(), std::ssize(levels));
@@ -56,9 +56,10 @@ DoubleVector bottom_of(const std::string& name, const MeshFile& file) {
     if (field.name == name && field.location == FieldLocation::cells &&
         field.values.size() == sites)
       return depths_of(field.values);
-  refuse("--depth " + name +
-         ": the input has no field of that name with a number for each cell; give another, or "
-         "metres for a flat bottom");
+  refuse(
+      message("--depth {}: the input has no field of that name with a number for each cell; give "
+              "another, or metres for a flat bottom",
+              name));
 }
 
 } // namespace

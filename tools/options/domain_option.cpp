@@ -17,9 +17,10 @@ namespace {
 Surface rectangle_of(const std::string& word) {
   const auto sides = numbers_of<4>(word);
   if (!sides || !((*sides)[0] < (*sides)[2]) || !((*sides)[1] < (*sides)[3]))
-    refuse("--rectangle " + word +
-           " is not a rectangle; give its lower left and upper "
-           "right corners, as in --rectangle 0,0,2,1");
+    refuse(
+        message("--rectangle {} is not a rectangle; give its lower left and upper right corners, "
+                "as in --rectangle 0,0,2,1",
+                word));
   return rectangle({(*sides)[0], (*sides)[1]}, {(*sides)[2], (*sides)[3]});
 }
 
@@ -93,9 +94,9 @@ MeshFile hexagons_of(const DomainWords& words) {
   const auto numbers = numbers_of<3>(*words.hexagons);
   const auto whole = [](double x) { return x >= 1 && x <= 1e9 && x == std::floor(x); };
   if (!numbers || !whole((*numbers)[0]) || !whole((*numbers)[1]) || !((*numbers)[2] > 0))
-    refuse("--hexagons " + *words.hexagons +
-           " is not two counts and a distance; give columns, rows and the distance of "
-           "the centres, as in --hexagons 16,50,10000");
+    refuse(message("--hexagons {} is not two counts and a distance; give columns, rows and the "
+                   "distance of the centres, as in --hexagons 16,50,10000",
+                   *words.hexagons));
   return planar_hexagons(static_cast<std::int64_t>((*numbers)[0]),
                          static_cast<std::int64_t>((*numbers)[1]), (*numbers)[2], walls_of(words));
 }
@@ -105,25 +106,28 @@ std::optional<Eigen::Vector2d> period_of(const std::optional<std::string>& word)
     return std::nullopt;
   const auto sides = numbers_of<2>(*word);
   if (!sides || !((*sides)[0] > 0) || !((*sides)[1] > 0))
-    refuse("--periodic " + *word +
-           " is not a box; give two positive lengths, as in --periodic 1000,866.025");
+    refuse(message(
+        "--periodic {} is not a box; give two positive lengths, as in --periodic 1000,866.025",
+        *word));
   return Eigen::Vector2d((*sides)[0], (*sides)[1]);
 }
 
 void set_surface(Mesh& mesh, const Surface& part) {
   const Eigen::Vector2d& period = mesh.surface.period();
   if (period != part.period())
-    refuse("the domain's period is not that of the mesh, " + shortest(period.x()) + " x " +
-           shortest(period.y()) + "; leave the domain out, or give that of the mesh");
+    refuse(message("the domain's period is not that of the mesh, {} x {}; leave the domain out, or "
+                   "give that of the mesh",
+                   shortest(period.x()), shortest(period.y())));
   mesh.surface = part;
 }
 
 std::string domain_configuration(const DomainWords& words) {
   if (words.file)
-    return "domain of " + checksum_of(*words.file) + "\n";
-  return words.rectangle ? "rectangle " + *words.rectangle + "\n"
-                         : "periodic " + *words.periodic + "\n" +
-                               (words.walls ? "walls " + *words.walls + "\n" : "");
+    return message("domain of {}\n", checksum_of(*words.file));
+  if (words.rectangle)
+    return message("rectangle {}\n", *words.rectangle);
+  return message("periodic {}\n{}", *words.periodic,
+                 words.walls ? message("walls {}\n", *words.walls) : "");
 }
 
 std::optional<Surface> surface_of(const DomainWords& words) {

@@ -4,8 +4,6 @@
 #include "io/command.h"
 #include "text/text.h"
 
-#include <calotte/error.h>
-
 #include <boost/crc.hpp>
 
 #include <array>
@@ -24,20 +22,18 @@ void require_folder(const std::string& path) {
   const std::filesystem::path parent = std::filesystem::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (std::error_code error; std::filesystem::is_directory(path, error))
-    throw Error(ErrorCode::file,
-                "cannot write " + path + ": it is a folder; give the name of a file");
+    fail_write(path, "it is a folder; give the name of a file");
   if (std::error_code error; !std::filesystem::is_directory(folder, error))
-    throw Error(ErrorCode::file, "cannot write " + path + ": the folder " + folder +
-                                     " does not exist; create it first");
+    fail_write(path, message("the folder {} does not exist; create it first", folder));
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(ErrorCode::file, "cannot write " + path + ": the folder " + folder + ": " +
-                                     std::generic_category().message(errno) + "; write elsewhere");
+    fail_write(path, message("the folder {}: {}; write elsewhere", folder,
+                             std::generic_category().message(errno)));
 }
 
 void require_distinct(const std::string& output, const std::string& input) {
   std::error_code absent;
   if (input != "-" && std::filesystem::equivalent(output, input, absent))
-    refuse(output + " is both input and output; give the output another name");
+    refuse(message("{} is both input and output; give the output another name", output));
 }
 
 namespace {
@@ -56,7 +52,7 @@ std::vector<std::string> with_named(const std::vector<std::string>& inputs) {
 
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& given) {
   const std::vector<std::string> inputs = with_named(given);
-  const auto place = [](const Output& output) {
+  const auto normal = [](const Output& output) {
     return std::filesystem::path(output.path).lexically_normal();
   };
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
@@ -66,9 +62,9 @@ void require_outputs(const std::vector<Output>& outputs, const std::vector<std::
     for (const std::string& input : inputs)
       require_distinct(output->path, input);
     for (auto other = outputs.begin(); other != output; ++other)
-      if (place(*other) == place(*output))
-        refuse(output->path + " is both " + other->what + " and " + output->what + "; give the " +
-               output->what + " another name");
+      if (normal(*other) == normal(*output))
+        refuse(message("{} is both {} and {}; give the {} another name", output->path, other->what,
+                       output->what, output->what));
   }
 }
 
@@ -76,12 +72,11 @@ void require_space(const std::string& path, double bytes) {
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code unknown;
   const auto space = std::filesystem::space(folder.empty() ? "." : folder, unknown);
-  const auto gigabytes = [](double size) { return formatted("%.3g", size / 1e9) + " GB"; };
+  const auto gigabytes = [](double size) { return formatted("%.3g GB", size / 1e9); };
   if (!unknown && static_cast<double>(space.available) < bytes)
-    throw Error(ErrorCode::file, "cannot write " + path + ": it will have about " +
-                                     gigabytes(bytes) + ", but the disk has " +
-                                     gigabytes(static_cast<double>(space.available)) +
-                                     " left; make room or write elsewhere");
+    fail_write(path, message("it will have about {}, but the disk has {} left; make room or write "
+                             "elsewhere",
+                             gigabytes(bytes), gigabytes(static_cast<double>(space.available))));
 }
 
 std::string checksum_of(const std::string& path) {
@@ -94,10 +89,9 @@ std::string checksum_of(const std::string& path) {
     size += in.gcount();
   }
   if (in.bad() || !in.eof())
-    throw Error(ErrorCode::file, "cannot read " + path + ": " +
-                                     std::generic_category().message(errno) +
-                                     "; check its name and its permissions");
-  return std::to_string(size) + " bytes with checksum " + std::to_string(checksum.checksum());
+    fail_read(path, message("{}; check its name and its permissions",
+                            std::generic_category().message(errno)));
+  return message("{} bytes with checksum {}", size, checksum.checksum());
 }
 
 } // namespace calotte::tools

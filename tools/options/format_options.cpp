@@ -28,10 +28,10 @@ Format chosen_format(const FormatWords& words, const std::string& path) {
   const ModelNeeds* const model = model_of(words.model);
   const Format format = calotte::format_of(path, given);
   if (model != nullptr && model->format != format)
-    refuse(path + ": --for " + model->word + " writes the format " + info_of(model->format).word +
-           ", not " + info_of(format).word + "; give " +
-           (model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc") +
-           (words.format ? ", and leave --format out" : ""));
+    refuse_path(path, "--for {} writes the format {}, not {}; give {}{}", model->word,
+                info_of(model->format).word, info_of(format).word,
+                model->format == Format::fesom ? "the name nod2d.out" : "a name that ends in .nc",
+                words.format ? ", and leave --format out" : "");
   return format;
 }
 
@@ -51,16 +51,15 @@ std::string names(bool (*of)(const FormatInfo&)) {
     for (const std::string& name : info.names)
       if (of(info) && std::find(all.begin(), all.end(), name) == all.end())
         all.push_back(name);
-  const std::string last = all.back();
-  all.pop_back();
-  return joined(all) + " or " + last;
+  return listed(all, " or ");
 }
 
 void require_radius(double radius, Format format, const std::string& path) {
   require_sphere_radius(radius);
   if (radius != 1 && !info_of(format).netcdf)
-    refuse("--sphere-radius " + shortest(radius) + " applies to NetCDF files only, not to " + path +
-           "; leave it out, or give a name that ends in .nc");
+    refuse(message("--sphere-radius {} applies to NetCDF files only, not to {}; leave it out, or "
+                   "give a name that ends in .nc",
+                   shortest(radius), path));
 }
 
 } // namespace
@@ -122,7 +121,7 @@ WriteOptions options_of(const FormatWords& words, const std::string& path) {
   if (words.order)
     options.numbering = numberings.at(*words.order);
   if (words.order && *words.order != "input" && options.format == Format::triangles)
-    refuse(path + " holds triangles that refer to the input points; leave --order out");
+    refuse(message("{} holds triangles that refer to the input points; leave --order out", path));
   return options;
 }
 

@@ -20,15 +20,15 @@ void add_global(CLI::App& command, std::string& path) {
 
 void require_mpas_name(const std::string& output) {
   if (format_of(output) != Format::mpas)
-    refuse(output + ": the grid is an MPAS file; give a name that ends in .nc");
+    refuse_path(output, "the grid is an MPAS file; give a name that ends in .nc");
 }
 
 void require_mpas_model(const std::optional<std::string>& model) {
   if (const ModelNeeds* const known = model_of(model);
       known != nullptr && known->format != Format::mpas)
-    refuse("--for " + known->word +
-           ": the grid is an MPAS file; leave the option out, and convert the grid with "
-           "calotte convert GRID.nc nod2d.out");
+    refuse(message("--for {}: the grid is an MPAS file; leave the option out, and convert the grid "
+                   "with calotte convert GRID.nc nod2d.out",
+                   known->word));
 }
 
 } // namespace calotte::tools

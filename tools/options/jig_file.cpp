@@ -5,8 +5,6 @@
 #include "text/jigsaw_options.h"
 #include "text/text.h"
 
-#include <calotte/error.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -42,13 +40,13 @@ JigFile::JigFile(const std::string& path) : path_(path) {
       continue;
     const std::size_t equals = content.find('=');
     if (equals == std::string::npos)
-      refuse_line(path, number, "not a line NAME = VALUE; correct it");
+      fail_at(path, number, "not a line NAME = VALUE; correct it");
     const std::string name = in_case(std::toupper, trimmed(content.substr(0, equals)));
     const JigsawOption* const option = jigsaw_option(name);
     if (option == nullptr)
-      refuse_line(path, number, "JIGSAW has no option " + name + "; see calotte help jig");
+      fail_at(path, number, "JIGSAW has no option {}; see calotte help jig", name);
     if (option->use == JigsawUse::refused)
-      refuse_line(path, number, name + ": " + std::string(option->what) + "; leave it out");
+      fail_at(path, number, "{}: {}; leave it out", name, option->what);
     options_[name] = {trimmed(content.substr(equals + 1)), number};
   }
 }
@@ -76,7 +74,7 @@ std::optional<double> JigFile::number(const std::string& name) const {
   const char* const end = option->value.data() + option->value.size();
   const auto [rest, problem] = std::from_chars(begin, end, value);
   if (problem != std::errc() || rest != end || std::isnan(value))
-    refuse(name, "\"" + option->value + "\" is no number");
+    refuse(name, message("\"{}\" is no number", option->value));
   return value;
 }
 
@@ -84,27 +82,27 @@ std::optional<int> JigFile::whole(const std::string& name) const {
   const std::optional<double> value = number(name);
   constexpr double most = 1e9;
   if (value && !(*value == std::floor(*value) && std::abs(*value) <= most))
-    refuse(name, "\"" + *text(name) + "\" is no whole number");
+    refuse(name, message("\"{}\" is no whole number", *text(name)));
   return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
 }
 
 std::string JigFile::file(const std::string& name) const {
   const std::optional<std::string> path = text(name);
   if (!path || path->empty())
-    throw Error(ErrorCode::parse, path_ + ": no " + name + "; give the name of a file");
+    fail_file(path_, "no {}; give the name of a file", name);
   return *path;
 }
 
 void JigFile::refuse(const std::string& name, const std::string& problem) const {
-  refuse_line(path_, find(name)->line, name + ": " + problem);
+  fail_at(path_, find(name)->line, "{}: {}", name, problem);
 }
 
 std::vector<std::string> JigFile::ignored() const {
   std::vector<std::pair<std::int64_t, std::string>> lines;
   for (const auto& [name, option] : options_)
     if (const JigsawOption* const known = jigsaw_option(name); known->use == JigsawUse::ignored)
-      lines.emplace_back(option.line, path_ + " line " + std::to_string(option.line) + ": " + name +
-                                          " has no effect: " + std::string(known->what));
+      lines.emplace_back(option.line, message("{} line {}: {} has no effect: {}", path_,
+                                              option.line, name, known->what));
   std::sort(lines.begin(), lines.end());
   std::vector<std::string> texts;
   for (auto& [line, text] : lines)

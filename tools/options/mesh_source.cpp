@@ -21,7 +21,7 @@ std::shared_ptr<MeshSource> add_mesh_source(CLI::App& command, const std::string
   auto source = std::make_shared<MeshSource>();
   command
       .add_option(names, source->path,
-                  "Input mesh: " + names_of_read_meshes() + "; or .txt and .tri")
+                  message("Input mesh: {}; or .txt and .tri", names_of_read_meshes()))
       ->type_name("FILE")
       ->required();
   command.add_option("--points", source->points, "Points to which a .txt or .tri file refers")
@@ -37,7 +37,7 @@ namespace {
 std::string first_off_plane(const MeshFile& file) {
   for (Eigen::Index i = 0; file.mesh && i < file.mesh->points.cols(); ++i)
     if (file.mesh->points(2, i) != 0)
-      return ": z is not 0 at point " + std::to_string(i);
+      return message(": z is not 0 at point {}", i);
   return "";
 }
 
@@ -50,8 +50,8 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice) {
                           : read_point_file(source.points, source.lonlat).points;
   MeshFile file = calotte::read_mesh_file(source.path, points ? &*points : nullptr, choice);
   if (source.plane && !file.plane())
-    refuse(source.path + ": it holds no mesh of the plane" + first_off_plane(file) +
-           "; leave --plane out");
+    refuse_path(source.path, "it holds no mesh of the plane{}; leave --plane out",
+                first_off_plane(file));
   if (!source.plane && source.points.empty() && is_netcdf(file))
     warn_of_radius(file.sphere_radius, source.path);
   return file;
@@ -69,7 +69,7 @@ std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
 std::string changes_of(const MeshSource& source, const MeshFile& file) {
   std::string lines;
   for (const std::string& change : file.changes)
-    lines += source.path + ": " + change + "\n";
+    lines += message("{}: {}\n", source.path, change);
   return lines;
 }
 

@@ -32,9 +32,9 @@ std::optional<double> radius_for(const ModelNeeds* model, std::optional<double> 
   if (model == nullptr)
     return given;
   if (given && !suits(*model, model->format, *given, model->vertex_order, model->dimensions))
-    refuse("--for " + model->word + " needs a sphere with a radius of " +
-           shortest(model->sphere_radius) + ", not --sphere-radius " + shortest(*given) +
-           "; leave one of them out");
+    refuse(message("--for {} needs a sphere with a radius of {}, not --sphere-radius {}; leave one "
+                   "of them out",
+                   model->word, shortest(model->sphere_radius), shortest(*given)));
   return given.value_or(model->sphere_radius);
 }
 
@@ -48,10 +48,10 @@ std::string suited_models(const std::string& path, const WriteOptions& options) 
       names.push_back(model.name);
   const std::string radius = options.sphere_radius == 1
                                  ? "unit sphere"
-                                 : "sphere of " + shortest(options.sphere_radius) + " m";
-  return path + ": " + radius +
-         (names.empty() ? ", for no model; name one with --for\n"
-                        : ", for " + joined(names, " and ") + "; for others see --for\n");
+                                 : message("sphere of {} m", shortest(options.sphere_radius));
+  return message("{}: {}, for {}\n", path, radius,
+                 names.empty() ? "no model; name one with --for"
+                               : listed(names, " and ", " and ") + "; for others see --for");
 }
 
 } // namespace calotte::tools

@@ -14,13 +14,18 @@
 namespace calotte::tools {
 
 std::string lonlat_words(double longitude, double latitude) {
-  return formatted("%.1f", std::abs(longitude)) + (longitude < 0 ? " W " : " E ") +
-         formatted("%.1f", std::abs(latitude)) + (latitude < 0 ? " S" : " N");
+  return message("{} {} {} {}", formatted("%.1f", std::abs(longitude)), longitude < 0 ? "W" : "E",
+                 formatted("%.1f", std::abs(latitude)), latitude < 0 ? "S" : "N");
 }
 
 Eigen::Vector3d direction_at(double longitude, double latitude) {
   std::istringstream in(shortest(longitude) + " " + shortest(latitude));
   return read_points(in, "a place", Columns::lonlat).col(0);
+}
+
+void require_positive(const std::string& option, double value, const std::string& remedy) {
+  require(value > 0 && std::isfinite(value), "{} {} is not a positive number; give {}", option,
+          value, remedy);
 }
 
 std::optional<Measure> measure_of(const std::string& text) {
@@ -44,7 +49,7 @@ CLI::Validator kilometres() {
             const std::optional<Measure> width = measure_of(text);
             if (!width || (!width->unit.empty() && width->unit != "km") || !(width->value > 0) ||
                 !std::isfinite(width->value))
-              return "\"" + text + "\" is not a positive number; give km, such as 60km";
+              return message("\"{}\" is not a positive number; give km, such as 60km", text);
             text = shortest(width->value);
             return "";
           },
@@ -53,14 +58,14 @@ CLI::Validator kilometres() {
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   const std::string range = most == std::numeric_limits<int>::max()
-                                ? ">= " + std::to_string(least)
-                                : "from " + std::to_string(least) + " to " + std::to_string(most);
+                                ? message(">= {}", least)
+                                : message("from {} to {}", least, most);
   return {[=](std::string& text) -> std::string {
             std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
             const auto [stop, problem] = std::from_chars(text.data(), end, value);
             if (problem != std::errc() || stop != end || value < least || value > most)
-              return "\"" + text + "\" is not an integer " + range;
+              return message("\"{}\" is not an integer {}", text, range);
             text = std::to_string(value); // CLI11 takes leading zeros for octal
             return "";
           },

@@ -36,8 +36,11 @@ std::optional<std::array<double, count>> numbers_of(std::string_view text) {
   return at == end ? std::optional(numbers) : std::nullopt;
 }
 
-/// The unit vector at a place in degrees, as points in a file become one.
+/// The unit vector at a longitude and a latitude in degrees, as points in a file become one.
 Eigen::Vector3d direction_at(double longitude, double latitude);
+
+/// \param remedy "one such as 10". \throws Error invalid_argument unless positive and finite.
+void require_positive(const std::string& option, double value, const std::string& remedy);
 
 /// A number with a unit.
 struct Measure {

@@ -13,28 +13,19 @@
 namespace calotte::tools {
 namespace {
 
-/// Calls body(field) for the text between separators.
-template <class Body> void for_each_field(std::string_view text, char separator, const Body& body) {
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    body(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-}
-
 /// "16", "16:32" or "16:32:4"; none for other text.
 std::optional<PartCounts> range_of(std::string_view text) {
   std::array<std::int64_t, 3> numbers{0, 0, 1};
   std::size_t count = 0;
   bool valid = true;
-  for_each_field(text, ':', [&](std::string_view field) {
+  for (const std::string& field : split(text, ':')) {
     std::int32_t number = 0;
     const char* const end = field.data() + field.size();
     const auto [stop, problem] = std::from_chars(field.data(), end, number);
     valid = valid && count < 3 && problem == std::errc() && stop == end && number >= 1;
     if (valid)
       numbers[count++] = number;
-  });
+  }
   if (count == 1)
     numbers[1] = numbers[0];
   if (!valid || numbers[0] > numbers[1])
@@ -47,14 +38,14 @@ std::optional<PartCounts> range_of(std::string_view text) {
 std::vector<PartCounts> part_counts(const std::vector<std::string>& words) {
   std::vector<PartCounts> ranges;
   for (const std::string& word : words)
-    for_each_field(word, ',', [&](std::string_view field) {
+    for (const std::string& field : split(word, ',')) {
       const std::optional<PartCounts> range = range_of(field);
-      if (!range)
-        refuse("\"" + std::string(field) +
-               "\" is no number of parts; give integers >= 1, or ranges FIRST:LAST:STEP such as "
-               "16:512:16");
+      require(range.has_value(),
+              "\"{}\" is no number of parts; give integers >= 1, or ranges FIRST:LAST:STEP such as "
+              "16:512:16",
+              field);
       ranges.push_back(*range);
-    });
+    }
   return ranges;
 }
 
@@ -63,8 +54,8 @@ std::vector<std::int64_t> counts_of(const std::vector<PartCounts>& ranges, std::
   std::vector<std::int64_t> counts;
   for (const PartCounts& range : ranges) {
     if (range.last > cells)
-      refuse(mesh + ": " + std::to_string(cells) + " cells cannot make " +
-             std::to_string(range.last) + " parts; give numbers up to " + std::to_string(cells));
+      refuse_path(mesh, "{} cells cannot make {} parts; give numbers up to {}", cells, range.last,
+                  cells);
     for (std::int64_t count = range.first; count <= range.last; count += range.step)
       counts.push_back(count);
   }

@@ -18,8 +18,9 @@ PointFile read_text_points(const std::string& path, Columns columns) {
   PointLines read =
       path == "-" ? read_point_lines(std::cin, name, columns) : read_point_lines(path, columns);
   if (read.further_columns)
-    warn(name + ": columns after the first " + (columns == Columns::xyz ? "3 are" : "2 are") +
-         " ignored; a header that names the columns says which count");
+    warn(message("{}: columns after the first {} are ignored; a header that names the columns says "
+                 "which count",
+                 name, columns == Columns::xyz ? 3 : 2));
   return {name, std::move(read.points), std::move(read.lines)};
 }
 
@@ -28,7 +29,7 @@ PointFile read_text_points(const std::string& path, Columns columns) {
 PointFile read_point_file(const std::string& path, bool lonlat) {
   if (holds_points(path)) {
     if (lonlat)
-      refuse(path + ": the points of a mesh are x y z; leave --lonlat out, or give text");
+      refuse_path(path, "the points of a mesh are x y z; leave --lonlat out, or give text");
     return {path, read_sites(path), {}};
   }
   return read_text_points(path, lonlat ? Columns::lonlat : Columns::xyz);
@@ -39,7 +40,7 @@ PointFile read_planar_point_file(const std::string& path) {
     return read_text_points(path, Columns::xy);
   Mesh mesh = read_mesh(path);
   if (mesh.surface.is_sphere())
-    refuse(path + ": it holds points of the sphere, not of a plane");
+    refuse_path(path, "it holds points of the sphere, not of a plane");
   return {path, std::move(mesh.points), {}};
 }
 
@@ -57,7 +58,7 @@ void rethrow_with_line(const Error& error, const std::string& name,
   if (!of_input || error.index() < 0 || error.index() >= static_cast<std::int64_t>(lines.size()))
     throw error;
   const std::int64_t line = lines[static_cast<std::size_t>(error.index())];
-  throw Error(error.code(), name + " line " + std::to_string(line) + ": " + error.what(), line);
+  throw Error(error.code(), message("{} line {}: {}", name, line, error.what()), line);
 }
 
 } // namespace calotte::tools

@@ -34,18 +34,7 @@ struct OptionWord {
 };
 
 [[noreturn]] void refuse_word(const OptionWord& word, const std::string& problem) {
-  refuse(word.option + " " + word.text + ": " + problem + "; give " + word.form);
-}
-
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos;
-       comma = text.find(',')) {
-    parts.emplace_back(text.substr(0, comma));
-    text.remove_prefix(comma + 1);
-  }
-  parts.emplace_back(text);
-  return parts;
+  refuse(message("{} {}: {}; give {}", word.option, word.text, problem, word.form));
 }
 
 /// A number of degrees, with or without the unit.
@@ -53,8 +42,8 @@ double degrees(const OptionWord& word, std::size_t part, double limit) {
   const std::optional<Measure> angle = measure_of(word.parts[part]);
   if (!angle || !(angle->unit.empty() || angle->unit == "deg") ||
       !(std::abs(angle->value) <= limit))
-    refuse_word(word, "\"" + word.parts[part] + "\" is no angle from " + shortest(-limit) + " to " +
-                          shortest(limit) + " degrees");
+    refuse_word(
+        word, message("\"{}\" is no angle from {} to {} degrees", word.parts[part], -limit, limit));
   return angle->value;
 }
 
@@ -67,23 +56,24 @@ double length(const OptionWord& word, std::size_t part, double radius_km) {
                        : unit == "deg" ? size->value * degree
                                        : 0;
   if (!(angle > 0))
-    refuse_word(word, "\"" + word.parts[part] + "\" is no positive length such as 1000km or 30deg");
+    refuse_word(word,
+                message("\"{}\" is no positive length such as 1000km or 30deg", word.parts[part]));
   return angle;
 }
 
 /// Two parts as a direction.
-Eigen::Vector3d place(const OptionWord& word, std::size_t part = 0) {
+Eigen::Vector3d direction(const OptionWord& word, std::size_t part = 0) {
   return direction_at(degrees(word, part, 720), degrees(word, part + 1, 90));
 }
 
 Surface made_of(const OptionWord& word, std::string_view shape, double radius_km) {
   if (shape == "circle")
-    return circle(place(word), length(word, 2, radius_km));
+    return circle(direction(word), length(word, 2, radius_km));
   if (shape == "ellipse")
-    return ellipse(place(word), length(word, 2, radius_km), length(word, 3, radius_km),
+    return ellipse(direction(word), length(word, 2, radius_km), length(word, 3, radius_km),
                    degrees(word, 4, 360) * degree);
   if (shape == "land")
-    return land_around(read_coast(word.parts[0]), place(word, 1));
+    return land_around(read_coast(word.parts[0]), direction(word, 1));
   return channel(degrees(word, 0, 90) * degree, degrees(word, 1, 90) * degree);
 }
 
@@ -91,7 +81,7 @@ constexpr std::string_view land = "land=";
 
 /// The parts of a word: of a file of land, all but the last two are its name.
 std::vector<std::string> parts_of(const std::string& word) {
-  std::vector<std::string> parts = split(std::string_view(word).substr(word.find('=') + 1));
+  std::vector<std::string> parts = split(std::string_view(word).substr(word.find('=') + 1), ',');
   for (; word.starts_with(land) && parts.size() > 3; parts.erase(parts.begin() + 1))
     parts[0] += "," + parts[1];
   return parts;
@@ -100,8 +90,8 @@ std::vector<std::string> parts_of(const std::string& word) {
 /// \throws Error unless a word has so many parts.
 void require_parts(const OptionWord& word, std::size_t count) {
   if (word.parts.size() != count)
-    refuse_word(word, "the number of values is " + std::to_string(word.parts.size()) +
-                          " instead of " + std::to_string(count));
+    refuse_word(word,
+                message("the number of values is {} instead of {}", word.parts.size(), count));
 }
 
 /// Whether a word is name=values, and no file.
@@ -122,15 +112,17 @@ Surface shape_or_file(const std::string& word, double radius_km) {
   for (const auto& [shape, form] : shapes)
     if (word.starts_with(shape + "=")) {
       const OptionWord parsed{"--region", word, form, parts_of(word)};
-      require_parts(parsed, split(form.substr(0, form.find(", as"))).size());
+      require_parts(parsed, split(form.substr(0, form.find(", as")), ',').size());
       return made_of(parsed, shape, radius_km);
     }
   if (is_unknown_shape(word)) {
     std::vector<std::string> names;
     for (const auto& [shape, form] : shapes)
       names.push_back(shape + "=");
-    refuse("--region " + word + ": there is no such shape, and no such file; give " +
-           joined(names) + " or the file of a region, see calotte help region");
+    refuse(
+        message("--region {}: there is no such shape, and no such file; give {} or the file of a "
+                "region, see calotte help region",
+                word, listed(names)));
   }
   return read_region(word);
 }
@@ -183,12 +175,12 @@ Surface region_of(const std::string& word, const std::string& inside, double rad
   Surface region = shape_or_file(word, radius_km);
   if (inside.empty())
     return region;
-  const OptionWord parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside)};
+  const OptionWord parsed{"--inside", inside, "LON,LAT, as in -105,40", split(inside, ',')};
   require_parts(parsed, 2);
   try {
-    return region_around({region.rings().begin(), region.rings().end()}, place(parsed));
+    return region_around({region.rings().begin(), region.rings().end()}, direction(parsed));
   } catch (const Error& error) {
-    throw Error(error.code(), "--inside " + inside + ": " + error.what());
+    throw Error(error.code(), message("--inside {}: {}", inside, error.what()));
   }
 }
 
@@ -205,9 +197,8 @@ std::string region_configuration(const Surface& region) {
     checksum.process_bytes(ring.data(), static_cast<std::size_t>(ring.size()) * sizeof(double));
     corners += ring.cols();
   }
-  return "region of " + std::to_string(region.rings().size()) + " rings and " +
-         std::to_string(corners) + " corners with checksum " + std::to_string(checksum.checksum()) +
-         "\n";
+  return message("region of {} rings and {} corners with checksum {}\n", region.rings().size(),
+                 corners, checksum.checksum());
 }
 
 } // namespace calotte::tools

@@ -31,7 +31,7 @@ Points3 sorted_points(const Surface& surface, const Density& density) {
 
 std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface,
                                    const Density& density) {
-  // Places that follow the cells find rules of small parts with many of them.
+  // Points that follow the cells find rules of small parts with many of them.
   const Ids by_area = active_rules(rules.widths, sorted_points(surface, {})),
             by_cells =
                 active_rules(rules.widths, sorted_points(surface, site_density(density, surface)));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "options/sphere_radius_option.h"
 
+#include "options/numbers.h"
 #include "options/warning.h"
 #include "text/text.h"
 
 #include <CLI/App.hpp>
-
-#include <cmath>
 
 namespace calotte::tools {
 
@@ -21,7 +20,7 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
       text = shortest(earth_radius);
     return CLI::detail::lexical_cast(text, value)
                ? std::string()
-               : "\"" + text + "\" is not a number; give metres, or earth";
+               : message("\"{}\" is not a number; give metres, or earth", text);
   };
   command.add_option_function<double>("--sphere-radius", set, help)
       ->transform(CLI::Validator(translate, ""))
@@ -29,17 +28,15 @@ void add_sphere_radius(CLI::App& command, std::optional<double>& metres, const s
 }
 
 void require_sphere_radius(double metres) {
-  if (!(metres > 0) || !std::isfinite(metres))
-    refuse("--sphere-radius " + shortest(metres) +
-           " is not a positive number; give one such as 6371229, in metres");
+  require_positive("--sphere-radius", metres, "one such as 6371229, in metres");
 }
 
 void warn_of_radius(double metres, const std::string& origin) {
   constexpr double least = 1000, most = 10000;
   if (metres >= least && metres <= most)
-    warn(origin + ": a sphere with a radius of " + shortest(metres) +
-         " m is small; if these are km, give --sphere-radius " + formatted("%.10g", 1000 * metres) +
-         ", or --sphere-radius earth (" + shortest(earth_radius) + " m)");
+    warn(message("{}: a sphere with a radius of {} m is small; if these are km, give "
+                 "--sphere-radius {}, or --sphere-radius earth ({} m)",
+                 origin, shortest(metres), formatted("%.10g", 1000 * metres), earth_radius));
 }
 
 } // namespace calotte::tools

@@ -8,13 +8,12 @@
 namespace calotte::tools {
 
 std::string described(const CvtAction& action) {
-  std::string text = std::to_string(action.cells) + " cells";
-  if (action.times > 1)
-    text += ", up to " + std::to_string(action.times) + " times";
-  if (action.tolerance > 0)
-    text += "; " + std::string(word_of(action.norm)) + " " + formatted("%.0e", action.tolerance);
-  return text + (action.tolerance > 0 ? ", at most " : "; at most ") +
-         std::to_string(action.max_iterations) + " iterations";
+  return message("{} cells{}; {}at most {} iterations", action.cells,
+                 action.times > 1 ? message(", up to {} times", action.times) : "",
+                 action.tolerance > 0
+                     ? message("{} {}, ", word_of(action.norm), formatted("%.0e", action.tolerance))
+                     : "",
+                 action.max_iterations);
 }
 
 nlohmann::ordered_json to_json(const CvtAction& action) {

@@ -3,13 +3,13 @@
 
 #include "options/files.h"
 #include "options/global_option.h"
+#include "options/numbers.h"
 #include "options/region_option.h"
 #include "run/cvt_input.h"
 #include "text/text.h"
 
 #include <calotte/cut.h>
 
-#include <cmath>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -19,16 +19,11 @@
 namespace calotte::tools {
 namespace {
 
-void require_positive(const std::string& option, double value, const std::string& remedy) {
-  if (!(value > 0) || !std::isfinite(value))
-    refuse(option + " " + shortest(value) + " is not a positive number; give " + remedy);
-}
-
 /// A mesh with walls is one of cells, which lose their periods in other formats.
 void require_walls_format(const CvtRequest& request, const WriteOptions& options) {
   const Walls walls = walls_of(*request.domain);
   if ((walls.x || walls.y) && format_of(request.mesh, options.format) != Format::mpas)
-    refuse(request.mesh + ": a plane with walls is written as MPAS; give a name in .nc");
+    refuse_path(request.mesh, "a plane with walls is written as MPAS; give a name in .nc");
   if (request.domain->periodic && walls.x && walls.y)
     refuse("--walls xy leaves no period; give --rectangle, whose sides clip the cells");
 }
@@ -52,11 +47,11 @@ void require_region_format(const CvtRequest& request, const WriteOptions& option
   if (request.part.limited_area)
     require_mpas_name(request.mesh);
   if (!request.part.limited_area && info_of(format).cells)
-    refuse(request.mesh + ": this format has cells, which are open along the region's boundary; "
-                          "give --limited-area, or a file of triangles such as .vtp");
+    refuse_path(request.mesh, "this format has cells, which are open along the region's boundary; "
+                              "give --limited-area, or a file of triangles such as .vtp");
   if (format == Format::fesom)
-    refuse(request.mesh + ": FESOM takes no triangle with a single neighbour, as a boundary may "
-                          "have; write a .vtp file, and convert it to nod2d.out");
+    refuse_path(request.mesh, "FESOM takes no triangle with a single neighbour, as a boundary may "
+                              "have; write a .vtp file, and convert it to nod2d.out");
 }
 
 /// The name of the file that is written beside a full MPAS file; empty for other formats.
@@ -72,7 +67,7 @@ void require_hexagons(const CvtRequest& request) {
   static const std::set<std::string> allowed{"hexagons", "walls",  "output",  "format",
                                              "for",      "config", "threads", "numbering"};
   const auto exclude = [](const std::string& option) {
-    refuse("--hexagons makes a uniform grid without a run; leave " + option + " out");
+    refuse(message("--hexagons makes a uniform grid without a run; leave {} out", option));
   };
   if (!request.points.empty())
     exclude("START");

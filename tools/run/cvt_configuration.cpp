@@ -13,18 +13,18 @@ namespace {
 std::string start_of(const CvtRequest& request, const CvtInput& input, const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   const CvtStart::Kind kind = recipe.start.kind;
-  std::string text = "start " + std::string(word_of(kind)) + "\n" + input.points;
+  std::string text = message("start {}\n{}", word_of(kind), input.points);
   if (kind != CvtStart::Kind::points)
-    text += "cells " + std::to_string(recipe.cells) + "\n";
+    text += message("cells {}\n", recipe.cells);
   if (is_drawn(kind))
-    text += "seed " + std::to_string(recipe.seed) + "\n";
+    text += message("seed {}\n", recipe.seed);
   text += input.fixed;
   if (schedule.on_boundary > 0)
     text += "boundary generators\n";
   if (kind == CvtStart::Kind::multilevel)
-    text += "insertion-rounds " + std::to_string(*recipe.start.insertion_rounds) + "\n";
+    text += message("insertion-rounds {}\n", *recipe.start.insertion_rounds);
   else if (kind != CvtStart::Kind::continuation) // whose bisections follow from cells and density
-    text += "bisections " + std::to_string(recipe.start.bisections.value_or(0)) + "\n";
+    text += message("bisections {}\n", recipe.start.bisections.value_or(0));
   if (planar(request))
     text += domain_configuration(*request.domain);
   if (!request.part.region.empty())
@@ -34,11 +34,10 @@ std::string start_of(const CvtRequest& request, const CvtInput& input, const Sch
 
 std::string stopping_rule(const CvtRequest& request, const CvtStop& stop) {
   if (stop.iterations)
-    return "iterations " + std::to_string(*stop.iterations) + "\n";
-  const std::string spacing =
-      request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "";
-  return "norm " + request.norm + spacing + "\ntolerance " + shortest(*stop.tolerance) +
-         "\nmax-iterations " + std::to_string(stop.max_iterations) + "\n";
+    return message("iterations {}\n", *stop.iterations);
+  return message("norm {}{}\ntolerance {}\nmax-iterations {}\n", request.norm,
+                 request.least_spacing ? "\nleast-spacing " + shortest(*request.least_spacing) : "",
+                 shortest(*stop.tolerance), stop.max_iterations);
 }
 
 } // namespace
@@ -47,7 +46,7 @@ std::string configuration_of(const CvtRequest& request, const CvtInput& input,
                              const Schedule& schedule) {
   std::string text = "calotte " CALOTTE_VERSION "\n" + start_of(request, input, schedule);
   const auto add = [&](const std::string& name, const std::string& value) {
-    text += name + " " + value + "\n";
+    text += message("{} {}\n", name, value);
   };
   text += density_configuration(*request.density);
   add("method", request.method);
@@ -67,7 +66,7 @@ std::string history_of(const CvtRequest& request, const CvtStop& stop,
   for (const char* separator = ": "; std::getline(lines, fact); separator = "; ")
     history += separator + fact;
   if (!report.converged)
-    history += "; not converged, " + request.norm + " " + formatted("%.3g", report.residual);
+    history += message("; not converged, {} {}", request.norm, formatted("%.3g", report.residual));
   return history;
 }
 

@@ -17,11 +17,11 @@ constexpr int most_neighbours = 7;
 /// The arrays of a complete file, see lib/io/mpas/mpas_write.cpp, of n cells, 2n - 4 vertices and
 /// 3n - 6 edges. Cells, vertices and edges have five coordinates and a number each.
 double mpas_bytes(double cells, int neighbours) {
-  constexpr double real = 8, integer = 4, place = 5 * real + integer;
-  const double of_cell = place + integer * (1 + 3 * neighbours) + 4 * real,
-               of_vertex = place + integer * (3 + 1 + 3 + 1) + real * (1 + 3 + 2),
+  constexpr double real = 8, integer = 4, position = 5 * real + integer;
+  const double of_cell = position + integer * (1 + 3 * neighbours) + 4 * real,
+               of_vertex = position + integer * (3 + 1 + 3 + 1) + real * (1 + 3 + 2),
                of_edge =
-                   place + integer * (2 + 2 + 1) + 3 * real + 2 * neighbours * (integer + real);
+                   position + integer * (2 + 2 + 1) + 3 * real + 2 * neighbours * (integer + real);
   return cells * of_cell + (2 * cells - 4) * of_vertex + (3 * cells - 6) * of_edge;
 }
 
@@ -34,13 +34,13 @@ double vtp_bytes(double cells) {
 
 /// Seconds of a thread to evaluate the density at a point.
 double seconds_of_point(const Density& density) {
-  constexpr std::int64_t points = 1 << 14;
+  constexpr std::int64_t count = 1 << 14;
   constexpr int rounds = 3;
-  const Points3 places = fibonacci_sphere(points);
+  const Points3 points = fibonacci_sphere(count);
   double least = 1;
   for (int round = 0; round < rounds; ++round)
-    least = std::min(least, seconds_of([&] { evaluate(density, places); }));
-  return least / points;
+    least = std::min(least, seconds_of([&] { evaluate(density, points); }));
+  return least / count;
 }
 
 // Default runs with x4, x8, widths by latitude, in a band and by the Rossby radius as rasters, with

@@ -146,21 +146,20 @@ std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& 
 std::string describe(const CvtProgress& progress, const Schedule& schedule) {
   const CvtStop& stop = schedule.recipe.stop;
   const CvtIteration& last = progress.report.iterations.back();
-  std::string text = std::to_string(last.cells) + " cells, iteration " +
-                     std::to_string(progress.iterations_of_descent);
+  std::string text = message("{} cells, iteration {}", last.cells, progress.iterations_of_descent);
   const bool polishes = last.shape_excess > 0;
   if (polishes)
     text += formatted(", shapes %.2g beyond their limits", last.shape_excess);
   else if (!stop.iterations)
-    text += ", " + std::string(word_of(stop.norm)) + formatted(" %.2e", progress.report.residual) +
-            formatted(" of %.0e", *stop.tolerance);
+    text +=
+        message(", {} {} of {}", word_of(stop.norm), formatted("%.2e", progress.report.residual),
+                formatted("%.0e", *stop.tolerance));
   text += formatted(", energy x cells %.6g", last.energy * static_cast<double>(last.cells));
   if (progress.bisections_left > 0)
-    text += ", then " + std::to_string(progress.bisections_left) +
-            (progress.bisections_left == 1 ? " finer level" : " finer levels");
+    text += message(", then {}", counted(progress.bisections_left, "finer level"));
   if (const auto left = remaining(progress, schedule); left && !polishes) {
     const std::string from = duration(left->least), to = duration(left->most);
-    text += ", " + (from == to ? from : from + " to " + to) + " left";
+    text += message(", {} left", from == to ? from : message("{} to {}", from, to));
   }
   return text;
 }

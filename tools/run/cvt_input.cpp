@@ -25,8 +25,7 @@ namespace {
 template <class Points> std::string fingerprint(const std::string& name, const Points& points) {
   boost::crc_32_type checksum;
   checksum.process_bytes(points.data(), sizeof(double) * static_cast<std::size_t>(points.size()));
-  return name + " " + std::to_string(points.cols()) + " with checksum " +
-         std::to_string(checksum.checksum()) + "\n";
+  return message("{} {} with checksum {}\n", name, points.cols(), checksum.checksum());
 }
 
 /// The points of a file of either kind, in the plane with z = 0.
@@ -55,7 +54,7 @@ void read_fixed(const CvtRequest& request, CvtInput& input) {
     return;
   }
   input.fixed_file.name = request.fixed;
-  input.fixed = "lines of " + checksum_of(request.fixed) + "\n";
+  input.fixed = message("lines of {}\n", checksum_of(request.fixed));
 }
 
 // ---- The recipe
@@ -85,16 +84,6 @@ CvtStop stop_of(const CvtRequest& request) {
   return stop;
 }
 
-/// "1 line holds", "3 lines hold".
-std::string counted(std::ptrdiff_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-/// "once", "3 times".
-std::string times(std::size_t count) {
-  return count == 1 ? "once" : std::to_string(count) + " times";
-}
-
 } // namespace
 
 void require_start(const CvtRequest& request) {
@@ -109,7 +98,7 @@ void require_start(const CvtRequest& request) {
     refuse("START and --fixed are both standard input; give a file for one of them");
   const auto exclude = [&](bool given, const std::string& option) {
     if (file && given)
-      refuse("the start is the file " + request.points + "; leave " + option + " out");
+      refuse(message("the start is the file {}; leave {} out", request.points, option));
   };
   exclude(request.cells.has_value() || request.cells_of_widths, "--cells");
   exclude(request.start.has_value(), "--start");
@@ -171,9 +160,9 @@ Schedule plan_of(const CvtInput& input) {
   try {
     return plan(input.recipe);
   } catch (const Error& error) {
-    const std::string_view message = error.what();
-    if (message.starts_with("line ") || message.starts_with("a line "))
-      throw Error(error.code(), input.fixed_file.name + ": " + error.what(), error.index());
+    const std::string_view text = error.what();
+    if (text.starts_with("line ") || text.starts_with("a line "))
+      throw Error(error.code(), message("{}: {}", input.fixed_file.name, text), error.index());
     rethrow_with_line(error, input);
   }
 }
@@ -199,31 +188,34 @@ std::vector<std::string> notes_on(const CvtRequest& request, const CvtInput& inp
         notes_in_plane(*widths, words, schedule.implied_cells,
                        input.recipe.cells == 0 ? std::nullopt : std::optional(input.recipe.cells));
   else if (widths && input.recipe.surface.is_bounded() && follows)
-    notes.push_back(request.part.region + " requires " + std::to_string(cells) + " cells" +
-                    (request.part.limited_area ? ", with those of the rings and some beyond" : ""));
+    notes.push_back(
+        message("{} requires {} cells{}", request.part.region, cells,
+                request.part.limited_area ? ", with those of the rings and some beyond" : ""));
   else if (widths && !input.recipe.surface.is_bounded())
     notes = notes_on(*widths, words, input.gradient,
                      input.file.name.empty() && !(follows && fixed > 0) ? std::optional(cells)
                                                                         : std::nullopt);
   if (schedule.on_lines > 0)
-    notes.push_back(request.fixed + ": " +
-                    counted(std::ssize(input.recipe.lines), "line holds", "lines hold") + " " +
-                    std::to_string(schedule.on_lines) +
-                    " generators; no place on them is farther from one than " +
-                    formatted("%.2f", schedule.from_lines) + " of the cell width there");
+    notes.push_back(
+        message("{}: {} {} {} generators; no place on them is farther from one than {} of "
+                "the cell width there",
+                request.fixed, counted(std::ssize(input.recipe.lines), "line"),
+                input.recipe.lines.size() == 1 ? "holds" : "hold", schedule.on_lines,
+                formatted("%.2f", schedule.from_lines)));
   if (follows && fixed > 0)
-    notes.push_back(std::to_string(fixed) +
-                    (schedule.on_lines > 0 ? " fixed generators" : " fixed points") +
-                    " leave room for " + std::to_string(cells - fixed) +
-                    " free ones: " + std::to_string(cells) + " cells");
-  const auto bisections = static_cast<std::size_t>(
-      std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind));
+    notes.push_back(message("{} {} leave room for {} free ones: {} cells", fixed,
+                            schedule.on_lines > 0 ? "fixed generators" : "fixed points",
+                            cells - fixed, cells));
+  const std::int64_t bisections =
+      std::ranges::count(schedule.actions, CvtAction::Kind::bisect, &CvtAction::kind);
   if (schedule.recipe.start.kind == CvtStart::Kind::continuation &&
       schedule.first == CvtStart::Kind::density)
-    notes.push_back(std::to_string(cells) + " cells is not 10 x 4^k + 2: the start is " +
-                    std::to_string(schedule.actions.front().cells) +
-                    " points drawn from the density" +
-                    (bisections > 0 ? ", bisected " + times(bisections) : ""));
+    notes.push_back(
+        message("{} cells is not 10 x 4^k + 2: the start is {} points drawn from the density{}",
+                cells, schedule.actions.front().cells,
+                bisections == 0   ? ""
+                : bisections == 1 ? ", bisected once"
+                                  : message(", bisected {} times", bisections)));
   return notes;
 }
 

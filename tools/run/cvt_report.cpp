@@ -98,35 +98,34 @@ std::string to_json(const CvtRequest& request, const Schedule& schedule, const C
 }
 
 std::string residual_words(const CvtRequest& request, const CvtReport& report) {
-  return request.iterations ? "" : request.norm + " " + formatted("%.3g", report.residual);
+  return request.iterations ? ""
+                            : message("{} {}", request.norm, formatted("%.3g", report.residual));
 }
 
 std::string summary(const CvtRequest& request, const CvtStop& stop, const CvtReport& report,
                     std::int64_t cells, double area, std::int64_t before) {
-  const auto iterations = std::ssize(report.iterations);
-  std::string line = request.mesh + ": " + std::to_string(cells) + " cells, ";
-  if (!request.iterations)
-    line += !report.converged     ? "not converged, "
-            : report.well_centred ? "well-centred, "
-            : *stop.well_centred  ? "not well-centred, "
-                                  : "converged, ";
-  line += std::to_string(iterations) + (iterations == 1 ? " iteration" : " iterations");
+  const char* const end = request.iterations    ? ""
+                          : !report.converged   ? "not converged, "
+                          : report.well_centred ? "well-centred, "
+                          : *stop.well_centred  ? "not well-centred, "
+                                                : "converged, ";
+  std::string line = message("{}: {} cells, {}{}", request.mesh, cells, end,
+                             counted(std::ssize(report.iterations), "iteration"));
   if (before > 0)
-    line += " (" + std::to_string(before) + " before it was resumed)";
+    line += message(" ({} before it was resumed)", before);
   if (const std::string residual = residual_words(request, report); !residual.empty())
     line += ", " + residual;
-  if (iterations > 0) {
+  if (!report.iterations.empty()) {
     const CvtIteration& last = report.iterations.back();
-    line += std::string(", energy x cells ") + (planar(request) ? "/ area^2 " : "") +
-            formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area));
+    line +=
+        message(", energy x cells {}{}", planar(request) ? "/ area^2 " : "",
+                formatted("%.7g", last.energy * static_cast<double>(last.cells) / (area * area)));
+    if (last.off_centroid > 0)
+      line +=
+          message(", {} generators more than 0.01 of the spacing from their centroids (at most {})",
+                  last.off_centroid, formatted("%.2g", last.largest_offset));
   }
-  if (iterations > 0 && report.iterations.back().off_centroid > 0) {
-    const CvtIteration& last = report.iterations.back();
-    line += ", " + std::to_string(last.off_centroid) +
-            " generators more than 0.01 of the spacing from their centroids (at most " +
-            formatted("%.2g", last.largest_offset) + ")";
-  }
-  return line + ", " + formatted("%.2f", report.seconds) + " s";
+  return line + formatted(", %.2f s", report.seconds);
 }
 
 } // namespace calotte::tools

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "options/warning.h"
+
 #include <CLI/App.hpp>
+
+#include <iostream>
+#include <string>
 
 namespace calotte::tools {
 
@@ -19,5 +24,12 @@ enum ExitCode {
 
 /// Ends the command with an exit code, without a message.
 [[noreturn]] inline void finish(ExitCode code) { throw CLI::RuntimeError(code); }
+
+/// The same, with a message after all that standard output has.
+[[noreturn]] inline void finish(ExitCode code, const std::string& text) {
+  std::cout.flush();
+  complain(text);
+  finish(code);
+}
 
 } // namespace calotte::tools

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/kept_states.h"
 
+#include "text/text.h"
+
 #include <calotte/delaunay.h>
 #include <calotte/write.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 namespace calotte::tools {
 namespace {
 
-constexpr std::size_t digits = 6;
-
 /// "out/grid.000010.vtp"; a periodic box requires ".nc", which holds its periods.
 std::filesystem::path path_of(const std::string& mesh, std::size_t evaluation, bool periodic) {
-  const std::string number = std::to_string(evaluation);
   return std::filesystem::path(mesh).replace_extension(
-      std::string(digits - std::min(digits, number.size()), '0') + number +
-      (periodic ? ".nc" : ".vtp"));
+      formatted(periodic ? "%06.0f.nc" : "%06.0f.vtp", static_cast<double>(evaluation)));
 }
 
 /// The copies in the box of points that may have left it.

@@ -102,11 +102,11 @@ void add_whole_cells(const Measured& measured, nlohmann::ordered_json& json) {
 
 /// The counts that are not 0, each after its index.
 std::string counts_text(const std::vector<std::int64_t>& counts) {
-  std::string list;
+  std::vector<std::string> list;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i] > 0)
-      list += (list.empty() ? "" : ", ") + std::to_string(i) + ": " + std::to_string(counts[i]);
-  return list;
+      list.push_back(message("{}: {}", i, counts[i]));
+  return listed(list);
 }
 
 std::string degrees(const Quality& quality) { return counts_text(quality.degrees); }

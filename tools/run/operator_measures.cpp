@@ -41,7 +41,8 @@ public:
     const Eigen::Vector2d at = location(norms, on_sphere);
     add(label, formatted("%.4g", norms.l2), formatted("%.4g", norms.max),
         norms.cell < 0 ? "none" : std::to_string(norms.cell),
-        norms.cell < 0 ? "" : formatted("%.6g", at[0]) + ", " + formatted("%.6g", at[1]));
+        norms.cell < 0 ? ""
+                       : message("{}, {}", formatted("%.6g", at[0]), formatted("%.6g", at[1])));
   }
   void add(const std::string& name, double value) {
     out_ << std::left << std::setw(48) << name << formatted("%.5g", value) << "\n";
@@ -53,7 +54,7 @@ private:
 };
 
 std::string in_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + ", " + unit;
+  return unit.empty() ? name : message("{}, {}", name, unit);
 }
 
 } // namespace

@@ -56,7 +56,7 @@ void Progress::say(const std::string& line) {
   const std::lock_guard lock(mutex_);
   if (thread_.joinable())
     std::fprintf(stderr, "\r%s", clear_to_end);
-  std::fprintf(stderr, "%s\n", line.c_str());
+  std::fprintf(stderr, "calotte: %s\n", line.c_str());
 }
 
 void Progress::show() {

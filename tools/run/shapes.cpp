@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/shapes.h"
 
+#include "text/text.h"
+
 #include <calotte/check.h>
 
 #include <nlohmann/json.hpp>
@@ -54,10 +56,9 @@ void add_shapes(const PolygonShapes& found, const std::optional<Mesh>& mesh,
 std::string without_area(const PolygonShapes& found) {
   if (found.without_area == 0)
     return "";
-  return std::to_string(found.without_area) +
-         (found.without_area == 1 ? " cell has no area; it is cell "
-                                  : " cells have no area; the first is cell ") +
-         std::to_string(found.first_without_area);
+  const bool one = found.without_area == 1;
+  return message("{} {} no area; {} cell {}", counted(found.without_area, "cell"),
+                 one ? "has" : "have", one ? "it is" : "the first is", found.first_without_area);
 }
 
 } // namespace calotte::tools

@@ -42,7 +42,7 @@ DoubleVector slopes(const Values& spacing, const Points3& x, const DoubleVector&
 }
 
 struct Peak {
-  Eigen::Vector3d place;
+  Eigen::Vector3d position;
   double value;
 };
 
@@ -53,18 +53,18 @@ Peak highest(const Values& values, const Points3& x) {
   return {x.col(best), all[best]};
 }
 
-/// The maximum near a place, by lattices of a third of the width each.
+/// The maximum near a point, by lattices of a third of the width each.
 Peak climb(const Values& values, Peak peak) {
   constexpr int rounds = 8, side = 4;
   double reach = apart;
   for (int round = 0; round < rounds; ++round, reach /= 3) {
     Points3 around(3, (2 * side + 1) * (2 * side + 1));
-    const Eigen::Matrix<double, 3, 2> basis = tangents(peak.place);
+    const Eigen::Matrix<double, 3, 2> basis = tangents(peak.position);
     Eigen::Index column = 0;
     for (int i = -side; i <= side; ++i)
       for (int j = -side; j <= side; ++j)
         around.col(column++) =
-            (peak.place + reach / side * (basis * Eigen::Vector2d(i, j))).normalized();
+            (peak.position + reach / side * (basis * Eigen::Vector2d(i, j))).normalized();
     const Peak found = highest(values, around);
     if (found.value > peak.value)
       peak = found;
@@ -85,7 +85,7 @@ Values inside(const Values& values, const Surface& surface) {
   };
 }
 
-/// Places spread over a surface of the sphere.
+/// Points spread over a surface of the sphere.
 Points3 samples(const Surface& surface) {
   return surface.is_bounded() ? random_points(lattice, surface) : fibonacci_sphere(lattice);
 }
@@ -98,8 +98,8 @@ DoubleVector spacings_of(const Density& density, double unit, const Points3& x) 
 
 SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& surface,
                              double unit) {
-  const Points3 places = samples(surface);
-  const double root = surface.area() * evaluate(density, places).cwiseSqrt().mean();
+  const Points3 points = samples(surface);
+  const double root = surface.area() * evaluate(density, points).cwiseSqrt().mean();
   SpacingSurvey survey;
   survey.unit =
       unit > 0 ? unit : std::sqrt(2 / std::numbers::sqrt3 * root / static_cast<double>(cells));
@@ -113,13 +113,13 @@ SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const S
                            : DoubleVector::Constant(x.cols(), hundredth));
   };
   const auto peak = [&](const Values& values) {
-    return climb(inside(values, surface), highest(values, places));
+    return climb(inside(values, surface), highest(values, points));
   };
   survey.least = -peak(negative).value;
   survey.greatest = peak(spacing).value;
   const Peak steepest = peak(slope);
-  const Points2 place = to_lonlat(steepest.place);
-  survey.steepest = {steepest.value, place(0, 0), place(1, 0)};
+  const Points2 at = to_lonlat(steepest.position);
+  survey.steepest = {steepest.value, at(0, 0), at(1, 0)};
   return survey;
 }
 

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/text.h"
 
-#include <calotte/error.h>
-
 #include <array>
 #include <charconv>
 #include <cstdio>
 
 namespace calotte::tools {
-
-void refuse(const std::string& problem) { throw Error(ErrorCode::invalid_argument, problem); }
-
-void refuse_line(const std::string& path, std::int64_t line, const std::string& problem) {
-  throw Error(ErrorCode::parse, path + " line " + std::to_string(line) + ": " + problem, line);
-}
 
 std::string shortest(double value) {
   char digits[32];
@@ -26,11 +18,14 @@ std::string formatted(const char* format, double value) {
   return text.data();
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words)
-    text.append(&word == &words.front() ? "" : separator).append(word);
-  return text;
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t end = text.find(separator); end != text.npos; end = text.find(separator)) {
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  parts.emplace_back(text);
+  return parts;
 }
 
 } // namespace calotte::tools

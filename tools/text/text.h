@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include "base/message.h"
+#include "base/require.h"
+#include "io/bytes/file_error.h"
+
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The text of messages, tables and pictures.
 namespace calotte::tools {
 
-/// \throws Error invalid_argument with this message.
-[[noreturn]] void refuse(const std::string& problem);
-
-/// \throws Error parse, always: "PATH line LINE: problem".
-[[noreturn]] void refuse_line(const std::string& path, std::int64_t line,
-                              const std::string& problem);
+// Messages are made as in the library, by its headers without exported symbols.
+using base_detail::counted, base_detail::listed, base_detail::message;
+using base_detail::refuse, base_detail::refuse_at, base_detail::require;
+using io_detail::fail_at, io_detail::fail_file, io_detail::fail_read, io_detail::fail_write;
+using io_detail::refuse_path;
 
 /// Formats a number with the fewest digits that read back to the same bits.
 std::string shortest(double value);
@@ -22,7 +25,7 @@ std::string shortest(double value);
 /// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
 
-/// The words with a separator between them.
-std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+/// The parts of a text between separators, at least one.
+std::vector<std::string> split(std::string_view text, char separator);
 
 } // namespace calotte::tools

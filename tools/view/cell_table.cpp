@@ -11,21 +11,20 @@ namespace calotte::tools {
 
 std::string cell_table(const ViewMesh& mesh, std::int64_t cell) {
   if (cell >= mesh.cells)
-    refuse("--cell " + std::to_string(cell) + ": the mesh has the cells 0 to " +
-           std::to_string(mesh.cells - 1));
+    refuse(message("--cell {}: the mesh has the cells 0 to {}", cell, mesh.cells - 1));
   std::ostringstream out;
   const auto row = [&out](const std::string& name, const std::string& value) {
     out << std::left << std::setw(28) << name << value << "\n";
   };
   row("cell", std::to_string(cell));
-  const Eigen::Vector3d place = mesh.points.col(cell);
+  const Eigen::Vector3d point = mesh.points.col(cell);
   if (mesh.on_sphere) {
-    const Points2 at = to_lonlat(place);
+    const Points2 at = to_lonlat(point);
     row("longitude", formatted("%.6g", at(0, 0)));
     row("latitude", formatted("%.6g", at(1, 0)));
   } else {
-    row("x", formatted("%.6g", place.x()));
-    row("y", formatted("%.6g", place.y()));
+    row("x", formatted("%.6g", point.x()));
+    row("y", formatted("%.6g", point.y()));
   }
   for (const Quantity& quantity : mesh.quantities)
     if (!quantity.on_triangles)

@@ -251,11 +251,11 @@ std::string script_safe(const Json& json) {
   return safe;
 }
 
-void replace(std::string& text, const std::string& place, const std::string& by) {
-  const std::size_t at = text.find(place);
+void replace(std::string& text, const std::string& mark, const std::string& by) {
+  const std::size_t at = text.find(mark);
   if (at == std::string::npos)
-    refuse("the page's template lacks " + place);
-  text.replace(at, place.size(), by);
+    refuse("the page's template lacks " + mark);
+  text.replace(at, mark.size(), by);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run/spacing_survey.h"
+#include "text/text.h"
 #include "view/view_mesh.h"
 
 #include <calotte/delaunay.h>
@@ -13,7 +14,7 @@
 namespace calotte::tools {
 namespace {
 
-constexpr int level = 7; // of the icosahedron: 163 842 places, some 60 km apart on the Earth
+constexpr int level = 7; // of the icosahedron: 163 842 points, some 60 km apart on the Earth
 
 /// The largest slope of a function along the edges of each triangle's plane: the norm of its
 /// gradient there, per radian; at a site the largest of its triangles.
@@ -41,8 +42,8 @@ ViewMesh view_plan(const std::string& name, const Density& density, double unit,
   mesh.cells = mesh.total = sphere.points.cols();
   mesh.points = sphere.points;
   mesh.triangles = sphere.triangles;
-  mesh.notice = "The widths that the options prescribe, at " + std::to_string(mesh.cells) +
-                " places; no grid is made yet. ";
+  mesh.notice = message(
+      "The widths that the options prescribe, at {} places; no grid is made yet. ", mesh.cells);
   const Unit lengths = unit_of({}, radius_km);
   const DoubleVector widths = spacings_of(density, unit, sphere.points);
   mesh.quantities.push_back({.name = "prescribed",

@@ -3,6 +3,7 @@
 
 #include "draw/history_report.h"
 #include "options/mesh_source.h"
+#include "text/text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -21,7 +22,7 @@ void add_run(ViewPage& view, const std::string& report, const std::string& folde
       {"energy over its least value - 1", numbers, energy_excess({history}).front()});
   ViewMesh& result = view.meshes.front();
   if (const std::int64_t cells = history.iterations.back().cells; cells != result.total)
-    result.notice += "The history is of a run with " + std::to_string(cells) + " cells. ";
+    result.notice += message("The history is of a run with {} cells. ", cells);
   ViewChoice part = choice;
   part.fields.clear();
   if (!history.states.empty())

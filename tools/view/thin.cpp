@@ -229,8 +229,9 @@ Mesh planar_mesh(const Points3& points, const Surface& surface) {
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_few_sites || !surface.is_box())
       throw;
-    refuse(std::to_string(points.cols()) + " cells are too few for the periodic box; give a "
-                                           "greater number to --most-cells");
+    refuse(message("{} cells are too few for the periodic box; give a greater number to "
+                   "--most-cells",
+                   points.cols()));
   }
 }
 
@@ -258,9 +259,10 @@ void thin(ViewMesh& mesh, const Surface& surface, std::int64_t most) {
     mesh.points = std::move(points);
   else
     set_plane(mesh, planar_mesh(points, surface));
-  mesh.notice += "The page shows " + std::to_string(n) + " of " + std::to_string(mesh.total) +
-                 " cells, evenly spread, and the worst ones; they are drawn larger. The table is "
-                 "of all cells. ";
+  mesh.notice +=
+      message("The page shows {} of {} cells, evenly spread, and the worst ones; they are "
+              "drawn larger. The table is of all cells. ",
+              n, mesh.total);
 }
 
 } // namespace calotte::tools

@@ -91,8 +91,8 @@ std::string why_not(const MeshFile& file, const std::string& name) {
 void require_fields(const MeshFile& file, const ViewChoice& choice) {
   for (const std::string& name : choice.fields)
     if (const std::string reason = why_not(file, name); !reason.empty())
-      refuse("--field " + name + ": " + reason +
-             "; give fields at cells or triangles, or leave --field out");
+      refuse(message("--field {}: {}; give fields at cells or triangles, or leave --field out",
+                     name, reason));
 }
 
 /// Adds the fields that are asked for, or the first ones of the file; says which are left out.
@@ -114,8 +114,8 @@ void add_fields(const MeshFile& file, const ViewChoice& choice, ViewMesh& mesh) 
     ++added;
   }
   if (left > 0)
-    mesh.notice += "The page holds " + std::to_string(added) + " of " +
-                   std::to_string(added + left) + " fields; select others with --field NAME. ";
+    mesh.notice += message("The page holds {} of {} fields; select others with --field NAME. ",
+                           added, added + left);
 }
 
 /// The centres of polygons, or the means of their corners.
@@ -216,8 +216,10 @@ ViewMesh view_mesh(const std::string& name, MeshFile file, const ViewChoice& cho
   if (mesh.cells <= choice.most_cells)
     return mesh;
   if (walled)
-    refuse(name + ": it has more than the " + std::to_string(choice.most_cells) +
-           " cells that a page holds, and a plane with walls is not thinned; raise the number");
+    refuse_path(name,
+                "it has more than the {} cells that a page holds, and a plane with walls is not "
+                "thinned; raise the number",
+                choice.most_cells);
   thin(mesh, file.mesh ? file.mesh->surface : Surface::sphere(), choice.most_cells);
   return mesh;
 }
