@@ -26,7 +26,7 @@ struct DrawArguments {
   std::string error_of;             ///< the operator whose errors are drawn as a field, or ""
   std::optional<bool> coastlines;   ///< as asked for
   std::string region;               ///< whose boundary is drawn, as asked for
-  std::string inside;               ///< a place of it, LON,LAT, or ""
+  std::string inside;               ///< a point of it, LON,LAT, or ""
   std::vector<std::string> reports; ///< drawn instead of a mesh
   bool spacing_law = false;
   std::shared_ptr<DomainWords> domain; ///< with --plane

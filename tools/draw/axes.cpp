@@ -53,7 +53,7 @@ AxisTicks linear_ticks(const Axis& axis, int most) {
   const double first = std::ceil(axis.low / step - end_tolerance);
   for (int k = 0; (first + k) * step <= axis.high + end_tolerance * step; ++k) {
     const double value = (first + k) * step;
-    ticks.labelled.push_back({axis.place(value), plain_label(value)});
+    ticks.labelled.push_back({axis.position(value), plain_label(value)});
   }
   return ticks;
 }
@@ -63,13 +63,13 @@ AxisTicks decade_ticks(const Axis& axis, int first, int last, int most) {
   AxisTicks ticks;
   const int stride = (last - first) / most + 1;
   for (int exponent = first - 1; exponent <= last; ++exponent) {
-    if (const double place = axis.place(std::pow(10, exponent)); exponent % stride == 0) {
-      ticks.labelled.push_back({place, power_of_ten(exponent)});
+    if (const double position = axis.position(std::pow(10, exponent)); exponent % stride == 0) {
+      ticks.labelled.push_back({position, power_of_ten(exponent)});
     } else {
-      ticks.unlabelled.push_back(place);
+      ticks.unlabelled.push_back(position);
     }
     for (int digit = 2; stride == 1 && digit < 10; ++digit) {
-      ticks.unlabelled.push_back(axis.place(digit * std::pow(10, exponent)));
+      ticks.unlabelled.push_back(axis.position(digit * std::pow(10, exponent)));
     }
   }
   return ticks;
@@ -80,11 +80,11 @@ AxisTicks digit_ticks(const Axis& axis, int first, int last, const std::vector<i
   AxisTicks ticks;
   for (int exponent = first; exponent <= last; ++exponent) {
     for (int digit = 1; digit < 10; ++digit) {
-      const double place = axis.place(digit * std::pow(10, exponent));
+      const double position = axis.position(digit * std::pow(10, exponent));
       if (std::find(digits.begin(), digits.end(), digit) == digits.end()) {
-        ticks.unlabelled.push_back(place);
+        ticks.unlabelled.push_back(position);
       } else {
-        ticks.labelled.push_back({place, logarithmic_label(digit, exponent)});
+        ticks.labelled.push_back({position, logarithmic_label(digit, exponent)});
       }
     }
   }
@@ -92,10 +92,10 @@ AxisTicks digit_ticks(const Axis& axis, int first, int last, const std::vector<i
 }
 
 void drop_outside(AxisTicks& ticks) {
-  const auto outside = [](double place) {
-    return place < -end_tolerance || place > 1 + end_tolerance;
+  const auto outside = [](double position) {
+    return position < -end_tolerance || position > 1 + end_tolerance;
   };
-  std::erase_if(ticks.labelled, [&](const Tick& tick) { return outside(tick.place); });
+  std::erase_if(ticks.labelled, [&](const Tick& tick) { return outside(tick.position); });
   std::erase_if(ticks.unlabelled, outside);
 }
 
@@ -131,21 +131,21 @@ void line(cairo_t* context, double x, double y, double to_x, double to_y) {
 /// Ticks inwards on the lower and on the upper side.
 void across_ticks(cairo_t* context, const Frame& frame, const AxesLook& look) {
   const AxisTicks ticks = axis_ticks(frame.across, look.most_across);
-  const auto tick = [&](double place, double length) {
-    const double x = frame.left + place * frame.width;
+  const auto tick = [&](double position, double length) {
+    const double x = frame.left + position * frame.width;
     line(context, x, frame.bottom(), 0, -length);
     line(context, x, frame.top, 0, length);
   };
   for (const Tick& labelled : ticks.labelled) {
-    tick(labelled.place, 0.4 * look.text);
+    tick(labelled.position, 0.4 * look.text);
   }
-  for (const double place : ticks.unlabelled) {
-    tick(place, 0.2 * look.text);
+  for (const double position : ticks.unlabelled) {
+    tick(position, 0.2 * look.text);
   }
   cairo_stroke(context);
   for (const Tick& labelled : ticks.labelled) {
     if (look.across_labels) {
-      marked_text(context, frame.left + labelled.place * frame.width,
+      marked_text(context, frame.left + labelled.position * frame.width,
                   frame.bottom() + 1.25 * look.text, labelled.label, 0.5);
     }
   }
@@ -154,31 +154,31 @@ void across_ticks(cairo_t* context, const Frame& frame, const AxesLook& look) {
 /// The same on the left and on the right. \return the width of the labels.
 double up_ticks(cairo_t* context, const Frame& frame, const AxesLook& look) {
   const AxisTicks ticks = axis_ticks(frame.up, look.most_up);
-  const auto tick = [&](double place, double length) {
-    const double y = frame.bottom() - place * frame.height;
+  const auto tick = [&](double position, double length) {
+    const double y = frame.bottom() - position * frame.height;
     line(context, frame.left, y, length, 0);
     line(context, frame.right(), y, -length, 0);
   };
   for (const Tick& labelled : ticks.labelled) {
-    tick(labelled.place, 0.4 * look.text);
+    tick(labelled.position, 0.4 * look.text);
   }
-  for (const double place : ticks.unlabelled) {
-    tick(place, 0.2 * look.text);
+  for (const double position : ticks.unlabelled) {
+    tick(position, 0.2 * look.text);
   }
   cairo_stroke(context);
   double width = 0;
   for (const Tick& labelled : ticks.labelled) {
     width = std::max(width, marked_width(context, labelled.label));
     marked_text(context, frame.left - 0.5 * look.text,
-                frame.bottom() - labelled.place * frame.height + 0.36 * look.text, labelled.label,
-                1);
+                frame.bottom() - labelled.position * frame.height + 0.36 * look.text,
+                labelled.label, 1);
   }
   return width;
 }
 
 } // namespace
 
-double Axis::place(double value) const {
+double Axis::position(double value) const {
   return logarithmic ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low))
                      : (value - low) / (high - low);
 }
@@ -216,10 +216,10 @@ void draw_grid(cairo_t* context, const Frame& frame, const AxesLook& look) {
   set_colour(context, grid_colour);
   cairo_set_line_width(context, 0.05 * look.text);
   for (const Tick& tick : axis_ticks(frame.across, look.most_across).labelled) {
-    line(context, frame.left + tick.place * frame.width, frame.top, 0, frame.height);
+    line(context, frame.left + tick.position * frame.width, frame.top, 0, frame.height);
   }
   for (const Tick& tick : axis_ticks(frame.up, look.most_up).labelled) {
-    line(context, frame.left, frame.bottom() - tick.place * frame.height, frame.width, 0);
+    line(context, frame.left, frame.bottom() - tick.position * frame.height, frame.width, 0);
   }
   cairo_stroke(context);
 }

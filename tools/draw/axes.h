@@ -11,13 +11,13 @@
 
 namespace calotte::tools {
 
-/// Maps a quantity to places along a side of a frame.
+/// Maps a quantity to positions along a side of a frame.
 struct Axis {
   double low = 0, high = 1; ///< low < high; both > 0 where logarithmic
   bool logarithmic = false;
 
-  double place(double value) const; ///< 0 at low, 1 at high; beyond them for values beyond
-  bool shows(double value) const;   ///< true if the value has a place: finite, > 0 if logarithmic
+  double position(double value) const; ///< 0 at low, 1 at high; beyond them for values beyond
+  bool shows(double value) const; ///< true if the value has a position: finite, > 0 if logarithmic
 };
 
 /// The axis of the values that it can show, with a margin at both ends of this fraction of their
@@ -25,11 +25,11 @@ struct Axis {
 Axis axis_around(const std::vector<double>& values, bool logarithmic, double margin = 0.04);
 
 struct Tick {
-  double place = 0; ///< on an axis or a colour bar, 0 to 1
+  double position = 0; ///< on an axis or a colour bar, 0 to 1
   std::string label;
 };
 
-/// Round values along an axis: those with a label (marked text), and the places of the others.
+/// Round values along an axis: those with a label (marked text), and the positions of the others.
 struct AxisTicks {
   std::vector<Tick> labelled;
   std::vector<double> unlabelled;
@@ -39,7 +39,7 @@ struct AxisTicks {
 ///         values.
 AxisTicks ticks_of(const Axis& axis, int most);
 
-/// A place on the page, y downwards.
+/// A point on the page, y downwards.
 struct PagePoint {
   double x = 0, y = 0;
 };
@@ -52,7 +52,7 @@ struct Frame {
   double right() const { return left + width; }
   double bottom() const { return top + height; }
   PagePoint at(double x, double y) const {
-    return {left + across.place(x) * width, bottom() - up.place(y) * height};
+    return {left + across.position(x) * width, bottom() - up.position(y) * height};
   }
 };
 

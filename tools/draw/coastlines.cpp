@@ -8,7 +8,7 @@ namespace calotte::tools {
 
 namespace {
 
-/// A line of the data: its first place in hundredths of a degree, and the steps from each place to
+/// A line of the data: its first point in hundredths of a degree, and the steps from each point to
 /// the next. A step is two numbers, of longitude and latitude, in hundredths of a degree; a number
 /// plus 2048 is two digits to the base 64.
 struct Encoded {
@@ -352,13 +352,13 @@ int number_at(std::string_view steps, std::size_t at) {
 std::vector<LonLat> decoded(const Encoded& line) {
   int longitude = line.longitude;
   int latitude = line.latitude;
-  std::vector<LonLat> places = {{longitude / 100.0, latitude / 100.0}};
+  std::vector<LonLat> points = {{longitude / 100.0, latitude / 100.0}};
   for (std::size_t at = 0; at < line.steps.size(); at += 4) {
     longitude += number_at(line.steps, at);
     latitude += number_at(line.steps, at + 2);
-    places.push_back({longitude / 100.0, latitude / 100.0});
+    points.push_back({longitude / 100.0, latitude / 100.0});
   }
-  return places;
+  return points;
 }
 
 } // namespace

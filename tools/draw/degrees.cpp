@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  /// The place on the earth of a place of the window, each coordinate from -1 to 1.
+  /// The point on the earth of a point of the window, each coordinate from -1 to 1.
   std::optional<Vector3d> at(double x, double y) const {
     Vector3d p;
     if (!Map::direction({x * width_, window_.middle + y * height_}, p)) {
@@ -74,15 +74,15 @@ private:
 
   /// \param near a longitude less than half a turn away.
   static LonLat lonlat(const Vector3d& p, double near) {
-    const LonLat place = lonlat_of(p);
-    return {near + std::remainder(place.longitude - near, 360), place.latitude};
+    const LonLat point = lonlat_of(p);
+    return {near + std::remainder(point.longitude - near, 360), point.latitude};
   }
 
   bool shows(const Vector3d& on_earth) const {
     const Vector3d p = frame_ * on_earth;
-    const Place place = Map::place(p);
-    return Map::shows(p) && std::abs(place.u) < width_ &&
-           std::abs(place.v - window_.middle) < height_;
+    const MapPoint point = Map::project(p);
+    return Map::shows(p) && std::abs(point.u) < width_ &&
+           std::abs(point.v - window_.middle) < height_;
   }
 
   void measure() {
@@ -90,11 +90,11 @@ private:
     for (int i = -samples; i <= samples; ++i) {
       for (int j = -samples; j <= samples; ++j) {
         if (const auto p = at(1.0 * i / samples, 1.0 * j / samples)) {
-          const LonLat place = lonlat(*p, middle_.longitude);
-          extent_.west = std::min(extent_.west, place.longitude);
-          extent_.east = std::max(extent_.east, place.longitude);
-          extent_.south = std::min(extent_.south, place.latitude);
-          extent_.north = std::max(extent_.north, place.latitude);
+          const LonLat point = lonlat(*p, middle_.longitude);
+          extent_.west = std::min(extent_.west, point.longitude);
+          extent_.east = std::max(extent_.east, point.longitude);
+          extent_.south = std::min(extent_.south, point.latitude);
+          extent_.north = std::max(extent_.north, point.latitude);
         }
       }
     }
@@ -141,11 +141,11 @@ private:
     double left = HUGE_VAL, right = -HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
     for (const Vector3d& on_earth : line) {
       if (shows(on_earth)) {
-        const Place place = Map::place(frame_ * on_earth);
-        left = std::min(left, place.u);
-        right = std::max(right, place.u);
-        low = std::min(low, place.v);
-        high = std::max(high, place.v);
+        const MapPoint point = Map::project(frame_ * on_earth);
+        left = std::min(left, point.u);
+        right = std::max(right, point.u);
+        low = std::min(low, point.v);
+        high = std::max(high, point.v);
       }
     }
     constexpr double part = 1.0 / 40;
@@ -175,8 +175,8 @@ private:
         continue;
       }
       const bool first = std::isnan(before);
-      const LonLat place = lonlat(*p, first || parallels ? middle_.longitude : before);
-      const double value = parallels ? place.latitude : place.longitude;
+      const LonLat point = lonlat(*p, first || parallels ? middle_.longitude : before);
+      const double value = parallels ? point.latitude : point.longitude;
       if (!first) {
         add_crossings(edge, parallels, {before, value}, t, labels);
       }
@@ -207,7 +207,7 @@ private:
       const Vector3d p = direction_of(LonLat{longitude, latitude});
       if (std::abs(latitude) < 90 && shows(p)) {
         labels.push_back(
-            {DegreeLabel::At::inside, Map::place(frame_ * p), latitude_label(latitude)});
+            {DegreeLabel::At::inside, Map::project(frame_ * p), latitude_label(latitude)});
       }
     });
   }

@@ -12,10 +12,10 @@ namespace calotte::tools {
 std::string longitude_label(double longitude);
 std::string latitude_label(double latitude);
 
-/// A label at a place of the map.
+/// A label at a point of the map.
 struct DegreeLabel {
   enum class At { left, right, bottom, inside } at = At::inside;
-  Place place;
+  MapPoint point;
   std::string text;
 };
 
@@ -25,12 +25,12 @@ struct Degrees {
   /// longitudes stand along the left, lower and right edges, latitudes inside.
   std::vector<DegreeLabel> labels;
   /// True if a line leaves the straight line across the window through its label by more than a
-  /// fortieth of the window: the labels do not tell the place inside.
+  /// fortieth of the window: the labels do not tell the position inside.
   bool bent = false;
 };
 
 /// The degrees of a window that is not the whole map.
-/// \param frame from places on the earth to directions of the scene.
+/// \param frame from points on the earth to directions of the scene.
 Degrees degrees_of(const MapWindow& window, const Eigen::Matrix3d& frame);
 
 } // namespace calotte::tools

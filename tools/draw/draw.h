@@ -91,7 +91,7 @@ struct DrawOptions {
 };
 
 /// Draws a mesh with a legend and a title: name, number of cells, range of spacing. The file is
-/// written beside its place and renamed when whole.
+/// written beside its path and renamed when whole.
 ///
 /// On the sphere the points may have any norm. In the plane, of the look, only size, palette, range
 /// and title have an effect. The rings of the mesh's surface clip the cells, or otherwise a box

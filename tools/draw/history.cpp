@@ -188,7 +188,7 @@ CurvePoints accepted_points(const History& history, const std::vector<double>& x
 /// One curve per level, because values of two levels do not belong to one descent.
 void draw_levels(cairo_t* context, const Frame& frame, const History& history, Across across,
                  const std::vector<double>& values) {
-  const std::vector<double> x = places(history, across);
+  const std::vector<double> x = positions(history, across);
   const std::vector<std::size_t> starts = level_starts(history);
   for (std::size_t level = 0; level + 1 < starts.size(); ++level) {
     const CurvePoints points =
@@ -285,7 +285,7 @@ void draw_repairs(cairo_t* context, const HistoryPage& page, const HistoryColumn
     cairo_show_text(context, "no flips, not rebuilt");
   }
   const std::int64_t most = most_flips(history);
-  const std::vector<double> x = places(history, column.quantity);
+  const std::vector<double> x = positions(history, column.quantity);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);
   cairo_set_line_width(context, 0.07 * page.text);
   for (std::size_t i = 0; i < iterations.size(); ++i) {

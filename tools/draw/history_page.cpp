@@ -72,7 +72,7 @@ Axis seconds_axis(const std::vector<History>& histories) {
 
 Axis across_axis(const std::vector<History>& histories, Across across) {
   if (are_far_apart(histories)) {
-    const auto own = [&](const History& history) { return places(history, across); };
+    const auto own = [&](const History& history) { return positions(history, across); };
     return axis_around(values_of_runs(histories, own), true, 0.01);
   }
   return across == Across::seconds ? seconds_axis(histories) : evaluations_axis(histories);
@@ -84,7 +84,7 @@ std::size_t count_with_levels(const std::vector<History>& histories) {
 
 } // namespace
 
-std::vector<double> places(const History& history, Across across) {
+std::vector<double> positions(const History& history, Across across) {
   return across == Across::seconds ? elapsed_seconds(history) : evaluation_numbers(history);
 }
 
@@ -105,15 +105,15 @@ HistoryPage history_page(const std::vector<History>& histories, int size) {
   page.levels = y * page.text;
   y += rows > 0 ? 1.1 * rows - 0.65 : -0.5;
   page.columns[1].quantity = Across::seconds;
-  const auto frames = [&](Frame HistoryColumn::*place, double height, const Axis& up) {
+  const auto frames = [&](Frame HistoryColumn::*position, double height, const Axis& up) {
     double left = 7;
     for (HistoryColumn& column : page.columns) {
-      column.*place = {left * page.text,
-                       y * page.text,
-                       34 * page.text,
-                       height * page.text,
-                       across_axis(histories, column.quantity),
-                       up};
+      column.*position = {left * page.text,
+                          y * page.text,
+                          34 * page.text,
+                          height * page.text,
+                          across_axis(histories, column.quantity),
+                          up};
       left += 38;
     }
     y += height + 1.1;

@@ -35,7 +35,7 @@ inline constexpr double legend_row = 1.5;  ///< height of a line of the legend, 
 inline constexpr double repairs_row = 1.5; ///< of a run's row of repairs
 
 /// The horizontal position of each evaluation.
-std::vector<double> places(const History& history, Across across);
+std::vector<double> positions(const History& history, Across across);
 
 /// The position of the border before an evaluation: between two numbers, or at the clock time.
 double border_before(const History& history, std::size_t evaluation, Across across);

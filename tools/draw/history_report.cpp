@@ -216,8 +216,8 @@ std::map<Comparable, double> least_energies(const std::vector<History>& historie
   for (const History& history : histories) {
     each_level(history, [&](const std::vector<std::size_t>& way) {
       const double end = history.iterations[way.back()].energy;
-      const auto [place, first] = least.try_emplace(comparable(history, way.back()), end);
-      place->second = std::min(place->second, end);
+      const auto [position, first] = least.try_emplace(comparable(history, way.back()), end);
+      position->second = std::min(position->second, end);
     });
   }
   return least;

@@ -37,7 +37,7 @@ bool apart(const std::vector<Tick>& ticks, double bar_width, double gap,
            const std::function<double(const std::string&)>& width_of) {
   for (std::size_t i = 1; i < ticks.size(); ++i) {
     const double widths = width_of(ticks[i - 1].label) + width_of(ticks[i].label);
-    if ((ticks[i].place - ticks[i - 1].place) * bar_width < widths / 2 + gap) {
+    if ((ticks[i].position - ticks[i - 1].position) * bar_width < widths / 2 + gap) {
       return false;
     }
   }
@@ -70,9 +70,9 @@ void fill_bar(cairo_t* context, const Scale& scale, const Bar& bar) {
   cairo_pattern_t* pattern = cairo_pattern_create_linear(bar.left, 0, bar.left + bar.width, 0);
   constexpr int steps = 24; // as many as a palette has
   for (int i = 0; i <= steps; ++i) {
-    const double place = 1.0 * i / steps;
-    const Rgb c = palette_colour(scale.palette, scale.constant ? 0.5 : place);
-    cairo_pattern_add_color_stop_rgb(pattern, place, c.r, c.g, c.b);
+    const double position = 1.0 * i / steps;
+    const Rgb c = palette_colour(scale.palette, scale.constant ? 0.5 : position);
+    cairo_pattern_add_color_stop_rgb(pattern, position, c.r, c.g, c.b);
   }
   bar_path(context, scale, bar);
   cairo_set_source(context, pattern);
@@ -84,8 +84,8 @@ void fill_bar(cairo_t* context, const Scale& scale, const Bar& bar) {
 }
 
 void draw_ticks(cairo_t* context, const BarTicks& bar_ticks, const Bar& bar, double text) {
-  const auto tick = [&](double place, double length) {
-    const double x = bar.left + place * bar.width;
+  const auto tick = [&](double position, double length) {
+    const double x = bar.left + position * bar.width;
     cairo_move_to(context, x, bar.bottom());
     cairo_line_to(context, x, bar.bottom() + length * text);
     cairo_stroke(context);
@@ -93,11 +93,11 @@ void draw_ticks(cairo_t* context, const BarTicks& bar_ticks, const Bar& bar, dou
   };
   set_colour(context, text_colour);
   cairo_set_line_width(context, 0.06 * text);
-  for (const double place : bar_ticks.ticks.unlabelled) {
-    tick(place, 0.2);
+  for (const double position : bar_ticks.ticks.unlabelled) {
+    tick(position, 0.2);
   }
   for (const Tick& labelled : bar_ticks.ticks.labelled) {
-    const double x = tick(labelled.place, 0.35);
+    const double x = tick(labelled.position, 0.35);
     marked_text(context, x, bar.bottom() + 1.35 * text, labelled.label, 0.5);
   }
   if (bar_ticks.exponent != 0) {
@@ -196,7 +196,7 @@ BarTicks fitted_ticks(const Scale& scale, double bar_width, double gap,
     if (apart({labelled[i - 1], labelled[i]}, bar_width, gap, width_of)) {
       ++i;
     } else {
-      bar.ticks.unlabelled.push_back(labelled[i].place);
+      bar.ticks.unlabelled.push_back(labelled[i].position);
       labelled.erase(labelled.begin() + static_cast<std::ptrdiff_t>(i));
     }
   }

@@ -17,7 +17,7 @@ constexpr double few_cover = 0.02, most_cover = 0.2; ///< parts of the map that 
 constexpr double least_radius = 1;                   ///< pixels
 constexpr Rgb rim_colour = {0.07, 0.09, 0.13};
 
-void dot(cairo_t* context, const Place& at, double radius, const Rgb& colour) {
+void dot(cairo_t* context, const MapPoint& at, double radius, const Rgb& colour) {
   cairo_new_path(context);
   cairo_arc(context, at.u, -at.v, radius, 0, 2 * std::numbers::pi);
   set_colour(context, colour);
@@ -32,8 +32,8 @@ void draw_dots(cairo_t* context, const Painting& painting, const MapWindow& wind
                double area, double radius) {
   std::vector<const Marker*> small;
   for (const Marker& marker : painting.markers) {
-    if (marker.width * scale < 2 * radius && Map::shows_some({marker.place}) &&
-        Map::may_show({marker.place}, window)) {
+    if (marker.width * scale < 2 * radius && Map::shows_some({marker.point}) &&
+        Map::may_show({marker.point}, window)) {
       small.push_back(&marker);
     }
   }
@@ -45,8 +45,8 @@ void draw_dots(cairo_t* context, const Painting& painting, const MapWindow& wind
   }
   for (const Marker* marker : small) {
     if (marker->width * scale < 2 * radius) {
-      const Place place = Map::place(marker->place);
-      dot(context, {scale * place.u, scale * place.v}, radius,
+      const MapPoint point = Map::project(marker->point);
+      dot(context, {scale * point.u, scale * point.v}, radius,
           painting.scale.colour(marker->valence));
     }
   }

@@ -22,8 +22,8 @@ void edge_labels(cairo_t* context, const Page& page, const Eigen::Matrix3d& fram
   select_font(context, label_letters * page.text);
   set_colour(context, text_colour);
   for (int longitude = -180; longitude < 180; longitude += 60) {
-    const Place place = PlateCarree::place(frame * direction_of(LonLat{1.0 * longitude, 0}));
-    const double x = place.u / std::numbers::pi * page.map.width / 2;
+    const MapPoint point = PlateCarree::project(frame * direction_of(LonLat{1.0 * longitude, 0}));
+    const double x = point.u / std::numbers::pi * page.map.width / 2;
     centred_text(context, x, bottom + 1.1 * page.text, longitude_label(longitude));
     if (std::abs(x) > 179.5 * scale) { // at the seam it appears at both ends
       centred_text(context, -x, bottom + 1.1 * page.text, longitude_label(longitude));
@@ -56,11 +56,11 @@ void rim_labels(cairo_t* context, const Page& page, const LonLat& view) {
   const double size = label_letters * page.text;
   set_colour(context, text_colour);
   for (int latitude = -60; latitude <= 60; latitude += graticule_step) {
-    if (const std::optional<Place> place = rim_place(view, latitude)) {
-      const double x = (radius + 0.4 * size) * place->u;
-      const double y = -(radius + 0.4 * size) * place->v;
-      marked_text(context, x, y + 0.36 * size * (1 - place->v), latitude_label(latitude),
-                  0.5 - 0.5 * place->u);
+    if (const std::optional<MapPoint> point = rim_point(view, latitude)) {
+      const double x = (radius + 0.4 * size) * point->u;
+      const double y = -(radius + 0.4 * size) * point->v;
+      marked_text(context, x, y + 0.36 * size * (1 - point->v), latitude_label(latitude),
+                  0.5 - 0.5 * point->u);
     }
   }
 }
@@ -88,7 +88,7 @@ void globe_labels(cairo_t* context, const Page& page, const Look& look,
     label(lon, latitude, longitude_label(lon));
   }
   for (int lat = -60; lat <= 60; lat += graticule_step) {
-    if (!rim_place(view, lat)) {
+    if (!rim_point(view, lat)) {
       label(longitude + graticule_step / 2, lat, latitude_label(lat));
     }
   }
@@ -105,7 +105,7 @@ void window_labels(cairo_t* context, const Page& page, const MapWindow& window,
   select_font(context, size);
   cairo_set_line_width(context, std::max(0.8, 0.05 * page.text));
   for (const DegreeLabel& label : labels) {
-    const double x = scale * label.place.u, y = scale * (window.middle - label.place.v);
+    const double x = scale * label.point.u, y = scale * (window.middle - label.point.v);
     if (label.at == At::inside) {
       haloed_text(context, x, y + 0.35 * size, label.text, size);
       continue;
@@ -177,7 +177,7 @@ void draw_surroundings_of_map(cairo_t* context, const Page& page, const Surround
   }
 }
 
-/// Places title, map and legend below each other.
+/// Puts title, map and legend below each other.
 /// \param below the map: labels.
 void arrange(Page& page, double below, bool with_legend) {
   const double middle = 2.6 * page.text + page.map.height / 2.0;
@@ -190,13 +190,13 @@ void arrange(Page& page, double below, bool with_legend) {
 
 } // namespace
 
-std::optional<Place> rim_place(const LonLat& view, double latitude) {
+std::optional<MapPoint> rim_point(const LonLat& view, double latitude) {
   const double up = std::sin(latitude * radians_per_degree),
                most = std::cos(view.latitude * radians_per_degree);
   if (!(std::abs(up) < 0.995 * most)) {
     return std::nullopt;
   }
-  return Place{-std::sqrt(1 - up / most * (up / most)), up / most};
+  return MapPoint{-std::sqrt(1 - up / most * (up / most)), up / most};
 }
 
 Page page_of(const Look& look, bool with_legend, const MapWindow& window) {

@@ -28,10 +28,10 @@ struct Page {
 /// \param window not used of plate carree.
 Page page_of(const Look& look, bool with_legend, const MapWindow& window = {});
 
-/// The place on the left half of a globe's rim, the unit circle, where a parallel meets it; none if
+/// The point on the left half of a globe's rim, the unit circle, where a parallel meets it; none if
 /// the parallel lies on one side of the globe.
 /// \param latitude of the parallel, degrees.
-std::optional<Place> rim_place(const LonLat& view, double latitude);
+std::optional<MapPoint> rim_point(const LonLat& view, double latitude);
 
 /// For a plane.
 /// \param aspect the map's height over its width.
@@ -43,7 +43,7 @@ inline double marker_radius(const Page& page) { return std::max(2.0, 0.2 * page.
 /// The texts around the map.
 struct Surroundings {
   Look look;
-  Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
+  Eigen::Matrix3d frame; ///< from points on the earth to directions of the scene
   std::string title;
   Legend legend;    ///< no value for Colouring::none
   MapWindow window; ///< of the look's map

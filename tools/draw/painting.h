@@ -15,7 +15,7 @@ namespace calotte::tools {
 
 /// A site whose number of neighbours is not 6.
 struct Marker {
-  Eigen::Vector3d place; ///< in the scene
+  Eigen::Vector3d point; ///< in the scene
   double valence = 0;
   float width = 0; ///< of its cell
 };

@@ -169,17 +169,17 @@ void set_domain(Mesh& mesh, const Surface& domain) {
 }
 
 Window window_of(const Mesh& mesh, const Polygons* cells) {
-  Points2 places = mesh.points.topRows<2>();
+  Points2 points = mesh.points.topRows<2>();
   if (cells != nullptr) {
-    places = cells->corners.topRows<2>();
+    points = cells->corners.topRows<2>();
   } else if (mesh.surface.is_bounded()) {
-    places.resize(2, 0);
+    points.resize(2, 0);
     for (const DoubleMatrix& ring : mesh.surface.rings()) {
-      places.conservativeResize(Eigen::NoChange, places.cols() + ring.cols());
-      places.rightCols(ring.cols()) = ring;
+      points.conservativeResize(Eigen::NoChange, points.cols() + ring.cols());
+      points.rightCols(ring.cols()) = ring;
     }
   }
-  Window window{places.rowwise().minCoeff(), places.rowwise().maxCoeff()};
+  Window window{points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
   const double share = cells != nullptr || mesh.surface.is_bounded() ? 0.01 : 0.04;
   const Vector2d margin = Vector2d::Constant(share * window.extent().maxCoeff());
   const Eigen::Array2d period = mesh.surface.period();
@@ -229,8 +229,8 @@ struct Sheet {
   double unit = 0;
 
   Vector2d at(const Vector2d& point) const {
-    const Vector2d place = unit / map.window.half() * (point - map.window.middle());
-    return {place.x(), -place.y()};
+    const Vector2d scaled = unit / map.window.half() * (point - map.window.middle());
+    return {scaled.x(), -scaled.y()};
   }
 };
 

@@ -5,11 +5,12 @@ namespace calotte::tools {
 
 namespace {
 
-/// Larger than the displacement of a place by rounding.
+/// Larger than the displacement of a point by rounding.
 constexpr double rounding_margin = 1e-9;
 
 double longitude_step(const Vector3d& from, const Vector3d& to) {
-  return std::remainder(PlateCarree::place(to).u - PlateCarree::place(from).u, PlateCarree::period);
+  return std::remainder(PlateCarree::project(to).u - PlateCarree::project(from).u,
+                        PlateCarree::period);
 }
 
 /// True if the pole is in the facet or on its outline, or so near that longitudes are unreliable.
@@ -46,9 +47,9 @@ bool Orthographic::may_show(const std::vector<Vector3d>& corners, const MapWindo
                              beyond([](const Vector3d& p) { return -p.y(); }));
 }
 
-bool Orthographic::direction(const Place& place, Vector3d& p) {
-  const double z2 = 1 - place.u * place.u - place.v * place.v;
-  p = {place.u, place.v, std::sqrt(std::max(0.0, z2))};
+bool Orthographic::direction(const MapPoint& point, Vector3d& p) {
+  const double z2 = 1 - point.u * point.u - point.v * point.v;
+  p = {point.u, point.v, std::sqrt(std::max(0.0, z2))};
   return z2 > 0;
 }
 
@@ -94,7 +95,7 @@ Bounds PlateCarree::bounds(const Facet& f) {
     return {-half_width, half_width, south ? -half_height : bounds.bottom,
             north ? half_height : bounds.top};
   }
-  const double a = place(f.a).u;
+  const double a = project(f.a).u;
   const double b = a + longitude_step(f.a, f.b);
   const double c = b + longitude_step(f.b, f.c);
   const auto [left, right] = std::minmax({a, b, c});
@@ -102,10 +103,10 @@ Bounds PlateCarree::bounds(const Facet& f) {
           bounds.top + rounding_margin};
 }
 
-bool PlateCarree::direction(const Place& place, Vector3d& p) {
-  const double c = std::cos(place.v);
-  p = {c * std::sin(place.u), std::sin(place.v), c * std::cos(place.u)};
-  return std::abs(place.v) <= half_height;
+bool PlateCarree::direction(const MapPoint& point, Vector3d& p) {
+  const double c = std::cos(point.v);
+  p = {c * std::sin(point.u), std::sin(point.v), c * std::cos(point.u)};
+  return std::abs(point.v) <= half_height;
 }
 
 PlateCarree::Rays::Rays(int columns, int rows, const MapWindow& window) {

@@ -13,17 +13,17 @@
 #include <vector>
 
 /// The projections, as policies of the templates that make pictures. Each takes directions of a
-/// scene (unit; x to the right, y up, z to the viewer of the map's middle) to places of a map,
+/// scene (unit; x to the right, y up, z to the viewer of the map's middle) to points of a map,
 /// whose unit is a radian at its middle, and knows
 ///   half_width, half_height  the map reaches from minus these to these
 ///   period                   of u, 0 where it has none
-///   place(p)                 of any direction that the map shows
+///   project(p)               of any direction that the map shows
 ///   tangents(p)              how p turns as u and v grow
 ///   shows(p), shows_some(c)  whether a point, or any part of a convex polygon, is on the map
 ///   may_show(c, window)      false where a polygon is known to be outside a window
 ///   height(corners)          1 where a shape is seen from above, 0 where from the side
 ///   clipped(corners)         the part of a convex polygon that is on the map
-///   direction(place, p)      the direction at a place; false where there is none
+///   direction(point, p)      the direction at a point; false where there is none
 ///   bounds(facet)            a part of the map outside of which the facet is not
 ///   Rays                     the directions of the samples of an image of a window
 namespace calotte::tools {
@@ -31,7 +31,7 @@ namespace calotte::tools {
 using Eigen::Vector3d;
 
 /// Coordinates on a map: u to the right, v up.
-struct Place {
+struct MapPoint {
   double u = 0, v = 0;
 };
 
@@ -88,7 +88,7 @@ struct Orthographic {
   static constexpr double half_height = 1;
   static constexpr double period = 0;
 
-  static Place place(const Vector3d& p) { return {p.x(), p.y()}; }
+  static MapPoint project(const Vector3d& p) { return {p.x(), p.y()}; }
   static Tangents tangents(const Vector3d& p) {
     return {{1, 0, -p.x() / p.z()}, {0, 1, -p.y() / p.z()}};
   }
@@ -103,8 +103,8 @@ struct Orthographic {
   static double height(const std::vector<Vector3d>& corners);
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon);
   static Bounds bounds(const Facet& facet);
-  /// A place of the map. False where it is beyond the limb.
-  static bool direction(const Place& place, Vector3d& p);
+  /// A point of the map. False where it is beyond the limb.
+  static bool direction(const MapPoint& point, Vector3d& p);
 
   class Rays {
   public:
@@ -133,7 +133,7 @@ struct PlateCarree {
   static constexpr double half_height = std::numbers::pi / 2;
   static constexpr double period = 2 * std::numbers::pi;
 
-  static Place place(const Vector3d& p) {
+  static MapPoint project(const Vector3d& p) {
     return {std::atan2(p.x(), p.z()), std::atan2(p.y(), std::hypot(p.x(), p.z()))};
   }
   static Tangents tangents(const Vector3d& p) {
@@ -146,7 +146,7 @@ struct PlateCarree {
   static double height(const std::vector<Vector3d>&) { return 1; }
   static std::vector<Vector3d> clipped(const std::vector<Vector3d>& polygon) { return polygon; }
   static Bounds bounds(const Facet& facet);
-  static bool direction(const Place& place, Vector3d& p);
+  static bool direction(const MapPoint& point, Vector3d& p);
 
   class Rays {
   public:
@@ -170,7 +170,7 @@ struct Flat {
   static constexpr double half_height = half_width;
   static constexpr double period = 0;
 
-  static Place place(const Vector3d& p) { return {p.x(), p.y()}; }
+  static MapPoint project(const Vector3d& p) { return {p.x(), p.y()}; }
   static bool shows_some(const std::vector<Vector3d>& corners) { return !corners.empty(); }
   static bool may_show(const std::vector<Vector3d>&, const MapWindow&) { return true; }
   static double height(const std::vector<Vector3d>&) { return 1; }

@@ -183,8 +183,8 @@ template <class Map> void paint_field(Samples<Map>& samples, const FieldPainting
     if (columns.empty()) {
       continue;
     }
-    const Points3 places = (painting.frame.transpose() * rays).colwise().normalized();
-    const DoubleVector values = painting.values(places);
+    const Points3 points = (painting.frame.transpose() * rays).colwise().normalized();
+    const DoubleVector values = painting.values(points);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       samples.at(row, columns[i]) =
           bytes_of(painting.scale.colour(values[static_cast<Eigen::Index>(i)]));

@@ -24,7 +24,7 @@ cairo_surface_t* raster_map(const Painting& painting, const MapWindow& window, c
 struct FieldPainting {
   std::function<DoubleVector(const Points3& x)> values;
   Scale scale;
-  Eigen::Matrix3d frame; ///< from places on the earth to directions of the scene
+  Eigen::Matrix3d frame; ///< from points on the earth to directions of the scene
 };
 
 cairo_surface_t* raster_map(const FieldPainting& painting, const MapWindow& window,

@@ -54,7 +54,7 @@ void trim(Scale& scale, std::vector<double>& values) {
   const double low = quantile(0.01);
   const bool wide = scale.colouring == Colouring::spacing || scale.colouring == Colouring::area;
   const double high = wide ? scale.high : quantile(0.99);
-  const double range = scale.place(high) - scale.place(low);
+  const double range = scale.position(high) - scale.position(low);
   if (values.size() < 200 || range > 0.8 || high <= low) {
     return;
   }
@@ -66,7 +66,7 @@ void trim(Scale& scale, std::vector<double>& values) {
 
 } // namespace
 
-double Scale::place(double value) const {
+double Scale::position(double value) const {
   const double v = std::clamp(value, low, high);
   return logarithmic ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
 }
@@ -76,7 +76,7 @@ Rgb Scale::colour(double value) const {
     return uniform_colour;
   }
   return has_classes(colouring) ? class_colour(colouring, value)
-                                : palette_colour(palette, place(value));
+                                : palette_colour(palette, position(value));
 }
 
 Scale make_scale(const std::vector<double>& values, Colouring colouring) {
@@ -163,12 +163,12 @@ std::vector<Rgb> palette_colours(Palette palette) {
   return steps;
 }
 
-Rgb palette_colour(Palette palette, double place) {
+Rgb palette_colour(Palette palette, double position) {
   static const std::array<std::vector<Rgb>, 4> palettes{
       palette_colours(Palette::viridis), palette_colours(Palette::cividis),
       palette_colours(Palette::magma), palette_colours(Palette::diverging)};
   const std::vector<Rgb>& steps = palettes[static_cast<std::size_t>(palette)];
-  const double x = std::clamp(place, 0.0, 1.0) * static_cast<double>(steps.size() - 1);
+  const double x = std::clamp(position, 0.0, 1.0) * static_cast<double>(steps.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(x), steps.size() - 2);
   const double t = x - static_cast<double>(i);
   const Rgb &a = steps[i], &b = steps[i + 1];

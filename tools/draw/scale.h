@@ -40,7 +40,7 @@ struct Scale {
   bool below = false, above = false; ///< true if values beyond an end have the colour of the end
 
   /// The position of a value on the bar, 0 to 1.
-  double place(double value) const;
+  double position(double value) const;
   Rgb colour(double value) const;
 };
 
@@ -64,7 +64,7 @@ const std::vector<std::pair<std::string, Palette>>& palette_names();
 std::vector<Rgb> palette_colours(Palette palette);
 
 /// The colour of a colour bar from 0 to 1.
-Rgb palette_colour(Palette palette, double place);
+Rgb palette_colour(Palette palette, double position);
 
 /// Six hexadecimal digits.
 std::string hex_text(const Rgb& colour);

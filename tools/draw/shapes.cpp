@@ -27,8 +27,8 @@ double angle_at(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   return flat_angle(u, v);
 }
 
-/// Sets the values that follow from the places of the sites: a triangle for each, and on the sphere
-/// the circumcentres.
+/// Sets the values that follow from the positions of the sites: a triangle for each, and on the
+/// sphere the circumcentres.
 void link(Scene& scene) {
   const Mesh& mesh = *scene.mesh;
   scene.triangle_of.assign(static_cast<std::size_t>(scene.sites.cols()), -1);
@@ -113,9 +113,9 @@ Vector3d direction_of(const Vector3d& point) {
                                                : Vector3d(Vector3d::Zero());
 }
 
-Vector3d direction_of(const LonLat& place) {
-  const double lon = place.longitude * radians_per_degree;
-  const double lat = place.latitude * radians_per_degree;
+Vector3d direction_of(const LonLat& point) {
+  const double lon = point.longitude * radians_per_degree;
+  const double lat = point.latitude * radians_per_degree;
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
 }
 
@@ -163,14 +163,14 @@ Scene make_scene(const Polygons& polygons, const LonLat& view) {
   return scene;
 }
 
-Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places,
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& points,
                       const Eigen::Vector2d& period, const Polygons& cells) {
   Scene scene;
   scene.flat = true;
   scene.mesh = &mesh;
   scene.shapes = shapes == Shapes::triangles ? Shapes::triangles : Shapes::cells;
-  scene.sites = Points3::Zero(3, places.cols());
-  scene.sites.topRows<2>() = places;
+  scene.sites = Points3::Zero(3, points.cols());
+  scene.sites.topRows<2>() = points;
   scene.period = period;
   link(scene);
   if (scene.shapes == Shapes::cells) {
@@ -189,8 +189,8 @@ bool may_show(const Scene& scene, const std::vector<Vector3d>& corners) {
 }
 
 LonLat lonlat_of(const Vector3d& direction) {
-  const Points2 place = to_lonlat(direction);
-  return {place(0, 0), place(1, 0)};
+  const Points2 point = to_lonlat(direction);
+  return {point(0, 0), point(1, 0)};
 }
 
 LonLat middle(const Mesh& mesh) {

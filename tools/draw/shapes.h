@@ -20,7 +20,7 @@ struct Scene {
   const Mesh* mesh = nullptr;            ///< null for polygons alone
   const Polygons* polygons = nullptr; ///< cells of any shape, whose corners are the circumcentres
   Shapes shapes = Shapes::triangles;  ///< that are filled: triangles or cells
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from places on the earth
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< from points on the earth
 
   // Of a plane, in the unit of the scene:
   Eigen::Vector2d period{0, 0}; ///< as Surface has it
@@ -43,9 +43,9 @@ Scene make_scene(const Mesh& mesh, Shapes shapes, const LonLat& view,
 /// Cells of any shape in the same view.
 Scene make_scene(const Polygons& polygons, const LonLat& view);
 
-/// The same of a plane. \param mesh its triangles and neighbours; \param places of its sites and
+/// The same of a plane. \param mesh its triangles and neighbours; \param points of its sites and
 /// \param period in the unit of the scene; \param cells likewise, without a period.
-Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& places,
+Scene make_flat_scene(const Mesh& mesh, Shapes shapes, const Points2& points,
                       const Eigen::Vector2d& period, const Polygons& cells);
 
 /// False if a shape of a plane is known to lie beyond the window.
@@ -54,13 +54,13 @@ bool may_show(const Scene& scene, const std::vector<Eigen::Vector3d>& corners);
 /// Its rows are the viewer's right, up and towards.
 Eigen::Matrix3d frame_of(const LonLat& view);
 
-/// The unit vector of a place on the earth.
-Eigen::Vector3d direction_of(const LonLat& place);
+/// The unit vector of a point on the earth.
+Eigen::Vector3d direction_of(const LonLat& point);
 
 /// Unit, for norms whose squares under- or overflow, too.
 Eigen::Vector3d direction_of(const Eigen::Vector3d& point);
 
-/// The place on the earth in a direction of any norm.
+/// The point on the earth in a direction of any norm.
 LonLat lonlat_of(const Eigen::Vector3d& direction);
 
 /// The middle of the sites, the default view of an open mesh.

@@ -179,17 +179,17 @@ void draw_spacings(cairo_t* context, const SpacingLawPage& page, const SpacingLa
 void draw_running_median(cairo_t* context, const SpacingLawPage& page, const SpacingLaw& law) {
   std::vector<std::vector<double>> bins(30);
   for (std::size_t i = 0; i < law.measured.size(); ++i) {
-    const double place = page.deviation.across.place(law.lawful[i]);
-    const auto bin = static_cast<std::size_t>(place * static_cast<double>(bins.size()));
+    const double position = page.deviation.across.position(law.lawful[i]);
+    const auto bin = static_cast<std::size_t>(position * static_cast<double>(bins.size()));
     bins[std::min(bin, bins.size() - 1)].push_back(percent_off(law, i));
   }
   std::vector<double> x;
   std::vector<double> y;
   const Axis& across = page.deviation.across;
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
-    const double place = (static_cast<double>(bin) + 0.5) / static_cast<double>(bins.size());
+    const double position = (static_cast<double>(bin) + 0.5) / static_cast<double>(bins.size());
     if (bins[bin].size() >= least_bin) {
-      x.push_back(across.low * std::pow(across.high / across.low, place));
+      x.push_back(across.low * std::pow(across.high / across.low, position));
       y.push_back(quantile(std::move(bins[bin]), 0.5));
     }
   }

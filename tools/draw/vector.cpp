@@ -14,32 +14,32 @@ namespace {
 
 constexpr double tolerance = 0.1; ///< maximum distance in pixels of a chord from its arc
 
-/// A line on a map, continuous across the seam: places beyond the seam represent those a period
+/// A line on a map, continuous across the seam: points beyond the seam represent those a period
 /// away.
-using MapPath = std::vector<Place>;
+using MapPath = std::vector<MapPoint>;
 
-/// Of the places that represent a direction, the one nearest to another. A pole, and a direction
+/// Of the points that represent a direction, the one nearest to another. A pole, and a direction
 /// that rounding cannot distinguish from it, has all longitudes.
-template <class Map> Place place_near(const Vector3d& p, const Place& other) {
-  Place place = Map::place(p);
+template <class Map> MapPoint point_near(const Vector3d& p, const MapPoint& other) {
+  MapPoint point = Map::project(p);
   if constexpr (Map::period != 0) {
     const bool pole = std::hypot(p.x(), p.z()) < 1e-9;
-    place.u = pole ? other.u : other.u + std::remainder(place.u - other.u, Map::period);
+    point.u = pole ? other.u : other.u + std::remainder(point.u - other.u, Map::period);
   }
-  return place;
+  return point;
 }
 
-/// Adds the great-circle arc from a, whose place ends the path, to b.
+/// Adds the great-circle arc from a, whose point ends the path, to b.
 template <class Map>
 void add_arc(MapPath& path, const Vector3d& a, const Vector3d& b, double scale, int depth = 0) {
-  const Place from = path.back();
+  const MapPoint from = path.back();
   const Vector3d sum = a + b;
   if (sum.norm() < 1e-9) {
     return;
   }
   const Vector3d middle = sum.normalized();
-  const Place halfway = place_near<Map>(middle, from);
-  const Place to = place_near<Map>(b, halfway);
+  const MapPoint halfway = point_near<Map>(middle, from);
+  const MapPoint to = point_near<Map>(b, halfway);
   const double off = std::hypot((from.u + to.u) / 2 - halfway.u, (from.v + to.v) / 2 - halfway.v);
   const bool straight = (a - b).squaredNorm() < 0.02 && off * scale < tolerance;
   if (straight || depth == 12) {
@@ -53,15 +53,15 @@ void add_arc(MapPath& path, const Vector3d& a, const Vector3d& b, double scale, 
   add_arc<Map>(path, middle, b, scale, depth + 1);
 }
 
-/// Around a polygon, back to its first corner or to a place a period away.
+/// Around a polygon, back to its first corner or to a point a period away.
 template <class Map> MapPath path_around(const std::vector<Vector3d>& polygon, double scale) {
   MapPath path;
   if (!polygon.empty()) {
-    path.push_back(Map::place(polygon.front()));
+    path.push_back(Map::project(polygon.front()));
   }
   if constexpr (std::is_same_v<Map, Flat>) {
     for (std::size_t i = 1; i < polygon.size(); ++i) {
-      path.push_back(Map::place(polygon[i]));
+      path.push_back(Map::project(polygon[i]));
     }
     return path;
   }
@@ -80,15 +80,15 @@ template <class Map> int turns_of(const MapPath& path) {
 
 void add_path(cairo_t* context, const MapPath& path, double scale, double shift) {
   cairo_new_sub_path(context);
-  for (const Place& place : path) {
-    cairo_line_to(context, scale * (place.u + shift), -scale * place.v);
+  for (const MapPoint& point : path) {
+    cairo_line_to(context, scale * (point.u + shift), -scale * point.v);
   }
 }
 
 /// Adds the line once for each time that the map shows it.
 template <class Map>
 void add_copies(cairo_t* context, const MapPath& path, double scale, bool close) {
-  const auto by_u = [](const Place& a, const Place& b) { return a.u < b.u; };
+  const auto by_u = [](const MapPoint& a, const MapPoint& b) { return a.u < b.u; };
   const auto [left, right] = std::minmax_element(path.begin(), path.end(), by_u);
   for (const double shift : {-Map::period, 0.0, Map::period}) {
     if (path.empty() || (Map::period == 0 && shift != 0) || left->u + shift > Map::half_width ||
@@ -190,7 +190,7 @@ void add_line(cairo_t* context, const std::vector<Vector3d>& line, double scale)
     if (Map::shows(p)) {
       if (path.empty()) {
         before = first ? p : limb_between(before, p);
-        path.push_back(Map::place(before));
+        path.push_back(Map::project(before));
       }
       add_arc<Map>(path, before, p, scale);
     } else if (!path.empty()) {
@@ -214,8 +214,8 @@ void add_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d&
       seen.clear();
     };
     for (const std::vector<Vector3d>& line : lines) {
-      for (const Vector3d& place : line) {
-        const Vector3d p = frame * place;
+      for (const Vector3d& point : line) {
+        const Vector3d p = frame * point;
         if (!seen.empty() && !Map::may_show({seen.back(), p}, window)) {
           flush();
         }
@@ -226,10 +226,10 @@ void add_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d&
   });
 }
 
-std::vector<Vector3d> directions_of(const std::vector<LonLat>& places) {
+std::vector<Vector3d> directions_of(const std::vector<LonLat>& points) {
   std::vector<Vector3d> line;
-  for (const LonLat& place : places) {
-    line.push_back(direction_of(place));
+  for (const LonLat& point : points) {
+    line.push_back(direction_of(point));
   }
   return line;
 }

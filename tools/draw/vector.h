@@ -35,7 +35,7 @@ struct Stroke {
 };
 
 /// Draws lines, clipped to a window of the map.
-/// \param frame from places on the earth to directions of the scene.
+/// \param frame from points on the earth to directions of the scene.
 /// \param width of the window in pixels.
 void draw_lines(cairo_t* context, const EarthLines& lines, const Eigen::Matrix3d& frame,
                 const MapWindow& window, double width, const Stroke& stroke);

@@ -18,7 +18,7 @@ View view_of(const Look& look, const LonLat& middle);
 
 /// The same, but by default a mesh that covers a small part of the map fills the picture: the view
 /// is centred on the mesh, and the map enlarged.
-/// \param places of the mesh, directions of any norm.
-View view_around(const Look& look, const LonLat& middle, const Points3& places);
+/// \param points of the mesh, directions of any norm.
+View view_around(const Look& look, const LonLat& middle, const Points3& points);
 
 } // namespace calotte::tools

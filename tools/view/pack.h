@@ -13,9 +13,9 @@
 ///
 /// A block is a zlib stream of W bytes for each of N numbers in byte planes: the lowest bytes of
 /// all numbers, then the next ones. It is stored in base64. Whole numbers are unsigned, or
-/// differences to the number `delta` places before, zigzag-coded (0, -1, 1, -2, ... as 0, 1, 2, 3).
-/// Other numbers are of single precision with 15 bits of the mantissa, a relative error of at most
-/// 2^-16; or, where single precision has not their range, the higher half of doubles.
+/// differences to the number `delta` positions before, zigzag-coded (0, -1, 1, -2, ... as 0, 1, 2,
+/// 3). Other numbers are of single precision with 15 bits of the mantissa, a relative error of at
+/// most 2^-16; or, where single precision has not their range, the higher half of doubles.
 namespace calotte::tools {
 
 /// The blocks of a page.

@@ -97,17 +97,17 @@ Json json_of_palettes() {
   return json;
 }
 
-/// The place of each value among the classes; their number where there is no value.
+/// The index of each value among the classes; their number where there is no value.
 std::vector<std::int32_t> places_of(const DoubleVector& values,
                                     const std::vector<double>& classes) {
-  std::vector<std::int32_t> places;
-  places.reserve(static_cast<std::size_t>(values.size()));
+  std::vector<std::int32_t> indices;
+  indices.reserve(static_cast<std::size_t>(values.size()));
   for (const double value : values)
-    places.push_back(static_cast<std::int32_t>(
+    indices.push_back(static_cast<std::int32_t>(
         std::isfinite(value)
             ? std::lower_bound(classes.begin(), classes.end(), value) - classes.begin()
             : std::ssize(classes)));
-  return places;
+  return indices;
 }
 
 std::string word_of(Worst worst) {
@@ -146,12 +146,12 @@ Json add_quantity(const Quantity& quantity, Blocks& blocks) {
 
 /// The quantities whose scatter is the spacing law, if the mesh has both.
 Json law_of(const ViewMesh& mesh) {
-  std::map<std::string, std::size_t> place;
+  std::map<std::string, std::size_t> index;
   for (std::size_t k = 0; k < mesh.quantities.size(); ++k)
-    place.emplace(mesh.quantities[k].name, k);
-  if (!place.contains("spacing") || !place.contains("prescribed"))
+    index.emplace(mesh.quantities[k].name, k);
+  if (!index.contains("spacing") || !index.contains("prescribed"))
     return nullptr;
-  return {{"spacing", place["spacing"]}, {"prescribed", place["prescribed"]}};
+  return {{"spacing", index["spacing"]}, {"prescribed", index["prescribed"]}};
 }
 
 Json add_mesh(const ViewMesh& mesh, Blocks& blocks) {
@@ -196,9 +196,9 @@ Json add_coastlines(Blocks& blocks) {
   std::vector<std::int32_t> longitudes, latitudes, begin;
   for (const std::vector<LonLat>& line : coastlines()) {
     begin.push_back(static_cast<std::int32_t>(longitudes.size()));
-    for (const LonLat& place : line) {
-      longitudes.push_back(static_cast<std::int32_t>(std::lround(hundredths * place.longitude)));
-      latitudes.push_back(static_cast<std::int32_t>(std::lround(hundredths * place.latitude)));
+    for (const LonLat& point : line) {
+      longitudes.push_back(static_cast<std::int32_t>(std::lround(hundredths * point.longitude)));
+      latitudes.push_back(static_cast<std::int32_t>(std::lround(hundredths * point.latitude)));
     }
   }
   return {{"lon", blocks.add(longitudes, 1)},

@@ -18,7 +18,7 @@ struct ViewSeries {
 /// A state that a run kept.
 struct ViewState {
   std::int64_t iteration = 0;
-  std::size_t mesh = 0; ///< its place in ViewPage::meshes
+  std::size_t mesh = 0; ///< its index in ViewPage::meshes
 };
 
 /// The content of a page.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t worst_kept = 10;
 
-/// The bits of a coordinate of 21 bits, two places apart.
+/// The bits of a coordinate of 21 bits, two positions apart.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32U) & 0x1f00000000ffffU;
   x = (x | x << 16U) & 0x1f0000ff0000ffU;
@@ -43,18 +43,18 @@ public:
     return keys_[static_cast<std::size_t>(k)].second;
   }
 
-  /// Whether there is a site within a distance of a place.
-  bool reaches(const Eigen::Vector3d& place, double distance) const {
+  /// Whether there is a site within a distance of a point.
+  bool reaches(const Eigen::Vector3d& point, double distance) const {
     // A cube of the curve at least as wide, so that two in each direction hold what is near.
     unsigned level = 0;
     while (level < bits && static_cast<double>(1U << level) < unit_ * 2 * distance)
       ++level;
     const double most = (1U << bits) - 1;
-    const Eigen::Array3d middle = (unit_ * (place - low_)).array();
+    const Eigen::Array3d middle = (unit_ * (point - low_)).array();
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Array3d way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       const Eigen::Array3d at = (middle + unit_ * distance * way).max(0).min(most);
-      if (holds(key_of(at) >> 3 * level << 3 * level, level, place, distance))
+      if (holds(key_of(at) >> 3 * level << 3 * level, level, point, distance))
         return true;
     }
     return false;
@@ -67,12 +67,12 @@ private:
            spread(static_cast<std::uint64_t>(at.z())) << 2U;
   }
 
-  bool holds(std::uint64_t first, unsigned level, const Eigen::Vector3d& place,
+  bool holds(std::uint64_t first, unsigned level, const Eigen::Vector3d& point,
              double distance) const {
     const std::uint64_t last = first + ((std::uint64_t{1} << 3 * level) - 1);
     for (auto next = std::lower_bound(keys_.begin(), keys_.end(), std::pair(first, INT32_MIN));
          next != keys_.end() && next->first <= last; ++next)
-      if ((points_.col(next->second) - place).squaredNorm() <= distance * distance)
+      if ((points_.col(next->second) - point).squaredNorm() <= distance * distance)
         return true;
     return false;
   }
@@ -174,8 +174,8 @@ bool is_covered(const Eigen::Vector3i& sites, const ViewMesh& mesh, const Curve&
   const Eigen::Vector3d a = mesh.points.col(sites[0]), b = mesh.points.col(sites[1]),
                         c = mesh.points.col(sites[2]);
   const double near = reach(sites).maxCoeff();
-  const auto covered = [&](const Eigen::Vector3d& place) {
-    return curve.reaches(place.normalized(), near);
+  const auto covered = [&](const Eigen::Vector3d& point) {
+    return curve.reaches(point.normalized(), near);
   };
   return covered(a + b + c) && covered(a + b) && covered(b + c) && covered(c + a);
 }

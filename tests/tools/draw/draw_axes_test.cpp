@@ -43,15 +43,15 @@ void check_ticks(const Axis& axis, int most) {
   double last = -1;
   for (const Tick& tick : ticks.labelled) {
     CAPTURE(tick.label);
-    CHECK(tick.place > last);
-    CHECK(tick.place > -1e-6);
-    CHECK(tick.place < 1 + 1e-6);
-    CHECK(axis.place(value_of(tick.label)) == doctest::Approx(tick.place).epsilon(1e-4));
-    last = tick.place;
+    CHECK(tick.position > last);
+    CHECK(tick.position > -1e-6);
+    CHECK(tick.position < 1 + 1e-6);
+    CHECK(axis.position(value_of(tick.label)) == doctest::Approx(tick.position).epsilon(1e-4));
+    last = tick.position;
   }
-  for (const double place : ticks.unlabelled) {
-    CHECK(place > -1e-6);
-    CHECK(place < 1 + 1e-6);
+  for (const double position : ticks.unlabelled) {
+    CHECK(position > -1e-6);
+    CHECK(position < 1 + 1e-6);
   }
 }
 
@@ -89,14 +89,14 @@ TEST_CASE("an axis runs from 0 to 1 and holds the values that it can show") {
   const std::vector<double> values = {3, 0.02, -1, 0, std::nan(""), infinity, 1e3};
   for (const bool logarithmic : {false, true}) {
     const Axis axis = axis_around(values, logarithmic);
-    CHECK(axis.place(axis.low) == 0);
-    CHECK(axis.place(axis.high) == 1);
+    CHECK(axis.position(axis.low) == 0);
+    CHECK(axis.position(axis.high) == 1);
     CHECK(axis.shows(-1) == !logarithmic);
     CHECK(!axis.shows(infinity));
     for (const double value : values) {
       if (axis.shows(value)) {
-        CHECK(axis.place(value) > 0);
-        CHECK(axis.place(value) < 1);
+        CHECK(axis.position(value) > 0);
+        CHECK(axis.position(value) < 1);
       }
     }
   }

@@ -21,17 +21,17 @@ using namespace calotte::tools;
 
 namespace {
 
-/// On land, by the parity of the coasts that the meridian crosses between a place and the north
+/// On land, by the parity of the coasts that the meridian crosses between a point and the north
 /// pole, which is in the sea.
-bool on_land(const LonLat& place) {
+bool on_land(const LonLat& point) {
   int crossings = 0;
   for (const auto& line : coastlines()) {
     for (std::size_t i = 1; i < line.size(); ++i) {
-      const double from = std::remainder(line[i - 1].longitude - place.longitude, 360);
+      const double from = std::remainder(line[i - 1].longitude - point.longitude, 360);
       const double to = from + line[i].longitude - line[i - 1].longitude;
       if ((from < 0) != (to < 0) && std::abs(from) < 90) {
         const double t = from / (from - to);
-        crossings += std::lerp(line[i - 1].latitude, line[i].latitude, t) > place.latitude;
+        crossings += std::lerp(line[i - 1].latitude, line[i].latitude, t) > point.latitude;
       }
     }
   }
@@ -124,10 +124,10 @@ template <class Map> void check_map(Projection projection, const LonLat& view) {
     }
   }
   for (const auto& [a, b] : sides) {
-    if (Map::shows(a) && std::abs(Map::place(a).u) < 0.98 * Map::half_width) {
-      const Place place = Map::place(a);
+    if (Map::shows(a) && std::abs(Map::project(a).u) < 0.98 * Map::half_width) {
+      const MapPoint point = Map::project(a);
       missing +=
-          map.painted_near(width / 2.0 + scale * place.u, width / 2.0 - scale * place.v) ? 0 : 1;
+          map.painted_near(width / 2.0 + scale * point.u, width / 2.0 - scale * point.v) ? 0 : 1;
     }
   }
   CHECK(painted > 1000);

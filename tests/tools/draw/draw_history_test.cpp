@@ -69,7 +69,7 @@ std::vector<double> excess_of(const History& history) { return energy_excess({hi
 
 const HistoryColumn& by_evaluations(const HistoryPage& page) { return page.columns[0]; }
 
-std::vector<double> places_in(const HistoryColumn& column, const History& history) {
+std::vector<double> positions_in(const HistoryColumn& column, const History& history) {
   return column.quantity == Across::seconds ? elapsed_seconds(history)
                                             : evaluation_numbers(history);
 }
@@ -114,13 +114,13 @@ TEST_CASE("a file that is no report is refused in a line that names the file and
   }
   for (const char* key : {"cells", "rule", "l2", "linf", "energy", "flips", "rebuilt", "seconds"}) {
     json report = sample_report();
-    const std::string place = std::string("iterations[3].") + key;
+    const std::string position = std::string("iterations[3].") + key;
     json& iteration = report["iterations"][3];
     iteration.erase(key);
-    check_refused(folder, report.dump(), place + " is missing");
+    check_refused(folder, report.dump(), position + " is missing");
     for (const json& bad : {json("1"), json(nullptr), json(-2), json::array({1})}) {
       iteration[key] = bad;
-      check_refused(folder, report.dump(), place + " is ");
+      check_refused(folder, report.dump(), position + " is ");
     }
   }
   json report = sample_report();
@@ -314,7 +314,7 @@ void check_column(const HistoryPage& page, const HistoryColumn& column, const Hi
   CHECK(column.energy.top > column.norms.bottom());
   CHECK(column.repairs.top > column.energy.bottom());
   CHECK(page.height > column.repairs.bottom());
-  const std::vector<double> across = places_in(column, history);
+  const std::vector<double> across = positions_in(column, history);
   const std::vector<double> l2 = scaled_l2(history);
   const std::vector<double> linf = scaled_linf(history);
   for (std::size_t i = 0; i < l2.size(); ++i) {
@@ -363,9 +363,9 @@ TEST_CASE("runs of very different length have logarithmic axes across, which hol
         CHECK(frame->across.logarithmic == (length > 20));
       }
       for (const History& history : both) {
-        for (const double place : places_in(column, history)) {
-          CHECK(column.norms.across.place(place) > 0);
-          CHECK(column.norms.across.place(place) < 1);
+        for (const double position : positions_in(column, history)) {
+          CHECK(column.norms.across.position(position) > 0);
+          CHECK(column.norms.across.position(position) < 1);
         }
       }
     }
@@ -377,7 +377,7 @@ namespace {
 /// The curves have the colour of the run at its values.
 void check_curves(const Picture& picture, const HistoryColumn& column, const History& history) {
   const Rgb colour = history_colour(0);
-  const std::vector<double> across = places_in(column, history);
+  const std::vector<double> across = positions_in(column, history);
   const std::vector<double> l2 = scaled_l2(history);
   const std::vector<double> excess = excess_of(history);
   for (std::size_t i = 1; i < 40; ++i) {
@@ -396,7 +396,7 @@ void check_curves(const Picture& picture, const HistoryColumn& column, const His
 /// The middle of a flip's stroke, and the foot of a rebuild's triangle.
 void check_marks(const Picture& picture, const HistoryPage& page, const HistoryColumn& column,
                  const History& history) {
-  const std::vector<double> across = places_in(column, history);
+  const std::vector<double> across = positions_in(column, history);
   const auto mark = [&](std::size_t i, double letters) {
     const PagePoint point = {column.repairs.at(across[i], 0).x,
                              column.repairs.top + letters * page.text};
@@ -436,7 +436,7 @@ TEST_CASE("the tolerance is a dashed line, and a level ends in a full one") {
   const HistoryPage page = history_page({history}, 1800);
   const auto dark = [&](const PagePoint& at) { return (pixel_at(picture, at) & 0xff) < 0xd8; };
   for (const HistoryColumn& column : page.columns) {
-    const std::vector<double> across = places_in(column, history);
+    const std::vector<double> across = positions_in(column, history);
     int dashes = 0;
     int gaps = 0;
     for (double part = 0; part < 1; part += 0.003) {
@@ -474,7 +474,7 @@ TEST_CASE("a curve skips rejected evaluations") {
     for (const HistoryColumn& column : page.columns) {
       const double tried = 1e-2 * std::pow(0.9, 19);
       const double between = 1e-2 * std::pow(0.9, 9);
-      const double x = places_in(column, history)[9];
+      const double x = positions_in(column, history)[9];
       const auto drawn = [&](double l2) {
         return has_colour(pixel_at(picture, column.norms.at(x, l2)), history_colour(0));
       };

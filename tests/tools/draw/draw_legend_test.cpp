@@ -56,8 +56,8 @@ TEST_CASE("labels of a colour bar never touch, and differ") {
         double end = -1e9;
         for (const Tick& tick : ticks.labelled) {
           const double half = letters(tick.label) / 2;
-          CHECK(tick.place * width - half >= end);
-          end = tick.place * width + half + 0.7 - 1e-9;
+          CHECK(tick.position * width - half >= end);
+          end = tick.position * width + half + 0.7 - 1e-9;
           labels.insert(tick.label);
         }
         CHECK(labels.size() == ticks.labelled.size());
@@ -77,7 +77,7 @@ TEST_CASE("labels of a narrow range are differences from a number beside the bar
       if (bar.offset != 0) {
         const double label = std::stod(tick.label);
         const double value = label * std::pow(10, bar.exponent) + bar.offset;
-        CHECK(scale.place(value) == doctest::Approx(tick.place).epsilon(1e-4));
+        CHECK(scale.position(value) == doctest::Approx(tick.position).epsilon(1e-4));
         CHECK(tick.label.size() <= 5);
       }
     }
@@ -88,7 +88,7 @@ TEST_CASE("a scale of equal values says that they are constant, or how much they
   const auto text = [](double low, double high, Colouring colouring) {
     const Scale scale = make_scale({low, high, std::nan("")}, colouring);
     CHECK(scale.constant);
-    CHECK(scale.place(low) == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(scale.position(low) == doctest::Approx(0.5).epsilon(1e-4));
     return constant_text(scale);
   };
   CHECK(text(1.234, 1.234, Colouring::field) == "constant 1.234");
@@ -163,20 +163,20 @@ TEST_CASE("a line of classes stays on the page, in letters of any size") {
 TEST_CASE("a range sets the ends of the bar, in the unit of the legend") {
   Scale scale = make_scale({1, 2, 3}, Colouring::field);
   set_range(scale, {0, 10});
-  CHECK(scale.place(5) == 0.5);
+  CHECK(scale.position(5) == 0.5);
   CHECK_FALSE(scale.below);
   CHECK_FALSE(scale.above);
   set_range(scale, {1.5, 2.5});
   CHECK(scale.below);
   CHECK(scale.above);
-  CHECK(scale.place(3) == 1);
+  CHECK(scale.position(3) == 1);
   Scale constant = make_scale({2, 2}, Colouring::field);
   set_range(constant, {0, 4});
   CHECK_FALSE(constant.constant);
-  CHECK(constant.place(2) == 0.5);
+  CHECK(constant.position(2) == 0.5);
   Scale wide = make_scale({1, 2}, Colouring::spacing);
   set_range(wide, {10, 1000}); // a magnitude over powers of ten
-  CHECK(wide.place(100) == doctest::Approx(0.5));
+  CHECK(wide.position(100) == doctest::Approx(0.5));
   for (const Colouring colouring : {Colouring::valence, Colouring::region, Colouring::none}) {
     Scale classes = make_scale({5, 6}, colouring);
     CHECK(code_of([&] { set_range(classes, {0, 1}); }) == ErrorCode::invalid_argument);

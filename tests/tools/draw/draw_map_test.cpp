@@ -48,9 +48,9 @@ Vector3d on_earth(double longitude, double latitude) {
           std::sin(latitude)};
 }
 
-/// The place on the earth of the middle of a pixel, by the textbook's formulas; none outside the
+/// The point on the earth of the middle of a pixel, by the textbook's formulas; none outside the
 /// globe, or so near to its limb that a pixel is wide.
-std::optional<Vector3d> place_of_pixel(const MapSize& size, Projection projection,
+std::optional<Vector3d> point_of_pixel(const MapSize& size, Projection projection,
                                        const LonLat& view, double x, double y) {
   const double u = (x + 0.5) / size.width * 2 - 1;
   const double v = 1 - (y + 0.5) / size.height * 2;
@@ -68,8 +68,8 @@ std::optional<Vector3d> place_of_pixel(const MapSize& size, Projection projectio
   return on_earth(lon + std::atan2(u, std::cos(lat) * std::cos(c) - v * std::sin(lat)), phi);
 }
 
-/// The shape that contains a place, by its definition: the cell of the nearest site, or the
-/// triangle all of whose sides have the place to their left; -1 if rounding leaves it undecided.
+/// The shape that contains a point, by its definition: the cell of the nearest site, or the
+/// triangle all of whose sides have the point to their left; -1 if rounding leaves it undecided.
 class ShapeSearch {
 public:
   ShapeSearch(const Mesh& mesh, Shapes shapes)
@@ -82,14 +82,14 @@ public:
     }
   }
 
-  int at(const Vector3d& place) const {
+  int at(const Vector3d& point) const {
     if (shapes_ == Shapes::cells) {
       int nearest = 0;
-      (sites_.transpose() * place).maxCoeff(&nearest);
+      (sites_.transpose() * point).maxCoeff(&nearest);
       return nearest;
     }
     const auto holds = [&](const std::array<Vector3d, 3>& sides) {
-      return sides[0].dot(place) > 0 && sides[1].dot(place) > 0 && sides[2].dot(place) > 0;
+      return sides[0].dot(point) > 0 && sides[1].dot(point) > 0 && sides[2].dot(point) > 0;
     };
     const auto found = std::find_if(sides_.begin(), sides_.end(), holds);
     return found == sides_.end() ? -1 : static_cast<int>(found - sides_.begin());
@@ -139,8 +139,8 @@ Eigen::ArrayXXi shapes_at(const Mesh& mesh, Shapes shapes, Projection projection
   Eigen::ArrayXXi result = Eigen::ArrayXXi::Constant(size.width, size.height + 2 * near, -1);
   for (int row = 0; row < result.cols(); ++row) {
     for (int x = 0; x < size.width; ++x) {
-      if (const auto place = place_of_pixel(size, projection, view, x, row - near)) {
-        result(x, row) = search.at(*place);
+      if (const auto point = point_of_pixel(size, projection, view, x, row - near)) {
+        result(x, row) = search.at(*point);
       }
     }
   }
@@ -229,11 +229,11 @@ TEST_CASE("an enlarged map shows the cells of the nearest sites") {
     const Image paths = vector(painting, window, size);
     const auto shape_at = [&](double x, double y) {
       const double up = window.middle / pi * size.height;
-      const auto place = place_of_pixel(
+      const auto point = point_of_pixel(
           size, projection, view,
           (x + 0.5 - size.width / 2.0) / window.zoom + size.width / 2.0 - 0.5,
           (y + 0.5 - size.height / 2.0) / window.zoom + size.height / 2.0 - 0.5 - up);
-      return place ? search.at(*place) : -1;
+      return point ? search.at(*point) : -1;
     };
     int wrong = 0, inner = 0;
     for (int x = 0; x < size.width; ++x) {
@@ -297,7 +297,7 @@ TEST_CASE("labels of an enlarged map stand where their degrees are") {
       for (const DegreeLabel& label : degrees.labels) {
         CAPTURE(label.text);
         Vector3d p;
-        REQUIRE(Orthographic::direction(label.place, p));
+        REQUIRE(Orthographic::direction(label.point, p));
         p = frame.transpose() * p;
         const double number = std::stod(label.text);
         const bool latitude = label.text.ends_with("N") || label.text.ends_with("S") ||
@@ -356,8 +356,8 @@ TEST_CASE("a field of the sphere is evaluated at each pixel, on both maps") {
       for (int at = 0; at < size.width * size.height; at += 7) {
         const int x = at % size.width;
         const int y = at / size.width;
-        if (const auto place = place_of_pixel(size, projection, view, x, y)) {
-          const Rgb colour = painting.scale.colour(values(*place)[0]);
+        if (const auto point = point_of_pixel(size, projection, view, x, y)) {
+          const Rgb colour = painting.scale.colour(values(*point)[0]);
           wrong += has_colour(pixel(image, x, y), colour) ? 0 : 1;
         }
       }
@@ -397,12 +397,12 @@ TEST_CASE("a parallel meets the rim of a globe at its latitude, on the left, or 
     for (const LonLat& view : {LonLat{15, 25}, LonLat{-100, -80}, LonLat{70, 0}, LonLat{0, 90}}) {
       CAPTURE(latitude);
       CAPTURE(view.latitude);
-      const std::optional<Place> place = rim_place(view, latitude);
+      const std::optional<MapPoint> point = rim_point(view, latitude);
       // Seen from a pole, the equator is the rim.
-      CHECK(place.has_value() ==
+      CHECK(point.has_value() ==
             (latitude == 0 || std::abs(latitude) < 90 - std::abs(view.latitude)));
-      if (place) {
-        const Vector3d rim(place->u, place->v, 0);
+      if (point) {
+        const Vector3d rim(point->u, point->v, 0);
         CHECK(rim.norm() == doctest::Approx(1));
         CHECK(rim.x() < 0);
         const Vector3d on_earth = frame_of(view).transpose() * rim;
@@ -576,16 +576,16 @@ bool alike(std::uint32_t a, std::uint32_t b) {
          std::abs(channel(a, 0) - channel(b, 0)) <= 1;
 }
 
-/// The site nearest to a place, and how much farther the next one is.
+/// The site nearest to a point, and how much farther the next one is.
 struct Nearest {
   Eigen::Index site;
   double lead;
 };
 
-Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& place) {
+Nearest nearest(const PlaneCase& c, const Eigen::Vector2d& point) {
   Eigen::VectorXd distances(c.mesh.points.cols());
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
-    Eigen::Vector2d way = c.mesh.points.col(i).head<2>() - place;
+    Eigen::Vector2d way = c.mesh.points.col(i).head<2>() - point;
     for (int k = 0; k < 2 && c.mesh.surface.is_box(); ++k)
       way[k] = std::remainder(way[k], c.mesh.surface.period()[k]);
     distances[i] = way.norm();
@@ -615,17 +615,17 @@ TEST_CASE("a plane's cells are those of the nearest sites, cut off at the domain
     int seen = 0, beyond = 0;
     for (int y = 0; y < page.map.height; y += 3)
       for (int x = 0; x < page.map.width; x += 3) {
-        const Eigen::Vector2d place((x + 0.5) / unit - c.margin, 1 + c.margin - (y + 0.5) / unit);
+        const Eigen::Vector2d point((x + 0.5) / unit - c.margin, 1 + c.margin - (y + 0.5) / unit);
         const int px = static_cast<int>(page.middle_x - page.map.width / 2.0) + x,
                   py = static_cast<int>(page.middle_y - page.map.height / 2.0) + y;
         const auto inside = [&](double dx, double dy) {
-          return c.mesh.surface.contains({place.x() + dx / unit, place.y() + dy / unit, 0});
+          return c.mesh.surface.contains({point.x() + dx / unit, point.y() + dy / unit, 0});
         };
         const int around = inside(3, 3) + inside(-3, 3) + inside(3, -3) + inside(-3, -3);
         if (around == 0) {
           ++beyond;
           CHECK(picture.at(px, py) == 0xffffff);
-        } else if (const Nearest near = nearest(c, place); around == 4 && near.lead > 6 / unit) {
+        } else if (const Nearest near = nearest(c, point); around == 4 && near.lead > 6 / unit) {
           ++seen;
           CHECK(alike(picture.at(px, py), packed(scale.colour(values[near.site]))));
         }

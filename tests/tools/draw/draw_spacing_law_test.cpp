@@ -146,8 +146,8 @@ TEST_CASE("the picture has its size, the law's line is a diagonal, and odd cells
   };
   const auto red = [&](const PagePoint& at) { return pixel(at) >> 16; };
   const Axis& across = page.spacing.across;
-  for (const double place : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-    const double x = across.low * std::pow(across.high / across.low, place);
+  for (const double position : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const double x = across.low * std::pow(across.high / across.low, position);
     CHECK(red(page.spacing.at(x, x)) < 0x40);        // the line,
     CHECK(red(page.spacing.at(x, 1.04 * x)) < 0xf0); // its band,
     CHECK(red(page.spacing.at(x, 1.06 * x)) > 0xe0); // and beyond it paper or grid

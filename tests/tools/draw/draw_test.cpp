@@ -277,16 +277,16 @@ TEST_CASE("a scale runs from 0 to 1, rises, and its ticks lie on it") {
   for (const auto& [low, high] : {std::pair{0.01, 0.012}, {0.001, 0.5}, {1e-7, 1.0}, {0.2, 0.2}}) {
     const Scale scale = make_scale({low, high, std::nan("")}, Colouring::spacing);
     CAPTURE(low);
-    CHECK(scale.place(scale.low) == 0);
-    CHECK(scale.place(scale.high) == doctest::Approx(1));
-    CHECK(scale.place(0.5 * (scale.low + scale.high)) > 0);
+    CHECK(scale.position(scale.low) == 0);
+    CHECK(scale.position(scale.high) == doctest::Approx(1));
+    CHECK(scale.position(0.5 * (scale.low + scale.high)) > 0);
     const AxisTicks ticks = bar_ticks(scale, 7).ticks;
     CHECK(ticks.labelled.size() >= 2);
     CHECK(ticks.labelled.size() <= 7);
     double last = -1e-6;
     for (const Tick& tick : ticks.labelled) {
-      CHECK(tick.place > last);
-      last = tick.place;
+      CHECK(tick.position > last);
+      last = tick.position;
     }
     CHECK(last <= 1 + 1e-6);
   }
@@ -303,7 +303,7 @@ TEST_CASE("labels of a bar say the values at their places, in degrees or powers 
       CAPTURE(tick.label);
       if (!tick.label.starts_with("\u2212")) {
         const double value = label_value(tick.label) * std::pow(10, bar.exponent);
-        CHECK(scale.place(value) == doctest::Approx(tick.place).epsilon(1e-9));
+        CHECK(scale.position(value) == doctest::Approx(tick.position).epsilon(1e-9));
         CHECK(label_value(tick.label) < 1e4); // a short label
       }
     }
@@ -312,7 +312,7 @@ TEST_CASE("labels of a bar say the values at their places, in degrees or powers 
   angles.degrees = true;
   for (const Tick& tick : bar_ticks(angles, 6).ticks.labelled) {
     CHECK(tick.label.ends_with("\u00b0"));
-    CHECK(angles.place(label_value(tick.label)) == doctest::Approx(tick.place).epsilon(1e-9));
+    CHECK(angles.position(label_value(tick.label)) == doctest::Approx(tick.position).epsilon(1e-9));
   }
 }
 
