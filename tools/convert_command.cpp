@@ -109,7 +109,7 @@ std::string renamed(const std::vector<std::array<std::string, 2>>& names) {
   return listed(list);
 }
 
-/// What the output does not hold of the input, and a unit that was taken for granted.
+/// What the output does not hold of the input, and a unit that was assumed.
 std::string remarks(const ConvertRequest& request, const MeshFile& file,
                     const WriteOptions& options, const WrittenFields& written) {
   std::string lines;
@@ -131,7 +131,7 @@ std::string remarks(const ConvertRequest& request, const MeshFile& file,
   return lines;
 }
 
-/// \throws Error invalid_argument, where the domain of a plane is missing or in vain.
+/// \throws Error invalid_argument, where the domain of a plane is missing or has no effect.
 MeshFile read_input(const ConvertRequest& request) {
   MeshFile file = read_mesh_file(*request.source, FieldChoice::all);
   const bool unbounded = file.plane() && file.mesh->surface.period().maxCoeff() == 0;

@@ -123,7 +123,7 @@ struct Run {
   CvtInput input;
   Schedule schedule;
   std::string configuration;
-  std::optional<CvtState> state; ///< where it goes on
+  std::optional<CvtState> state; ///< from which it resumes
 };
 
 Run prepare(const CvtRequest& request, Progress& progress) {

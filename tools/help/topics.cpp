@@ -213,7 +213,7 @@ constexpr const char* codes =
   130, 143  stopped by SIGINT or SIGTERM; --resume continues a run with --checkpoint
 )";
 
-/// From the library's table.
+/// Lists the formats of the library's table.
 std::string formats_text() {
   std::ostringstream out;
   out << "The name of a file selects its format, --format another one that has that name. Of "

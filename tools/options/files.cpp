@@ -38,7 +38,7 @@ void require_distinct(const std::string& output, const std::string& input) {
 
 namespace {
 
-/// With the files that those of rules name.
+/// Adds the files that inputs of rules name.
 std::vector<std::string> with_named(const std::vector<std::string>& inputs) {
   std::vector<std::string> all = inputs;
   for (const std::string& input : inputs)

@@ -21,8 +21,8 @@ struct Output {
   std::string what, path;
 };
 
-/// As require_folder and require_distinct, for all outputs with a path; two outputs must not be one
-/// file.
+/// Applies require_folder and require_distinct to all outputs with a path. Two outputs must not be
+/// one file.
 /// \throws Error file, invalid_argument.
 void require_outputs(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 

@@ -61,7 +61,7 @@ double length(const OptionWord& word, std::size_t part, double radius_km) {
   return angle;
 }
 
-/// Two parts as a direction.
+/// The direction whose longitude and latitude are two parts.
 Eigen::Vector3d direction(const OptionWord& word, std::size_t part = 0) {
   return direction_at(degrees(word, part, 720), degrees(word, part + 1, 90));
 }

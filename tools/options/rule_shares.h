@@ -16,7 +16,7 @@ struct RuleShare {
   double area, cells; ///< shares of those of the surface, 0 to 1
 };
 
-/// Of each rule of a minimum, within about 1/1000.
+/// Estimates the shares of each rule of a minimum, within about 1/1000.
 /// \param surface the sphere or a region of it.
 /// \param density that the rules demand.
 std::vector<RuleShare> rule_shares(const WidthRules& rules, const Surface& surface,

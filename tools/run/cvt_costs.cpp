@@ -48,8 +48,8 @@ double seconds_of_point(const Density& density) {
 // coast, with gradients ten times above what models recommend, 180 times. An evaluation took 290 to
 // 540 ns of a cell on an AMD EPYC virtual machine, of all threads together.
 
-/// In units of the result's cells; of a uniform grid of the sphere, see Start, and of all
-/// others.
+/// Evaluations in units of the result's cells: of a uniform grid of the sphere, see Start, and of
+/// all others.
 constexpr double evaluations_uniform = 30, evaluations = 110;
 constexpr double seconds_of_cell = 280e-9; ///< per evaluation, without the density
 constexpr double points_of_cell = 36;      ///< at which the density is evaluated

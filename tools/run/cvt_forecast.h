@@ -27,8 +27,8 @@ struct Remaining {
   double least = 0, most = 0;
 };
 
-/// From the forecast of the descent and, if levels follow, the times of the current one. A wide
-/// range as long as levels or rounds of insertion follow.
+/// Estimates them from the forecast of the descent and, if levels follow, the times of the current
+/// one. The range is wide as long as levels or rounds of insertion follow.
 std::optional<Remaining> remaining(const CvtProgress& progress, const Schedule& schedule);
 
 /// The line of a run's progress and of its log: the level, the iteration, the norm, the energy, and

@@ -35,7 +35,7 @@ Json to_json(const CvtIteration& iteration) {
           {"seconds_solver", iteration.seconds_solver}};
 }
 
-/// With what was done of each.
+/// The actions, with what was done of each.
 Json actions_of(const CvtReport& report) {
   Json array = Json::array();
   for (std::size_t k = 0; k < report.actions.size(); ++k) {

@@ -24,11 +24,10 @@ struct SpacingSurvey {
 /// the extremes: features smaller than that may be missed. A regular hexagon of width h has the
 /// area sqrt(3)/2 h^2.
 ///
-/// In a region by as many random places, so that the spacings err by about a hundredth if the
-/// density is steep, unless `unit` is given.
-/// \param cells > 0, in the region.
-/// \param unit the spacing where the density is 1, if it is known; 0 otherwise.
-/// \throws Error as evaluate() and random_sphere().
+/// A region is surveyed by as many random points, so that the spacings err by about a hundredth if
+/// the density is steep, unless `unit` is given. \param cells > 0, in the region. \param unit the
+/// spacing where the density is 1, if it is known; 0 otherwise. \throws Error as evaluate() and
+/// random_sphere().
 SpacingSurvey survey_spacing(const Density& density, std::int64_t cells, const Surface& region = {},
                              double unit = 0);
 
