@@ -100,13 +100,6 @@ std::string table(const PolygonShapes& found, const MeshFile& file) {
   return out.str() + shape_rows(found, open ? std::nullopt : file.mesh, 16);
 }
 
-std::string deviation_lines(const std::vector<Deviation>& deviations) {
-  std::string lines;
-  for (const Deviation& deviation : deviations)
-    lines += deviation.text + "\n";
-  return lines;
-}
-
 /// Why deviations make the check fail; empty if they do not.
 std::string failure_of(const std::vector<Deviation>& deviations) {
   const auto count = std::count_if(deviations.begin(), deviations.end(),
@@ -141,7 +134,8 @@ void run_check(const MeshSource& source) {
         failure = without_area(found);
     }
     const std::vector<Deviation> deviations = check_file(source.path, std::move(file));
-    text += deviation_lines(deviations);
+    for (const Deviation& deviation : deviations)
+      text += deviation.text + "\n";
     if (failure.empty())
       failure = failure_of(deviations);
   }

@@ -91,7 +91,7 @@ Points3 points_of(const std::vector<std::string>& words) {
   return read_points(in, "--seed", Columns::lonlat);
 }
 
-/// Those that the model needs besides the mesh's.
+/// The dimensions that the model needs besides the mesh's.
 std::vector<FieldDimension> dimensions_of(const CullRequest& request) {
   const ModelNeeds* const model = model_of(request.model);
   return model != nullptr ? model->dimensions : std::vector<FieldDimension>{};
@@ -128,9 +128,7 @@ CullOptions options_of(const CullRequest& request) {
 
 std::string describe_cull(const CullRequest& request, const CullReport& report) {
   const auto line = [](const std::string& name, std::int64_t cells) {
-    std::string text = name;
-    text.resize(28, ' ');
-    return text + std::to_string(cells) + "\n";
+    return row(name, 28, message("{}", cells));
   };
   const SeaReport& sea = report.sea;
   std::string lines;

@@ -93,11 +93,8 @@ OperatorErrors errors_of(const Mesh& mesh) {
 CellField field_of(const DrawOptions& options, const std::string& path, const MeshFile& file,
                    std::int64_t cells) {
   const std::string& name = options.field_name;
-  for (const MeshField& field : file.fields) {
-    if (field.name == name && field.location == FieldLocation::cells &&
-        field.values.size() == cells) {
-      return {field.values, field.long_name, field.units};
-    }
+  if (const MeshField* const field = find_cell_field(file, name, cells)) {
+    return {field->values, field->long_name, field->units};
   }
   return read_cell_field(path, name, cells);
 }

@@ -5,7 +5,6 @@
 #include "options/choice.h"
 #include "options/delaunay_options.h"
 #include "options/files.h"
-#include "options/numbers.h"
 #include "run/progress.h"
 #include "text/text.h"
 
@@ -297,11 +296,8 @@ void add_interpolate(CLI::App& app) {
   add_field_options(*command, *request);
   add_weights_options(*command, *request);
   command->get_option("--apply")->excludes("--method");
-  command
-      ->add_option("--threads", request->threads,
-                   "Number of threads, 1 to 4096; no effect on the result. Default: all.")
-      ->transform(whole_number(1, 4096))
-      ->type_name("N");
+  add_threads(*command, request->threads,
+              "Number of threads, 1 to 4096; no effect on the result. Default: all.");
   set_help(*command,
            {.common = {},
             .examples = {

@@ -128,14 +128,14 @@ void run_jigsaw(const std::string& path) {
   require_outputs({{"mesh", output}},
                   {path, jig.file("GEOM_FILE"), jig.text("HFUN_FILE").value_or(""),
                    jig.text("INIT_FILE").value_or("")});
-  const int threads = jig.whole("NUMTHREAD").value_or(0);
+  const std::optional<int> threads = jig.threads();
   Progress progress;
   progress.stage("reading the widths");
   const Job job = job_of(jig);
   if (jig.whole("VERBOSITY").value_or(0) > 0)
     for (const std::string& remark : job.remarks)
       std::cout << message("calotte: {}\n", remark);
-  Cvt grid = make_mesh(job, threads > 0 ? std::optional(threads) : std::nullopt, progress);
+  Cvt grid = make_mesh(job, threads, progress);
   progress.stage("writing " + output);
   grid.mesh.points *= job.radius;
   write(output, grid.mesh, {.format = Format::msh});

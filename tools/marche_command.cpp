@@ -22,13 +22,11 @@ void run_marche(const std::string& path) {
   const std::string widths = jig.file("HFUN_FILE");
   const double radius =
       jig.text("GEOM_FILE") ? read_jigsaw_geometry(jig.file("GEOM_FILE")).radius : 1;
-  const int threads = jig.whole("NUMTHREAD").value_or(0);
+  const std::optional<int> threads = jig.threads();
   Progress progress;
   progress.stage("limiting the gradient of " + widths);
-  const double seconds = seconds_of([&] {
-    with_threads(threads > 0 ? std::optional(threads) : std::nullopt,
-                 [&] { limit_jigsaw_values(widths, radius); });
-  });
+  const double seconds =
+      seconds_of([&] { with_threads(threads, [&] { limit_jigsaw_values(widths, radius); }); });
   std::cout << message("{}: gradient limited, {} s\n", widths, formatted("%.2f", seconds));
 }
 

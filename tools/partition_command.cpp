@@ -6,7 +6,6 @@
 #include "options/delaunay_options.h"
 #include "options/files.h"
 #include "options/format_options.h"
-#include "options/numbers.h"
 #include "options/part_counts.h"
 #include "run/exit_code.h"
 #include "run/progress.h"
@@ -48,7 +47,7 @@ struct Row {
   CellParts parts; ///< without the part of each cell
 };
 
-/// Of all files.
+/// The result for all files.
 struct PartitionOutcome {
   std::int64_t cells = 0, edges = 0;
   std::vector<std::int64_t> components; ///< their numbers of cells
@@ -272,8 +271,7 @@ void add_partition(CLI::App& app) {
       ->add_option("--weights", request->weights,
                    "Field of the file with the work of each cell, >= 0. Default: all are equal")
       ->type_name("FIELD");
-  command->add_option("--threads", request->threads, "Number of threads, 1 to 4096; default: all")
-      ->transform(whole_number(1, 4096));
+  add_threads(*command, request->threads, "Number of threads, 1 to 4096; default: all");
   command
       ->add_option("--report", request->report,
                    "Write edge cuts, imbalances and times to this JSON file")

@@ -30,12 +30,9 @@
 #include <nlohmann/json.hpp>
 #include <tbb/task_arena.h>
 
-#include <chrono>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace calotte::tools {
@@ -137,40 +134,41 @@ std::string gradient_words(const WidthGradient& gradient) {
 }
 
 std::string table(const Plan& plan) {
-  std::ostringstream out;
-  const auto row = [&out](const std::string& name, const std::string& value) {
-    out << std::left << std::setw(22) << name << value << "\n";
+  std::string lines;
+  const auto add = [&lines](const std::string& name, const std::string& value) {
+    lines += row(name, 22, value);
   };
-  row("density", plan.density);
+  add("density", plan.density);
   if (!plan.region.empty())
-    row("region", plan.region);
-  row("cells", std::to_string(plan.cells));
+    add("region", plan.region);
+  add("cells", message("{}", plan.cells));
   if (plan.implied > 0) {
-    row("cells of the widths", formatted("%.0f", plan.implied));
-    row("factor on the widths", formatted("%.4g", plan.factor));
+    add("cells of the widths", formatted("%.0f", plan.implied));
+    add("factor on the widths", formatted("%.4g", plan.factor));
   }
   if (plan.radius_km)
-    row("cell width, km",
+    add("cell width, km",
         interval(plan.spacing.least * *plan.radius_km, plan.spacing.greatest * *plan.radius_km));
-  row("cell width, degrees", interval(plan.spacing.least / radians_per_degree,
+  add("cell width, degrees", interval(plan.spacing.least / radians_per_degree,
                                       plan.spacing.greatest / radians_per_degree));
-  row("steepest gradient", gradient_words(plan.spacing.steepest));
-  out << "actions of the run:\n";
+  add("steepest gradient", gradient_words(plan.spacing.steepest));
+  lines += "actions of the run:\n";
   for (const CvtAction& action : plan.actions)
-    row("  " + std::string(word_of(action.kind)), described(action));
+    add("  " + std::string(word_of(action.kind)), described(action));
   if (plan.width_seconds > 0)
-    row("time of the widths", duration(plan.width_seconds));
+    add("time of the widths", duration(plan.width_seconds));
   if (!plan.rules.empty())
-    out << "rules, and where each gives the width:\n";
+    lines += "rules, and where each gives the width:\n";
   for (const RuleShare& rule : plan.rules)
-    out << "  " << std::left << std::setw(30) << rule.name << " " << percent(rule.area)
-        << " of the area, " << percent(rule.cells) << " of the cells\n";
-  out << message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread"));
-  row("  time of cvt", duration(plan.costs.seconds));
-  row("  memory", bytes(plan.costs.memory));
-  row("  MPAS file (.nc)", bytes(plan.costs.mpas_file));
-  row("  triangles (.vtp)", bytes(plan.costs.vtp_file));
-  return out.str();
+    lines +=
+        row("  " + rule.name, 32,
+            message(" {} of the area, {} of the cells", percent(rule.area), percent(rule.cells)));
+  lines += message("estimates for {}, within a factor of 3:\n", counted(plan.threads, "thread"));
+  add("  time of cvt", duration(plan.costs.seconds));
+  add("  memory", bytes(plan.costs.memory));
+  add("  MPAS file (.nc)", bytes(plan.costs.mpas_file));
+  add("  triangles (.vtp)", bytes(plan.costs.vtp_file));
+  return lines;
 }
 
 std::string to_json(const Plan& plan) {
@@ -252,12 +250,14 @@ Plan make_plan(const PlanRequest& request) {
   progress.stage("reading the density");
   Plan plan;
   with_threads(request.threads, [&] {
-    const auto start = std::chrono::steady_clock::now();
-    const GridInput input = read_grid(*request.density, request.part, request.cells);
-    const Schedule schedule = calotte::plan(input.recipe);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    GridInput input;
+    Schedule schedule;
+    const double seconds = seconds_of([&] {
+      input = read_grid(*request.density, request.part, request.cells);
+      schedule = calotte::plan(input.recipe);
+    });
     plan = plan_of(request, input, schedule);
-    plan.width_seconds = schedule.widths ? taken.count() : 0;
+    plan.width_seconds = schedule.widths ? seconds : 0;
     progress.stage("drawing " + request.picture);
     if (!request.picture.empty())
       draw_widths(request, schedule.density, plan);
@@ -305,10 +305,7 @@ void add_plan(CLI::App& app) {
       *command, request->sphere_radius,
       "Radius of the sphere, for the widths of a density in km: metres, > 0, or earth "
       "(6371229 m)");
-  command
-      ->add_option("--threads", request->threads,
-                   "Number of threads of the run, 1 to 4096; default: all")
-      ->transform(whole_number(1, 4096));
+  add_threads(*command, request->threads, "Number of threads of the run, 1 to 4096; default: all");
   command
       ->add_option("-o,--output", request->picture,
                    "Draw the cell widths on a map of longitude and latitude: .png, .svg or .pdf")

@@ -57,15 +57,6 @@ std::string plain_head(const CLI::Option& option) {
   return message("  {}{}", names, values.empty() || names == values ? "" : " " + values);
 }
 
-/// The first sentence of its text.
-std::string brief(const CLI::Option& option) {
-  return wrapped(plain_head(option), text_column, brief_text(option));
-}
-
-std::string whole(const CLI::Option& option) {
-  return wrapped(plain_head(option), text_column, whole_text(option));
-}
-
 // ---- A command
 
 class HelpFormatter : public CLI::Formatter {
@@ -93,7 +84,8 @@ private:
       std::string lines;
       for (const CLI::Option* option : members)
         if (shown(*option, all))
-          lines += all ? whole(*option) : brief(*option);
+          lines += wrapped(plain_head(*option), text_column,
+                           all ? whole_text(*option) : brief_text(*option));
       if (!lines.empty())
         text += (all && !text.empty() ? "\n" : "") + name + ":\n" + lines;
     }

@@ -123,6 +123,34 @@ WidthRules read_as_given(const WidthWords& words, const Surface& surface) {
   return {.widths = read_cell_width(words.file, polygons_of(words), surface)};
 }
 
+/// A number with two digits, or as many as tell it from another one.
+std::string distinct_from(double other, double value) {
+  std::string text;
+  for (int digits = 2; digits <= 17; ++digits) {
+    text = formatted(message("%.{}g", digits).c_str(), value);
+    if (std::stod(text) != other)
+      break;
+  }
+  return text;
+}
+
+/// What makes steep widths less steep.
+std::string remedy_of(const WidthWords& words, bool scaled) {
+  if (words.gradient)
+    return message("give a smaller --gradient{}", scaled ? ", as --cells scales the widths" : "");
+  return message("give --gradient {}{}", steepest_width,
+                 words.transition ? ", or increase --transition" : "");
+}
+
+/// "cells 100 to 200", the unit, and the nodes.
+std::string range_words(const WidthField& widths, const WidthWords& words,
+                        const std::string& unit) {
+  return message("{}: cells {} to {}{} wide, at {} nodes{}, require ", words.file,
+                 formatted("%.4g", widths.least()), formatted("%.4g", widths.greatest()), unit,
+                 widths.nodes(),
+                 widths.apart() > 1 ? formatted(" up to %.3g widths apart", widths.apart()) : "");
+}
+
 /// A gradient above 0, in km per km.
 CLI::Validator slope() {
   return {[](std::string& text) -> std::string {
@@ -224,17 +252,6 @@ std::string width_configuration(const WidthWords& words) {
   return text;
 }
 
-/// A number with two digits, or as many as tell it from another one.
-std::string distinct_from(double other, double value) {
-  std::string text;
-  for (int digits = 2; digits <= 17; ++digits) {
-    text = formatted(message("%.{}g", digits).c_str(), value);
-    if (std::stod(text) != other)
-      break;
-  }
-  return text;
-}
-
 WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
                           std::optional<double> limit, double scale) {
   // Widths that are larger on a sphere have the gradient of the same on a smaller one.
@@ -244,14 +261,6 @@ WidthGradient steepest_of(const WidthField& widths, const WidthWords& words,
   if (limit && steepest.slope < at_tips * *limit * scale)
     steepest.slope = std::min(steepest.slope, *limit * scale);
   return steepest;
-}
-
-/// What makes steep widths less steep.
-std::string remedy_of(const WidthWords& words, bool scaled) {
-  if (words.gradient)
-    return message("give a smaller --gradient{}", scaled ? ", as --cells scales the widths" : "");
-  return message("give --gradient {}{}", steepest_width,
-                 words.transition ? ", or increase --transition" : "");
 }
 
 std::string lonlat_words(const WidthGradient& gradient) {
@@ -265,15 +274,6 @@ std::string doubt_of(const WidthField& widths, const WidthWords& words) {
     return "";
   return message("{}cells {} km wide are large; if these are metres, give km",
                  words.uniform ? "" : words.file + ": ", most);
-}
-
-/// "cells 100 to 200", the unit, and the nodes.
-std::string range_words(const WidthField& widths, const WidthWords& words,
-                        const std::string& unit) {
-  return message("{}: cells {} to {}{} wide, at {} nodes{}, require ", words.file,
-                 formatted("%.4g", widths.least()), formatted("%.4g", widths.greatest()), unit,
-                 widths.nodes(),
-                 widths.apart() > 1 ? formatted(" up to %.3g widths apart", widths.apart()) : "");
 }
 
 std::vector<std::string> notes_on(const WidthField& widths, const WidthWords& words,

@@ -13,11 +13,15 @@
 #include <map>
 
 namespace calotte::tools {
+
+void add_threads(CLI::App& command, std::optional<int>& threads, const std::string& help) {
+  command.add_option("--threads", threads, help)->transform(whole_number(1, 4096));
+}
+
 std::shared_ptr<DelaunayWords> add_delaunay_options(CLI::App& command) {
   auto words = std::make_shared<DelaunayWords>();
   const OptionGroup group(command, "Parallel");
-  command.add_option("--threads", words->threads, "Number of threads, 1 to 4096; default: all")
-      ->transform(whole_number(1, 4096));
+  add_threads(command, words->threads, "Number of threads, 1 to 4096; default: all");
   command
       .add_option(
           "--regions", words->regions,

@@ -22,6 +22,9 @@ struct DelaunayWords {
 /// Adds --threads, --regions, --centres, --sort, --duplicates and --merge-within.
 std::shared_ptr<DelaunayWords> add_delaunay_options(CLI::App& command);
 
+/// Adds --threads, 1 to 4096.
+void add_threads(CLI::App& command, std::optional<int>& threads, const std::string& help);
+
 DelaunayOptions options_of(const DelaunayWords& words);
 
 /// Runs the work with that number of threads, or with all.

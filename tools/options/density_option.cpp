@@ -99,11 +99,20 @@ std::optional<double> number(std::string_view text) {
   return value ? std::optional((*value)[0]) : std::nullopt;
 }
 
-double degrees_of(const BumpWords& words, const std::string& key) {
+/// \param what it is, for the message.
+double number_of(const BumpWords& words, const std::string& key, const char* what) {
   const auto value = number(words.values.at(key));
   if (!value)
-    refuse_value(words, key, "is not a number; give degrees");
+    refuse_value(words, key, message("is not a number; give {}", what));
   return *value;
+}
+
+double degrees_of(const BumpWords& words, const std::string& key) {
+  return number_of(words, key, "degrees");
+}
+
+double coordinate_of(const BumpWords& words, const std::string& key) {
+  return number_of(words, key, "one in the unit of the domain");
 }
 
 /// Radians, or degrees with the suffix deg.
@@ -170,15 +179,8 @@ DensityBump bump_of(const std::string& text) {
   return bump;
 }
 
-double number_of(const BumpWords& words, const std::string& key) {
-  const auto value = number(words.values.at(key));
-  if (!value)
-    refuse_value(words, key, "is not a number; give one in the unit of the domain");
-  return *value;
-}
-
 double length_of(const BumpWords& words, const std::string& key) {
-  const double value = number_of(words, key);
+  const double value = coordinate_of(words, key);
   if (!(value > 0))
     refuse_value(words, key, "is not a positive length; give one in the unit of the domain");
   return value;
@@ -187,7 +189,7 @@ double length_of(const BumpWords& words, const std::string& key) {
 DensityBump planar_bump_of(const std::string& text) {
   const BumpWords words = parse_bump(text, in_plane);
   DensityBump bump;
-  bump.centre = {number_of(words, "x"), number_of(words, "y"), 0};
+  bump.centre = {coordinate_of(words, "x"), coordinate_of(words, "y"), 0};
   bump.beta = length_of(words, "beta");
   bump.alpha = length_of(words, "alpha");
   bump.gamma = contrast(words);
@@ -259,11 +261,6 @@ DensityOfWidths sampled(const DensityWords& words, const Surface& surface) {
 
 Density density_of(const DensityWords& words, const Surface& surface) {
   return sampled(words, surface).density;
-}
-
-bool is_uniform(const DensityWords& words) {
-  const std::vector<std::string> names = density_names(words);
-  return words.widths.uniform || (names.size() == 1 && names.front() == "uniform");
 }
 
 std::vector<std::string> density_names(const DensityWords& words) {

@@ -51,12 +51,9 @@ DensityOfWidths sampled(const DensityWords& words, const Surface& surface = {});
 /// The density alone.
 Density density_of(const DensityWords& words, const Surface& surface = {});
 
-/// Whether the options prescribe cells of one size.
-bool is_uniform(const DensityWords& words);
-
 /// The parts of its name in reports and pictures: "uniform", the words of a bump, a file.
 std::vector<std::string> density_names(const DensityWords& words);
-/// These in one line, joined by "and".
+/// Joins these in one line by "and".
 std::string density_name(const DensityWords& words);
 
 /// A line that says that a file's density follows from the spacing of its cells.

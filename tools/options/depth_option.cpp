@@ -2,6 +2,7 @@
 #include "options/depth_option.h"
 
 #include "io/command.h"
+#include "options/mesh_source.h"
 #include "text/text.h"
 
 #include <calotte/read.h>
@@ -52,10 +53,8 @@ DoubleVector bottom_of(const std::string& name, const MeshFile& file) {
   const std::int64_t sites = file.mesh ? file.mesh->points.cols() : 0;
   if (const std::optional<double> flat = parse_number(name))
     return DoubleVector::Constant(sites, *flat);
-  for (const MeshField& field : file.fields)
-    if (field.name == name && field.location == FieldLocation::cells &&
-        field.values.size() == sites)
-      return depths_of(field.values);
+  if (const MeshField* const field = find_cell_field(file, name, sites))
+    return depths_of(field->values);
   refuse(
       message("--depth {}: the input has no field of that name with a number for each cell; give "
               "another, or metres for a flat bottom",

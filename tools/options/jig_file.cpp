@@ -86,6 +86,11 @@ std::optional<int> JigFile::whole(const std::string& name) const {
   return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
 }
 
+std::optional<int> JigFile::threads() const {
+  const std::optional<int> given = whole("NUMTHREAD");
+  return given > 0 ? given : std::nullopt;
+}
+
 std::string JigFile::file(const std::string& name) const {
   const std::optional<std::string> path = text(name);
   if (!path || path->empty())

@@ -23,6 +23,9 @@ public:
   std::optional<double> number(const std::string& name) const;               ///< may be infinite
   std::optional<int> whole(const std::string& name) const;
 
+  /// The number of NUMTHREAD; none for all threads.
+  std::optional<int> threads() const;
+
   /// A file that must be given. \throws Error parse.
   std::string file(const std::string& name) const;
 

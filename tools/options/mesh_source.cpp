@@ -9,6 +9,7 @@
 
 #include <CLI/App.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace calotte::tools {
@@ -64,6 +65,15 @@ std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
   if (file.sphere_radius != 1 && is_netcdf(file))
     return file.sphere_radius / metres_per_km;
   return widths.in_km() ? std::optional(widths.radius) : std::nullopt;
+}
+
+const MeshField* find_cell_field(const MeshFile& file, const std::string& name,
+                                 std::int64_t cells) {
+  const auto found = std::ranges::find_if(file.fields, [&](const MeshField& field) {
+    return field.name == name && field.location == FieldLocation::cells &&
+           field.values.size() == cells;
+  });
+  return found == file.fields.end() ? nullptr : &*found;
 }
 
 std::string changes_of(const MeshSource& source, const MeshFile& file) {

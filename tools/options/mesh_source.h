@@ -38,6 +38,9 @@ MeshFile read_mesh_file(const MeshSource& source, FieldChoice choice);
 std::optional<double> radius_km(const MeshFile& file, const WidthWords& widths,
                                 std::optional<double> metres = {});
 
+/// The field of a name with a number for each of so many cells; null if the file has none.
+const MeshField* find_cell_field(const MeshFile& file, const std::string& name, std::int64_t cells);
+
 /// The lines that say what reading changed, each after the file's name.
 std::string changes_of(const MeshSource& source, const MeshFile& file);
 

@@ -32,15 +32,11 @@ template <class Points> std::string fingerprint(const std::string& name, const P
 /// \param name of them in the configuration, whose line is added.
 Points3 read(const CvtRequest& request, const std::string& path, const std::string& name,
              CvtInput::File& origin, std::string& configuration) {
-  if (!planar(request)) {
-    PointFile file = read_point_file(path, request.lonlat);
-    origin = {std::move(file.name), std::move(file.lines)};
-    configuration = fingerprint(name, file.points);
-    return std::move(file.points);
-  }
-  PointFile file = read_planar_point_file(path);
+  const bool plane = planar(request);
+  PointFile file = plane ? read_planar_point_file(path) : read_point_file(path, request.lonlat);
   origin = {std::move(file.name), std::move(file.lines)};
-  configuration = fingerprint(name, Points2(file.points.topRows<2>()));
+  configuration =
+      plane ? fingerprint(name, Points2(file.points.topRows<2>())) : fingerprint(name, file.points);
   return std::move(file.points);
 }
 

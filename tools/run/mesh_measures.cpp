@@ -109,8 +109,6 @@ std::string counts_text(const std::vector<std::int64_t>& counts) {
   return listed(list);
 }
 
-std::string degrees(const Quality& quality) { return counts_text(quality.degrees); }
-
 /// Aligned rows of names and values.
 class Table {
 public:
@@ -248,8 +246,8 @@ std::string table(const Measured& measured) {
   if (measured.open)
     add_boundary_rows(measured, table);
   table.row("triangles", quality.triangles);
-  if (!degrees(quality).empty())
-    table.row("degree: cells", degrees(quality));
+  if (const std::string degrees = counts_text(quality.degrees); !degrees.empty())
+    table.row("degree: cells", degrees);
   table.row<std::string>("", "min", "mean", "max");
   table.row(plane ? "spacing" : "spacing, " + measured.unit.name,
             scaled(quality.spacing, measured.unit.of_radian));
@@ -283,12 +281,10 @@ std::string table(const Polygons& polygons, const std::optional<Mesh>& mesh, con
     sides.resize(std::max(sides.size(), count + 1));
     ++sides[count];
   }
-  Quality counts;
-  counts.degrees = sides;
   Table table;
   table.row("cells", polygons.size());
   table.row("corners", polygons.corners.cols());
-  table.row("sides: cells", degrees(counts));
+  table.row("sides: cells", counts_text(sides));
   const PolygonShapes found = shapes(polygons);
   table.row<std::string>("", "min", "mean", "max");
   const bool plane = !polygons.surface.is_sphere();

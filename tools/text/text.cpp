@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "text/text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdio>
@@ -16,6 +17,11 @@ std::string formatted(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
+}
+
+std::string row(std::string name, std::size_t column, const std::string& value) {
+  name.resize(std::max(name.size(), column), ' ');
+  return message("{}{}\n", name, value);
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

@@ -5,6 +5,7 @@
 #include "base/require.h"
 #include "io/bytes/file_error.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ std::string shortest(double value);
 /// Formats a number as printf does; at most 63 characters.
 /// \param format with one conversion of a double.
 std::string formatted(const char* format, double value);
+
+/// A line of a table: the name, blanks up to a column, and the value.
+std::string row(std::string name, std::size_t column, const std::string& value);
 
 /// The parts of a text between separators, at least one.
 std::vector<std::string> split(std::string_view text, char separator);
