@@ -180,9 +180,9 @@ Sample run_serial(Workload& work, const Options& options) {
   const Stopwatch watch;
   base_detail::Clock::time_point mark = base_detail::Clock::now();
   triangulate(serial, work.before);
-  const double triangulation = base_detail::lap(mark);
+  const double triangulation = base_detail::restart_clock(mark);
   step(serial, integrand, next);
-  const double integration = base_detail::lap(mark);
+  const double integration = base_detail::restart_clock(mark);
   Sample sample = bench::sample_of(watch.stop());
   sample.counters["triangulation"] = triangulation;
   sample.counters["integration"] = integration;

@@ -232,7 +232,7 @@ typedef int (*calotte_density)(const double* xyz, int64_t n, double* rho, void* 
 /** Called after each iteration; a result other than 0 ends the run there, with its mesh. */
 typedef int (*calotte_progress)(int64_t iterations, double residual, void* data);
 
-/** In place of a number of a recipe: the library chooses, as the member says. */
+/** Instead of a number of a recipe: the library chooses, as the member says. */
 #define CALOTTE_AUTOMATIC (-1)
 
 /** What a user asks for, as calotte::Recipe, which documents the ranges. Initialised by
@@ -275,7 +275,7 @@ typedef struct calotte_recipe {
    * [CALOTTE_AUTOMATIC] */
   double tolerance;
   int64_t max_iterations; /**< evaluations of a descent, at most [1000] */
-  /** Exactly this number of evaluations of each level, >= 1, in place of norm, tolerance and
+  /** Exactly this number of evaluations of each level, >= 1, instead of norm, tolerance and
    * max_iterations. Automatic: these end the run. [CALOTTE_AUTOMATIC] */
   int64_t iterations;
   /** 1: shapes are brought within the limits of models at the end; 0: a pure CVT. Automatic: 1 for
@@ -291,7 +291,7 @@ typedef struct calotte_recipe {
                                   boundary; 0: the boundary clips cells */
   int64_t refuse_duplicates;   /**< 1: equal points of the start are an error; 0: they merge */
   double merge_within; /**< points of the start at most this far apart merge; 0: equal ones */
-  /** A file of widths in place of a density and of widths, as the command's --cell-width reads it:
+  /** A file of widths instead of a density and of widths, as the command's --cell-width reads it:
    * rules (.toml), NetCDF (.nc), JIGSAW's spacings (.msh), polygons that have widths (.geojson).
    * Null: none. */
   const char* widths_file;

@@ -59,10 +59,10 @@ struct CutReport {
 ///
 /// - each variable with a dimension nCells, nEdges or nVertices, without the rows left out, of any
 ///   type and with any other dimensions; all others, all attributes and dimensions;
-/// - ids numbered anew from 1 on, 0 for a missing cell, edge or vertex at its place in the list;
+/// - ids numbered anew from 1 on, 0 for a missing cell, edge or vertex at its index in the list;
 ///   the weights of missing edges in weightsOnEdge are 0; verticesOnCell has the order of
-///   CutOptions::vertex_order. Else all values keep their bits; measures
-///   at the boundary, such as kiteAreasOnVertex, are those of the source;
+///   CutOptions::vertex_order. Else all values keep their bits; measures at the boundary, such as
+///   kiteAreasOnVertex, are those of the source;
 /// - boundaryVertex 1 where a vertex lacks a cell, if the source has the variable;
 /// - bdyMaskCell, bdyMaskEdge and bdyMaskVertex, see limited_area_mask() and least_mask();
 /// - meshDensity divided by its maximum, and nominalMinDc of that maximum, computed by

@@ -101,8 +101,8 @@ struct CvtStop {
   /// well-centred, below which the errors of a model's operators hardly fall; else 1e-6.
   std::optional<double> tolerance = {};
   int max_iterations = 1000; ///< evaluations of a descent; >= 0
-  /// This number of evaluations of each level, >= 1, in place of norm, tolerance and
-  /// max_iterations. Default: none.
+  /// This number of evaluations of each level, >= 1, instead of norm, tolerance and max_iterations.
+  /// Default: none.
   std::optional<int> iterations = {};
   /// Whether shapes are brought within the limits of models at the end. A pure CVT has few others,
   /// at dislocations, pairs of cells with 5 and 7 neighbours. First, dislocations at short Voronoi
@@ -308,7 +308,7 @@ struct Cvt {
 /// let rows of cells end. A descent cannot create them; this function can.
 /// \param mesh on the sphere of columns of any norm.
 /// \param splits, collapses numbers of edges, >= 0.
-/// \returns the points that remain, in their order, a midpoint in the place of the lower end of a
+/// \returns the points that remain, in their order, a midpoint at the index of the lower end of a
 ///          collapsed edge, then the midpoints of split ones; on the sphere unit columns.
 /// \throws Error invalid_argument for a negative number, more than 2^30 points, an id out of range,
 ///         or an ill-formed density.

@@ -24,7 +24,7 @@ enum class RegionOverlap {
   voronoi,  ///< those owned by the neighbouring regions (same section)
 };
 
-/// Where the centres of the regions are placed.
+/// How the centres of the regions are chosen.
 enum class RegionCentres {
   /// A coarse CVT of a sample of the sites, so that regions hold about equal work; the default.
   sample,

@@ -78,7 +78,7 @@ Points3 boundary_points(const Surface& surface, std::int64_t cells, const Densit
 /// Generators along lines.
 struct LinePoints {
   Points3 points; ///< 3 x n
-  /// The largest distance of a place on the lines from the nearest of them, over the distance of
+  /// The largest distance of a point on the lines from the nearest of them, over the distance of
   /// neighbours that is demanded there; a half where generators follow each other at that distance.
   double farthest = 0;
 };

@@ -26,7 +26,7 @@ namespace calotte {
 
 /// Makes all choices of a recipe.
 /// \throws Error invalid_argument, with what is out of range or does not fit together, and the
-///         remedy; with the index of a fixed generator that leaves no free one; naming a place
+///         remedy; with the index of a fixed generator that leaves no free one; naming a point
 ///         without a width. As width_field(), implied_cells(), with_rings(), boundary_points(),
 ///         line_points() and evaluate().
 Schedule plan(Recipe recipe);

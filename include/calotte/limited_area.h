@@ -45,7 +45,7 @@ Ids least_mask(const IdLists& on_cell, const Ids& mask, std::int64_t count);
 /// than widened() allows.
 /// \param surface a region of the sphere.
 /// \param widths of the sphere.
-/// \throws Error as widened() and evaluate(); invalid_argument for a plane, and naming a place on
+/// \throws Error as widened() and evaluate(); invalid_argument for a plane, and naming a point on
 ///         the boundary, or within reach of the rings, where no rule gives a width.
 Surface with_rings(const Surface& surface, const Widths& widths);
 

@@ -75,7 +75,7 @@ struct NotVoronoi {
   std::array<std::int64_t, 3> cells{-1, -1, -1}; ///< the cell, or the three cells, at fault
   std::int64_t polygons = 0;                     ///< of other_number, their number
   std::int64_t centres = 0;                      ///< of other_number, that of distinct centres
-  double distance = 0;     ///< of a corner from its place, in mean cell widths
+  double distance = 0;     ///< of a corner from the circumcentre, in mean cell widths
   std::string detail = {}; ///< of faults that say so, the error that found them
 
   /// True if they are a Voronoi tessellation, or a part of one.

@@ -24,13 +24,13 @@ struct Raster {
   bool of_plane = false;    ///< whether the axes are those of a plane. Default: of the sphere.
 };
 
-/// The values at n places.
-/// \param places 3 x n directions; in a plane 2 x n, or 3 x n with z = 0.
+/// The values at n points.
+/// \param points 3 x n directions; in a plane 2 x n, or 3 x n with z = 0.
 /// \returns n values; NaN next to a node that is NaN.
 /// \throws Error invalid_argument if the axes or the shape violate the conditions of Raster, and
 /// for
 ///         another number of rows.
-DoubleVector evaluate(const Raster& raster, const PointsRef& places);
+DoubleVector evaluate(const Raster& raster, const PointsRef& points);
 
 } // namespace calotte
 CALOTTE_API_END

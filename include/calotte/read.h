@@ -278,7 +278,7 @@ WidthRules read_width_rules(const std::string& path, const Surface& surface = {}
 /// The widths of a file of any kind as an expression: rules themselves, others as a raster.
 /// \param polygons as for read_cell_width().
 /// \param surface as for read_width_rules().
-/// \throws Error as read_cell_width(), but for places without a demand.
+/// \throws Error as read_cell_width(), but for points without a demand.
 Widths read_widths(const std::string& path, const PolygonWidths& polygons = {},
                    const Surface& surface = {});
 

@@ -22,7 +22,7 @@ struct WidthDemand {
   /// Widths in km, in a plane in its unit: refine() makes wider cells finer, and coarsen() makes
   /// narrower ones coarser. Where rules say nothing, cells stay.
   std::optional<Widths> widths = {};
-  /// In place of widths: the part of the surface where cells become `factor` times as narrow or as
+  /// Instead of widths: the part of the surface where cells become `factor` times as narrow or as
   /// wide as they are.
   std::optional<Surface> region = {};
   double factor = 1;                  ///< of a region; > 1, at most 100
@@ -45,7 +45,7 @@ struct RefineOptions {
 /// A part of a mesh that changed.
 struct ChangedPatch {
   std::int64_t removed = 0; ///< sites of the old mesh
-  std::int64_t added = 0;   ///< sites of the new mesh in their place
+  std::int64_t added = 0;   ///< sites of the new mesh that replace them
   CvtReport report;         ///< how their run went, with those around them that stayed
 };
 
@@ -72,7 +72,7 @@ struct ChangedMesh {
 };
 
 /// Makes cells finer where they are wider than demanded. A demand counts anywhere in a cell, not at
-/// its site alone: it is looked for at places as dense as its least width, up to sixteen times as
+/// its site alone: it is looked for at points as dense as its least width, up to sixteen times as
 /// dense as the sites, and along a region's boundary. Where it lies between the sites there are up
 /// to four steps, each with patches of its own. The cells around grow from there at the
 /// gradient up to their own widths; with three rows of cells more, up to seven where shapes need

@@ -92,8 +92,8 @@ Voronoi voronoi(const Mesh& mesh);
 
 /// A part of the tessellation: the cells of some sites, with the edges and vertices at these. A
 /// cell that is left out is missing, -1, from the lists of its neighbours. Edges with one cell
-/// follow the others; they keep their places, and dc is the distance to the missing cell. Kites are
-/// those of the cells that are there.
+/// follow the others; they keep their positions, and dc is the distance to the missing cell. Kites
+/// are those of the cells that are there.
 ///
 ///     write("area.nc", {.polygons = polygons_of(voronoi(mesh, mask))});
 ///

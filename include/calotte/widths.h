@@ -19,7 +19,7 @@ namespace calotte {
 /// The radius of the Earth in km, the default of the functions below.
 inline constexpr double earth_radius_km = 6371;
 
-/// Cell widths h at nodes that are prepared to be asked for at any place: those of a raster, or of
+/// Cell widths h at nodes that are prepared to be asked for at any point: those of a raster, or of
 /// rules, see width_field(). They are distances between the centres of neighbouring cells, here and
 /// below in km, in a plane in its unit. A value that is cheap to copy.
 class WidthField {
@@ -45,10 +45,10 @@ private:
   std::shared_ptr<const density_detail::SampledWidths> sampled_;
 };
 
-/// The widths at n places.
-/// \param places 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
+/// The widths at n points.
+/// \param points 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
 /// \throws Error invalid_argument for another number of rows, and for a direction that is none.
-DoubleVector evaluate(const WidthField& widths, const PointsRef& places);
+DoubleVector evaluate(const WidthField& widths, const PointsRef& points);
 
 /// The density rho = (h_min/h)^4, where h is the interpolated width and h_min its minimum over the
 /// nodes. A CVT for this density has spacings proportional to h (Ju, Ringler and Gunzburger, 2011).
@@ -76,7 +76,7 @@ double implied_cells(const WidthField& widths, const Surface& surface = {},
 ///         another surface, as for implied_cells().
 void require_covering(const Raster& widths, const Surface& surface = {});
 
-/// The gradient of cell widths at one place of the sphere.
+/// The gradient of cell widths at one point of the sphere.
 struct WidthGradient {
   double slope = 0;     ///< |grad h|, km per km
   double longitude = 0; ///< degrees, from -180 to below 180
@@ -171,7 +171,7 @@ struct ChannelRule {
   double widest = 500; ///< km, > 0, of the channels that count. Default 500.
 };
 
-/// How far one rule holds rather than another: a share from 0 to 1 for every place. A
+/// How far one rule holds rather than another: a share from 0 to 1 for every point. A
 /// value that is cheap to copy.
 class WidthShare {
 public:
@@ -197,7 +197,7 @@ private:
   std::shared_ptr<const density_detail::OfRadius<density_detail::ShareRule>> rule_of_radius_;
 };
 
-/// Cell widths as an expression: rules, each a width for every place, and what is made of them.
+/// Cell widths as an expression: rules, each a width for every point, and what is made of them.
 /// Lengths are in km on a sphere of radius earth_radius_km, or of that of on_sphere(), in a plane
 /// in its unit, and widths are positive. Rules of the sphere and of a plane do not mix. Those of a
 /// plane are numbers, rasters, and by distance.
@@ -276,12 +276,12 @@ public:
   ///         its sphere, and as delaunay() for a shore along one great circle.
   static Widths by_channel(const Coast& coast, const ChannelRule& rule);
 
-  /// What a rule says of places where it says nothing: infinity, so that others hold in a minimum.
+  /// What a rule says of points where it says nothing: infinity, so that others hold in a minimum.
   static constexpr double no_demand = std::numeric_limits<double>::infinity();
   /// Whether a width is one that a rule gives, and not no_demand.
   static bool is_demand(double width) { return width < no_demand; }
 
-  /// The least of several, place by place. Widths of the Earth go to the sphere of the others.
+  /// The minimum of several at each point. Widths of the Earth go to the sphere of the others.
   /// \throws Error invalid_argument for an empty list, and for widths of a sphere and of a plane,
   /// or
   ///         of two other spheres, here and below.
@@ -303,7 +303,7 @@ public:
   /// Others are limited at the nodes of a raster whose step is their least width, from 0.05 to 1
   /// degree, see limit_gradient(); the result is the lesser of that and these
   /// widths. What lies between the nodes lowers them: each node of a rule's own raster, and for
-  /// other rules places up to four times as dense. A raster is limited at its own nodes. In a plane
+  /// other rules points up to four times as dense. A raster is limited at its own nodes. In a plane
   /// rules that are not limited exactly are refused: give their domain.
   /// \param gradient g, > 0 and finite.
   /// \throws Error invalid_argument for a gradient out of range.
@@ -342,18 +342,18 @@ private:
   double step_ = 0;
 };
 
-/// The widths at n places.
-/// \param places 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
+/// The widths at n points.
+/// \param points 3 x n directions, in a plane 2 x n, or 3 x n with z = 0.
 /// \throws Error invalid_argument for another number of rows, and for a direction that is none.
-DoubleVector evaluate(const Widths& widths, const PointsRef& places);
+DoubleVector evaluate(const Widths& widths, const PointsRef& points);
 
-/// The rule of a minimum that gives the width at each of n places: its index in the list of
+/// The rule of a minimum that gives the width at each of n points: its index in the list of
 /// Widths::minimum(), the first of equal ones. Also of a minimum whose gradient is limited: the
 /// rule from which the width grows. 0 for any other rule.
 ///
-/// \param places as for evaluate().
+/// \param points as for evaluate().
 /// \throws Error as there.
-Ids active_rules(const Widths& minimum, const PointsRef& places);
+Ids active_rules(const Widths& minimum, const PointsRef& points);
 
 /// The widths as a run takes them: of rules at nodes that are at most the least width around them
 /// apart. They lie on tiles of one degree, in a plane on some four thousand. Each tile is divided

@@ -9,7 +9,7 @@ namespace calotte::base_detail {
 using Clock = std::chrono::steady_clock;
 
 /// Moves a mark to now; returns the seconds since its last position.
-inline double lap(Clock::time_point& mark) {
+inline double restart_clock(Clock::time_point& mark) {
   const Clock::time_point before = std::exchange(mark, Clock::now());
   return std::chrono::duration<double>(mark - before).count();
 }

@@ -42,8 +42,8 @@ CALOTTE_INLINE CosSin cos_sin(double turned) {
   return {cosine, turned < 0 ? -sine : sine};
 }
 
-/// Adding 0 turns -0 into 0, so that equal places have equal bits.
-CALOTTE_INLINE Vec3 place(const CosSin& east, const CosSin& north) {
+/// Adding 0 turns -0 into 0, so that equal directions have equal bits.
+CALOTTE_INLINE Vec3 unit_vector(const CosSin& east, const CosSin& north) {
   return {north.cos * east.cos + 0.0, north.cos * east.sin + 0.0, north.sin + 0.0};
 }
 
@@ -51,7 +51,7 @@ CALOTTE_VECTOR_WIDTHS
 void set_near(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out) {
   CALOTTE_VECTOR_LOOP
   for (std::int64_t i = 0; i < n; ++i)
-    out[i] = place(cos_sin(turned_near(longitudes[i])), cos_sin(latitudes[i]));
+    out[i] = unit_vector(cos_sin(turned_near(longitudes[i])), cos_sin(latitudes[i]));
 }
 
 /// The vector, or one by a power of two longer or shorter whose squares are doubles.
@@ -75,8 +75,8 @@ LonLat lonlat_of(const Vec3& direction) {
 }
 
 LonLat eastern_lonlat_of(const Vec3& direction) {
-  const LonLat place = lonlat_of(direction);
-  return {eastern(place.longitude, 360), place.latitude + 0.0};
+  const LonLat at = lonlat_of(direction);
+  return {eastern(at.longitude, 360), at.latitude + 0.0};
 }
 
 double turned_back(double degrees) {
@@ -84,7 +84,7 @@ double turned_back(double degrees) {
 }
 
 Vec3 from_lonlat(double longitude, double latitude) {
-  return place(cos_sin(turned_back(longitude)), cos_sin(latitude));
+  return unit_vector(cos_sin(turned_back(longitude)), cos_sin(latitude));
 }
 
 void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out) {

@@ -13,7 +13,7 @@ namespace calotte::base_detail {
 /// gives the same bits.
 Vec3 from_lonlat(double longitude, double latitude);
 
-/// The same at n places.
+/// The same at n points.
 void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out);
 
 /// Degrees.

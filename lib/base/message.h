@@ -54,17 +54,17 @@ template <class... Values> struct Pattern {
   template <std::size_t size>
   consteval Pattern(const char (&literal)[size]) // NOLINT(google-explicit-constructor): its purpose
       : text(literal, size - 1) {
-    std::size_t places = 0;
+    std::size_t slots = 0;
     for (std::size_t at = text.find("{}"); at != text.npos; at = text.find("{}", at + 2))
-      ++places;
-    if (places != sizeof...(Values))
+      ++slots;
+    if (slots != sizeof...(Values))
       throw "a message has one {} for each value"; // what the compiler then shows
   }
 
   std::string_view text;
 };
 
-/// The pattern with the texts in brace of its {}.
+/// The pattern with the texts instead of its {}.
 inline std::string filled(std::string_view pattern, std::initializer_list<std::string> texts) {
   std::string all;
   for (const std::string& text : texts) {
@@ -75,7 +75,7 @@ inline std::string filled(std::string_view pattern, std::initializer_list<std::s
   return all.append(pattern);
 }
 
-/// The pattern with the values in place of its {}: message("site {} is {} km away", i, distance).
+/// The pattern with the values instead of its {}: message("site {} is {} km away", i, distance).
 template <class... Values>
 std::string message(std::type_identity_t<Pattern<Values...>> pattern, const Values&... values) {
   return filled(pattern.text, {shown(values)...});

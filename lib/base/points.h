@@ -85,9 +85,9 @@ inline void require_direction(const Vec3& point, std::int64_t i) {
 }
 
 /// Points of the plane with z = 0.
-inline Points3 with_z(const Points2Ref& places) {
-  Points3 points = Points3::Zero(3, places.cols());
-  points.topRows<2>() = places;
+inline Points3 with_z(const Points2Ref& xy) {
+  Points3 points = Points3::Zero(3, xy.cols());
+  points.topRows<2>() = xy;
   return points;
 }
 

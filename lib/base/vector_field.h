@@ -11,8 +11,8 @@
 
 namespace calotte::base_detail {
 
-/// Vectors at n places, 3 x n. Sums over the places are computed block by block in a fixed order:
-/// the same bits for any number of threads. Functions of a part compute what they do for its places
+/// Vectors at n points, 3 x n. Sums over the points are computed block by block in a fixed order:
+/// the same bits for any number of threads. Functions of a part compute what they do for its points
 /// only: a loop over blocks that calls several of them reads each block from memory once.
 
 double inner(const Points3& a, const Points3& b);

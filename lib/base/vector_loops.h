@@ -28,7 +28,7 @@
 #define CALOTTE_INLINE inline
 #endif
 
-/// Placed before a loop: no iteration reads what another one writes, which the compiler cannot
+/// Stands before a loop: no iteration reads what another one writes, which the compiler cannot
 /// prove.
 #if defined(__clang__)
 #define CALOTTE_VECTOR_LOOP _Pragma("clang loop vectorize(assume_safety)")

@@ -17,7 +17,7 @@ inline constexpr int plane_face = 6;
 struct QuadtreeCell {
   std::int64_t begin, end; ///< ranks
   std::uint64_t key;       ///< that of the cell's first finest cell
-  std::uint32_t i, j;      ///< place on the face, in cells of this level
+  std::uint32_t i, j;      ///< column and row on the face, in cells of this level
   int face, level;
   CurveTurn turn;
 

@@ -27,9 +27,9 @@ void sort_run(KeyedItem* begin, KeyedItem* end, KeyedItem* buffer, int shift) {
     ++first[(e->key >> down & mask) + 1];
   for (std::size_t d = 1; d < first.size(); ++d)
     first[d] += first[d - 1];
-  std::array<std::int32_t, mask + 2> place = first;
+  std::array<std::int32_t, mask + 2> index = first;
   for (const KeyedItem* e = begin; e != end; ++e)
-    buffer[place[static_cast<std::size_t>(e->key >> down & mask)]++] = *e;
+    buffer[index[static_cast<std::size_t>(e->key >> down & mask)]++] = *e;
   std::copy(buffer, buffer + (end - begin), begin);
   for (std::size_t d = 0; d <= mask; ++d)
     if (first[d + 1] - first[d] > 1)
@@ -75,9 +75,9 @@ Order order_by_key(Array<std::uint64_t> keys) {
   Order order{Array<std::uint64_t>(keys.size()), Array<std::int32_t>(keys.size())};
   const std::vector<std::int32_t> first = distribute(
       keys.size(), std::int64_t{1} << first_digit, [&](std::int64_t i) { return keys[i] >> shift; },
-      [&](std::int64_t i, std::int32_t place) {
-        order.keys[place] = keys[i];
-        order.items[place] = static_cast<std::int32_t>(i);
+      [&](std::int64_t i, std::int32_t index) {
+        order.keys[index] = keys[i];
+        order.items[index] = static_cast<std::int32_t>(i);
       });
   keys = {};
   sort_buckets(first, order);

@@ -43,8 +43,8 @@ public:
           const CubePoint p = square(t);
           return (p.face * side + cell(p.v)) * side + cell(p.u);
         },
-        [&](std::int64_t t, std::int32_t place) {
-          triangles_[place] = static_cast<std::int32_t>(t);
+        [&](std::int64_t t, std::int32_t index) {
+          triangles_[index] = static_cast<std::int32_t>(t);
         });
   }
 

@@ -22,8 +22,8 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// The connectivity of a mesh of n places.
-template <Space S> Connectivity connectivity_of(Mesh&& mesh, std::int64_t n) {
+/// The connectivity of a mesh of n site_count.
+template <Space S> Connectivity extract_connectivity(Mesh&& mesh, std::int64_t n) {
   if (mesh.points.cols() != n || (S::on_sphere && !mesh.closed()))
     throw Error(ErrorCode::too_few_sites,
                 S::on_sphere
@@ -75,7 +75,7 @@ template <Space S> bool Cells<S>::drop_intruders([[maybe_unused]] Eigen::Index f
       for (int v = 0; v < 3; ++v)
         if (const std::int64_t k = mesh.triangles(v, t) - generators_; k >= 0)
           neighbours[static_cast<std::size_t>(k)].push_back(
-              place(mesh.triangles(next_vertex(v), t)));
+              position(mesh.triangles(next_vertex(v), t)));
     std::vector<std::uint8_t> stays(neighbours.size(), 1);
     for_each_block(hull_.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       for (std::int64_t k = std::max<std::int64_t>(begin, far); k < end; ++k)
@@ -120,13 +120,13 @@ template <Space S> Sites Cells<S>::sites() const {
 }
 
 template <Space S> Connectivity Cells<S>::triangulate() const {
-  return connectivity_of<S>(delaunay(columns(sites_), unbounded(surface_)), places());
+  return extract_connectivity<S>(delaunay(columns(sites_), unbounded(surface_)), site_count());
 }
 
 template <Space S> Connectivity Cells<S>::triangulate(Sites&& sites, Regions&& regions) const {
   if (S::on_sphere && outline_ == nullptr)
-    return connectivity_of<S>(delaunay_detail::spherical_mesh(std::move(sites), std::move(regions)),
-                              places());
+    return extract_connectivity<S>(
+        delaunay_detail::spherical_mesh(std::move(sites), std::move(regions)), site_count());
   return triangulate();
 }
 
@@ -219,7 +219,7 @@ void Cells<S>::make_tangential(Points3& vectors, const Points3& x, base_detail::
 
 template <Space S>
 Laplacian Cells<S>::laplacian(const Connectivity& mesh, const Density& density) const {
-  return graph_laplacian(ClippedSites<S>{placed(), generators_, outline_, surface_.area()}, mesh,
+  return graph_laplacian(ClippedSites<S>{positions(), generators_, outline_, surface_.area()}, mesh,
                          density);
 }
 

@@ -39,13 +39,13 @@ struct Pull {
 /// The Voronoi cells of generators that move on a surface.
 ///
 /// Generators are unit columns on the sphere, and columns with z = 0 in the plane. In a periodic
-/// box they may leave the box; their places in the mesh are the copies inside. On a bounded surface
-/// the hull's points follow the generators in the mesh, see hull.h. They lie outside and do not
-/// move, so that all generators have closed stars, and the boundary clips their cells.
+/// box they may leave the box; their site_count in the mesh are the copies inside. On a bounded
+/// surface the hull's points follow the generators in the mesh, see hull.h. They lie outside and do
+/// not move, so that all generators have closed stars, and the boundary clips their cells.
 template <Space S> class Cells {
 public:
-  /// Whether the place of a generator in the mesh may be a copy of it.
-  static constexpr bool places_wrap = !S::on_sphere;
+  /// Whether the position of a generator in the mesh may be a copy of it.
+  static constexpr bool positions_wrap = !S::on_sphere;
 
   /// With the far hull, for any generators.
   /// \throws Error as outline_of().
@@ -60,18 +60,22 @@ public:
 
   const S& space() const { return space_; }
   std::int64_t generator_count() const { return generators_; }
-  std::int64_t places() const { return std::ssize(sites_); } ///< of the mesh: generators come first
-  const Vec3& place(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
-  PlacedSites<S> placed() const { return {space_, sites_}; }
+  std::int64_t site_count() const {
+    return std::ssize(sites_);
+  } ///< of the mesh: generators come first
+  const Vec3& position(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
+  SitePositions<S> positions() const { return {space_, sites_}; }
   Vec3 offset(const Vec3& from, const Vec3& to) const { return space_.offset(from, to); }
-  bool has_hull() const { return outline_ != nullptr; } ///< places of the mesh without a generator
+  bool has_hull() const {
+    return outline_ != nullptr;
+  } ///< whether sites of the mesh have no generator
   /// Whether the surface has the circumcentre of a triangle of generators; with generators on the
   /// boundary, its centre of mass.
   bool has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
   Sites sites() const; ///< of the generators; equal ones merged
-  /// The mesh of all places.
-  /// \throws Error too_few_sites if two places coincide, or leave a hemisphere empty; as
+  /// The mesh of all site_count.
+  /// \throws Error too_few_sites if two site_count coincide, or leave a hemisphere empty; as
   ///         delaunay().
   Connectivity triangulate() const;
   /// The same from the sites of the generators, which it consumes.
@@ -124,7 +128,7 @@ private:
   Boundary boundary_;
   Points3 hull_;
   std::int64_t generators_ = 0;
-  std::span<const Vec3> sites_; ///< the mesh's places: the generators themselves, or `copies_`
+  std::span<const Vec3> sites_; ///< the sites of the mesh: the generators themselves, or `copies_`
   Array<Vec3> copies_;
 };
 

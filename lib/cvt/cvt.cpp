@@ -77,8 +77,8 @@ void conclude(State& state, const DescentOptions& options, const CvtIteration& i
   } else {
     // Near the end the finer rule replaces the coarser one; a run converges with the finer only,
     // unless it creeps.
-    const bool crept = creeps(state, options);
-    report.converged = (by_final_rule && report.residual <= options.tolerance) || crept;
+    report.converged =
+        (by_final_rule && report.residual <= options.tolerance) || creeps(state, options);
     const double margin = options.quadrature.rule == rule_at_sites ? 1 : 10;
     state.memory.final_rule =
         state.memory.final_rule || report.residual <= margin * options.tolerance;
@@ -138,7 +138,8 @@ struct Run {
 Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback& callback) {
   State& state = State::of(whole);
   const Recipe& recipe = run.schedule.recipe;
-  const DescentOptions options = descent_of(state, recipe, run.density, run.execution.quadrature);
+  const DescentOptions options =
+      make_descent_options(state, recipe, run.density, run.execution.quadrature);
   if (!state.in_polish() && options.norm != Norm::none) // the tolerance may be another now
     state.report.converged = state.report.converged &&
                              (state.report.residual <= options.tolerance || creeps(state, options));
@@ -154,7 +155,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   ShapeLimits limits = shape_limits;
   limits.least_spacing = recipe.stop.least_spacing;
   functional->penalise({state.polish.penalty, state.polish.demanded_spacing, limits});
-  functional->hold(fixed_generators(state));
+  functional->pin(fixed_generators(state));
   Descent descent(state, options, run.density, *functional);
   const bool resumed = state.memory.iterations > 0;
   descent.begin();
@@ -167,7 +168,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
     if (ended)
       end_descent(state, descent);
     Clock::time_point now = start;
-    state.report.seconds = before + lap(now);
+    state.report.seconds = before + restart_clock(now);
     const bool stopped = callback && callback({state.report, state.memory.iterations,
                                                bisections_left(state), rounds_left(state), whole});
     if (ended || stopped) {
@@ -194,7 +195,7 @@ void renew_actions(const Schedule& schedule, State& state) {
 }
 
 /// Throws, before any work, for a surface or a density that a run refuses.
-Run run_of(const Schedule& schedule, const Execution& execution) {
+Run make_run(const Schedule& schedule, const Execution& execution) {
   const Surface& surface = schedule.recipe.surface;
   if (!surface.is_sphere())
     require_finite_plane(surface);
@@ -208,8 +209,8 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
   Clock::time_point mark = Clock::now();
   const double before = state.report.seconds;
   Ending ending = iterate(run, whole, std::move(level), callback);
-  std::optional<Cursor> next = next_of(state);
-  for (; !ending.stopped && next; next = next_of(state)) {
+  std::optional<Cursor> next = next_cursor(state);
+  for (; !ending.stopped && next; next = next_cursor(state)) {
     add_done(state);
     Level begun = begin_action(state, *next, recipe.surface, run.density, std::move(ending.mesh));
     ending = iterate(run, whole, std::move(begun), callback);
@@ -228,7 +229,7 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
     report.done.resize(report.actions.size());
   report.well_centred = !next && state.in_polish() && report.converged;
   report.converged = !next && (polishes ? state.polish.descended : report.converged);
-  report.seconds = before + lap(mark);
+  report.seconds = before + restart_clock(mark);
   return result;
 }
 
@@ -253,7 +254,7 @@ double norm_of(const CvtIteration& iteration, Norm norm) {
 Cvt cvt(Points3 start, const Schedule& schedule, const cvt_detail::Execution& execution,
         const CvtCallback& callback) {
   using namespace cvt_detail;
-  const auto run = run_of(schedule, execution);
+  const auto run = make_run(schedule, execution);
   Begun begun = begin(std::move(start), schedule.recipe);
   begun.state.report.actions = schedule.actions;
   begun.state.report.done = {{.times = 1}};
@@ -263,7 +264,7 @@ Cvt cvt(Points3 start, const Schedule& schedule, const cvt_detail::Execution& ex
 Cvt cvt(CvtState state, const Schedule& schedule, const cvt_detail::Execution& execution,
         const CvtCallback& callback) {
   using namespace cvt_detail;
-  const auto run = run_of(schedule, execution);
+  const auto run = make_run(schedule, execution);
   require_state(State::of(state));
   renew_actions(schedule, State::of(state));
   return executed(run, std::move(state), {}, callback);

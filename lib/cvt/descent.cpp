@@ -318,7 +318,7 @@ void Descent::quasi_newton_step() {
   if (method() == Method::lbfgs_laplacian)
     make_laplacian();
   const Line line = set_direction();
-  const double seconds = lap(mark);
+  const double seconds = restart_clock(mark);
   const std::size_t first = state_.report.iterations.size();
   if (line.slope < 0 && search(line)) {
     remember();

@@ -123,8 +123,8 @@ void put_site(const SiteRows& rows, std::size_t lane, std::int32_t site, bool fi
   }
 }
 
-/// Evaluates a patch's own generators; its other sites hold a plane's hull, and come last.
-/// \param x the places of the patch's sites.
+/// Evaluates a patch's own generators; its other sites pin a plane's hull, and come last.
+/// \param x the positions of the patch's sites.
 template <Space S>
 CALOTTE_ALL_INSTRUCTIONS void
 evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
@@ -137,10 +137,10 @@ evaluate_sites(const Patch& patch, const Points3& points, const Array<Vec3>& x,
   std::array<Vec3, lanes + 1> generators;
   for (std::size_t first = 0; first < sites.size(); first += lanes) {
     const auto part = sites.subspan(first, std::min(lanes, sites.size() - first));
-    if (Cells<S>::places_wrap)
+    if (Cells<S>::positions_wrap)
       for (std::size_t lane = 0; lane < part.size(); ++lane)
         generators[lane] = column(points, part[lane]);
-    gather_sites(Cells<S>::places_wrap ? generators.data() : x.begin() + first,
+    gather_sites(Cells<S>::positions_wrap ? generators.data() : x.begin() + first,
                  moments.begin() + first, part.size(), rows);
     if (with_gradient)
       evaluate_rows<S, true>(rows);
@@ -196,7 +196,7 @@ public:
   void set_centroids(const Points3& points, const Evaluation& at, Points3& to) const override;
 
   void penalise(const ShapePenalty& penalty) override { penalty_ = penalty; }
-  void hold(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
+  void pin(std::vector<std::uint8_t> fixed) override { fixed_ = std::move(fixed); }
   std::int64_t glide(Points3& points, const ShapeLimits& limits) override {
     return cvt_detail::glide(tessellation_, points, local_input(), limits);
   }
@@ -216,7 +216,7 @@ private:
   bool is_fixed(std::int64_t site) const {
     return !fixed_.empty() && fixed_[static_cast<std::size_t>(site)] != 0;
   }
-  void hold(Rows& weights) const;
+  void pin(Rows& weights) const;
   LocalInput local_input() const { return {density_, coarse_, fixed_}; }
 
   Tessellation<S> tessellation_;
@@ -280,7 +280,7 @@ void FunctionalOver<S>::evaluate(const Points3& points, bool final_rule, bool wi
                 "make it positive everywhere, and smaller");
   if (penalty_.factor > 0)
     add_penalty(points, out);
-  iteration.seconds = lap(mark);
+  iteration.seconds = restart_clock(mark);
 }
 
 template <Space S>
@@ -300,7 +300,7 @@ void FunctionalOver<S>::set_centroids(const Points3& points, const Evaluation& a
 template <Space S> void FunctionalOver<S>::add_penalty(const Points3& points, Evaluation& out) {
   const DoubleVector inverse_spacing =
       calotte::evaluate(density_, points).cwiseSqrt().cwiseSqrt() / penalty_.spacing;
-  const ShapeInput<S> input{tessellation_.placed(), inverse_spacing, penalty_.limits, fixed_};
+  const ShapeInput<S> input{tessellation_.positioned(), inverse_spacing, penalty_.limits, fixed_};
   out.shapes = add_shape_terms(input, distorted(input), penalty_.factor, out.gradient);
   for_each_block(points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     make_tangential(out.gradient, points, {begin, end});
@@ -332,7 +332,7 @@ void FunctionalOver<S>::make_tangential(Points3& vectors, const Points3& x,
 }
 
 /// Removes the couplings of fixed generators: those of a boundary condition.
-template <Space S> void FunctionalOver<S>::hold(Rows& weights) const {
+template <Space S> void FunctionalOver<S>::pin(Rows& weights) const {
   if (fixed_.empty())
     return;
   for_each_block(weights.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -351,7 +351,7 @@ template <Space S> Laplacian FunctionalOver<S>::laplacian(const Points3& points)
   Laplacian matrix = tessellation_.find_faults(unused).none()
                          ? cells.laplacian(tessellation_.mesh(), density_)
                          : cells.laplacian(cells.triangulate(), density_);
-  hold(matrix.weights);
+  pin(matrix.weights);
   return matrix;
 }
 

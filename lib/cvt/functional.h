@@ -74,8 +74,8 @@ public:
 
   /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
   /// it makes no motion.
-  /// \param fixed a flag for each generator; empty if none is held.
-  virtual void hold(std::vector<std::uint8_t> fixed) = 0;
+  /// \param fixed a flag for each generator; empty if none is pinned.
+  virtual void pin(std::vector<std::uint8_t> fixed) = 0;
 
   /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
   virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;

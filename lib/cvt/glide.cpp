@@ -5,7 +5,7 @@
 #include "base/points.h"
 #include "base/triangle.h"
 #include "cvt/cells.h"
-#include "cvt/placed_mesh.h"
+#include "cvt/positioned_mesh.h"
 #include "cvt/subdomain.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ bool is_shorter(const Brink& e, const Brink& f) {
 
 /// Finds brinks in a mesh.
 template <Space S> struct Search {
-  const PlacedMesh<S> in;
+  const PositionedMesh<S> in;
   const ShapeLimits& limits;
 
   /// The cotangent of a triangle's angle at its vertex v.
@@ -70,7 +70,7 @@ template <Space S> struct Search {
 /// Moves a and b apart, and c and d together, so that cd replaces ab.
 template <Space S> Points3 pushed(const Subdomain<S>& part, const Brink& brink) {
   constexpr double share = 0.16; // of the width of the cells, about the length of ab over sqrt(2)
-  const PlacedMesh<S> at = part.placed();
+  const PositionedMesh<S> at = part.positioned();
   const Vec3 ab = at.offset(brink.a, brink.b), cd = at.offset(brink.c, brink.d);
   const Vec3 apart = (1 / norm(ab)) * ab, together = (1 / norm(cd)) * cd;
   Points3 ways = Points3::Zero(3, part.movable()), to(3, part.movable());
@@ -113,7 +113,7 @@ private:
 
   /// Adds the brinks of a triangle of the mesh.
   void add_brinks(std::int32_t t, std::vector<Brink>& out) const {
-    const Search<S> search{tessellation_.placed(), limits_};
+    const Search<S> search{tessellation_.positioned(), limits_};
     for (int v = 0; v < 3; ++v)
       search.add_if_brink(
           t, v, [&](std::int32_t site) { return is_free(site); }, out);
@@ -139,13 +139,13 @@ private:
     std::vector<std::array<std::int32_t, 2>> seeds;
     for (const Brink& brink : brinks)
       seeds.push_back(brink.triangles);
-    const ChosenSurroundings around = choose_surroundings(mesh, seeds);
+    const DisjointSurroundings around = choose_disjoint(mesh, seeds);
     const std::vector<Surroundings>& chosen = around.chosen;
     std::vector<std::vector<Ends>> tried(chosen.size());
     std::vector<std::int64_t> steps(chosen.size(), 0);
-    const auto task = [&](std::size_t place, Subdomain<S>& part) {
-      const bool sound = follow(brinks[chosen[place].seed], part, tried[place]);
-      steps[place] = sound ? std::ssize(tried[place]) : 0;
+    const auto task = [&](std::size_t index, Subdomain<S>& part) {
+      const bool sound = follow(brinks[chosen[index].seed], part, tried[index]);
+      steps[index] = sound ? std::ssize(tried[index]) : 0;
       return sound;
     };
     if (!work_in<S>(chosen, task, input_, tessellation_, mesh, points_, changed_))
@@ -209,7 +209,7 @@ private:
 
   /// The shortest brink inside that has not been tried.
   std::optional<Brink> next(const Subdomain<S>& part, const std::vector<Ends>& tried) const {
-    const Search<S> search{part.placed(), limits_};
+    const Search<S> search{part.positioned(), limits_};
     std::vector<Brink> found;
     for (std::int32_t t = 0; t < part.triangles(); ++t)
       for (int v = 0; v < 3; ++v)

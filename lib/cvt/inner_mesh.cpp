@@ -59,7 +59,7 @@ std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
   return dropped;
 }
 
-Mesh mesh_of(Points3&& points, Triangles&& triangles, const Surface& surface) {
+Mesh make_mesh(Points3&& points, Triangles&& triangles, const Surface& surface) {
   Triangles neighbours = neighbours_of(triangles, points.cols());
   make_canonical(triangles, neighbours);
   std::vector<std::int32_t> sites = themselves(points.cols());
@@ -73,7 +73,7 @@ Mesh without_hull(Points3&& points, const Triangles& triangles, const Surface& s
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(triangles.cols()));
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     keep[static_cast<std::size_t>(t)] = triangles.col(t).maxCoeff() < points.cols() ? 1 : 0;
-  return mesh_of(std::move(points), selected(triangles, keep), surface);
+  return make_mesh(std::move(points), selected(triangles, keep), surface);
 }
 
 namespace {
@@ -108,7 +108,7 @@ Mesh inner_mesh(Mesh&& mesh, Boundary boundary) {
   }
   std::vector<std::int32_t> sites = std::move(mesh.site_of_input);
   const Surface surface = mesh.surface;
-  mesh = mesh_of(std::move(mesh.points), std::move(triangles), surface);
+  mesh = make_mesh(std::move(mesh.points), std::move(triangles), surface);
   mesh.site_of_input = std::move(sites);
   return std::move(mesh);
 }

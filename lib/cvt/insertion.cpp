@@ -118,8 +118,8 @@ std::vector<std::int8_t> oddities(const Mesh& mesh) {
 /// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
 /// as longer, so that an insertion splits these; those at sites with few as shorter.
 template <Space S>
-std::vector<Edge> edges_of(const Mesh& mesh, const Points3& points, const Density& density,
-                           const S& space) {
+std::vector<Edge> measure_edges(const Mesh& mesh, const Points3& points, const Density& density,
+                                const S& space) {
   constexpr double preference = 2;
   const mesh_detail::EdgeCount count =
       mesh_detail::count_edges(mesh); // refuses a mesh without neighbours
@@ -185,7 +185,7 @@ Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& den
                      const S& space, const EdgeChanges& numbers) {
   require_counts(points.cols(), numbers.splits, numbers.collapses);
   const OutlineOf<S>* const outline = outline_of<S>(mesh.surface);
-  std::vector<Edge> edges = edges_of(mesh, points, density, space);
+  std::vector<Edge> edges = measure_edges(mesh, points, density, space);
   const auto middle = [&](const Edge& edge) {
     return space.midpoint(column(points, edge.a), column(points, edge.b));
   };

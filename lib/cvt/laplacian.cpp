@@ -39,7 +39,7 @@ double arc_ratio(double square, double q) {
 }
 
 /// \param most bound of |delta|/l.
-Shares shares_of(const Sphere&, const std::array<Vec3, 3>& x, double most) {
+Shares split_into_shares(const Sphere&, const std::array<Vec3, 3>& x, double most) {
   const double inverse = 1 / norm(cross(x[1] - x[0], x[2] - x[0]));
   Shares shares;
   for (int v = 0; v < 3; ++v) {
@@ -50,7 +50,7 @@ Shares shares_of(const Sphere&, const std::array<Vec3, 3>& x, double most) {
   return shares;
 }
 
-Shares shares_of(const Plane& plane, const std::array<Vec3, 3>& x, double) {
+Shares split_into_shares(const Plane& plane, const std::array<Vec3, 3>& x, double) {
   Shares shares;
   for (int v = 0; v < 3; ++v) {
     const Vec3& c = x[previous_vertex(v)];
@@ -71,14 +71,15 @@ public:
   }
 
   const Vec3& position(std::int32_t site) const {
-    return sites_.placed.points[static_cast<std::size_t>(site)];
+    return sites_.positions.points[static_cast<std::size_t>(site)];
   }
   Vec3 offset(std::int32_t from, std::int32_t to) const {
-    return sites_.placed.space.offset(position(from), position(to));
+    return sites_.positions.space.offset(position(from), position(to));
   }
   Shares shares(const std::array<Vec3, 3>& x) const {
-    return shares_of(sites_.placed.space, x,
-                     sites_.outline != nullptr ? 0.5 : std::numeric_limits<double>::infinity());
+    return split_into_shares(sites_.positions.space, x,
+                             sites_.outline != nullptr ? 0.5
+                                                       : std::numeric_limits<double>::infinity());
   }
   /// The weight, for rho = 1/2, of the edge from i to j, which has c to its left and d to its
   /// right.
@@ -291,7 +292,8 @@ template <Space S> Laplacian make_matrix(const Source& source, const Edges<S>& e
 template <Space S>
 Laplacian graph_laplacian(const ClippedSites<S>& sites, const Connectivity& mesh,
                           const Density& density) {
-  const Eigen::Map<const Points3> generators(&sites.placed.points.front().x, 3, sites.generators);
+  const Eigen::Map<const Points3> generators(&sites.positions.points.front().x, 3,
+                                             sites.generators);
   const Source source(mesh, evaluate(density, generators));
   return make_matrix(source, Edges<S>(sites, source.mesh, source.starts));
 }

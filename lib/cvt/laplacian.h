@@ -37,7 +37,7 @@ struct Laplacian {
 
 /// The sites of a mesh on a surface.
 template <Space S> struct ClippedSites {
-  PlacedSites<S> placed;
+  SitePositions<S> positions;
   std::int64_t generators;     ///< the first of them
   const OutlineOf<S>* outline; ///< of the surface; null without a boundary
   double area;                 ///< of the surface
@@ -55,9 +55,9 @@ template <Space S> struct ClippedSites {
 /// which costs the Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined
 /// plane.
 ///
-/// On a bounded surface the hull's places follow the generators. Where the boundary of a region
+/// On a bounded surface the hull's points follow the generators. Where the boundary of a region
 /// clips cells, circumcentres beyond half of an edge's length from it count as if they were there.
-/// In the plane Voronoi edges beside the hull's places lie outside of the domain, and count for
+/// In the plane Voronoi edges beside the hull's points lie outside of the domain, and count for
 /// nothing; a cell that the domain clips has on the diagonal 2 rho times the area between its
 /// generator and the boundary: half of the trace of what the second derivative, 2 m less the
 /// integrals over Voronoi edges, is when all generators move as one.

@@ -36,7 +36,7 @@ namespace {
 // ---- Distinct generators
 
 /// The same for equal directions, which have the same bits on the cube.
-std::uint64_t hash_of(const Vec3& direction) {
+std::uint64_t hash_direction(const Vec3& direction) {
   const curve_detail::CubePoint on_cube = curve_detail::to_cube(direction);
   auto hash = static_cast<std::uint64_t>(on_cube.face);
   for (const double x : {on_cube.u, on_cube.v})
@@ -49,7 +49,7 @@ template <class At> bool have_equal(std::int64_t n, const At& at) {
   Array<std::uint64_t> keys(n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      keys[i] = hash_of(at(i));
+      keys[i] = hash_direction(at(i));
   });
   const curve_detail::Order order = curve_detail::order_by_key(std::move(keys));
   for (std::int64_t i = 1; i < n; ++i)
@@ -131,7 +131,7 @@ void set_points(State& state, const Sites& sites) {
   });
 }
 
-State state_of(Sites& sites, const Recipe& recipe) {
+State make_start_state(Sites& sites, const Recipe& recipe) {
   require_fixed(sites, recipe.fixed.cols());
   State state;
   state.fixed = recipe.fixed.cols();
@@ -163,12 +163,12 @@ Connectivity bisected_mesh(const Triangles& triangles, const Triangles& neighbou
 /// A run on the whole sphere, whose sort of the sites serves the first level.
 Begun begun_at(Sites&& sites, const Recipe& recipe) {
   require_enough(sites, Surface::sphere());
-  State state = state_of(sites, recipe);
+  State state = make_start_state(sites, recipe);
   sites.points = state.points;
   return {std::move(state), {by_rank(std::move(sites)), std::nullopt}};
 }
 
-Sites sites_of(const Points3& points, const Surface& surface) {
+Sites make_distinct_sites(const Points3& points, const Surface& surface) {
   return surface.is_sphere() ? make_sites(points, Duplicates::refuse, 0)
                              : make_planar_sites(points.topRows<2>(), Duplicates::refuse, 0);
 }
@@ -245,7 +245,7 @@ Begun begin(Points3&& start, const Recipe& recipe) {
     require_inside(base_detail::with_z(points), surface);
     Sites sites = make_planar_sites(points, recipe.duplicates, recipe.merge_within);
     require_triangle(sites);
-    return {state_of(sites, recipe), {}};
+    return {make_start_state(sites, recipe), {}};
   }
   const auto sites_of_start = [&](auto&& points) {
     return distinct_units(
@@ -257,7 +257,7 @@ Begun begin(Points3&& start, const Recipe& recipe) {
   Sites sites = sites_of_start(start);
   require_inside(start, surface, recipe.fixed.cols());
   require_enough(sites, surface);
-  return {state_of(sites, recipe), {}};
+  return {make_start_state(sites, recipe), {}};
 }
 
 void refuse_state() {
@@ -307,7 +307,7 @@ Mesh mesh_of_run(const State& state, const Surface& surface,
 }
 
 Level set_bisected(State& state, const Mesh& coarse, const Density& density, std::int64_t cells) {
-  Sites sites = sites_of(bisected_points(state, coarse, density, cells), coarse.surface);
+  Sites sites = make_distinct_sites(bisected_points(state, coarse, density, cells), coarse.surface);
   set_points(state, sites);
   if (coarse.surface.is_bounded()) // a part of the midpoints
     return {};
@@ -321,7 +321,7 @@ Level set_bisected(State& state, const Mesh& coarse, const Density& density, std
 
 Level set_split_and_collapsed(State& state, const Mesh& mesh, const Density& density,
                               const EdgeChanges& changes) {
-  Sites sites = sites_of(split_and_collapsed(mesh, density, changes), mesh.surface);
+  Sites sites = make_distinct_sites(split_and_collapsed(mesh, density, changes), mesh.surface);
   set_points(state, sites);
   if (!mesh.surface.is_whole_sphere() ||
       have_equal(sites.size(), [&](std::int64_t rank) { return column(state.points, rank); }))

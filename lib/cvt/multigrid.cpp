@@ -18,17 +18,17 @@ constexpr std::int64_t coarsest_rows = 300, aggregate_rows = 8;
 constexpr float smoothing = 0.9F; ///< of the step of Jacobi's method in the prolongation
 constexpr float overlap = 0.3F;   ///< see matrix_of_aggregates()
 
-std::int64_t aggregates_of(std::int64_t rows) {
+std::int64_t count_aggregates(std::int64_t rows) {
   return std::max<std::int64_t>(1, rows / aggregate_rows);
 }
 
 /// Eight consecutive rows; the last aggregate takes the remainder.
-std::int32_t aggregate_of(std::int64_t row, std::int64_t aggregates) {
+std::int32_t find_aggregate(std::int64_t row, std::int64_t aggregates) {
   return static_cast<std::int32_t>(std::min(row / aggregate_rows, aggregates - 1));
 }
 
 /// The end of an aggregate's rows.
-std::int64_t end_of(std::int64_t aggregate, std::int64_t aggregates, std::int64_t rows) {
+std::int64_t aggregate_end(std::int64_t aggregate, std::int64_t aggregates, std::int64_t rows) {
   return aggregate + 1 == aggregates ? rows : aggregate_rows * (aggregate + 1);
 }
 
@@ -83,12 +83,12 @@ template <class SetRow> Rows make_rows(std::int64_t rows, const SetRow& set_row)
 /// Divides the vector that the matrix almost maps to zero by its norm on each aggregate, and
 /// replaces it by these norms.
 Array<float> normalised(Array<double>& constant) {
-  const std::int64_t rows = constant.size(), aggregates = aggregates_of(rows);
+  const std::int64_t rows = constant.size(), aggregates = count_aggregates(rows);
   Array<double> norms(aggregates);
   Array<float> out(rows);
   for_each_block(aggregates, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a != end; ++a) {
-      const std::int64_t last = end_of(a, aggregates, rows);
+      const std::int64_t last = aggregate_end(a, aggregates, rows);
       double sum = 0;
       for (std::int64_t i = aggregate_rows * a; i != last; ++i)
         sum += constant[i] * constant[i];
@@ -112,10 +112,10 @@ Rows matrix_of_aggregates(const Rows& weights, const Array<float>& constant,
   const std::int64_t rows = weights.size(), aggregates = norms.size();
   return make_rows(aggregates, [&](std::int64_t a, std::vector<Element>& row) {
     double sum = 0, others = 0;
-    for (std::int64_t i = aggregate_rows * a; i != end_of(a, aggregates, rows); ++i) {
+    for (std::int64_t i = aggregate_rows * a; i != aggregate_end(a, aggregates, rows); ++i) {
       sum += constant[i] * constant[i];
       for (const auto& [j, weight] : weights[i]) {
-        const std::int32_t b = aggregate_of(j, aggregates);
+        const std::int32_t b = find_aggregate(j, aggregates);
         const float value = weight * constant[i] * constant[j];
         if (b == a) {
           sum -= value;
@@ -138,7 +138,7 @@ void scale(const Array<double>& diagonal, Rows& weights, Array<double>& constant
     for (std::int64_t a = begin; a != end; ++a) {
       const double root = std::sqrt(diagonal[a]);
       constant[a] *= root;
-      for (std::int64_t i = aggregate_rows * a; i != end_of(a, aggregates, rows); ++i)
+      for (std::int64_t i = aggregate_rows * a; i != aggregate_end(a, aggregates, rows); ++i)
         columns[i] = static_cast<float>(columns[i] / root);
       for (auto& [b, weight] : weights[a])
         weight = static_cast<float>(weight / (root * std::sqrt(diagonal[b])));
@@ -217,9 +217,9 @@ CALOTTE_VECTOR_WIDTHS void prolong(const Rows& w, std::int64_t begin, std::int64
   for (std::int64_t i = begin; i != end; ++i) {
     Float4 sum = {};
     for (const auto [j, weight] : w[i])
-      sum += (weight * constant[j]) * correction[aggregate_of(j, aggregates)];
+      sum += (weight * constant[j]) * correction[find_aggregate(j, aggregates)];
     x[i] +=
-        (1 - smoothing) * constant[i] * correction[aggregate_of(i, aggregates)] + smoothing * sum;
+        (1 - smoothing) * constant[i] * correction[find_aggregate(i, aggregates)] + smoothing * sum;
   }
 }
 
@@ -310,7 +310,7 @@ void Multigrid::restrict_residual(Level& level) {
   const std::int64_t rows = level.weights.size(), count = right.size();
   for_each_block(count, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a != end; ++a)
-      restrict_rows(level.weights, aggregate_rows * a, end_of(a, count, rows),
+      restrict_rows(level.weights, aggregate_rows * a, aggregate_end(a, count, rows),
                     level.constant.begin(), level.other.begin(), right[a]);
   });
 }

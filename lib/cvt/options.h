@@ -21,7 +21,7 @@ struct Quadrature {
 struct Execution {
   Decomposition decomposition = {}; ///< affects time and memory, not the result
   /// Of the last descent and of a polish; coarser at a loose tolerance, and in other descents, see
-  /// descent_of().
+  /// make_descent_options().
   Quadrature quadrature = {};
 };
 

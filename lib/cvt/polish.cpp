@@ -21,7 +21,8 @@ Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
                    const LocalInput& input, const ShapePenalty& penalty) {
   const DoubleVector inverse_spacing =
       evaluate(input.density, points).cwiseSqrt().cwiseSqrt() / penalty.spacing;
-  const ShapeInput<S> shapes{tessellation.placed(), inverse_spacing, penalty.limits, input.fixed};
+  const ShapeInput<S> shapes{tessellation.positioned(), inverse_spacing, penalty.limits,
+                             input.fixed};
   struct Shape {
     double excess;
     std::array<std::int32_t, 3> sites; ///< ascending
@@ -80,7 +81,7 @@ std::int64_t polish(Tessellation<S>& tessellation, Points3& points, const LocalI
         std::vector<std::int32_t> changed;
         for (int round = 0; round < most_rounds; ++round) {
           const auto chosen =
-              choose_surroundings(mesh, worst_shapes(tessellation, points, input, penalty)).chosen;
+              choose_disjoint(mesh, worst_shapes(tessellation, points, input, penalty)).chosen;
           if (chosen.empty())
             break;
           count += std::ssize(chosen);

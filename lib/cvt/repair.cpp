@@ -19,7 +19,7 @@ Corners corners_of(const Connectivity& mesh, std::int32_t t) {
 
 /// A triangle's corners; of periodic copies those next to the first.
 template <Space S>
-std::array<typename S::Position, 3> positions_of(const PlacedSites<S>& sites,
+std::array<typename S::Position, 3> positions_of(const SitePositions<S>& sites,
                                                  const Corners& corners) {
   const auto at = [&](std::size_t v) -> const Vec3& {
     return sites.points[static_cast<std::size_t>(corners[v])];
@@ -28,7 +28,8 @@ std::array<typename S::Position, 3> positions_of(const PlacedSites<S>& sites,
   return {first, sites.space.near(at(1), first), sites.space.near(at(2), first)};
 }
 
-template <Space S> bool is_counter_clockwise(const PlacedSites<S>& sites, const Corners& corners) {
+template <Space S>
+bool is_counter_clockwise(const SitePositions<S>& sites, const Corners& corners) {
   const auto [a, b, c] = positions_of(sites, corners);
   return sites.space.is_short(b, c) && sites.space.orientation(a, b, c) > 0;
 }
@@ -36,7 +37,8 @@ template <Space S> bool is_counter_clockwise(const PlacedSites<S>& sites, const 
 /// Whether the circumcircle of the triangle contains the far corner of the one beyond an edge; the
 /// library's rule resolves ties.
 template <Space S>
-bool is_delaunay(const Connectivity& mesh, const PlacedSites<S>& sites, const TriangleEdge& edge) {
+bool is_delaunay(const Connectivity& mesh, const SitePositions<S>& sites,
+                 const TriangleEdge& edge) {
   const std::int32_t t = edge.triangle, beyond = mesh.neighbours(edge.across, t);
   if (beyond < 0)
     return true;
@@ -84,7 +86,7 @@ void flip_and_count(Connectivity& mesh, const TriangleEdge& edge,
 /// Flips an edge of an overturned triangle such that both triangles are valid, as where a site has
 /// moved across the opposite edge. False if there is none.
 template <Space S>
-bool turn_back(Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t t,
+bool turn_back(Connectivity& mesh, const SitePositions<S>& sites, std::int32_t t,
                std::vector<TriangleEdge>& pending, Repair& result) {
   const Corners corners = corners_of(mesh, t);
   if (is_counter_clockwise(sites, corners)) // by a flip of another triangle
@@ -107,7 +109,7 @@ bool turn_back(Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t t,
 
 /// Flips until all edges are Delaunay; false if that takes more than `most` flips.
 template <Space S>
-bool flip_all(Connectivity& mesh, const PlacedSites<S>& sites, std::vector<TriangleEdge> pending,
+bool flip_all(Connectivity& mesh, const SitePositions<S>& sites, std::vector<TriangleEdge> pending,
               std::int64_t most, Repair& result) {
   while (!pending.empty()) {
     const TriangleEdge edge = pending.back();
@@ -124,7 +126,7 @@ bool flip_all(Connectivity& mesh, const PlacedSites<S>& sites, std::vector<Trian
 } // namespace
 
 template <Space S>
-void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t triangle,
+void add_faults(const Connectivity& mesh, const SitePositions<S>& sites, std::int32_t triangle,
                 Faults& faults) {
   const Corners corners = corners_of(mesh, triangle);
   if (!is_counter_clockwise(sites, corners))
@@ -140,7 +142,7 @@ void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int3
 }
 
 template <Space S>
-std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites,
+std::optional<Repair> repair(Connectivity& mesh, const SitePositions<S>& sites,
                              const Faults& faults) {
   // A flip costs about as much as three sites of a new triangulation, which runs in parallel.
   const std::int64_t most = std::max<std::int64_t>(std::ssize(sites.points) / 16, 64);
@@ -154,9 +156,9 @@ std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites,
   return result;
 }
 
-template void add_faults(const Connectivity&, const PlacedSites<Sphere>&, std::int32_t, Faults&);
-template void add_faults(const Connectivity&, const PlacedSites<Plane>&, std::int32_t, Faults&);
-template std::optional<Repair> repair(Connectivity&, const PlacedSites<Sphere>&, const Faults&);
-template std::optional<Repair> repair(Connectivity&, const PlacedSites<Plane>&, const Faults&);
+template void add_faults(const Connectivity&, const SitePositions<Sphere>&, std::int32_t, Faults&);
+template void add_faults(const Connectivity&, const SitePositions<Plane>&, std::int32_t, Faults&);
+template std::optional<Repair> repair(Connectivity&, const SitePositions<Sphere>&, const Faults&);
+template std::optional<Repair> repair(Connectivity&, const SitePositions<Plane>&, const Faults&);
 
 } // namespace calotte::cvt_detail

@@ -30,7 +30,7 @@ struct Faults {
 };
 
 /// A mesh's points in their space, by site.
-template <Space S> struct PlacedSites {
+template <Space S> struct SitePositions {
   S space;
   std::span<const Vec3> points; ///< as the space has them; of a periodic plane in the box
 };
@@ -39,7 +39,7 @@ template <Space S> struct PlacedSites {
 /// acute. In a periodic plane a triangle with a side as long as half of a period is overturned: its
 /// nearest copies are ambiguous, and a triangulation has no such sides.
 template <Space S>
-void add_faults(const Connectivity& mesh, const PlacedSites<S>& sites, std::int32_t triangle,
+void add_faults(const Connectivity& mesh, const SitePositions<S>& sites, std::int32_t triangle,
                 Faults& faults);
 
 struct Repair {
@@ -52,6 +52,7 @@ struct Repair {
 /// would take longer than a new triangulation; the mesh is then unusable. After flips of overturned
 /// triangles others may be overturned, which the caller must find.
 template <Space S>
-std::optional<Repair> repair(Connectivity& mesh, const PlacedSites<S>& sites, const Faults& faults);
+std::optional<Repair> repair(Connectivity& mesh, const SitePositions<S>& sites,
+                             const Faults& faults);
 
 } // namespace calotte::cvt_detail

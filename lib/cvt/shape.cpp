@@ -20,7 +20,7 @@ struct Angle {
   std::int32_t a, b, c;
 };
 
-template <Space S> Angle angle_at(const PlacedMesh<S>& mesh, std::int32_t t, int v) {
+template <Space S> Angle angle_at(const PositionedMesh<S>& mesh, std::int32_t t, int v) {
   return {mesh.site(t, next_vertex(v)), mesh.site(t, previous_vertex(v)), mesh.site(t, v)};
 }
 
@@ -30,7 +30,7 @@ struct Cotangent {
   Vec3 u, v, normal;  ///< unit normal
 
   template <Space S>
-  Cotangent(const PlacedMesh<S>& mesh, const Angle& angle)
+  Cotangent(const PositionedMesh<S>& mesh, const Angle& angle)
       : u(mesh.offset(angle.c, angle.a)), v(mesh.offset(angle.c, angle.b)) {
     const Vec3 product = cross(u, v);
     area = norm(product);
@@ -159,7 +159,7 @@ private:
     part.add_shares(other, beyond, slope);
   }
 
-  const PlacedMesh<S> mesh_;
+  const PositionedMesh<S> mesh_;
   const DoubleVector& inverse_spacing_;
   const ShapeLimits& limits_;
   const std::vector<std::uint8_t>& fixed_;
@@ -167,7 +167,7 @@ private:
 
 /// Whether a triangle may be beyond a limit.
 template <Space S> bool is_distorted(const ShapeInput<S>& input, std::int32_t triangle) {
-  const PlacedMesh<S>& mesh = input.mesh;
+  const PositionedMesh<S>& mesh = input.mesh;
   const ShapeLimits& limits = input.limits;
   const auto ids = mesh.mesh.triangles.col(triangle);
   if (ids.maxCoeff() >= input.inverse_spacing.size())

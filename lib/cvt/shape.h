@@ -3,7 +3,7 @@
 
 #include "cvt/cells.h"
 #include "cvt/options.h"
-#include "cvt/placed_mesh.h"
+#include "cvt/positioned_mesh.h"
 #include "cvt/room.h"
 #include "mesh/connectivity.h"
 
@@ -62,7 +62,7 @@ struct ShapeTerms {
 
 /// Where shapes are judged.
 template <Space S> struct ShapeInput {
-  PlacedMesh<S> mesh;
+  PositionedMesh<S> mesh;
   const DoubleVector& inverse_spacing; ///< 1/h by generator, h the spacing that the density demands
   const ShapeLimits& limits;
   const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays; empty if none

@@ -19,7 +19,7 @@ namespace {
 
 /// The spacing at rho = 1 of regular hexagons with the same energy. n times their energy is that of
 /// a hexagon times I^2, I the integral of rho^(1/2), and their area at rho = 1 is I/n.
-double spacing_of(const CvtIteration& iteration) {
+double estimate_spacing(const CvtIteration& iteration) {
   const auto n = static_cast<double>(iteration.cells);
   return hexagon_width(std::sqrt(iteration.energy * n / hexagon_energy) / n);
 }
@@ -30,7 +30,7 @@ int count_of_round(const State& state) { return state.memory.iterations > course
 
 /// The edges of a round: of both kinds while rounds are left, and the difference to the number of
 /// cells.
-EdgeChanges edge_changes_of(const State& state, const Mesh& mesh, const Density& density) {
+EdgeChanges plan_edge_changes(const State& state, const Mesh& mesh, const Density& density) {
   const CvtAction& action = state.action();
   const std::int64_t n = mesh.points.cols();
   std::int64_t both = 0;
@@ -124,7 +124,7 @@ Level begin_round(State& state, const Density& density, const Mesh& mesh, int co
   const std::int64_t before = missing_cells(state);
   const bool counts = !is_far(state) || !may_come_nearer(cursor);
   Level level =
-      set_split_and_collapsed(state, mesh, density, edge_changes_of(state, mesh, density));
+      set_split_and_collapsed(state, mesh, density, plan_edge_changes(state, mesh, density));
   if (before > 0 && missing_cells(state) >= before && may_come_nearer(cursor))
     ++cursor.idle;
   if (counts)
@@ -140,7 +140,7 @@ Level begin_round(State& state, const Density& density, const Mesh& mesh, int co
 void begin_polish(State& state) {
   const CvtIteration& last = state.report.iterations.back();
   state.polish = {.penalty = course::penalty * last.energy / static_cast<double>(last.cells),
-                  .demanded_spacing = spacing_of(last),
+                  .demanded_spacing = estimate_spacing(last),
                   .descended =
                       state.report.converged || state.cursor.glides > 0}; // which need convergence
 }
@@ -223,7 +223,7 @@ bool has_stalled(const State& state) {
   return last_accepted(state).shape_excess > course::stall_progress * before;
 }
 
-std::optional<Cursor> next_of(const State& state) {
+std::optional<Cursor> next_cursor(const State& state) {
   Cursor cursor = state.cursor;
   while (!is_due(state, cursor)) {
     const std::optional<Kind> next = kind_after(state, cursor);
@@ -259,8 +259,8 @@ ShapeLimits limits_of_glide(const State& state) {
   return state.cursor.glides < course::early_glides ? early_glide_limits() : shape_limits;
 }
 
-DescentOptions descent_of(const State& state, const Recipe& recipe, const Density& density,
-                          const Quadrature& quadrature) {
+DescentOptions make_descent_options(const State& state, const Recipe& recipe,
+                                    const Density& density, const Quadrature& quadrature) {
   const CvtAction& action = state.action();
   const bool last = action.kind == Kind::converge, polishes = has(state, Kind::polish);
   DescentOptions here{.method = recipe.method,

@@ -44,7 +44,7 @@ bool creeps(const State& state, const DescentOptions& options);
 bool has_stalled(const State& state);
 
 /// The cursor of the descent after the current one; none at the end of the run.
-std::optional<Cursor> next_of(const State& state);
+std::optional<Cursor> next_cursor(const State& state);
 
 /// Levels that follow, and rounds of insertion on this one after the current descent.
 int bisections_left(const State& state);
@@ -62,8 +62,8 @@ ShapeLimits limits_of_glide(const State& state);
 /// \param quadrature of the run, see Execution. Descents with others after them end with its first
 ///        rule; where the density is nearly linear between generators, that at the sites replaces
 ///        it.
-DescentOptions descent_of(const State& state, const Recipe& recipe, const Density& density,
-                          const Quadrature& quadrature);
+DescentOptions make_descent_options(const State& state, const Recipe& recipe,
+                                    const Density& density, const Quadrature& quadrature);
 
 /// Begins the action at a cursor: changes the generators.
 /// \param mesh of them, if it is known.

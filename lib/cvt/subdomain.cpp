@@ -51,7 +51,7 @@ Subdomain<S>::Subdomain(const Cells<S>& cells, const Connectivity& mesh, const P
     points_.col(i) = points.col(part_.sites[static_cast<std::size_t>(i)]);
   x_ = Array<Vec3>(std::ssize(part_.sites));
   for (std::int64_t i = 0; i < x_.size(); ++i)
-    x_[i] = cells_.place(part_.sites[static_cast<std::size_t>(i)]);
+    x_[i] = cells_.position(part_.sites[static_cast<std::size_t>(i)]);
   moments_ = Array<CellMoments>(x_.size());
   set_patch();
 }
@@ -88,19 +88,20 @@ template <Space S> void Subdomain<S>::set_patch() {
 /// suffice.
 template <Space S> bool Subdomain<S>::integrate() {
   constexpr int most_repairs = 4;
-  const PlacedSites<S> placed{cells_.space(), {x_.begin(), part_.sites.size()}};
+  const SitePositions<S> positions{cells_.space(), {x_.begin(), part_.sites.size()}};
   std::optional<Connectivity> before;
   for (int repairs = 0;; ++repairs) {
     suspects_.clear();
     cells_.integrate(integrand_, patch_, x_, moments_, suspects_);
     Faults faults;
     for (const std::int32_t suspect : suspects_)
-      add_faults(part_.faces, placed, patch_.triangles[static_cast<std::size_t>(suspect)], faults);
+      add_faults(part_.faces, positions, patch_.triangles[static_cast<std::size_t>(suspect)],
+                 faults);
     if (faults.none())
       return true;
     if (!before)
       before = part_.faces;
-    const bool sound = repairs < most_repairs && repair(part_.faces, placed, faults);
+    const bool sound = repairs < most_repairs && repair(part_.faces, positions, faults);
     if (!sound)
       part_.faces = std::move(*before);
     flipped_ = true;
@@ -158,7 +159,7 @@ template <Space S> void Subdomain<S>::add_penalty(Evaluation& out) {
   DoubleVector inverse_spacing(generators_);
   density_(x_.begin(), generators_, inverse_spacing.data());
   inverse_spacing = inverse_spacing.cwiseSqrt().cwiseSqrt() / penalty_.spacing;
-  const ShapeInput<S> input{placed(), inverse_spacing, penalty_.limits, stays_};
+  const ShapeInput<S> input{positioned(), inverse_spacing, penalty_.limits, stays_};
   Points3 gradient = Points3::Zero(3, x_.size());
   gradient.leftCols(movable()) = out.gradient;
   out.shapes = add_shape_terms(input, distorted(input), penalty_.factor, gradient);
@@ -217,8 +218,8 @@ Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& i
   return last;
 }
 
-ChosenSurroundings choose_surroundings(const Connectivity& mesh,
-                                       std::span<const std::array<std::int32_t, 2>> seeds) {
+DisjointSurroundings choose_disjoint(const Connectivity& mesh,
+                                     std::span<const std::array<std::int32_t, 2>> seeds) {
   constexpr int reach = 13; // steps, as wide as half as many cells
   std::vector<std::vector<std::int32_t>> around(seeds.size());
   for_each_task(std::ssize(seeds), [&](std::int64_t k) {
@@ -227,7 +228,7 @@ ChosenSurroundings choose_surroundings(const Connectivity& mesh,
   });
   std::vector<std::uint8_t> taken(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   const auto is_taken = [&](std::int32_t t) { return taken[static_cast<std::size_t>(t)] != 0; };
-  ChosenSurroundings out;
+  DisjointSurroundings out;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     if (std::any_of(around[k].begin(), around[k].end(), is_taken)) {
       out.left.push_back(k);
@@ -248,10 +249,10 @@ bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& tas
              Points3& points, std::vector<std::int32_t>& changed) {
   std::vector<std::optional<Subdomain<S>>> parts(surroundings.size());
   for_each_task(std::ssize(parts), [&](std::int64_t k) {
-    const auto place = static_cast<std::size_t>(k);
-    std::optional<Subdomain<S>>& part = parts[place];
-    part.emplace(tessellation.cells(), mesh, points, surroundings[place].triangles, input);
-    if (part->movable() == 0 || !task(place, *part))
+    const auto index = static_cast<std::size_t>(k);
+    std::optional<Subdomain<S>>& part = parts[index];
+    part.emplace(tessellation.cells(), mesh, points, surroundings[index].triangles, input);
+    if (part->movable() == 0 || !task(index, *part))
       part.reset();
   });
   std::vector<std::int32_t> rim;
@@ -261,8 +262,8 @@ bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& tas
   tessellation.move(points);
   Faults faults;
   for (const std::int32_t t : rim)
-    add_faults(mesh, tessellation.cells().placed(), t, faults);
-  const std::optional<Repair> repaired = repair(mesh, tessellation.cells().placed(), faults);
+    add_faults(mesh, tessellation.cells().positions(), t, faults);
+  const std::optional<Repair> repaired = repair(mesh, tessellation.cells().positions(), faults);
   if (!repaired)
     return false;
   changed.insert(changed.end(), repaired->changed.begin(), repaired->changed.end());

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "cvt/cells.h"
 #include "cvt/functional.h"
-#include "cvt/placed_mesh.h"
+#include "cvt/positioned_mesh.h"
 #include "cvt/repair.h"
 #include "cvt/room.h"
 #include "cvt/shape.h"
@@ -47,7 +47,9 @@ public:
   Subdomain(const Cells<S>& cells, const Connectivity& mesh, const Points3& points,
             std::vector<std::int32_t> triangles, const LocalInput& input);
 
-  PlacedMesh<S> placed() const { return {cells_, part_.faces, {x_.begin(), part_.sites.size()}}; }
+  PositionedMesh<S> positioned() const {
+    return {cells_, part_.faces, {x_.begin(), part_.sites.size()}};
+  }
   std::int32_t movable() const { return patch_.owned; } ///< sites that move: the first ones
   /// In the mesh: those that move, ascending, then the others.
   std::span<const std::int32_t> sites() const { return part_.sites; }
@@ -88,7 +90,7 @@ private:
   DensityEvaluator density_;
   Submesh part_;
   Points3 points_;
-  Array<Vec3> x_; ///< places of all sites
+  Array<Vec3> x_; ///< positions of all sites
   Patch patch_;   ///< its triangles are those with a site that moves
   Array<CellMoments> moments_;
   std::vector<std::int32_t> suspects_;
@@ -112,22 +114,22 @@ struct Surroundings {
   std::vector<std::int32_t> triangles; ///< the nearer ones first
 };
 
-struct ChosenSurroundings {
+struct DisjointSurroundings {
   std::vector<Surroundings> chosen; ///< without a common triangle
   std::vector<std::size_t> left;    ///< seeds that are neither chosen nor in what is chosen
 };
 
 /// Chooses seeds, the first ones in their order, whose surroundings have no common triangle.
-ChosenSurroundings choose_surroundings(const Connectivity& mesh,
-                                       std::span<const std::array<std::int32_t, 2>> seeds);
+DisjointSurroundings choose_disjoint(const Connectivity& mesh,
+                                     std::span<const std::array<std::int32_t, 2>> seeds);
 
 /// What is done in a subdomain; false if it is to be left out, as without a mesh.
-template <Space S> using LocalTask = std::function<bool(std::size_t place, Subdomain<S>& part)>;
+template <Space S> using LocalTask = std::function<bool(std::size_t index, Subdomain<S>& part)>;
 
 /// Runs a task in the subdomain of each of some surroundings, without a common triangle, and writes
 /// them back.
 /// \param mesh of the tessellation, which stays Delaunay.
-/// \param task called with the place of the surroundings in the list.
+/// \param task called with the index of the surroundings in the list.
 /// \param changed triangles that are then others are added.
 /// \returns false if flips do not make the mesh Delaunay; it is then unusable.
 template <Space S>

@@ -27,7 +27,7 @@ Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points,
   if (sites.size() != generators_) // two points have met
     cells_.triangulate();          // which says it
   Regions regions = delaunay_detail::divide(sites, decomposition_);
-  Owners owners = owners_of(sites, regions);
+  Owners owners = rank_owners(sites, regions);
   if (!level.mesh) {
     mesh_ = cells_.triangulate(std::move(sites), std::move(regions));
     adopt(std::move(owners));
@@ -46,7 +46,7 @@ template <Space S> bool Tessellation<S>::drifted() const {
   const double spacing = cells_.spacing();
   for (std::int64_t k = 0; k < sample_.size(); ++k) {
     const Vec3 way =
-        cells_.offset(sample_[k], cells_.place(static_cast<std::int32_t>(k * sampled)));
+        cells_.offset(sample_[k], cells_.position(static_cast<std::int32_t>(k * sampled)));
     if (dot(way, way) > spacing * spacing)
       return true;
   }
@@ -56,14 +56,14 @@ template <Space S> bool Tessellation<S>::drifted() const {
 template <Space S> void Tessellation<S>::note_sample() {
   sample_ = Array<Vec3>((generators_ + sampled - 1) / sampled);
   for (std::int64_t k = 0; k < sample_.size(); ++k)
-    sample_[k] = cells_.place(static_cast<std::int32_t>(k * sampled));
+    sample_[k] = cells_.position(static_cast<std::int32_t>(k * sampled));
 }
 
 template <Space S> void Tessellation<S>::divide() {
   division_.patches.clear(); // sorting takes as much memory
   std::optional<Owners> owners;
   if (const Sites sites = cells_.sites(); sites.size() == generators_)
-    owners = owners_of(sites, delaunay_detail::divide(sites, decomposition_));
+    owners = rank_owners(sites, delaunay_detail::divide(sites, decomposition_));
   // If two points coincide, the old regions stay; a new triangulation will report the error.
   adopt(owners ? std::move(*owners)
                : Owners{std::move(division_.ownership.owner),
@@ -71,10 +71,10 @@ template <Space S> void Tessellation<S>::divide() {
 }
 
 template <Space S>
-typename Tessellation<S>::Owners Tessellation<S>::owners_of(const Sites& sites,
-                                                            const Regions& regions) const {
+typename Tessellation<S>::Owners Tessellation<S>::rank_owners(const Sites& sites,
+                                                              const Regions& regions) const {
   const auto count = static_cast<std::int32_t>(regions.centres.size());
-  Owners owners{Array<std::int32_t>(cells_.places()), count};
+  Owners owners{Array<std::int32_t>(cells_.site_count()), count};
   std::fill(owners.owner.begin() + generators_, owners.owner.end(), 0);
   for_each_block(generators_, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t r = begin; r != end; ++r)
@@ -111,7 +111,7 @@ template <Space S> Array<Vec3> Tessellation<S>::exchange(const Patch& patch) con
   constexpr std::int64_t together = 16;
   Array<Vec3> x(std::ssize(patch.sites));
   for (std::int64_t i = 0; i < x.size();) {
-    const Vec3& position = cells_.place(patch.sites[static_cast<std::size_t>(i)]);
+    const Vec3& position = cells_.position(patch.sites[static_cast<std::size_t>(i)]);
     if (are_consecutive(patch, i, together)) { // as they are in memory
       std::copy_n(&position, together, &x[i]);
       i += together;
@@ -124,7 +124,7 @@ template <Space S> Array<Vec3> Tessellation<S>::exchange(const Patch& patch) con
 
 template <Space S> void Tessellation<S>::find_faults(const Patch& patch, RegionWork& work) const {
   for (const std::int32_t suspect : work.suspects)
-    add_faults(mesh_, cells_.placed(), patch.triangles[static_cast<std::size_t>(suspect)],
+    add_faults(mesh_, cells_.positions(), patch.triangles[static_cast<std::size_t>(suspect)],
                work.faults);
 }
 
@@ -139,7 +139,7 @@ Faults Tessellation<S>::run_tasks(const Task& task, Effort& effort) {
     work.effort = {};
     Clock::time_point start = Clock::now();
     task(division_.patches[static_cast<std::size_t>(k)], work);
-    work.report.seconds += lap(start);
+    work.report.seconds += restart_clock(start);
   });
   Faults all;
   for (const RegionWork& work : division_.work) {
@@ -158,10 +158,10 @@ template <Space S> Faults Tessellation<S>::find_faults(Effort& effort) {
       [&](const Patch& patch, RegionWork& work) {
         Clock::time_point mark = Clock::now();
         const Array<Vec3> x = exchange(patch);
-        work.effort.seconds_exchange = lap(mark);
+        work.effort.seconds_exchange = restart_clock(mark);
         cells_.find_suspects(patch, x, work.suspects);
         find_faults(patch, work);
-        work.effort.seconds_repair = lap(mark);
+        work.effort.seconds_repair = restart_clock(mark);
       },
       effort);
 }
@@ -169,12 +169,12 @@ template <Space S> Faults Tessellation<S>::find_faults(Effort& effort) {
 /// Makes the mesh Delaunay by flips. False if flips do not suffice; the mesh is then unusable.
 template <Space S> bool Tessellation<S>::repair_faults(const Faults& faults, Effort& effort) {
   Clock::time_point start = Clock::now();
-  const std::optional<Repair> repaired = repair(mesh_, cells_.placed(), faults);
+  const std::optional<Repair> repaired = repair(mesh_, cells_.positions(), faults);
   if (repaired) {
     renew_patches(division_.patches, mesh_.triangles, division_.ownership, repaired->changed);
     effort.flips += repaired->flips;
   }
-  effort.seconds_repair += lap(start);
+  effort.seconds_repair += restart_clock(start);
   return repaired.has_value();
 }
 
@@ -186,7 +186,7 @@ template <Space S> void Tessellation<S>::rebuild(Effort& effort) {
   mesh_ = cells_.triangulate();
   division_.patches = make_patches(mesh_.triangles, division_.ownership);
   effort.rebuilt = true;
-  effort.seconds_repair += lap(start);
+  effort.seconds_repair += restart_clock(start);
 }
 
 /// Calls the receiver in the tasks of regions without faults, and returns the faults of others.
@@ -198,14 +198,14 @@ Faults Tessellation<S>::integrate(const Integrand& integrand, const Receiver& re
         Clock::time_point mark = Clock::now();
         const Array<Vec3> x = exchange(patch);
         Array<CellMoments> moments(x.size());
-        work.effort.seconds_exchange = lap(mark);
+        work.effort.seconds_exchange = restart_clock(mark);
         cells_.integrate(integrand, patch, x, moments, work.suspects);
-        work.effort.seconds_moments = lap(mark);
+        work.effort.seconds_moments = restart_clock(mark);
         find_faults(patch, work);
-        work.effort.seconds_repair = lap(mark);
+        work.effort.seconds_repair = restart_clock(mark);
         if (work.faults.none())
           receive(patch, x, moments);
-        work.effort.seconds_moments += lap(mark);
+        work.effort.seconds_moments += restart_clock(mark);
       },
       effort);
 }
@@ -254,7 +254,7 @@ template <Space S> std::optional<Connectivity> Tessellation<S>::take_mesh(const 
   Effort unused;
   const Faults faults = find_faults(unused);
   division_.patches.clear();
-  if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.placed(), faults)))
+  if (!faults.overturned.empty() || (!faults.none() && !repair(mesh_, cells_.positions(), faults)))
     return std::nullopt;
   return std::move(mesh_);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cvt/cells.h"
-#include "cvt/placed_mesh.h"
+#include "cvt/positioned_mesh.h"
 #include "cvt/repair.h"
 #include "cvt/room.h"
 #include "delaunay/regions.h"
@@ -97,8 +97,8 @@ public:
   /// Makes the mesh Delaunay, by flips or a new triangulation.
   void make_delaunay(Effort& effort);
 
-  /// The mesh with the places of its sites.
-  PlacedMesh<S> placed() const { return {cells_, mesh_, cells_.placed().points}; }
+  /// The mesh with the site_count of its sites.
+  PositionedMesh<S> positioned() const { return {cells_, mesh_, cells_.positions().points}; }
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
   std::optional<Connectivity> take_mesh(const Points3& points);
@@ -117,7 +117,7 @@ public:
   std::vector<CvtRegion> regions() const;
 
 private:
-  /// The owner of each place of the mesh.
+  /// The owner of each position of the mesh.
   struct Owners {
     Array<std::int32_t> owner;
     std::int32_t regions;
@@ -126,7 +126,7 @@ private:
   bool repair_faults(const Faults& faults, Effort& effort);
   void rebuild(Effort& effort);
   Faults integrate(const Integrand& integrand, const Receiver& receive, Effort& effort);
-  Owners owners_of(const Sites& sites, const Regions& regions) const;
+  Owners rank_owners(const Sites& sites, const Regions& regions) const;
   void set_division(Owners&& owners);
   void adopt(Owners&& owners);
   void note_sample();

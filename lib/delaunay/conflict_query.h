@@ -44,7 +44,7 @@ public:
     const std::int8_t infinite = face->infinite;
     for (int i = 0; i < 3; ++i)
       corner_[static_cast<std::size_t>(i)] =
-          i == infinite ? normalised(chart.view().focus) : face->vertex(i)->place.unit;
+          i == infinite ? normalised(chart.view().focus) : face->vertex(i)->point.unit;
     normal_ = cross(corner_[1] - corner_[0], corner_[2] - corner_[0]);
     const double longest = std::max({norm(corner_[1] - corner_[0]), norm(corner_[2] - corner_[0]),
                                      norm(corner_[2] - corner_[1])});
@@ -80,15 +80,15 @@ public:
   Zone(FaceOf<PlaneChart> face, const PlaneChart&) {
     const std::int8_t infinite = face->infinite;
     const int first = infinite < 0 ? 0 : next_vertex(infinite);
-    a_ = face->vertex(first)->place.unit;
-    const Vec3 p = face->vertex(next_vertex(first))->place.unit - a_;
+    a_ = face->vertex(first)->point.unit;
+    const Vec3 p = face->vertex(next_vertex(first))->point.unit - a_;
     if (infinite >= 0) {
       straight_ = true;
       normal_ = {-p.y, p.x, 0};
       size_ = norm(p);
       return;
     }
-    const Vec3 r = face->vertex(previous_vertex(first))->place.unit - a_;
+    const Vec3 r = face->vertex(previous_vertex(first))->point.unit - a_;
     const double p2 = dot(p, p), r2 = dot(r, r);
     normal_ = {p2 * r.y - p.y * r2, p.x * r2 - p2 * r.x, 0};
     curvature_ = p.x * r.y - p.y * r.x;
@@ -148,7 +148,7 @@ public:
   const std::vector<std::int32_t>& run(FaceOf<Chart> face) {
     face_ = face;
     found_.clear();
-    near_ = face->vertex(face->infinite == 0 ? 1 : 0)->place.unit;
+    near_ = face->vertex(face->infinite == 0 ? 1 : 0)->point.unit;
     const Zone<Chart> zone(face, triangulation_.chart());
     descend(sites_.boxes.levels() - 1, 0, sites_.boxes.nodes(sites_.boxes.levels() - 1), zone);
     return found_;
@@ -192,10 +192,10 @@ private:
 
   bool is_in_conflict(std::int64_t rank) {
     for (int i = 0; i < 3; ++i)
-      if (i != face_->infinite && face_->vertex(i)->place.site == sites_.id[rank])
+      if (i != face_->infinite && face_->vertex(i)->point.site == sites_.id[rank])
         return false;
     Chart& chart = triangulation_.chart();
-    return chart.has_place(rank) && triangulation_.conflicts(face_, chart.place(rank));
+    return chart.has_point(rank) && triangulation_.conflicts(face_, chart.point(rank));
   }
 
   Triangulation<Chart>& triangulation_;

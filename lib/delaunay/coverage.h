@@ -27,8 +27,8 @@ inline constexpr double normal_error = 50 * roundoff;
 /// The flat triangle's normal (b - a) x (c - a), not normalised.
 inline Vec3 normal_of(FaceOf<SphereChart> face) { return face->circle.normal; }
 inline Vec3 normal_of(FaceOf<PlaneChart> face) {
-  return cross(face->vertex(1)->place.unit - face->vertex(0)->place.unit,
-               face->vertex(2)->place.unit - face->vertex(0)->place.unit);
+  return cross(face->vertex(1)->point.unit - face->vertex(0)->point.unit,
+               face->vertex(2)->point.unit - face->vertex(0)->point.unit);
 }
 
 /// True if the normal of the triangle points outward, so that its circumcap is less than a
@@ -45,8 +45,8 @@ struct Circumcircle {
 };
 
 template <class Face> Circumcircle circumcircle(Face face) {
-  const Vec3 &a = face->vertex(0)->place.unit, &b = face->vertex(1)->place.unit,
-             &c = face->vertex(2)->place.unit;
+  const Vec3 &a = face->vertex(0)->point.unit, &b = face->vertex(1)->point.unit,
+             &c = face->vertex(2)->point.unit;
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
   const Vec3 normal = normal_of(face);
@@ -64,8 +64,8 @@ template <class Face> bool is_within_depth(Face face) {
   const auto a = face->vertex(0), b = face->vertex(1), c = face->vertex(2);
   const float depth = std::max({a->depth, b->depth, c->depth});
   assert(depth >= 0);
-  const Vec3 ab = b->place.unit - a->place.unit, ac = c->place.unit - a->place.unit,
-             bc = c->place.unit - b->place.unit;
+  const Vec3 ab = b->point.unit - a->point.unit, ac = c->point.unit - a->point.unit,
+             bc = c->point.unit - b->point.unit;
   const double ab2 = dot(ab, ab), ac2 = dot(ac, ac), bc2 = dot(bc, bc);
   const Vec3 normal = normal_of(face);
   const double area2 = dot(normal, normal);
@@ -102,8 +102,8 @@ inline bool is_covered(FaceOf<PlaneChart> face, const std::vector<HalfSpace>& co
   const Circumcircle disc = circumcircle(face);
   if (!(disc.error < 1e-3) || disc.radius > PlaneChart::diameter)
     return false;
-  const Vec3& a = face->vertex(0)->place.unit;
-  const Vec3 ab = face->vertex(1)->place.unit - a, ac = face->vertex(2)->place.unit - a;
+  const Vec3& a = face->vertex(0)->point.unit;
+  const Vec3 ab = face->vertex(1)->point.unit - a, ac = face->vertex(2)->point.unit - a;
   const Vec3 across = dot(ab, ab) * ac - dot(ac, ac) * ab;
   const Vec3 centre = a + (1 / (2 * disc.normal.z)) * Vec3{across.y, -across.x, 0};
   const double margin = 16 * disc.error * disc.radius + 1e-14;

@@ -25,8 +25,8 @@ double inner_radius(const Vec3& centre, const std::vector<HalfSpace>& covered, d
 }
 
 /// Distance of x to the rim of the covered part; far inside, a lower bound.
-double depth_of(const Vec3& x, const Vec3& centre, double inner,
-                const std::vector<HalfSpace>& covered, double diameter) {
+double measure_depth(const Vec3& x, const Vec3& centre, double inner,
+                     const std::vector<HalfSpace>& covered, double diameter) {
   double depth = inner - norm(x - centre);
   if (depth > inner / 4)
     return depth;
@@ -94,7 +94,7 @@ std::vector<FaceOf<Chart>> insert_all(const std::vector<std::int32_t>& ranks,
 bool may_stand(FaceOf<SphereChart> face, const Sites& sites) {
   if (Triangulation<SphereChart>::is_infinite(face))
     return false;
-  const auto given = [&](int i) { return sites.given(face->vertex(i)->place.site); };
+  const auto given = [&](int i) { return sites.given(face->vertex(i)->point.site); };
   return orientation(given(0), given(1), given(2)) > 0;
 }
 bool may_stand(FaceOf<PlaneChart>, const Sites&) { return true; }
@@ -156,7 +156,7 @@ CALOTTE_ALL_INSTRUCTIONS std::vector<Member> gather(const Sites& sites, const Re
         members.push_back({r, Member::not_owned});
         continue;
       }
-      const double depth = depth_of(sites.unit[r], centre, inner, covered, Chart::diameter);
+      const double depth = measure_depth(sites.unit[r], centre, inner, covered, Chart::diameter);
       // Rounded down, by more than the rounding of half-spaces: 1e-14.
       members.push_back({r, static_cast<float>(std::max(0.999999 * depth - 1e-14, 0.0))});
     }

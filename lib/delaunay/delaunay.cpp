@@ -95,8 +95,8 @@ bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
     reach = std::max(reach, dot(sites.unit[m.rank] - centre, sites.unit[m.rank] - centre));
   reach = 1.000001 * std::sqrt(reach);
   const Chart chart(sites, centre, reach);
-  if (!Chart::has_all_places(reach)) {
-    std::erase_if(members, [&](const Member& m) { return !chart.has_place(m.rank); });
+  if (!Chart::has_all_points(reach)) {
+    std::erase_if(members, [&](const Member& m) { return !chart.has_point(m.rank); });
     if (count_owned() != result.owned) // one of its own sites is at the focus
       return false;
   }
@@ -109,7 +109,7 @@ bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k,
   result.predicates = triangulation.chart().counts();
   result.members = std::ssize(triangulation.members());
   result.seams = result.triangles.own_seams();
-  result.seconds = lap(start);
+  result.seconds = restart_clock(start);
   return true;
 }
 
@@ -190,8 +190,8 @@ Mesh make_mesh(Sites&& sites, Reports&& reports, Monitor* monitor = nullptr) {
 }
 
 template <class Chart, class Points>
-Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
-                    Monitor* monitor = nullptr) {
+Sites make_chart_sites(Points&& points, Duplicates duplicates, double merge_within,
+                       Monitor* monitor = nullptr) {
   if constexpr (std::is_same_v<Chart, PlaneChart>)
     return make_planar_sites(points, duplicates, merge_within, monitor);
   else
@@ -200,9 +200,9 @@ Sites make_sites_of(Points&& points, Duplicates duplicates, double merge_within,
 
 /// The mesh of centres; none if they are too few, coincide, or lie on one line, or on the sphere in
 /// a hemisphere.
-template <class Chart, class Points> std::optional<Mesh> mesh_of(const Points& points) {
+template <class Chart, class Points> std::optional<Mesh> triangulate_centres(const Points& points) {
   try {
-    Sites sites = make_sites_of<Chart>(points, Duplicates::merge, 0);
+    Sites sites = make_chart_sites<Chart>(points, Duplicates::merge, 0);
     DelaunayReport unused;
     Reports reports = triangulate_whole<Chart>(sites, unused);
     Mesh mesh = make_mesh(std::move(sites), std::move(reports));
@@ -220,8 +220,8 @@ IdLists adjacent_centres(const std::vector<Vec3>& centres, bool planar) {
   Points3 points(3, count);
   for (std::int64_t k = 0; k < count; ++k)
     set_column(points, k, centres[static_cast<std::size_t>(k)]);
-  const std::optional<Mesh> mesh =
-      planar ? mesh_of<PlaneChart>(points.topRows<2>()) : mesh_of<SphereChart>(points);
+  const std::optional<Mesh> mesh = planar ? triangulate_centres<PlaneChart>(points.topRows<2>())
+                                          : triangulate_centres<SphereChart>(points);
   if (mesh)
     return neighbours(*mesh);
   IdLists all;
@@ -265,13 +265,13 @@ Mesh triangulate_regions(Sites&& sites, Regions&& regions, DelaunayReport& repor
     monitor.begin("triangulate", triangulated, 1);
     reports = triangulate_whole<Chart>(sites, report);
   }
-  report.seconds.triangulate = lap(mark);
+  report.seconds.triangulate = restart_clock(mark);
 
   monitor.begin("unite", united, 2 * std::ssize(reports->regions));
   Mesh mesh = make_mesh(std::move(sites), std::move(*reports), &monitor);
   mesh.surface = Chart::surface();
   empty_pools_of_many(mesh.points.cols());
-  report.seconds.unite = lap(mark);
+  report.seconds.unite = restart_clock(mark);
   return mesh;
 }
 
@@ -282,22 +282,22 @@ Mesh triangulate(Sites&& sites, const Decomposition& decomposition, DelaunayRepo
   empty_pools_of_many(sites.size());
   monitor.begin("regions", divided, 1);
   Regions regions = divide(sites, decomposition);
-  report.seconds.regions = lap(mark);
+  report.seconds.regions = restart_clock(mark);
   return triangulate_regions<Chart>(std::move(sites), std::move(regions), report, monitor);
 }
 
 template <class Chart, class Points>
-Sites sites_of(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
-               Monitor& monitor) {
+Sites prepare_sites(Points&& points, const DelaunayOptions& options, DelaunayReport& report,
+                    Monitor& monitor) {
   monitor.begin("sites", sites_made, site_steps);
   Clock::time_point mark = Clock::now();
-  Sites sites = make_sites_of<Chart>(std::forward<Points>(points), options.duplicates,
-                                     options.merge_within, &monitor);
+  Sites sites = make_chart_sites<Chart>(std::forward<Points>(points), options.duplicates,
+                                        options.merge_within, &monitor);
   report = {};
   report.threads = thread_count();
   report.sites = sites.size();
   report.duplicates = std::ssize(sites.site_of_input) - sites.size();
-  report.seconds.sites = lap(mark);
+  report.seconds.sites = restart_clock(mark);
   return sites;
 }
 
@@ -305,9 +305,9 @@ template <class Points>
 Mesh triangulate_sphere(Points&& points, const DelaunayOptions& options, DelaunayReport& report) {
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
-  Sites sites = sites_of<SphereChart>(std::forward<Points>(points), options, report, monitor);
+  Sites sites = prepare_sites<SphereChart>(std::forward<Points>(points), options, report, monitor);
   Mesh mesh = triangulate<SphereChart>(std::move(sites), options.decomposition, report, monitor);
-  report.seconds.total = lap(start);
+  report.seconds.total = restart_clock(start);
   monitor.finish();
   return mesh;
 }
@@ -327,9 +327,9 @@ Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
                    DelaunayReport& report) {
   Clock::time_point start = Clock::now();
   Monitor monitor(options.progress);
-  Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
+  Sites sites = prepare_sites<PlaneChart>(points, options, report, monitor);
   Mesh mesh = triangulate<PlaneChart>(std::move(sites), options.decomposition, report, monitor);
-  report.seconds.total = lap(start);
+  report.seconds.total = restart_clock(start);
   monitor.finish();
   return mesh;
 }
@@ -339,7 +339,7 @@ Mesh mesh_of_box(const Points2Ref& points, const Surface& box, const DelaunayOpt
   Clock::time_point start = Clock::now();
   require_inside(with_z(points), box);
   Monitor monitor(options.progress);
-  Sites sites = sites_of<PlaneChart>(points, options, report, monitor);
+  Sites sites = prepare_sites<PlaneChart>(points, options, report, monitor);
   const auto triangulate_images = [&](std::vector<Image> images, const Vec2& period) {
     Sites copies = make_sites(std::move(images), period);
     report.sites_per_region.clear();
@@ -349,7 +349,7 @@ Mesh mesh_of_box(const Points2Ref& points, const Surface& box, const DelaunayOpt
   };
   Mesh mesh = triangulate_periodic(sites.points, box, triangulate_images);
   mesh.site_of_input = std::move(sites.site_of_input);
-  report.seconds.total = lap(start);
+  report.seconds.total = restart_clock(start);
   monitor.finish();
   return mesh;
 }

@@ -11,7 +11,7 @@
 namespace calotte::delaunay_detail {
 
 /// Certifies patches of faces that are surrounded by certified ones, if the disc around a patch
-/// holds members of the region only.
+/// are_members_within members of the region only.
 ///
 /// The rim of a patch consists of edges of certified triangles, which no edge of the triangulation
 /// of all sites crosses, and no site but members lies within. Both that triangulation and the
@@ -25,8 +25,8 @@ public:
           const std::vector<HalfSpace>& covered)
       : triangulation_(triangulation), sites_(sites), members_(members), covered_(covered) {}
 
-  /// The faces of the patch that holds a face, each marked by its number; none if it reaches the
-  /// hull, or a disc around it may hold a site that is not a member.
+  /// The faces of the patch that are_members_within a face, each marked by its number; none if it
+  /// reaches the hull, or a disc around it may hold a site that is not a member.
   const std::vector<FaceOf<Chart>>& around(FaceOf<Chart> face) {
     patch_.assign(1, face);
     face->number = seen;
@@ -37,7 +37,7 @@ public:
       for (int i = 0; i < 3; ++i)
         add(patch_[f]->neighbor(i));
     }
-    if (!bounded || !holds_only_members())
+    if (!bounded || !contains_only_members())
       patch_.clear();
     return patch_;
   }
@@ -64,8 +64,8 @@ private:
     patch_.push_back(face);
   }
 
-  bool holds_only_members() {
-    Vec3 least = patch_.front()->vertex(0)->place.unit, most = least;
+  bool contains_only_members() {
+    Vec3 least = patch_.front()->vertex(0)->point.unit, most = least;
     for_each_corner([&](const Vec3& x) {
       least = {std::min(least.x, x.x), std::min(least.y, x.y), std::min(least.z, x.z)};
       most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
@@ -77,13 +77,14 @@ private:
     // Rounded up by more than the errors of units and of this sum.
     radius_ = (1 + 1e-12) * std::sqrt(square) + 1e-14;
     const int top = sites_.boxes.levels() - 1;
-    return is_before_focus(triangulation_.chart()) && holds(top, 0, sites_.boxes.nodes(top));
+    return is_before_focus(triangulation_.chart()) &&
+           are_members_within(top, 0, sites_.boxes.nodes(top));
   }
 
   template <class Body> void for_each_corner(const Body& body) const {
     for (const FaceOf<Chart> face : patch_)
       for (int i = 0; i < 3; ++i)
-        body(face->vertex(i)->place.unit);
+        body(face->vertex(i)->point.unit);
   }
 
   bool is_before_focus(const SphereChart& chart) const {
@@ -93,7 +94,7 @@ private:
   static bool is_before_focus(const PlaneChart&) { return true; }
 
   /// Of the sites of nodes begin to end - 1 of a level.
-  bool holds(int level, std::int64_t begin, std::int64_t end) const {
+  bool are_members_within(int level, std::int64_t begin, std::int64_t end) const {
     const double most = radius_ * radius_ * (1 + 1e-12);
     for (std::int64_t i = begin; i != end; ++i) {
       const std::int64_t first = i * SiteBoxes::width, last = first + SiteBoxes::width;
@@ -101,7 +102,7 @@ private:
           are_members(members_, sites_, level, i))
         continue;
       if (level > 0) {
-        if (!holds(level - 1, first, std::min(last, sites_.boxes.nodes(level - 1))))
+        if (!are_members_within(level - 1, first, std::min(last, sites_.boxes.nodes(level - 1))))
           return false;
         continue;
       }

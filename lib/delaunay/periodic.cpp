@@ -31,8 +31,8 @@ Copies copies_within(const Points3& sites, const Eigen::Vector2d& period, double
     copies.site.push_back(s);
   }
   const auto near = [&](double x, double length, int i) {
-    const double place = x + i * length;
-    return place >= -margin && place <= length + margin;
+    const double image = x + i * length;
+    return image >= -margin && image <= length + margin;
   };
   for (std::int32_t s = 0; s < sites.cols(); ++s)
     for (const int i : {-1, 0, 1})
@@ -69,9 +69,9 @@ Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& peri
   const double twice_area = p.x() * q.y() - p.y() * q.x();
   const Eigen::Vector2d across = p.squaredNorm() * q - q.squaredNorm() * p;
   const Eigen::Vector2d offset = Eigen::Vector2d(across.y(), -across.x()) / (2 * twice_area);
-  const Eigen::Vector2d place(a.site.x / unit + a.i * (period.x() / unit),
+  const Eigen::Vector2d image(a.site.x / unit + a.i * (period.x() / unit),
                               a.site.y / unit + a.j * (period.y() / unit));
-  return {place + offset, offset.norm()};
+  return {image + offset, offset.norm()};
 }
 
 enum class MarginVerdict { all, need_more_margin, too_few };

@@ -13,7 +13,7 @@ double largest(const Frame& frame) {
 
 } // namespace
 
-/// Static bounds, for places at most D = twice the reach apart. Let u be the roundoff; a difference
+/// Static bounds, for points at most D = twice the reach apart. Let u be the roundoff; a difference
 /// of stored coordinates is within u of the true one, relative.
 ///
 /// Orientation: two products of differences, each within 3u, and their difference: 4u times the sum
@@ -26,17 +26,17 @@ double largest(const Frame& frame) {
 ///
 /// An image's coordinate errs by e = u times the largest, a difference by 2e: the orientation by
 /// another 8e D, the in-circle determinant, whose derivative with respect to a coordinate of one of
-/// the four places is below 6 D^3, by 48e D^3.
+/// the four points is below 6 D^3, by 48e D^3.
 void PlaneChart::widen(double reach) {
   reach_ = reach;
-  // Frame coordinates err by 3 roundoffs: places may be that much further apart than they say.
+  // Frame coordinates err by 3 roundoffs: points may be that much further apart than they say.
   const double d = 2.01 * (reach + 64 * roundoff) * sites_->frame->half;
   image_error_ = periodic() ? roundoff * largest(*sites_->frame) : 0;
   orientation_error_ = (8 * roundoff * d + 8 * image_error_) * d + least_error;
   in_circle_error_ = (80 * roundoff * d + 50 * image_error_) * d * d * d + least_error;
 }
 
-PlaneChart::Place PlaneChart::place(std::int64_t rank) {
+PlaneChart::Point PlaneChart::point(std::int64_t rank) {
   const Vec3& unit = sites_->unit[rank];
   const std::int32_t site = sites_->id[rank];
   const Vec3& given = sites_->given(site);
@@ -46,7 +46,7 @@ PlaneChart::Place PlaneChart::place(std::int64_t rank) {
   return {unit, scale * given.x, scale * given.y, site};
 }
 
-int PlaneChart::orientation_beyond_static(const Place& a, const Place& b, const Place& c) {
+int PlaneChart::orientation_beyond_static(const Point& a, const Point& b, const Point& c) {
   const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
   const double extent =
       std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(c.x - a.x) + std::abs(c.y - a.y);
@@ -59,8 +59,8 @@ int PlaneChart::orientation_beyond_static(const Place& a, const Place& b, const 
   return exact_detail::orientation(sites_->frame->period, image(a), image(b), image(c));
 }
 
-int PlaneChart::in_circle_beyond_local(const Place& a, const Place& b, const Place& c,
-                                       const Place& d) {
+int PlaneChart::in_circle_beyond_local(const Point& a, const Point& b, const Point& c,
+                                       const Point& d) {
   ++counts_.filtered;
   const Vec2& period = sites_->frame->period;
   const Image p = image(a), q = image(b), r = image(c), s = image(d);

@@ -12,11 +12,11 @@
 namespace calotte::delaunay_detail {
 
 /// The plane as a region sees it, the second model of a Chart (see sphere_chart.h). The projection
-/// is the identity. The doubles of a place filter both signs; the exact predicates on the given
+/// is the identity. The doubles of a point filter both signs; the exact predicates on the given
 /// coordinates decide the rest.
 class PlaneChart {
 public:
-  struct Place {
+  struct Point {
     Vec3 unit;   ///< in the sites' frame, z = 0; rounded
     double x, y; ///< given, times the frame's power of two: exact but for underflow, an image's
                  ///< rounded
@@ -29,7 +29,7 @@ public:
     Vec3 normal;
   };
 
-  /// The distance that no two places in the frame exceed.
+  /// The distance that no two points in the frame exceed.
   static constexpr double diameter = 2.83;
 
   static Surface surface() { return Surface::plane(); } ///< of the mesh; of images, too
@@ -43,18 +43,18 @@ public:
     widen(reach);
   }
 
-  static bool has_place(std::int64_t) { return true; }
-  static constexpr bool has_all_places(double) { return true; }
+  static bool has_point(std::int64_t) { return true; }
+  static constexpr bool has_all_points(double) { return true; }
 
-  /// Prefetches the data that place() reads: the given coordinates are in input order.
+  /// Prefetches the data that point() reads: the given coordinates are in input order.
   void expect(std::int64_t rank) const { __builtin_prefetch(&sites_->given(sites_->id[rank])); }
 
-  /// The place of a site; widens the error bounds if the site exceeds them.
-  Place place(std::int64_t rank);
+  /// The point of a site; widens the error bounds if the site exceeds them.
+  Point point(std::int64_t rank);
 
   const PredicateCounts& counts() const { return counts_; }
 
-  int orientation(const Place& a, const Place& b, const Place& c) {
+  int orientation(const Point& a, const Point& b, const Point& c) {
     const double value = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     if (value > orientation_error_)
       return 1;
@@ -63,19 +63,19 @@ public:
     return orientation_beyond_static(a, b, c);
   }
 
-  bool between(const Place& a, const Place& p, const Place& b) const {
+  bool between(const Point& a, const Point& p, const Point& b) const {
     return exact_detail::between(sites_->frame->period, image(a), image(p), image(b));
   }
 
-  static Circle circle(const Place& a, const Place& b, const Place& c) {
+  static Circle circle(const Point& a, const Point& b, const Point& c) {
     const double px = b.x - a.x, py = b.y - a.y, qx = c.x - a.x, qy = c.y - a.y;
     const double p2 = px * px + py * py, q2 = qx * qx + qy * qy;
     return {{py * q2 - p2 * qy, p2 * qx - px * q2, px * qy - py * qx}};
   }
 
   /// \param circle that of a, b, c.
-  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
-                const Place& d) {
+  int in_circle(const Circle& circle, const Point& a, const Point& b, const Point& c,
+                const Point& d) {
     const double x = d.x - a.x, y = d.y - a.y;
     const double value =
         -(circle.normal.x * x + circle.normal.y * y + circle.normal.z * (x * x + y * y));
@@ -102,26 +102,26 @@ private:
   /// Bound on the underflow error of the scaled coordinates and their products, with a margin.
   static constexpr double least_error = 0x1p-900;
 
-  static double square_distance(const Place& a, const Place& b) {
+  static double square_distance(const Point& a, const Point& b) {
     return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
   }
-  Vec2 given(const Place& a) const {
+  Vec2 given(const Point& a) const {
     const Vec3& p = sites_->given(a.site);
     return {p.x, p.y};
   }
-  Image image(const Place& a) const {
+  Image image(const Point& a) const {
     return periodic() ? sites_->images[static_cast<std::size_t>(a.site)] : Image{given(a), 0, 0};
   }
   bool periodic() const { return !sites_->images.empty(); }
   void widen(double reach);
-  int orientation_beyond_static(const Place& a, const Place& b, const Place& c);
-  int in_circle_beyond_local(const Place& a, const Place& b, const Place& c, const Place& d);
+  int orientation_beyond_static(const Point& a, const Point& b, const Point& c);
+  int in_circle_beyond_local(const Point& a, const Point& b, const Point& c, const Point& d);
 
   const Sites* sites_;
   Vec3 centre_;
   double reach_ = 0;
   double in_circle_error_ = 0, orientation_error_ = 0;
-  double image_error_ = 0; ///< of a place's coordinate in a periodic box
+  double image_error_ = 0; ///< of a point's coordinate in a periodic box
   PredicateCounts counts_;
 };
 

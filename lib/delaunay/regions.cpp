@@ -253,7 +253,7 @@ template <class Body> void for_each_member(const std::vector<Run>& runs, const B
 }
 
 /// By region: the lowest region of its group, failed regions that share members; -1 for others.
-std::vector<std::int32_t> groups_of(const Regions& regions, const std::vector<char>& failed) {
+std::vector<std::int32_t> group_failed(const Regions& regions, const std::vector<char>& failed) {
   std::vector<std::int32_t> group(failed.size(), -1);
   for (std::size_t k = 0; k < failed.size(); ++k)
     if (failed[k] != 0)
@@ -324,7 +324,7 @@ bool gather_merged(const Sites& sites, std::size_t k, Regions& regions) {
 
 std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<char>& failed,
                                        Regions& regions) {
-  const std::vector<std::int32_t> group = groups_of(regions, failed);
+  const std::vector<std::int32_t> group = group_failed(regions, failed);
   std::vector<char> touched(failed.size(), 0);
   for_each_task(std::ssize(failed), [&](std::int64_t k) {
     const auto region = static_cast<std::size_t>(k);

@@ -25,7 +25,7 @@ struct Run {
 
 /// The decomposition: the owner of each site, and the sites that each region triangulates.
 struct Regions {
-  std::vector<Vec3> centres; ///< t_k, unit vectors; in a plane places in its frame
+  std::vector<Vec3> centres; ///< t_k, unit vectors; in a plane points in its frame
   Array<std::int32_t> owner; ///< by rank: the region with the nearest centre, ties to the lowest
   std::vector<std::vector<Run>> members; ///< by region, ascending: its own sites and its halo
   /// By region: a site in all of these half-spaces is a member.

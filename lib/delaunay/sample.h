@@ -22,7 +22,7 @@ Triangulation<Chart> build_with_sample(const Chart& chart, std::int64_t sites,
   std::stable_sort(members.begin(), members.end(),
                    by_rank); // stable: a member precedes its duplicate
   members.erase(std::unique(members.begin(), members.end(), same_rank), members.end());
-  std::erase_if(members, [&](const Member& m) { return !chart.has_place(m.rank); });
+  std::erase_if(members, [&](const Member& m) { return !chart.has_point(m.rank); });
   Triangulation<Chart> triangulation(chart);
   triangulation.build(members);
   return triangulation;

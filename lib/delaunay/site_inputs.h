@@ -48,7 +48,7 @@ struct Directions {
 };
 
 /// Pairs of doubles.
-struct Places {
+struct PlanePoints {
   const Points2Ref points;
   Frame frame;
 
@@ -119,8 +119,8 @@ inline Frame frame_of(const Points2Ref& points) {
   return frame;
 }
 
-/// Images of sites, at their rounded places.
-struct Images : Places {
+/// Images of sites, at their rounded points.
+struct Images : PlanePoints {
   static bool same(std::int64_t, std::int64_t) { return false; }
 };
 

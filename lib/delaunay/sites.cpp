@@ -79,7 +79,7 @@ void keep_distinct(const Input& input, const std::vector<std::int32_t>& lowest, 
   order = std::move(distinct);
 }
 
-template <class Input> Points3 copy_of(const Input& input) {
+template <class Input> Points3 copy_points(const Input& input) {
   const std::int64_t n = input.points.cols();
   Points3 points;
   make_room(points, 3, n);
@@ -109,8 +109,8 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
 /// \param all_points returns the input's points in the form of Sites; called at most once, after
 ///         the last read of the input's points.
 template <class Input, class AllPoints>
-Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_within,
-                    Monitor* monitor, const AllPoints& all_points) {
+Sites make_input_sites(const Input& input, Duplicates duplicates, double merge_within,
+                       Monitor* monitor, const AllPoints& all_points) {
   require_count<Input>(input.points.cols(), "points");
   Sites sites;
   Array<std::uint64_t> keys(input.points.cols());
@@ -137,7 +137,7 @@ Sites make_sites_of(const Input& input, Duplicates duplicates, double merge_with
   constexpr std::int64_t ahead = 24;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t rank = begin; rank != end; ++rank) {
-      if (rank + ahead < end) // in input order, at random places in memory
+      if (rank + ahead < end) // in input order, at random addresses
         __builtin_prefetch(&sites.given(sites.id[rank + ahead]));
       sites.unit[rank] = input.unit(sites.given(sites.id[rank]));
     }
@@ -154,7 +154,7 @@ void require_angle(double within) {
   require(is_distance(within), "the angle to merge within is {}; give 0 radians or more", within);
 }
 
-Vec2 place_of(const Image& image, const Vec2& period) {
+Vec2 rounded_point(const Image& image, const Vec2& period) {
   return {image.site.x + image.i * period.x, image.site.y + image.j * period.y};
 }
 
@@ -164,13 +164,14 @@ Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_w
                  Monitor* monitor) {
   require_angle(merge_within);
   const Directions input{points};
-  return make_sites_of(input, duplicates, merge_within, monitor, [&] { return copy_of(input); });
+  return make_input_sites(input, duplicates, merge_within, monitor,
+                          [&] { return copy_points(input); });
 }
 
 Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within, Monitor* monitor) {
   require_angle(merge_within);
-  return make_sites_of(Directions{points}, duplicates, merge_within, monitor,
-                       [&] { return std::move(points); });
+  return make_input_sites(Directions{points}, duplicates, merge_within, monitor,
+                          [&] { return std::move(points); });
 }
 
 Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
@@ -178,9 +179,9 @@ Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double 
   require(is_distance(merge_within), "the distance to merge within is {}; give 0 or more",
           merge_within);
   const Frame frame = frame_of(points);
-  const Places input{points, frame};
-  Sites sites =
-      make_sites_of(input, duplicates, merge_within, monitor, [&] { return copy_of(input); });
+  const PlanePoints input{points, frame};
+  Sites sites = make_input_sites(input, duplicates, merge_within, monitor,
+                                 [&] { return copy_points(input); });
   sites.frame = frame;
   return sites;
 }
@@ -188,13 +189,14 @@ Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double 
 Sites make_sites(std::vector<Image> images, const Vec2& period) {
   Points2 points(2, std::ssize(images));
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Vec2 place = place_of(images[static_cast<std::size_t>(i)], period);
-    points.col(i) << place.x, place.y;
+    const Vec2 point = rounded_point(images[static_cast<std::size_t>(i)], period);
+    points.col(i) << point.x, point.y;
   }
   Frame frame = frame_of(points);
   frame.period = period;
   const Images input{{points, frame}};
-  Sites sites = make_sites_of(input, Duplicates::merge, 0, nullptr, [&] { return copy_of(input); });
+  Sites sites =
+      make_input_sites(input, Duplicates::merge, 0, nullptr, [&] { return copy_points(input); });
   sites.frame = frame;
   sites.images = std::move(images);
   return sites;

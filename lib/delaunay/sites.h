@@ -31,7 +31,7 @@ struct Frame {
   }
 };
 
-/// The distinct directions of an input, or the distinct places of a plane, in two orders: by *id*,
+/// The distinct directions of an input, or the distinct points of a plane, in two orders: by *id*,
 /// the order of the input, and by *rank*, along the space-filling curve. Stages work by rank, in
 /// which sites near in memory are near in space; the mesh uses ids.
 struct Sites {
@@ -60,7 +60,7 @@ Sites make_sites(const Points3Ref& points, Duplicates duplicates, double merge_w
 Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within,
                  Monitor* monitor = nullptr);
 
-/// In a plane: equal places are duplicates, `merge_within` is a distance.
+/// In a plane: equal points are duplicates, `merge_within` is a distance.
 /// \throws Error as above, except zero_vector.
 Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
                         Monitor* monitor = nullptr);

@@ -44,15 +44,15 @@ void SphereChart::widen(double reach) {
   orientation_error_ = 1000 * roundoff * span;
 }
 
-bool SphereChart::has_place(std::int64_t rank) const {
+bool SphereChart::has_point(std::int64_t rank) const {
   if (view_.from_centre || dot(sites_->unit[rank], view_.focus) < 0.5)
     return true;
   return !same_direction(sites_->given(sites_->id[rank]), view_.focus);
 }
 
-SphereChart::Place SphereChart::place(std::int64_t rank) {
+SphereChart::Point SphereChart::point(std::int64_t rank) {
   const Vec3& unit = sites_->unit[rank];
-  Place p{unit, 0, 0, sites_->id[rank]};
+  Point p{unit, 0, 0, sites_->id[rank]};
   if (view_.from_centre)
     return p;
   const Vec3 offset = unit - centre_;
@@ -66,7 +66,7 @@ SphereChart::Place SphereChart::place(std::int64_t rank) {
   return p;
 }
 
-int SphereChart::orientation_beyond_filter(const Place& a, const Place& b, const Place& c) {
+int SphereChart::orientation_beyond_filter(const Point& a, const Point& b, const Point& c) {
   const int sign = view_.from_centre ? orientation_filter(a.unit, b.unit, c.unit)
                                      : -in_circle_filter(a.unit, b.unit, c.unit, view_.focus);
   if (sign != 0)
@@ -74,8 +74,8 @@ int SphereChart::orientation_beyond_filter(const Place& a, const Place& b, const
   return exact_detail::orientation(view_, given(a), given(b), given(c));
 }
 
-int SphereChart::in_circle_beyond_static(const Place& a, const Place& b, const Place& c,
-                                         const Place& d) {
+int SphereChart::in_circle_beyond_static(const Point& a, const Point& b, const Point& c,
+                                         const Point& d) {
   if (const int sign = in_circle_filter(a.unit, b.unit, c.unit, d.unit))
     return sign;
   const int sign = in_circle_beyond_filter(given(a), given(b), given(c), given(d), counts_);

@@ -12,20 +12,20 @@ namespace calotte::delaunay_detail {
 
 /// The sphere as a region sees it, the first model of a Chart.
 ///
-/// A Chart views its domain from one region. It provides `Place`, the coordinates that the
-/// triangulation stores in a vertex; `place`, which makes one from a site that `has_place`;
-/// `expect`, which prefetches the data that `place` reads; `circle`, the values that the in-circle
+/// A Chart views its domain from one region. It provides `Point`, the coordinates that the
+/// triangulation stores in a vertex; `point`, which makes one from a site that `has_point`;
+/// `expect`, which prefetches the data that `point` reads; `circle`, the values that the in-circle
 /// tests of a triangle share; and the signs `orientation`, `between` and `in_circle` of three or
-/// four places, with ties resolved. `in_circle` is not 0 for a triangle of the triangulation and
+/// four points, with ties resolved. `in_circle` is not 0 for a triangle of the triangulation and
 /// another site.
 ///
 /// On the sphere the view is stereographic from the focus opposite to a cap's centre (Jacobsen et
-/// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a place filter
+/// al., 2013, Eq. 5), or central for a whole set. The projected doubles of a point filter
 /// orientations only; the unit vector filters in-circle signs. The exact predicates on the given
 /// directions decide the rest.
 class SphereChart {
 public:
-  struct Place {
+  struct Point {
     Vec3 unit;
     double x, y; ///< stereographic, from the focus
     std::int32_t site;
@@ -50,22 +50,22 @@ public:
   /// sites.
   SphereChart(const Sites& sites, const Vec3& centre, double reach);
 
-  /// True if a site has a place: all sites do except one at the focus itself.
-  bool has_place(std::int64_t rank) const;
+  /// True if a site has a point: all sites do except one at the focus itself.
+  bool has_point(std::int64_t rank) const;
 
-  /// Announces the use of a place: needs no prefetch, because ranks are consecutive in memory.
+  /// Announces the use of a point: needs no prefetch, because ranks are consecutive in memory.
   static void expect(std::int64_t) {}
 
-  /// True if all sites within that chord of the centre have places.
-  static constexpr bool has_all_places(double reach) { return reach < 1.9; }
+  /// True if all sites within that chord of the centre have points.
+  static constexpr bool has_all_points(double reach) { return reach < 1.9; }
 
-  /// The place of a site; widens the error bounds if the site exceeds them.
-  Place place(std::int64_t rank);
+  /// The point of a site; widens the error bounds if the site exceeds them.
+  Point point(std::int64_t rank);
 
   const View& view() const { return view_; }
   const PredicateCounts& counts() const { return counts_; }
 
-  int orientation(const Place& a, const Place& b, const Place& c) {
+  int orientation(const Point& a, const Point& b, const Point& c) {
     if (projected_) {
       const double value = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
       if (value > orientation_error_)
@@ -76,18 +76,18 @@ public:
     return orientation_beyond_filter(a, b, c);
   }
 
-  bool between(const Place& a, const Place& p, const Place& b) const {
+  bool between(const Point& a, const Point& p, const Point& b) const {
     return exact_detail::between(view_, given(a), given(p), given(b));
   }
 
-  static Circle circle(const Place& a, const Place& b, const Place& c) {
+  static Circle circle(const Point& a, const Point& b, const Point& c) {
     const Vec3 normal = cross(b.unit - a.unit, c.unit - a.unit);
     return {normal, dot(normal, a.unit)};
   }
 
   /// \param circle that of a, b, c.
-  int in_circle(const Circle& circle, const Place& a, const Place& b, const Place& c,
-                const Place& d) {
+  int in_circle(const Circle& circle, const Point& a, const Point& b, const Point& c,
+                const Point& d) {
     const double value = dot(circle.normal, d.unit) - circle.offset;
     if (value > in_circle_error_)
       return 1;
@@ -97,16 +97,16 @@ public:
   }
 
 private:
-  const Vec3& given(const Place& a) const { return sites_->given(a.site); }
+  const Vec3& given(const Point& a) const { return sites_->given(a.site); }
   void widen(double reach);
-  int orientation_beyond_filter(const Place& a, const Place& b, const Place& c);
-  int in_circle_beyond_static(const Place& a, const Place& b, const Place& c, const Place& d);
+  int orientation_beyond_filter(const Point& a, const Point& b, const Point& c);
+  int in_circle_beyond_static(const Point& a, const Point& b, const Point& c, const Point& d);
 
   const Sites* sites_;
   View view_;
   Vec3 centre_{0, 0, 0}, east_{0, 0, 0}, north_{0, 0, 0};
   double reach_ = 0;
-  bool projected_ = false; ///< all places so far have projections within the error bound
+  bool projected_ = false; ///< all points so far have projections within the error bound
   double in_circle_error_ = 0, orientation_error_ = 0;
   PredicateCounts counts_;
 };

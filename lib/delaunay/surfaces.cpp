@@ -17,13 +17,13 @@ using base_detail::require;
 /// The mesh of points of a surface that is a plane.
 Mesh mesh_in_plane(const PointsRef& points, const Surface& surface, const DelaunayOptions& options,
                    DelaunayReport& report) {
-  const Points2Ref places = plane_points_of(points);
+  const Points2Ref planar = plane_points_of(points);
   if (surface.is_box())
-    return mesh_of_box(places, surface, options, report);
+    return mesh_of_box(planar, surface, options, report);
   require(surface.period().isZero(0),
           "the surface is a channel, periodic in one direction only, and points do not tell where "
           "its walls are: make its mesh with make_grid(), or read it from a file");
-  Mesh mesh = mesh_of_plane(places, options, report);
+  Mesh mesh = mesh_of_plane(planar, options, report);
   mesh.surface = surface;
   return mesh;
 }

@@ -31,11 +31,11 @@ struct Member {
 };
 
 /// CGAL's vertex with the data of a site that the inner loops read: one cache line.
-template <class Place, class Tds = void>
+template <class Point, class Tds = void>
 struct RegionVertex : CGAL::Triangulation_ds_vertex_base_2<Tds> {
-  template <class OtherTds> struct Rebind_TDS { using Other = RegionVertex<Place, OtherTds>; };
-  Place place{};
-  std::int32_t local = -1; ///< place in Triangulation::members(); -1 at infinity
+  template <class OtherTds> struct Rebind_TDS { using Other = RegionVertex<Point, OtherTds>; };
+  Point point{};
+  std::int32_t local = -1; ///< index in Triangulation::members(); -1 at infinity
   float depth = Member::not_owned;
 
   bool owned() const { return depth != Member::not_owned; }
@@ -56,7 +56,7 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
   Circle circle;             ///< of a finite face
 };
 
-/// The Delaunay triangulation of places of a Chart (see sphere_chart.h), by incremental insertion,
+/// The Delaunay triangulation of points of a Chart (see sphere_chart.h), by incremental insertion,
 /// completed by one vertex at infinity that is joined to the hull.
 ///
 /// CGAL's Triangulation_data_structure_2 stores vertices and faces. The insertion over it is that
@@ -70,9 +70,9 @@ struct RegionFace : CGAL::Triangulation_ds_face_base_2<Tds> {
 /// surround it.
 template <class Chart> class Triangulation {
 public:
-  using Place = typename Chart::Place;
+  using Point = typename Chart::Point;
   using Store =
-      CGAL::Triangulation_data_structure_2<RegionVertex<Place>, RegionFace<typename Chart::Circle>>;
+      CGAL::Triangulation_data_structure_2<RegionVertex<Point>, RegionFace<typename Chart::Circle>>;
   static_assert(sizeof(typename Store::Vertex) <= 64 && sizeof(typename Store::Face) <= 88,
                 "a region is to fit into the cache");
   using Vertex = typename Store::Vertex_handle;
@@ -99,13 +99,13 @@ public:
       body(Face(face));
   }
 
-  /// True if a place lies inside the circumcap of a face; for an infinite face, beyond the hull's
+  /// True if a point lies inside the circumcap of a face; for an infinite face, beyond the hull's
   /// edge.
-  bool conflicts(Face face, const Place& p);
+  bool conflicts(Face face, const Point& p);
 
 private:
   /// True if p lies beyond the hull's edge of an infinite face, or on it.
-  bool is_beyond(Face face, const Place& p);
+  bool is_beyond(Face face, const Point& p);
 
   /// An edge as seen from one of its faces.
   struct Edge {
@@ -119,8 +119,8 @@ private:
 
   Vertex make_vertex(const Member& member);
   std::array<std::int64_t, 3> first_triangle(std::span<const Member> members);
-  Face locate(const Place& p);
-  bool find_conflicts(Face start, const Place& p);
+  Face locate(const Point& p);
+  bool find_conflicts(Face start, const Point& p);
   void grow();
   void make_star(Vertex centre);
 
@@ -138,7 +138,7 @@ private:
 template <class Chart> auto Triangulation<Chart>::make_vertex(const Member& member) -> Vertex {
   Vertex vertex = store_.create_vertex();
   // Constructed there: a copy of what was just written would wait for the writes.
-  ::new (&vertex->place) Place(chart_.place(member.rank));
+  ::new (&vertex->point) Point(chart_.point(member.rank));
   vertex->local = static_cast<std::int32_t>(members_.size());
   vertex->depth = member.depth;
   members_.push_back(member);
@@ -152,15 +152,15 @@ std::array<std::int64_t, 3> Triangulation<Chart>::first_triangle(std::span<const
   const std::int64_t n = std::ssize(members);
   if (n < 3)
     return {-1, -1, -1};
-  const auto place = [&](std::int64_t i) {
-    return chart_.place(members[static_cast<std::size_t>(i)].rank);
+  const auto point = [&](std::int64_t i) {
+    return chart_.point(members[static_cast<std::size_t>(i)].rank);
   };
-  const Place a = place(0);
+  const Point a = point(0);
   for (const std::int64_t second : {1, 2})
     for (std::int64_t third = 1; third < n; ++third) {
       if (third == second)
         continue;
-      const int way = chart_.orientation(a, place(second), place(third));
+      const int way = chart_.orientation(a, point(second), point(third));
       if (way > 0)
         return {0, second, third};
       if (way < 0)
@@ -190,7 +190,7 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Chart>::build(std::span<const Member
   outer[2]->set_neighbors(abc, outer[1], outer[0]);
   for (const Face face : outer)
     face->infinite = 0;
-  abc->circle = chart_.circle(a->place, b->place, c->place);
+  abc->circle = chart_.circle(a->point, b->point, c->point);
   hint_ = abc;
 
   // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
@@ -211,8 +211,8 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Chart>::build(std::span<const Member
 
 template <class Chart> void Triangulation<Chart>::insert(const Member& member) {
   const Vertex vertex = make_vertex(member);
-  const Face start = locate(vertex->place);
-  while (!find_conflicts(start, vertex->place))
+  const Face start = locate(vertex->point);
+  while (!find_conflicts(start, vertex->point))
     grow();
   make_star(vertex);
 }
@@ -222,11 +222,11 @@ template <class Chart> void Triangulation<Chart>::insert(const Member& member) {
 /// face that contains p, or in an infinite face if p lies beyond the hull. Behind an edge, p is
 /// beyond one of the other two edges of a face without conflict: a test of one of them decides, and
 /// begins before the result of the conflict is needed, so that the processor overlaps the tests.
-template <class Chart> auto Triangulation<Chart>::locate(const Place& p) -> Face {
+template <class Chart> auto Triangulation<Chart>::locate(const Point& p) -> Face {
   Face face = is_infinite(hint_) ? hint_->neighbor(hint_->infinite) : hint_;
   const auto is_beyond_edge = [&](int i) {
-    return chart_.orientation(face->vertex(next_vertex(i))->place,
-                              face->vertex(previous_vertex(i))->place, p) < 0;
+    return chart_.orientation(face->vertex(next_vertex(i))->point,
+                              face->vertex(previous_vertex(i))->point, p) < 0;
   };
   if (conflicts(face, p))
     return face;
@@ -242,16 +242,16 @@ template <class Chart> auto Triangulation<Chart>::locate(const Place& p) -> Face
   }
 }
 
-template <class Chart> inline bool Triangulation<Chart>::conflicts(Face face, const Place& p) {
+template <class Chart> inline bool Triangulation<Chart>::conflicts(Face face, const Point& p) {
   if (!is_infinite(face)) [[likely]]
-    return chart_.in_circle(face->circle, face->vertex(0)->place, face->vertex(1)->place,
-                            face->vertex(2)->place, p) > 0;
+    return chart_.in_circle(face->circle, face->vertex(0)->point, face->vertex(1)->point,
+                            face->vertex(2)->point, p) > 0;
   return is_beyond(face, p);
 }
 
-template <class Chart> bool Triangulation<Chart>::is_beyond(Face face, const Place& p) {
-  const Place& a = face->vertex(next_vertex(face->infinite))->place;
-  const Place& b = face->vertex(previous_vertex(face->infinite))->place;
+template <class Chart> bool Triangulation<Chart>::is_beyond(Face face, const Point& p) {
+  const Point& a = face->vertex(next_vertex(face->infinite))->point;
+  const Point& b = face->vertex(previous_vertex(face->infinite))->point;
   const int way = chart_.orientation(a, b, p);
   return way != 0 ? way > 0 : chart_.between(a, p, b);
 }
@@ -259,7 +259,7 @@ template <class Chart> bool Triangulation<Chart>::is_beyond(Face face, const Pla
 /// Finds the conflicting faces, which are connected, and their rim, breadth first: the next edges
 /// are known before the last result, so that the processor overlaps their tests.
 /// \return false, with no face marked, if the scratch is too small.
-template <class Chart> bool Triangulation<Chart>::find_conflicts(Face start, const Place& p) {
+template <class Chart> bool Triangulation<Chart>::find_conflicts(Face start, const Point& p) {
   // The ends of the lists are pointers in registers: as members, each edge would wait for them.
   Face* conflicting = conflicting_.data();
   Edge *inner = inner_edges_.data(), *end = inner, *rim = rim_.data();
@@ -321,7 +321,7 @@ template <class Chart> void Triangulation<Chart>::make_star(Vertex centre) {
     face->in_conflict = false;
     face->certified = false;
     if (face->infinite < 0)
-      face->circle = chart_.circle(centre->place, a->place, b->place);
+      face->circle = chart_.circle(centre->point, a->point, b->point);
   }
   for (std::size_t e = 0; e < rim_size_; ++e) {
     const Face face = conflicting_[e], following = face->vertex(2)->face();

@@ -22,8 +22,8 @@ namespace {
 
 /// The corner of a face with its lowest site.
 template <class Face> int lowest_corner(const Face& face) {
-  const std::int32_t a = face.vertex(0)->place.site, b = face.vertex(1)->place.site,
-                     c = face.vertex(2)->place.site;
+  const std::int32_t a = face.vertex(0)->point.site, b = face.vertex(1)->point.site,
+                     c = face.vertex(2)->point.site;
   return ((b < a) & (b < c)) + 2 * ((c < a) & (c < b)); // branches would be mispredicted
 }
 
@@ -32,7 +32,7 @@ template <class Vertices> std::int8_t own_edges(const Vertices& v) {
   for (int i = 0; i < 3; ++i) {
     const auto a = v[static_cast<std::size_t>(next_vertex(i))],
                b = v[static_cast<std::size_t>(previous_vertex(i))];
-    const auto lower = a->place.site < b->place.site ? a : b;
+    const auto lower = a->point.site < b->point.site ? a : b;
     bits |= static_cast<int>(lower->owned()) << i;
   }
   return static_cast<std::int8_t>(bits);
@@ -74,7 +74,7 @@ std::vector<std::int64_t> number_faces(const AllFound<Chart>& found, std::int64_
       lists_by_key<std::vector<Listed, PoolAllocator<Listed>>>(members + 1, [&](const auto& put) {
         for (std::int32_t f = 0; f < std::ssize(found); ++f) {
           const auto& [face, lowest, member] = found[static_cast<std::size_t>(f)];
-          put(member, {face->vertex(next_vertex(lowest))->place.site, f});
+          put(member, {face->vertex(next_vertex(lowest))->point.site, f});
         }
       });
   for (std::int64_t m = 0; m < members; ++m)
@@ -110,7 +110,7 @@ RegionTriangles report_triangles(Triangulation<Chart>& triangulation, const Site
   for (const auto& [face, i, member] : found) {
     const int j = next_vertex(i), k = previous_vertex(i);
     const std::array v{face->vertex(i), face->vertex(j), face->vertex(k)};
-    const Triple triangle{v[0]->place.site, v[1]->place.site, v[2]->place.site};
+    const Triple triangle{v[0]->point.site, v[1]->point.site, v[2]->point.site};
     out.sites[face->number] = triangle;
     out.neighbours[face->number] = {face->neighbor(i)->number, face->neighbor(j)->number,
                                     face->neighbor(k)->number};
@@ -153,23 +153,23 @@ public:
   explicit SeamTable(std::int64_t triangles)
       : slots_(static_cast<std::size_t>(triangles + triangles / 2 + 1)) {}
 
-  /// Enters a triangle and its place in the mesh, reported once. One thread calls it, before others
+  /// Enters a triangle and its index in the mesh, reported once. One thread calls it, before others
   /// read.
-  void enter(const Seam& seam, std::int32_t place) {
+  void enter(const Seam& seam, std::int32_t index) {
     Slot& slot = find(seam.sites);
     slot.sites = seam.sites;
-    slot.place = place;
+    slot.index = index;
     slot.reporters = seam.reporters;
     slot.reports.fetch_add(1, std::memory_order_relaxed);
   }
 
-  /// Counts one more report of a triangle, from any thread; returns its place in the mesh.
+  /// Counts one more report of a triangle, from any thread; returns its index in the mesh.
   std::int32_t count(const Seam& seam) {
     Slot& slot = find(seam.sites);
-    if (slot.place < 0 || slot.reporters != seam.reporters)
+    if (slot.index < 0 || slot.reporters != seam.reporters)
       disagree(seam.sites);
     slot.reports.fetch_add(1, std::memory_order_relaxed);
-    return slot.place;
+    return slot.index;
   }
 
   /// Throws unless each triangle was reported by all of its owners.
@@ -182,7 +182,7 @@ public:
 private:
   struct Slot {
     Triple sites{};
-    std::int32_t place = -1;
+    std::int32_t index = -1;
     std::int8_t reporters = 0;
     std::atomic<std::int8_t> reports{0};
   };
@@ -193,7 +193,7 @@ private:
     for (const std::int32_t s : sites)
       h = hash_with(h, static_cast<std::uint64_t>(s));
     std::size_t s = (h >> 32) * slots_.size() >> 32;
-    while (slots_[s].place >= 0 && slots_[s].sites != sites)
+    while (slots_[s].index >= 0 && slots_[s].sites != sites)
       s = s + 1 < slots_.size() ? s + 1 : 0;
     return slots_[s];
   }
@@ -201,22 +201,22 @@ private:
   std::vector<Slot> slots_;
 };
 
-/// Writes the triangles whose lowest site the region owns to their places in the mesh.
-/// \returns the places by number in the report; not set for the other triangles.
-Array<std::int32_t> place_own(const RegionTriangles& report, const Array<std::int32_t>& first_of,
+/// Writes the triangles whose lowest site the region owns to their indices in the mesh.
+/// \returns the indices by number in the report; not set for the other triangles.
+Array<std::int32_t> write_own(const RegionTriangles& report, const Array<std::int32_t>& first_of,
                               Triangles& out) {
-  Array<std::int32_t> place(report.sites.size());
+  Array<std::int32_t> index(report.sites.size());
   for (std::int64_t t = 0; t < report.own; ++t) {
     const Triple& sites = report.sites[t];
-    place[t] = t > 0 && report.sites[t - 1][0] == sites[0] ? place[t - 1] + 1 : first_of[sites[0]];
-    out.col(place[t]) << sites[0], sites[1], sites[2];
+    index[t] = t > 0 && report.sites[t - 1][0] == sites[0] ? index[t - 1] + 1 : first_of[sites[0]];
+    out.col(index[t]) << sites[0], sites[1], sites[2];
   }
-  return place;
+  return index;
 }
 
 /// Sets the neighbours across the edges that the region is responsible for: all edges of a triangle
 /// with one owner, and those edges of a seam triangle whose lower site it owns.
-void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& place,
+void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& index,
                       Triangles& out) {
   auto seam = report.seams.begin();
   for (std::int64_t t = 0; t < report.neighbours.size(); ++t) {
@@ -225,7 +225,7 @@ void write_neighbours(const RegionTriangles& report, const Array<std::int32_t>& 
     for (int i = 0; i < 3; ++i)
       if (own_edges >> i & 1) {
         const std::int32_t across = report.neighbours[t][static_cast<std::size_t>(i)];
-        out(i, place[t]) = across < 0 ? -1 : place[across];
+        out(i, index[t]) = across < 0 ? -1 : index[across];
       }
   }
 }
@@ -238,12 +238,12 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
   make_room(mesh.triangles, 3, count);
   const std::int64_t regions = std::ssize(reports);
   std::vector<SeamTable> tables(reports.size());
-  std::vector<Array<std::int32_t>> place(reports.size());
+  std::vector<Array<std::int32_t>> index(reports.size());
 
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
-    Array<std::int32_t>& own = place[static_cast<std::size_t>(k)];
-    own = place_own(report, triangles_of, mesh.triangles);
+    Array<std::int32_t>& own = index[static_cast<std::size_t>(k)];
+    own = write_own(report, triangles_of, mesh.triangles);
     report.sites = {};
     tables[static_cast<std::size_t>(k)] = SeamTable(report.own_seams());
     for (const Seam& seam : report.seams)
@@ -255,7 +255,7 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
     const RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     for (const Seam& seam : report.seams)
       if (seam.triangle >= report.own)
-        place[static_cast<std::size_t>(k)][seam.triangle] =
+        index[static_cast<std::size_t>(k)][seam.triangle] =
             tables[static_cast<std::size_t>(seam.home)].count(seam);
   });
   empty_pools_of_many(triangles_of.size()); // the reports' sites are needed no more
@@ -263,9 +263,9 @@ void unite(std::vector<RegionTriangles>&& reports, Array<std::int32_t>&& triangl
   for_each_task(regions, [&](std::int64_t k) {
     RegionTriangles& report = reports[static_cast<std::size_t>(k)];
     tables[static_cast<std::size_t>(k)].require_agreement();
-    write_neighbours(report, place[static_cast<std::size_t>(k)], mesh.neighbours);
+    write_neighbours(report, index[static_cast<std::size_t>(k)], mesh.neighbours);
     report = {}; // freed here, by all threads
-    place[static_cast<std::size_t>(k)] = {};
+    index[static_cast<std::size_t>(k)] = {};
     tables[static_cast<std::size_t>(k)] = {};
     step(monitor);
   });

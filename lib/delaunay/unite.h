@@ -50,8 +50,8 @@ RegionTriangles report_triangles(Triangulation<Chart>& triangulation, const Site
                                  Array<std::int32_t>& triangles_of);
 
 /// Unites the reports of the regions to triangles and neighbours in canonical order. Triangles with
-/// one owner go directly to their place. Seam triangles meet in a concurrent hash table, one part
-/// per region, which counts their reports.
+/// one owner are written directly at their index. Seam triangles meet in a concurrent hash table,
+/// one part per region, which counts their reports.
 /// \param triangles_of by site, as report_triangles left it; consumed, as the reports are.
 /// \param mesh receives triangles and neighbours.
 /// \param monitor if not null, receives two steps per region.

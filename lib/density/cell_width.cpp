@@ -154,8 +154,8 @@ std::int64_t WidthField::nodes() const { return sampled_->count(); }
 double WidthField::apart() const { return sampled_->apart(); }
 bool WidthField::of_plane() const { return sampled_->of_plane(); }
 
-DoubleVector evaluate(const WidthField& widths, const PointsRef& places) {
-  return density_detail::evaluate_field(*widths.sampled(), places);
+DoubleVector evaluate(const WidthField& widths, const PointsRef& points) {
+  return density_detail::evaluate_field(*widths.sampled(), points);
 }
 
 Density density_of(const WidthField& widths) {
@@ -202,8 +202,8 @@ double implied_cells(const WidthField& widths, const Surface& surface, double ra
   if (const auto* const tiles = std::get_if<WidthTiles>(&nodes))
     return cells(density_detail::integral_in(*tiles, surface));
   constexpr std::int64_t samples = 1 << 18;
-  const Points3 places = density_detail::draw(samples, Density{}, surface, 1);
-  const double mean = evaluate(widths, places).array().square().inverse().mean();
+  const Points3 points = density_detail::draw(samples, Density{}, surface, 1);
+  const double mean = evaluate(widths, points).array().square().inverse().mean();
   return cells(surface.area() * mean);
 }
 
@@ -222,7 +222,7 @@ struct Cover {
 
   bool whole() const { return around && to_south && to_north; }
 
-  bool holds(const Eigen::Vector3d& x) const {
+  bool contains(const Eigen::Vector3d& x) const {
     const auto [longitude, latitude] = base_detail::lonlat_of({x.x(), x.y(), x.z()});
     if ((latitude < south && !to_south) || (latitude > north && !to_north))
       return false;
@@ -231,7 +231,7 @@ struct Cover {
   }
 };
 
-Cover cover_of(const Raster& raster) {
+Cover make_cover(const Raster& raster) {
   const DoubleVector &longitudes = raster.x, &latitudes = raster.y;
   constexpr double slack = 1e-3; // degrees, for coordinates rounded in a file
   const double step = widest_step(longitudes), rise = widest_step(latitudes);
@@ -245,9 +245,9 @@ Cover cover_of(const Raster& raster) {
   return cover;
 }
 
-/// A place of the region that is not covered, if there is one: on the boundary, which is sampled,
-/// or else the region holds all of a part that is not covered.
-std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Surface& region) {
+/// A point of the region that is not covered, if there is one: on the boundary, which is sampled,
+/// or else the region contains all of a part that is not covered.
+std::optional<Eigen::Vector3d> point_outside(const Cover& cover, const Surface& region) {
   constexpr double apart = 1e-3; // radians
   for (const Points3 ring : region.rings())
     for (Eigen::Index i = 0; i < ring.cols(); ++i) {
@@ -256,7 +256,7 @@ std::optional<Eigen::Vector3d> place_outside(const Cover& cover, const Surface& 
       const auto parts = static_cast<int>((to - from).norm() / apart) + 1;
       for (int k = 0; k < parts; ++k) {
         const Eigen::Vector3d at = from + (to - from) * (double(k) / parts);
-        if (!cover.holds(at))
+        if (!cover.contains(at))
           return at;
       }
     }
@@ -282,16 +282,16 @@ std::string extent(const std::string& name, const DoubleVector& nodes) {
 
 std::string uncovered_sphere(const Raster& raster, const Surface& region, const std::string& x,
                              const std::string& y) {
-  const Cover cover = cover_of(raster);
+  const Cover cover = make_cover(raster);
   if (cover.whole())
     return {};
   if (!region.is_bounded())
     return message("{} and leaves part of the sphere out; give a global raster in degrees",
                    cover.around ? extent(y, raster.y) : extent(x, raster.x));
-  const std::optional<Eigen::Vector3d> place = place_outside(cover, region);
-  if (!place)
+  const std::optional<Eigen::Vector3d> point = point_outside(cover, region);
+  if (!point)
     return {};
-  const auto [east, north] = base_detail::lonlat_of({place->x(), place->y(), place->z()});
+  const auto [east, north] = base_detail::lonlat_of({point->x(), point->y(), point->z()});
   return message("{}, {}, and leaves out the place {} {} of the region; "
                  "give a raster in degrees that covers it",
                  extent(x, raster.x), extent(y, raster.y), east, north);

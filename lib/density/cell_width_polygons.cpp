@@ -46,9 +46,9 @@ struct Edge {
   std::int32_t polygon, ring;
 };
 
-/// The longitude step to the next place: the shorter way, but a written difference of 360 degrees
+/// The longitude step to the next point: the shorter way, but a written difference of 360 degrees
 /// is kept.
-Longitude eastward(const Place& from, const Place& to) {
+Longitude eastward(const LonLat& from, const LonLat& to) {
   const double written = to.longitude - from.longitude;
   if (std::abs(written) == 360)
     return written > 0 ? turn : -turn;
@@ -83,7 +83,7 @@ bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
   Longitude round = 0;
   std::vector<Arc> arcs;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Place &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const LonLat &from = ring[i], &to = ring[(i + 1) % ring.size()];
     const Longitude span = eastward(from, to), start = to_units(from.longitude);
     const bool east = span >= 0;
     round += span;
@@ -100,7 +100,7 @@ bool add_edges(const Ring& ring, std::int32_t polygon, std::int32_t number,
   return round != 0 && domain_detail::enclose_left(arcs) == north_is_left;
 }
 
-/// Point-in-polygon test: counts the crossings of each ring along the meridian from the place to
+/// Point-in-polygon test: counts the crossings of each ring along the meridian from the point to
 /// the north pole.
 class Inside {
 public:
@@ -119,8 +119,8 @@ public:
            ++bin)
         bins_[static_cast<std::size_t>(bin % bin_count)].push_back(static_cast<std::int32_t>(e));
     for (std::size_t p = 0; p < polygons.size(); ++p)
-      if (const auto& place = polygons[p].inside)
-        pole_[p] ^= !holds(p, to_units(place->longitude), place->latitude);
+      if (const auto& point = polygons[p].inside)
+        pole_[p] ^= !contains(p, to_units(point->longitude), point->latitude);
   }
 
   const std::vector<Edge>& edges() const { return edges_; }
@@ -132,9 +132,10 @@ public:
 private:
   static constexpr Longitude bin_count = 7200, bin_width = turn / bin_count;
 
-  /// True if holds(polygon, whether it contains the place) is true for a polygon.
-  template <class Holds> bool any(Longitude longitude, double latitude, const Holds& holds) const {
-    // A pole counts as the places next to it.
+  /// True if contains(polygon, whether it contains the point) is true for a polygon.
+  template <class Holds>
+  bool any(Longitude longitude, double latitude, const Holds& contains) const {
+    // A pole counts as the points next to it.
     constexpr double highest = 90 - 1e-9;
     latitude = std::clamp(latitude, -highest, highest);
     const Longitude meridian = wrapped(longitude);
@@ -144,14 +145,14 @@ private:
       bool inside = pole_[p];
       for (; next != bin.end() && edge(*next).polygon == static_cast<std::int32_t>(p); ++next)
         inside ^= crosses(edge(*next), meridian, latitude);
-      if (holds(p, inside))
+      if (contains(p, inside))
         return true;
     }
     return false;
   }
 
-  /// True if one polygon contains a place.
-  bool holds(std::size_t polygon, Longitude longitude, double latitude) const {
+  /// True if one polygon contains a point.
+  bool contains(std::size_t polygon, Longitude longitude, double latitude) const {
     return any(longitude, latitude,
                [&](std::size_t p, bool inside) { return p == polygon && inside; });
   }
@@ -255,7 +256,7 @@ struct Region {
   Boundary boundary;
 };
 
-/// The weight of the outside width at a place: 0 inside, 1 beyond the transition.
+/// The weight of the outside width at a point: 0 inside, 1 beyond the transition.
 double outside_weight(const Region& region, const PolygonWidths& widths, double longitude,
                       double latitude) {
   if (region.inside(to_units(longitude), latitude))
@@ -293,7 +294,7 @@ double step_for(const PolygonWidths& widths) {
 
 } // namespace
 
-Raster cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths) {
+Raster make_cell_width(const std::vector<WidthRegion>& regions, const PolygonWidths& widths) {
   Raster grid = regular_grid(step_for(widths));
   std::vector<std::unique_ptr<const Region>> parts;
   for (const WidthRegion& region : merged(regions))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "base/lonlat.h"
 #include "density/room.h"
 
 #include <calotte/widths.h>
@@ -11,19 +12,16 @@
 
 namespace calotte::density_detail {
 
-/// Degrees.
-struct Place {
-  double longitude = 0, latitude = 0;
-};
+using base_detail::LonLat;
 
-/// At least three places; the last leads back to the first.
-using Ring = std::vector<Place>;
+/// At least three points; the last leads back to the first.
+using Ring = std::vector<LonLat>;
 
-/// The first ring and its holes: the interior is the set of places within an odd number of rings.
+/// The first ring and its holes: the interior is the set of points within an odd number of rings.
 struct Polygon {
   std::vector<Ring> rings;
-  std::optional<Place> inside = std::nullopt; ///< a place of the interior, which is else that of
-                                              ///< rings that enclose what enclose_left() tells
+  std::optional<LonLat> inside = std::nullopt; ///< a point of the interior, which is else that of
+                                               ///< rings that enclose what enclose_left() tells
 };
 
 /// Polygons with one width inside, in km.
@@ -34,9 +32,9 @@ struct WidthRegion {
 
 /// See read_cell_width(). The outside width and the transition in `widths` are set. An inside width
 /// may exceed the outside width only if there is one region.
-/// \pre the places are finite, latitudes from -90 to 90.
+/// \pre the points are finite, latitudes from -90 to 90.
 /// \throws Error invalid_argument for a transition too narrow for the finest raster, or a ring that
 ///         runs round the Earth more than once.
-Raster cell_width_of(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
+Raster make_cell_width(const std::vector<WidthRegion>& regions, const PolygonWidths& widths);
 
 } // namespace calotte::density_detail

@@ -10,15 +10,15 @@ namespace calotte::density_detail {
 
 namespace {
 
-/// The mean of the root of a density over a surface. Places that follow the root give the mean of
+/// The mean of the root of a density over a surface. Points that follow the root give the mean of
 /// its inverse, which is 1 / mean; a surface with a boundary has uniform ones.
 double mean_root(const Density& density, const Surface& surface, std::int64_t samples) {
   if (density.uniform())
     return 1;
   if (surface.is_bounded())
     return evaluate(density, draw(samples, Density{}, surface, 1)).cwiseSqrt().mean();
-  const Points3 places = draw(samples, site_density(density), surface, 1);
-  return 1 / evaluate(density, places).cwiseSqrt().cwiseInverse().mean();
+  const Points3 points = draw(samples, site_density(density), surface, 1);
+  return 1 / evaluate(density, points).cwiseSqrt().cwiseInverse().mean();
 }
 
 } // namespace
@@ -29,8 +29,8 @@ DemandedSpacing::DemandedSpacing(const Surface& surface, const Density& density,
       integral_(mean_root(density_, surface, samples) * surface.area() / cells) {}
 
 double DemandedSpacing::at(const Vec3& x) const {
-  const Points3 place = Eigen::Vector3d(x.x, x.y, x.z);
-  return std::sqrt(integral_ / std::sqrt(evaluate(density_, place)[0]));
+  const Points3 point = Eigen::Vector3d(x.x, x.y, x.z);
+  return std::sqrt(integral_ / std::sqrt(evaluate(density_, point)[0]));
 }
 
 } // namespace calotte::density_detail

@@ -16,7 +16,7 @@ namespace calotte::density_detail {
 class DemandedSpacing {
 public:
   /// \param surface of finite area.
-  /// \param samples random places for the integral.
+  /// \param samples random points for the integral.
   DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);
 
@@ -24,7 +24,7 @@ public:
   double at(const Vec3& x) const;
 
 private:
-  Density density_; ///< at places with z = 0 of a plane
+  Density density_; ///< at points with z = 0 of a plane
   double integral_; ///< of rho^(1/2) over the surface, divided by the number of cells
 };
 

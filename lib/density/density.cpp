@@ -19,8 +19,8 @@ namespace calotte {
 namespace density_detail {
 namespace {
 
-Profile profile_of(const DensityBump& bump, std::size_t b) {
-  Profile profile = profile_without_place(bump, b);
+Profile make_profile(const DensityBump& bump, std::size_t b) {
+  Profile profile = profile_without_centre(bump, b);
   require_of_bump(b, bump.centre.allFinite() && !bump.centre.isZero(0),
                   "the centre has no direction; give a finite, non-zero vector");
   profile.centre = normalised({bump.centre[0], bump.centre[1], bump.centre[2]});
@@ -91,7 +91,7 @@ void join(const double* values, std::size_t count, bool maximum, double* rho) {
     rho[j] = maximum ? std::max(rho[j], values[j]) : rho[j] + values[j];
 }
 
-std::vector<Profile> profiles_of(const Density& density) {
+std::vector<Profile> make_profiles(const Density& density) {
   using Kind = Density::Kind;
   const bool bumps = has_bumps(density);
   if (!bumps && !density.uniform() && density.kind != Kind::widths &&
@@ -107,14 +107,14 @@ std::vector<Profile> profiles_of(const Density& density) {
     refuse("the density is uniform, but has bumps, widths or a callable; set its kind, too");
   std::vector<Profile> profiles;
   for (std::size_t b = 0; bumps && b < density.bumps.size(); ++b) {
-    profiles.push_back(profile_of(density.bumps[b], b));
+    profiles.push_back(make_profile(density.bumps[b], b));
   }
   return profiles;
 }
 
 } // namespace
 
-Profile profile_without_place(const DensityBump& bump, std::size_t b) {
+Profile profile_without_centre(const DensityBump& bump, std::size_t b) {
   require_of_bump(b, bump.beta > 0 && std::isfinite(bump.beta), "beta must be positive");
   require_of_bump(b, bump.alpha > 0 && std::isfinite(bump.alpha), "alpha must be positive");
   require_of_bump(b, bump.gamma > 0 && bump.gamma < 1, "gamma must lie between 0 and 1");
@@ -130,7 +130,7 @@ Profile profile_without_place(const DensityBump& bump, std::size_t b) {
 }
 
 DensityEvaluator::DensityEvaluator(const Density& density)
-    : density_(density), profiles_(profiles_of(density)) {}
+    : density_(density), profiles_(make_profiles(density)) {}
 
 void DensityEvaluator::operator()(std::span<const double> x, std::span<const double> y,
                                   std::span<const double> z, std::span<double> rho) const {

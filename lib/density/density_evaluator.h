@@ -40,7 +40,7 @@ inline void require_of_bump(std::size_t b, bool holds, const char* fault) {
 
 /// The profile without centre and axis of bump b.
 /// \throws Error invalid_argument if a number is out of range.
-Profile profile_without_place(const DensityBump& bump, std::size_t b);
+Profile profile_without_centre(const DensityBump& bump, std::size_t b);
 
 /// A density prepared for repeated evaluation.
 class DensityEvaluator {

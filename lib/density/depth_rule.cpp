@@ -63,7 +63,7 @@ bool near_sea(const Raster& raster, Eigen::Index i, Eigen::Index j) {
   return false;
 }
 
-Raster widths_of(const Raster& raster, const DepthRule& rule, double radius) {
+Raster evaluate_rule(const Raster& raster, const DepthRule& rule, double radius) {
   using Kind = DepthRule::Kind;
   const Slopes slope(raster, radius);
   Raster widths{raster.x, raster.y, DoubleMatrix(raster.values.rows(), raster.values.cols())};
@@ -98,7 +98,7 @@ Widths Widths::by_depth(const Raster& raster, const DepthRule& rule) {
   return Widths(std::make_shared<WidthsOfRadius>(
       RuleSpace::sphere,
       [heights = std::make_shared<const Raster>(raster), rule](double radius_km) {
-        return rule_of_field(widths_of(*heights, rule, 1000 * radius_km));
+        return rule_of_field(evaluate_rule(*heights, rule, 1000 * radius_km));
       }));
 }
 

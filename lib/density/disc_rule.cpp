@@ -31,20 +31,20 @@ double DiscRule::grown(double width, double beyond) const {
   return beyond > 0 ? width + gradient_ * beyond : width;
 }
 
-/// \param reach by which a place may be nearer.
-double DiscRule::width_at(const Vec3& place, const Disc& disc, double reach) const {
-  const double chord = norm(place - disc.centre),
+/// \param reach by which a point may be nearer.
+double DiscRule::width_at(const Vec3& point, const Disc& disc, double reach) const {
+  const double chord = norm(point - disc.centre),
                angle = 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord));
   return grown(disc.width, angle - disc.radius - reach);
 }
 
-/// The least width within a distance of a place.
+/// The least width within a distance of a point.
 /// \param last the disc that decided before, or -1; becomes the one that decides here.
-double DiscRule::least_within(const Vec3& place, double reach, std::int32_t& last) const {
+double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& last) const {
   double least = Widths::no_demand;
   const auto take = [&](std::int32_t item) {
     const Disc& disc = discs_->all[static_cast<std::size_t>(item)];
-    if (const double width = width_at(place, disc, reach); width < least) {
+    if (const double width = width_at(point, disc, reach); width < least) {
       least = width;
       last = item;
     }
@@ -56,7 +56,7 @@ double DiscRule::least_within(const Vec3& place, double reach, std::int32_t& las
   const auto may_demand_less = [&](const DiscBounds& bounds) {
     if (!(bounds.width < least))
       return false;
-    const double square = square_from(bounds.centres, place), // the arc of its root c is longer
+    const double square = square_from(bounds.centres, point), // the arc of its root c is longer
         away = std::sqrt(square) * (1 + square / 24);         // than c + c^3 / 24
     return grown(bounds.width, away - bounds.radius - reach) * (1 - rounding) < least;
   };
@@ -64,16 +64,16 @@ double DiscRule::least_within(const Vec3& place, double reach, std::int32_t& las
   return least;
 }
 
-void DiscRule::evaluate(std::span<const Vec3> places, std::span<double> widths) const {
+void DiscRule::evaluate(std::span<const Vec3> points, std::span<double> widths) const {
   std::int32_t last = -1;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    widths[k] = least_within(places[k], 0, last);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    widths[k] = least_within(points[k], 0, last);
 }
 
-Bounds DiscRule::bounds(const Vec3& place, double reach) const {
+Bounds DiscRule::bounds(const Vec3& point, double reach) const {
   std::int32_t last = -1;
-  const double here = least_within(place, 0, last);
-  return {least_within(place, reach, last), std::isfinite(gradient_) && std::isfinite(reach)
+  const double here = least_within(point, 0, last);
+  return {least_within(point, reach, last), std::isfinite(gradient_) && std::isfinite(reach)
                                                 ? here + gradient_ * reach
                                                 : Widths::no_demand};
 }

@@ -12,7 +12,7 @@
 
 namespace calotte::density_detail {
 
-/// The width within a distance of a place.
+/// The width within a distance of a point.
 struct Disc {
   Vec3 centre;   ///< unit vector
   double radius; ///< radians
@@ -26,13 +26,13 @@ struct DiscBounds {
 };
 DiscBounds joined(const DiscBounds& a, const DiscBounds& b);
 
-/// The least width of the discs that contain a place, and elsewhere nothing; with a limited
+/// The least width of the discs that contain a point, and elsewhere nothing; with a limited
 /// gradient the least of what grows from them: an additively weighted distance.
 class DiscRule : public WidthRule {
 public:
   explicit DiscRule(std::vector<Disc> discs);
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override;
-  Bounds bounds(const Vec3& place, double reach) const override;
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override;
+  Bounds bounds(const Vec3& point, double reach) const override;
   /// The way from a disc is straight.
   std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
 
@@ -46,8 +46,8 @@ private:
   DiscRule(std::shared_ptr<const Discs> discs, double gradient)
       : discs_(std::move(discs)), gradient_(gradient) {}
   double grown(double width, double beyond) const;
-  double width_at(const Vec3& place, const Disc& disc, double reach = 0) const;
-  double least_within(const Vec3& place, double reach, std::int32_t& last) const;
+  double width_at(const Vec3& point, const Disc& disc, double reach = 0) const;
+  double least_within(const Vec3& point, double reach, std::int32_t& last) const;
 
   std::shared_ptr<const Discs> discs_;
   double gradient_; ///< km per radian; infinite without a limit

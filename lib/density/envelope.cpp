@@ -41,12 +41,12 @@ bool crosses(const Outline::Edge& edge, const Box2& box) {
   return left < 4 && right < 4;
 }
 
-bool holds(const Box& box, const Witness& witness) {
+bool contains(const Box& box, const Witness& witness) {
   return witness.x >= box.x && witness.x < box.x + box.side && witness.y >= box.y &&
          witness.y < box.y + box.side;
 }
 
-/// A cap that holds the places of a box.
+/// A cap that contains the points of a box.
 struct Around {
   Vec3 middle;
   double reach;
@@ -113,8 +113,8 @@ PlanarMap::PlanarMap(const Surface& surface)
 }
 
 Shown PlanarMap::shown(const Box& box) const {
-  const Vec3 low = place(box.x, box.y, false),
-             high = place(box.x + box.side, box.y + box.side, false);
+  const Vec3 low = point(box.x, box.y, false),
+             high = point(box.x + box.side, box.y + box.side, false);
   const Box2 own{{low.x, low.y}, {high.x, high.y}};
   bool crossed = false;
   outline_->for_each_edge_near(
@@ -124,11 +124,11 @@ Shown PlanarMap::shown(const Box& box) const {
   return outline_->side(own.low) == Side::outside ? Shown::none : Shown::whole;
 }
 
-bool PlanarMap::holds(double, double, const Vec3& place) const {
-  const Side side = outline_->side({place.x, place.y});
+bool PlanarMap::contains(double, double, const Vec3& point) const {
+  const Side side = outline_->side({point.x, point.y});
   const Box2& box = outline_->box();
   return side == Side::inside ||
-         (periodic_ && side == Side::boundary && place.x < box.high.x && place.y < box.high.y);
+         (periodic_ && side == Side::boundary && point.x < box.high.x && point.y < box.high.y);
 }
 
 std::array<double, 2> PlanarMap::nearest(double x, double y) const {
@@ -234,7 +234,7 @@ template <class Map> void EnvelopeOf<Map>::raise(const std::vector<Witness>& wit
       std::vector<Box> quarters;
       add_quarters(box, quarters);
       for (const Box& quarter : quarters)
-        if (holds(quarter, witness))
+        if (contains(quarter, witness))
           box = quarter;
         else
           siblings.push_back(quarter);
@@ -272,7 +272,7 @@ template <class Map> Bounds EnvelopeOf<Map>::sampled_bounds(const Box& box) cons
     const auto [u, v] =
         map_.nearest(box.x + box.side * (step * (static_cast<double>(column) + 0.5) - 0.25),
                      box.y + box.side * (step * (static_cast<double>(row) + 0.5) - 0.25));
-    const Vec3 p = map_.place(u, v, box.south);
+    const Vec3 p = map_.point(u, v, box.south);
     x[i] = p.x;
     y[i] = p.y;
     z[i] = p.z;

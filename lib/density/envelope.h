@@ -41,8 +41,8 @@ struct Hemispheres {
   /// A box that extends beyond its disc counts as whole: the number of proposals in it follows from
   /// a bound in the disc.
   static Shown shown(const Box& box);
-  static Vec3 place(double x, double y, bool south) { return on_sphere(x, y, south); }
-  static bool holds(double x, double y, const Vec3&) { return x * x + y * y < 1; }
+  static Vec3 point(double x, double y, bool south) { return on_sphere(x, y, south); }
+  static bool contains(double x, double y, const Vec3&) { return x * x + y * y < 1; }
   /// The map's point that is nearest to (x, y), where the density is known.
   static std::array<double, 2> nearest(double x, double y);
   /// True if bounds() is certain for a density that is uniform or made of bumps.
@@ -61,9 +61,9 @@ public:
 
   static std::vector<Box> squares() { return Hemispheres::squares(); }
   Shown shown(const Box& box) const;
-  static Vec3 place(double x, double y, bool south) { return on_sphere(x, y, south); }
-  bool holds(double x, double y, const Vec3& place) const {
-    return Hemispheres::holds(x, y, place) && outline_->side(place) == Side::inside;
+  static Vec3 point(double x, double y, bool south) { return on_sphere(x, y, south); }
+  bool contains(double x, double y, const Vec3& point) const {
+    return Hemispheres::contains(x, y, point) && outline_->side(point) == Side::inside;
   }
   static std::array<double, 2> nearest(double x, double y) { return Hemispheres::nearest(x, y); }
   static bool is_certain(const Density&) { return true; }
@@ -86,11 +86,11 @@ public:
 
   static std::vector<Box> squares() { return {Box{}}; }
   Shown shown(const Box& box) const;
-  Vec3 place(double x, double y, bool) const {
+  Vec3 point(double x, double y, bool) const {
     return {middle_.x + half_ * x, middle_.y + half_ * y, 0};
   }
   /// Inside, not on the boundary; in a periodic box, in the half-open box.
-  bool holds(double x, double y, const Vec3& place) const;
+  bool contains(double x, double y, const Vec3& point) const;
   std::array<double, 2> nearest(double x, double y) const;
   static bool is_certain(const Density& density) { return density.uniform(); }
   static Bounds bounds(const DensityEvaluator&, const Box&) { return {1, 1}; }
@@ -121,7 +121,7 @@ struct Witness {
 /// Outside the map the density counts as 0, so that boxes are halved along a boundary, too.
 template <class Map> class EnvelopeOf {
 public:
-  /// \param density of places of the map.
+  /// \param density of points of the map.
   /// \throws Error invalid_argument if the density is ill-formed, negative, infinite or NaN, or
   ///         zero everywhere.
   explicit EnvelopeOf(const Density& density, Map map = Map());

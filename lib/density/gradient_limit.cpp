@@ -50,7 +50,7 @@ public:
   bool sees(std::int32_t, std::int32_t) const { return true; }
 
   double distance(std::int32_t a, std::int32_t b) const {
-    const Vec3 apart = place(a) - place(b);
+    const Vec3 apart = position(a) - position(b);
     return radius_ * 2 * base_detail::arc_sine(std::min(1.0, 0.5 * norm(apart)));
   }
 
@@ -82,7 +82,7 @@ private:
     double cosine, sine;
   };
 
-  Vec3 place(std::int32_t a) const {
+  Vec3 position(std::int32_t a) const {
     if (a == 0 || a == north())
       return {0, 0, a == 0 ? -1.0 : 1.0};
     const Angle &latitude = along_[static_cast<std::size_t>((a - 1) / columns_)],
@@ -156,11 +156,12 @@ public:
     if (outline_ == nullptr)
       return;
     edge_tree_.emplace(*outline_);
-    base_detail::for_each_block(raster_size(), [&](std::int64_t, std::int64_t from,
-                                                   std::int64_t to) {
-      for (std::int64_t a = from; a != to; ++a)
-        sides_[static_cast<std::size_t>(a)] = outline_->side(place(static_cast<std::int32_t>(a)));
-    });
+    base_detail::for_each_block(raster_size(),
+                                [&](std::int64_t, std::int64_t from, std::int64_t to) {
+                                  for (std::int64_t a = from; a != to; ++a)
+                                    sides_[static_cast<std::size_t>(a)] =
+                                        outline_->side(position(static_cast<std::int32_t>(a)));
+                                });
     add_corners();
   }
 
@@ -185,16 +186,16 @@ public:
   bool sees(std::int32_t a, std::int32_t b) const {
     if (outwards_ || !edge_tree_)
       return true;
-    const Vec2 from = place(a), to = place(b);
+    const Vec2 from = position(a), to = position(b);
     if (edge_tree_->cut(from, to))
       return false;
-    // Between two places of the boundary it may pass through an island without crossing an edge.
+    // Between two points of the boundary it may pass through an island without crossing an edge.
     return side(a) != Side::boundary || side(b) != Side::boundary ||
            outline_->side({0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}) != Side::outside;
   }
 
   double distance(std::int32_t a, std::int32_t b) const {
-    const Vec2 from = place(a), to = place(b);
+    const Vec2 from = position(a), to = position(b);
     double dx = to.x - from.x, dy = to.y - from.y;
     if (period_.x() > 0)
       dx = std::remainder(dx, period_.x());
@@ -229,7 +230,7 @@ public:
 
 private:
   struct Corner {
-    Vec2 place;
+    Vec2 position;
     std::int32_t before, after; ///< along the ring, if ways bend there, too; else -1
   };
 
@@ -254,7 +255,8 @@ private:
     }
     std::vector<std::pair<std::int32_t, std::int32_t>> of_box;
     for (std::size_t k = 0; k < corners_.size(); ++k)
-      of_box.emplace_back(box_of(corners_[k].place), raster_size() + static_cast<std::int32_t>(k));
+      of_box.emplace_back(box_of(corners_[k].position),
+                          raster_size() + static_cast<std::int32_t>(k));
     std::sort(of_box.begin(), of_box.end());
     corners_in_.begin.assign(static_cast<std::size_t>((rows_ - 1) * (columns_ - 1)) + 1, 0);
     for (const auto& [box, corner] : of_box) {
@@ -264,13 +266,14 @@ private:
     std::partial_sum(corners_in_.begin.begin(), corners_in_.begin.end(), corners_in_.begin.begin());
   }
 
-  std::int32_t box_of(const Vec2& place) const {
-    return static_cast<std::int32_t>(y_.interval(place.y) * (columns_ - 1) + x_.interval(place.x));
+  std::int32_t box_of(const Vec2& position) const {
+    return static_cast<std::int32_t>(y_.interval(position.y) * (columns_ - 1) +
+                                     x_.interval(position.x));
   }
 
   template <class Body> void for_each_beside_corner(std::int32_t a, const Body& body) const {
     const Corner& corner = corners_[static_cast<std::size_t>(a - raster_size())];
-    const std::int32_t box = box_of(corner.place), j = box / (columns_ - 1),
+    const std::int32_t box = box_of(corner.position), j = box / (columns_ - 1),
                        i = box % (columns_ - 1);
     for (const std::int32_t row : {j, j + 1})
       for (const std::int32_t column : {i, i + 1})
@@ -292,9 +295,9 @@ private:
     return periodic ? (i + count) % count : -1;
   }
 
-  Vec2 place(std::int32_t a) const {
+  Vec2 position(std::int32_t a) const {
     return a < raster_size() ? Vec2{x_[a % columns_], y_[a / columns_]}
-                             : corners_[static_cast<std::size_t>(a - raster_size())].place;
+                             : corners_[static_cast<std::size_t>(a - raster_size())].position;
   }
 
   Axis x_, y_;
@@ -354,7 +357,7 @@ Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km
   const SphereNodes nodes(field, widths, radius_km);
   const std::int64_t columns = widths.x.size(), rows = field.y().intervals() - 1;
   std::vector<double> values(static_cast<std::size_t>(nodes.size()));
-  // A row at a pole is one place; a pole without one is passed.
+  // A row at a pole is one position; a pole without one is passed.
   const bool south = widths.y[0] == -90, north = widths.y[widths.y.size() - 1] == 90;
   constexpr double none = std::numeric_limits<double>::infinity();
   values.front() = south ? widths.values.col(0).minCoeff() : none;

@@ -24,7 +24,7 @@ void require_gradient(double gradient);
 /// What limit_gradient() needs to know of the nodes of a raster.
 ///
 ///     std::int32_t size() const;
-///     double distance(std::int32_t a, std::int32_t b) const;   // straight, > 0 for two places
+///     double distance(std::int32_t a, std::int32_t b) const;   // straight, > 0 for two points
 ///     bool sees(std::int32_t a, std::int32_t b) const;         // the straight way is in the
 ///     domain void for_each_neighbour(std::int32_t a, body) const;     // nodes that a sees, in
 ///     order double step() const;                                     // typical, between
@@ -40,7 +40,7 @@ concept RasterNodes = requires(const T& nodes, std::int32_t a) {
 /// Limits the values at nodes. A node takes its value from a source, which its neighbours hand on:
 /// the distance is that from the source itself, so that it does not depend on the directions of the
 /// raster (any-angle paths: Nash, Daniel, Koenig and Felner, AAAI 2007). Where the source is out of
-/// sight, the neighbour becomes one. Values are settled in the order of their size, all of about
+/// sight, the neighbour becomes one. Values are finalised in the order of their size, all of about
 /// one size at once (Delta-stepping: Meyer and Sanders, J. Algorithms 49, 2003). A round reads what
 /// the round before it wrote, and a node takes the least of what is handed to it: the result has
 /// the same bits for any number of threads.
@@ -50,7 +50,7 @@ public:
   GradientLimit(const Nodes& nodes, std::vector<double> values, double gradient)
       : nodes_(nodes), values_(std::move(values)), gradient_(gradient),
         least_(*std::min_element(values_.begin(), values_.end())), states_(values_.size()),
-        settled_(values_.size(), nothing) {
+        finalised_(values_.size(), nothing) {
     double most = least_;
     for (const double value : values_)
       most = std::isfinite(value) ? std::max(most, value) : most;
@@ -65,7 +65,7 @@ public:
     begin();
     for (std::size_t level = 0; level < levels_.size(); ++level)
       while (!levels_[level].empty())
-        settle(level);
+        finalise(level);
     std::vector<double> limited(values_.size());
     base_detail::for_each_block(
         nodes_.size(), [&](std::int64_t, std::int64_t from, std::int64_t to) {
@@ -100,14 +100,14 @@ private:
     return level < static_cast<double>(last) ? static_cast<std::size_t>(std::max(level, 0.0))
                                              : last;
   }
-  /// \pre the source is a node's own, or was settled.
+  /// \pre the source is a node's own, or was finalised.
   double value_of(std::int32_t node, State state) const {
     const std::int32_t source = source_of(node, state);
     return source == node ? values_[at(node)]
                           : values_[at(source)] + gradient_ * nodes_.distance(source, node);
   }
 
-  struct Settled {
+  struct Finalised {
     std::int32_t node, source;
     double value;
   };
@@ -136,7 +136,7 @@ private:
     add(of_block, 0);
   }
 
-  /// \param least the level that is being settled.
+  /// \param least the level that is being finalised.
   void add(const std::vector<std::vector<std::int32_t>>& of_block, std::size_t least) {
     for (const std::vector<std::int32_t>& some : of_block)
       for (const std::int32_t node : some)
@@ -144,28 +144,29 @@ private:
   }
 
   /// Hands on what the nodes of a level have, once.
-  void settle(std::size_t level) {
+  void finalise(std::size_t level) {
     const std::vector<std::int32_t> waiting = std::exchange(levels_[level], {});
     const std::int64_t count = std::ssize(waiting);
     const auto blocks = static_cast<std::size_t>(base_detail::block_count(count));
-    std::vector<std::vector<Settled>> settled(blocks);
+    std::vector<std::vector<Finalised>> finalised(blocks);
     base_detail::for_each_block(count, [&](std::int64_t block, std::int64_t from, std::int64_t to) {
       for (std::int64_t k = from; k != to; ++k) {
         const std::int32_t node = waiting[static_cast<std::size_t>(k)];
         const State state = states_[at(node)];
         // It may wait several times.
         if (level_of(state) <= level &&
-            std::atomic_ref(settled_[at(node)]).exchange(state, std::memory_order_relaxed) != state)
-          settled[static_cast<std::size_t>(block)].push_back(
+            std::atomic_ref(finalised_[at(node)]).exchange(state, std::memory_order_relaxed) !=
+                state)
+          finalised[static_cast<std::size_t>(block)].push_back(
               {node, source_of(node, state), value_of(node, state)});
       }
     });
-    for (const std::vector<Settled>& some : settled)
-      for (const Settled& node : some)
+    for (const std::vector<Finalised>& some : finalised)
+      for (const Finalised& node : some)
         values_[at(node.node)] = std::min(values_[at(node.node)], node.value);
     std::vector<std::vector<std::int32_t>> lowered(blocks);
     base_detail::for_each_task(static_cast<std::int64_t>(blocks), [&](std::int64_t block) {
-      for (const Settled& node : settled[static_cast<std::size_t>(block)])
+      for (const Finalised& node : finalised[static_cast<std::size_t>(block)])
         hand_on(node, lowered[static_cast<std::size_t>(block)]);
     });
     add(lowered, level);
@@ -178,7 +179,7 @@ private:
 
   /// What is known of a neighbour depends on the threads. So it decides only whether an offer is in
   /// vain: the straight one is, up to rounding, the least of both.
-  void hand_on(const Settled& from, std::vector<std::int32_t>& lowered) {
+  void hand_on(const Finalised& from, std::vector<std::int32_t>& lowered) {
     constexpr float rounding = 1e-6F;
     nodes_.for_each_neighbour(from.node, [&](std::int32_t to) {
       std::atomic_ref state(states_[at(to)]);
@@ -199,7 +200,7 @@ private:
   std::vector<double> values_; ///< those of a source; at first the given ones
   std::vector<double> own_;    ///< the given ones
   double gradient_, least_, level_ = 1;
-  std::vector<State> states_, settled_;
+  std::vector<State> states_, finalised_;
   std::vector<std::vector<std::int32_t>> levels_; ///< nodes that wait, by value
 };
 

@@ -23,15 +23,15 @@ bool is_point(const Arc& arc, bool sphere) {
 
 constexpr double longest = 0.1; ///< of a chord: boxes of long arcs hold much else
 
-std::vector<Arc> arcs_of(const std::vector<Points3>& lines, bool sphere) {
+std::vector<Arc> make_arcs(const std::vector<Points3>& lines, bool sphere) {
   std::vector<Arc> arcs;
   for (std::size_t k = 0; k < lines.size(); ++k) {
-    const std::vector<Vec3> places =
-        domain_detail::places_of(lines[k], static_cast<std::int64_t>(k), sphere);
-    if (places.size() == 1)
-      arcs.push_back({places[0], places[0]});
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      const Arc arc{places[i - 1], places[i]};
+    const std::vector<Vec3> points =
+        domain_detail::checked_line(lines[k], static_cast<std::int64_t>(k), sphere);
+    if (points.size() == 1)
+      arcs.push_back({points[0], points[0]});
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Arc arc{points[i - 1], points[i]};
       if (is_point(arc, sphere))
         arcs.push_back({arc.to, arc.to});
       else if (sphere)
@@ -71,7 +71,7 @@ BoxTree tree_in_plane(const std::vector<Arc>& lines) {
 } // namespace
 
 LineDistance::LineDistance(const std::vector<Points3>& lines, const Surface& surface)
-    : sphere_(surface.is_sphere()), arcs_(with_copies(arcs_of(lines, sphere_), surface.period())),
+    : sphere_(surface.is_sphere()), arcs_(with_copies(make_arcs(lines, sphere_), surface.period())),
       tree_(sphere_ ? ArcTree(arcs_) : tree_in_plane(arcs_)) {}
 
 double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
@@ -80,18 +80,18 @@ double LineDistance::square_from(std::int32_t item, const Vec3& p) const {
     return domain_detail::square_from(Outline::Edge{{arc.from.x, arc.from.y}, {arc.to.x, arc.to.y}},
                                       {p.x, p.y});
   const Vec3 &a = arc.from, &b = arc.to;
-  if (a.x != b.x || a.y != b.y || a.z != b.z) // points have one place, see arcs_of()
+  if (a.x != b.x || a.y != b.y || a.z != b.z) // an arc of one point has equal ends, see make_arcs()
     return domain_detail::square_from(arc, p);
   const Vec3 apart = p - arc.from;
   return dot(apart, apart);
 }
 
-void LineDistance::operator()(std::span<const Vec3> places, std::span<double> distances) const {
+void LineDistance::operator()(std::span<const Vec3> points, std::span<double> distances) const {
   std::int32_t nearest = -1;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Vec3& p = places[k];
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec3& p = points[k];
     double least = nearest < 0 ? std::numeric_limits<double>::infinity() : square_from(nearest, p);
-    // Rounding must not leave out a line: else the last bit depends on the place before.
+    // Rounding must not leave out a line: else the last bit depends on the point before.
     constexpr double rounding = 1e-9;
     tree_.visit(
         [&](const Box3& box) {

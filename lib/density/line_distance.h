@@ -23,13 +23,13 @@ public:
 
   bool on_sphere() const { return sphere_; }
 
-  /// Radians at unit vectors, in a plane its unit at x y 0. Where each place lies next to the one
+  /// Radians at unit vectors, in a plane its unit at x y 0. Where each point lies next to the one
   /// before, it takes less time.
-  void operator()(std::span<const Vec3> places, std::span<double> distances) const;
+  void operator()(std::span<const Vec3> points, std::span<double> distances) const;
 
-  double operator()(const Vec3& place) const {
+  double operator()(const Vec3& point) const {
     double distance = 0;
-    (*this)({&place, 1}, {&distance, 1});
+    (*this)({&point, 1}, {&distance, 1});
     return distance;
   }
 

@@ -31,11 +31,10 @@ public:
   MeshWidths& operator=(const MeshWidths&) = delete;
 
   double at(const Vec3& x) const {
-    const auto place = grid_.place_of(x);
+    const auto at = grid_.locate(x);
     double width = 0;
     for (std::size_t i = 0; i < 3; ++i)
-      width +=
-          place.weight[i] * widths_[mesh_.triangles(static_cast<Eigen::Index>(i), place.triangle)];
+      width += at.weight[i] * widths_[mesh_.triangles(static_cast<Eigen::Index>(i), at.triangle)];
     return width;
   }
 

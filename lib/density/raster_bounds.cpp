@@ -19,7 +19,7 @@ struct Window {
   double west, east, south, north;
 };
 
-/// That of longitudes and latitudes about a place of the sphere. \param reach below a half circle.
+/// That of longitudes and latitudes about a point of the sphere. \param reach below a half circle.
 Window window_about(const Vec3& centre, double reach) {
   // Wider than sin(reach) asks for, by operations that have the same bits everywhere.
   const double x = base_detail::longitude_of(centre.x, centre.y),

@@ -236,8 +236,8 @@ Raster grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size, double
 
 namespace calotte {
 
-DoubleVector evaluate(const Raster& raster, const PointsRef& places) {
-  return density_detail::evaluate_field(density_detail::RasterField(raster), places);
+DoubleVector evaluate(const Raster& raster, const PointsRef& points) {
+  return density_detail::evaluate_field(density_detail::RasterField(raster), points);
 }
 
 } // namespace calotte

@@ -85,7 +85,7 @@ public:
   explicit RasterField(const Raster& raster);
 
   /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
-  /// depend on its place alone.
+  /// depend on its point alone.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* values) const;
 
@@ -127,19 +127,19 @@ void evaluate_block(const Field& field, const Eigen::Ref<const Points3>& points,
           values.data() + begin);
   }
 }
-/// The same at a list of places.
+/// The same at a list of points.
 template <class Field>
-void evaluate_block(const Field& field, std::span<const Vec3> places, std::span<double> values) {
-  if (!places.empty())
-    evaluate_block(field, Eigen::Map<const Points3>(&places.front().x, 3, std::ssize(places)),
+void evaluate_block(const Field& field, std::span<const Vec3> points, std::span<double> values) {
+  if (!points.empty())
+    evaluate_block(field, Eigen::Map<const Points3>(&points.front().x, 3, std::ssize(points)),
                    Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values)));
 }
 
-/// The same at any number of places, by all threads.
+/// The same at any number of points, by all threads.
 /// \throws Error as evaluate(const Raster&, const PointsRef&).
-template <class Field> DoubleVector evaluate_field(const Field& field, const PointsRef& places) {
-  const Points3 x = field.of_plane() ? base_detail::with_z(base_detail::plane_points_of(places))
-                                     : Points3(base_detail::directions_of(places));
+template <class Field> DoubleVector evaluate_field(const Field& field, const PointsRef& points) {
+  const Points3 x = field.of_plane() ? base_detail::with_z(base_detail::plane_points_of(points))
+                                     : Points3(base_detail::directions_of(points));
   DoubleVector values(x.cols());
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     evaluate_block(field, x.middleCols(begin, end - begin), values.segment(begin, end - begin));

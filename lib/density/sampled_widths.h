@@ -14,7 +14,7 @@
 namespace calotte::density_detail {
 
 /// Widths at nodes, prepared for repeated evaluation, and their density (h_min/h)^4. The bits of
-/// each value depend on its place alone.
+/// each value depend on its point alone.
 class SampledWidths {
 public:
   /// \throws Error invalid_argument as require_widths().

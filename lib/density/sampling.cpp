@@ -44,7 +44,7 @@ template <class Map> void propose(const EnvelopeOf<Map>& envelope, SplitMix& ran
     out.u[i] = box.x + box.side * random.unit();
     out.v[i] = box.y + box.side * random.unit();
     out.level[i] = box.bounds.greatest * random.unit();
-    const Vec3 p = envelope.map().place(out.u[i], out.v[i], box.south);
+    const Vec3 p = envelope.map().point(out.u[i], out.v[i], box.south);
     out.x[i] = p.x;
     out.y[i] = p.y;
     out.z[i] = p.z;
@@ -56,13 +56,13 @@ template <class Map>
 void accept(const EnvelopeOf<Map>& envelope, const Batch& proposals, Drawn& drawn) {
   for (std::size_t i = 0; i < batch; ++i) {
     const double u = proposals.u[i], v = proposals.v[i], rho = proposals.rho[i];
-    const Vec3 place{proposals.x[i], proposals.y[i], proposals.z[i]};
-    if (!envelope.map().holds(u, v, place)) // a box may stick out
+    const Vec3 point{proposals.x[i], proposals.y[i], proposals.z[i]};
+    if (!envelope.map().contains(u, v, point)) // a box may stick out
       continue;
     if (rho > envelope.boxes()[static_cast<std::size_t>(proposals.box[i])].bounds.greatest)
       drawn.above.push_back({proposals.box[i], u, v, rho});
     if (proposals.level[i] < rho)
-      drawn.accepted.push_back(place);
+      drawn.accepted.push_back(point);
   }
 }
 

@@ -19,7 +19,7 @@ std::vector<Profile> planar_profiles(const Density& density) {
   std::vector<Profile> profiles;
   for (std::size_t b = 0; b < density.bumps.size(); ++b) {
     const DensityBump& bump = density.bumps[b];
-    Profile profile = profile_without_place(bump, b);
+    Profile profile = profile_without_centre(bump, b);
     require_of_bump(b, bump.centre.head<2>().allFinite(), "the centre is not finite; give a place");
     profile.centre = {bump.centre.x(), bump.centre.y(), 0};
     const double length = bump.major.head<2>().norm();
@@ -43,10 +43,10 @@ Density::Callable bump_values(const Density& density, const Plane& plane) {
   return [profiles = planar_profiles(density), plane, sum = density.kind == Density::Kind::sum](
              const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     for (Eigen::Index i = 0; i < x.cols(); ++i) {
-      const Vec3 place{x(0, i), x(1, i), 0};
+      const Vec3 point{x(0, i), x(1, i), 0};
       double value = 0;
       for (const Profile& bump : profiles) {
-        const double here = value_at(bump, distance_from(bump, place, plane));
+        const double here = value_at(bump, distance_from(bump, point, plane));
         value = sum ? value + here : std::max(value, here);
       }
       rho[i] = value;
@@ -54,7 +54,7 @@ Density::Callable bump_values(const Density& density, const Plane& plane) {
   };
 }
 
-/// Evaluates a callable at copies of places inside the box.
+/// Evaluates a callable at copies of points inside the box.
 Density::Callable in_box(Density::Callable callable, const Plane& plane) {
   return [callable = std::move(callable), plane](const Eigen::Ref<const Points3>& x,
                                                  Eigen::Ref<Eigen::VectorXd> rho) {
@@ -71,7 +71,7 @@ Density surface_density(const Density& density, const Surface& surface) {
   if (surface.is_sphere() || density.uniform())
     return density;
   const bool bumps = has_bumps(density);
-  const Density::Callable given = callable_of(density);
+  const Density::Callable given = make_callable(density);
   if (!bumps && (!given || surface.period().isZero(0))) // none is rejected at its use
     return density;
   Density planar;
@@ -81,7 +81,7 @@ Density surface_density(const Density& density, const Surface& surface) {
   return planar;
 }
 
-Density::Callable callable_of(const Density& density) {
+Density::Callable make_callable(const Density& density) {
   if (density.kind == Density::Kind::callable)
     return density.callable;
   if (density.kind != Density::Kind::widths || density.widths == nullptr)

@@ -14,7 +14,7 @@ inline bool has_bumps(const Density& density) {
 }
 
 /// A density of widths or a callable as a callable; empty for others.
-Density::Callable callable_of(const Density& density);
+Density::Callable make_callable(const Density& density);
 
 /// The density in the form that the rooms above evaluate: on the sphere itself; in a plane uniform,
 /// of widths, or a callable of columns (x, y, 0) that accounts for the periods.

@@ -15,7 +15,7 @@
 namespace calotte::density_detail {
 namespace {
 
-double area_of(const BoxOfPlaces& box, bool of_plane) {
+double area_of(const CoordinateBox& box, bool of_plane) {
   if (of_plane)
     return box.dx * box.dy;
   const auto sine = [](double latitude) { return base_detail::from_lonlat(0, latitude).z; };
@@ -28,7 +28,7 @@ public:
   /// \param columns, rows at least those of the tile: powers of two.
   TileIntegral(const WidthTiles& tiles, std::int64_t tile, std::int64_t columns, std::int64_t rows,
                const Surface& surface)
-      : tile_(tiles[tile]), place_(tiles.box().tile(tile)), of_plane_(tiles.of_plane()),
+      : tile_(tiles[tile]), box_(tiles.box().tile(tile)), of_plane_(tiles.of_plane()),
         columns_(columns), rows_(rows), surface_(surface) {}
 
   double operator()() const { return sum(0, 0, columns_, rows_, true); }
@@ -37,11 +37,11 @@ private:
   /// \param crossed whether the boundary may cross the boxes from (i, j) on.
   double sum(std::int64_t i, std::int64_t j, std::int64_t columns, std::int64_t rows,
              bool crossed) const {
-    const double dx = place_.dx / static_cast<double>(columns_),
-                 dy = place_.dy / static_cast<double>(rows_);
-    const BoxOfPlaces box{
-        place_.west + static_cast<double>(i) * dx, static_cast<double>(columns) * dx,
-        place_.south + static_cast<double>(j) * dy, static_cast<double>(rows) * dy};
+    const double dx = box_.dx / static_cast<double>(columns_),
+                 dy = box_.dy / static_cast<double>(rows_);
+    const CoordinateBox box{
+        box_.west + static_cast<double>(i) * dx, static_cast<double>(columns) * dx,
+        box_.south + static_cast<double>(j) * dy, static_cast<double>(rows) * dy};
     if (crossed) {
       const Extent extent = extent_of(box, of_plane_);
       const bool one = columns == 1 && rows == 1;
@@ -82,7 +82,7 @@ private:
   }
 
   WidthTiles::Tile tile_;
-  BoxOfPlaces place_;
+  CoordinateBox box_;
   bool of_plane_;
   std::int64_t columns_, rows_;
   const Surface& surface_;

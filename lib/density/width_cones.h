@@ -10,8 +10,8 @@ namespace calotte::density_detail {
 class WidthRule;
 
 /// Lowers the widths at the nodes of a raster to the cones of what lies between them, so that a
-/// limit of the gradient misses no minimum: a place y of width h lowers a node x within a step to
-/// h + g d(x, y). The places are the nodes of the rule's own raster, or a finer one for other
+/// limit of the gradient misses no minimum: a point y of width h lowers a node x within a step to
+/// h + g d(x, y). The points are the nodes of the rule's own raster, or a finer one for other
 /// rules.
 /// \param raster regular_grid() with the widths of the rule at its nodes.
 /// \param gradient km per radian.

@@ -128,7 +128,7 @@ Raster sample(const Widths& widths, const Surface& surface, double step) {
 
 namespace {
 
-[[noreturn]] void refuse_place(double x, double y, bool of_plane) {
+[[noreturn]] void refuse_point(double x, double y, bool of_plane) {
   refuse(message("no rule gives a width at {} {}, {} {}; "
                  "add one that holds everywhere, such as a number",
                  of_plane ? "x" : "longitude", x, of_plane ? "y" : "latitude", y));
@@ -148,11 +148,11 @@ void fill_outside(const Widths& widths, const Surface& surface, const ForEachNod
       widest = std::max(widest, width);
     if (asks && has_node)
       return;
-    const Vec3 at = place_of(x, y, of_plane);
+    const Vec3 at = point_at(x, y, of_plane);
     if (surface.is_bounded() && !surface.contains({at.x, at.y, at.z}))
       return;
     if (!asks)
-      refuse_place(x, y, of_plane);
+      refuse_point(x, y, of_plane);
     has_node = true;
   });
   if (!has_node) // all of the surface lies between nodes
@@ -187,11 +187,11 @@ std::int32_t intervals_for(double length, double apart) {
 /// What a tile asks for: its extent in widths.
 struct TileDemand {
   double across = 1, up = 1;
-  bool outside = false; ///< it has no place in a bounded surface
+  bool outside = false; ///< it has no point in a bounded surface
 };
 
 /// \param unit km a radian, in a plane 1.
-TileDemand demand_of(const WidthRule& rule, const Extent& tile, double unit) {
+TileDemand estimate_demand(const WidthRule& rule, const Extent& tile, double unit) {
   constexpr double flat = 1e-3; // a change of widths that corners tell well enough
   constexpr double silent = 8;  // parts, whose corners may lie in a bounded surface
   const Bounds widths = rule.bounds(tile.middle, tile.reach);
@@ -236,14 +236,14 @@ double apart_in(const std::vector<TileDemand>& demands,
   return apart;
 }
 
-/// Whether a tile has no place in a surface.
+/// Whether a tile has no point in a surface.
 bool lies_outside(const Extent& tile, const Surface& surface) {
   const Vec3& at = tile.middle;
   return surface.is_bounded() && !domain_detail::is_near_boundary(surface, at, tile.reach) &&
          !surface.contains({at.x, at.y, at.z});
 }
 
-SampledWidths tiles_of(const Widths& widths, const TileBox& box, const Surface& surface) {
+SampledWidths sample_tiles(const Widths& widths, const TileBox& box, const Surface& surface) {
   constexpr double most_nodes = 4e7;
   const std::shared_ptr<const WidthRule> rule = widths.rule();
   const double unit = box.of_plane ? 1 : widths.radius_km();
@@ -254,13 +254,13 @@ SampledWidths tiles_of(const Widths& widths, const TileBox& box, const Surface& 
     if (lies_outside(tile, surface))
       demand.outside = true;
     else
-      demand = demand_of(*rule, tile, unit);
+      demand = estimate_demand(*rule, tile, unit);
   });
   const std::vector<WidthTiles::Shape> shapes = shapes_within(demands, most_nodes);
   WidthTiles tiles(box, shapes);
   base_detail::for_each_task(tiles.size(), [&](std::int64_t k) {
-    const std::vector<Vec3> places = tiles.places(k);
-    rule->evaluate(places, {tiles.values(k), places.size()});
+    const std::vector<Vec3> points = tiles.points(k);
+    rule->evaluate(points, {tiles.values(k), points.size()});
   });
   const bool whole = std::all_of(tiles.values().begin(), tiles.values().end(),
                                  [](double width) { return Widths::is_demand(width); });
@@ -306,10 +306,10 @@ double widest_at_corners(const Widths& widths, const Surface& surface) {
     for (Eigen::Index i = 0; i < ring.cols(); ++i)
       if (!Widths::is_demand(there[i])) {
         if (!surface.is_sphere())
-          refuse_place(ring(0, i), ring(1, i), true);
+          refuse_point(ring(0, i), ring(1, i), true);
         const auto [longitude, latitude] =
             base_detail::lonlat_of({ring(0, i), ring(1, i), ring(2, i)});
-        refuse_place(longitude, latitude, false);
+        refuse_point(longitude, latitude, false);
       }
     widest = std::max(widest, there.maxCoeff());
   }
@@ -331,7 +331,7 @@ WidthField width_field(const Widths& widths, const Surface& surface) {
     return raster;
   }
   require_kind_of(*rule, surface);
-  return WidthField(std::make_shared<const SampledWidths>(tiles_of(
+  return WidthField(std::make_shared<const SampledWidths>(sample_tiles(
       widths, surface.is_sphere() ? tiles_of_sphere() : tiles_of_plane(surface), surface)));
 }
 

@@ -17,7 +17,7 @@ std::vector<Node> limited_forwards(const std::vector<Node>& nodes, double slope)
   std::vector<Node> out{nodes.front()};
   for (std::size_t k = 1; k < nodes.size(); ++k) {
     const Node &from = nodes[k - 1], &to = nodes[k];
-    const Node last = out.back(); // at the place of `from`, below it or on it
+    const Node last = out.back(); // at the position of `from`, below it or on it
     const double length = to.x - from.x, reached = last.width + slope * length;
     if (reached <= to.width) {
       out.push_back({to.x, reached});

@@ -50,20 +50,20 @@ RuleSpace space_of(const Raster& raster) {
   return raster.of_plane ? RuleSpace::plane : RuleSpace::sphere;
 }
 
-/// The raster that was given, which is prepared when a place is asked for.
+/// The raster that was given, which is prepared when a point is asked for.
 class RasterRule : public WidthRule {
 public:
   explicit RasterRule(Raster raster) : WidthRule(space_of(raster)), raster_(std::move(raster)) {
     require_widths(raster_);
   }
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    evaluate_block(*field(), places, widths);
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
+    evaluate_block(*field(), points, widths);
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
+  Bounds bounds(const Vec3& point, double reach) const override {
     if (!std::isfinite(reach))
       return {raster_.values.minCoeff(), raster_.values.maxCoeff()};
     std::call_once(bounded_, [&] { bounds_.emplace(*field()); });
-    return bounds_->within(place, reach);
+    return bounds_->within(point, reach);
   }
   const Raster* raster() const override { return &raster_; }
   const RasterField* field() const override {
@@ -100,16 +100,16 @@ public:
         bounds_(field_, [&](std::int64_t i, std::int64_t j) {
           return silent_.value(i, j) > 0 ? Widths::no_demand : field_.value(i, j);
         }) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
     constexpr double rounding = 1e-9; // at a node the weights of the others may differ from 0
     std::vector<double> silent(widths.size());
-    evaluate_block(field_, places, widths);
-    evaluate_block(silent_, places, silent);
+    evaluate_block(field_, points, widths);
+    evaluate_block(silent_, points, silent);
     for (std::size_t k = 0; k < widths.size(); ++k)
       widths[k] = silent[k] > rounding ? Widths::no_demand : widths[k];
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    return bounds_.within(place, reach);
+  Bounds bounds(const Vec3& point, double reach) const override {
+    return bounds_.within(point, reach);
   }
   const RasterField* field() const override { return &field_; }
 
@@ -121,12 +121,12 @@ private:
 class LatitudeRule : public WidthRule {
 public:
   explicit LatitudeRule(ProfileCurve curve) : curve_(std::move(curve)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    for (std::size_t k = 0; k < places.size(); ++k)
-      widths[k] = curve_(latitude_of(places[k]));
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      widths[k] = curve_(latitude_of(points[k]));
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    const double latitude = latitude_of(place);
+  Bounds bounds(const Vec3& point, double reach) const override {
+    const double latitude = latitude_of(point);
     return curve_.bounds(latitude - reach * degrees, latitude + reach * degrees);
   }
   /// Along a meridian the way to another latitude is shortest.
@@ -147,7 +147,7 @@ private:
   ProfileCurve curve_;
 };
 
-/// A curve by the distance from lines, which is negative where a place is behind them.
+/// A curve by the distance from lines, which is negative where a point is behind them.
 /// \tparam Of widths or shares.
 template <class Of> class DistanceRule : public Of {
 public:
@@ -159,14 +159,14 @@ public:
       : Of(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
         distance_(std::move(distance)), is_behind_(std::move(is_behind)), curve_(std::move(curve)),
         unit_(distance_->on_sphere() ? radius_km : 1) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> values) const override {
-    (*distance_)(places, values);
-    for (std::size_t k = 0; k < places.size(); ++k)
-      values[k] = curve_(number_of(places[k], values[k]));
+  void evaluate(std::span<const Vec3> points, std::span<double> values) const override {
+    (*distance_)(points, values);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      values[k] = curve_(number_of(points[k], values[k]));
   }
   /// The distance changes by no more than the way.
-  Bounds bounds(const Vec3& place, double reach) const override {
-    const double number = number_of(place, (*distance_)(place));
+  Bounds bounds(const Vec3& point, double reach) const override {
+    const double number = number_of(point, (*distance_)(point));
     return curve_.bounds(number - reach * unit_, number + reach * unit_);
   }
 
@@ -176,8 +176,8 @@ protected:
   IsBehind is_behind_;
 
 private:
-  double number_of(const Vec3& place, double distance) const {
-    return is_behind_ && is_behind_(place) ? -distance * unit_ : distance * unit_;
+  double number_of(const Vec3& point, double distance) const {
+    return is_behind_ && is_behind_(point) ? -distance * unit_ : distance * unit_;
   }
 
   ProfileCurve curve_;
@@ -210,24 +210,24 @@ template <class Rules> RuleSpace common_space(const Rules& rules) {
   return space;
 }
 
-/// What is made of several rules, place by place.
+/// A rule that combines several rules at each point.
 class CombinedRule : public WidthRule {
 public:
   using Combine = double (*)(double, double);
   CombinedRule(std::vector<Rule> parts, Combine combine)
       : WidthRule(common_space(parts)), parts_(std::move(parts)), combine_(combine) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
-    parts_.front()->evaluate(places, widths);
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
+    parts_.front()->evaluate(points, widths);
     std::vector<double> others(widths.size());
     for (std::size_t k = 1; k < parts_.size(); ++k) {
-      parts_[k]->evaluate(places, others);
+      parts_[k]->evaluate(points, others);
       std::transform(widths.begin(), widths.end(), others.begin(), widths.begin(), combine_);
     }
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    Bounds bounds = parts_.front()->bounds(place, reach);
+  Bounds bounds(const Vec3& point, double reach) const override {
+    Bounds bounds = parts_.front()->bounds(point, reach);
     for (std::size_t k = 1; k < parts_.size(); ++k) {
-      const Bounds other = parts_[k]->bounds(place, reach);
+      const Bounds other = parts_[k]->bounds(point, reach);
       bounds = {combine_(bounds.least, other.least), combine_(bounds.greatest, other.greatest)};
     }
     return bounds;
@@ -250,12 +250,12 @@ double product_of(double a, double b) { return a * b; }
 class MinimumRule : public CombinedRule {
 public:
   explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
-  void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const override {
+  void find_active(std::span<const Vec3> points, std::span<std::int32_t> active) const override {
     std::fill(active.begin(), active.end(), 0);
-    std::vector<double> least(places.size(), Widths::no_demand), widths(least);
+    std::vector<double> least(points.size(), Widths::no_demand), widths(least);
     for (std::size_t part = 0; part < parts().size(); ++part) {
-      parts()[part]->evaluate(places, widths);
-      for (std::size_t k = 0; k < places.size(); ++k)
+      parts()[part]->evaluate(points, widths);
+      for (std::size_t k = 0; k < points.size(); ++k)
         if (widths[k] < least[k]) {
           least[k] = widths[k];
           active[k] = static_cast<std::int32_t>(part);
@@ -276,14 +276,14 @@ public:
   explicit ShareOfRegion(Surface region)
       : ShareRule(region.is_sphere() ? RuleSpace::sphere : RuleSpace::plane),
         region_(std::move(region)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
-    for (std::size_t k = 0; k < places.size(); ++k)
-      shares[k] = share_at(places[k]);
+  void evaluate(std::span<const Vec3> points, std::span<double> shares) const override {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      shares[k] = share_at(points[k]);
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    if (domain_detail::is_near_boundary(region_, place, reach))
+  Bounds bounds(const Vec3& point, double reach) const override {
+    if (domain_detail::is_near_boundary(region_, point, reach))
       return {0, 1};
-    return {share_at(place), share_at(place)};
+    return {share_at(point), share_at(point)};
   }
 
 private:
@@ -296,11 +296,11 @@ class ShareOfRaster : public ShareRule {
 public:
   explicit ShareOfRaster(const Raster& raster)
       : ShareRule(space_of(raster)), field_(raster), bounds_(field_) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> shares) const override {
-    evaluate_block(field_, places, shares);
+  void evaluate(std::span<const Vec3> points, std::span<double> shares) const override {
+    evaluate_block(field_, points, shares);
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    return bounds_.within(place, reach);
+  Bounds bounds(const Vec3& point, double reach) const override {
+    return bounds_.within(point, reach);
   }
 
 private:
@@ -323,17 +323,17 @@ template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
   BlendRule(RuleSpace space, Rule a, Rule b, std::shared_ptr<const ShareRule> share)
       : WidthRule(space), a_(std::move(a)), b_(std::move(b)), share_(std::move(share)) {}
-  void evaluate(std::span<const Vec3> places, std::span<double> widths) const override {
+  void evaluate(std::span<const Vec3> points, std::span<double> widths) const override {
     std::vector<double> others(widths.size()), shares(widths.size());
-    a_->evaluate(places, widths);
-    b_->evaluate(places, others);
-    share_->evaluate(places, shares);
-    for (std::size_t k = 0; k < places.size(); ++k)
+    a_->evaluate(points, widths);
+    b_->evaluate(points, others);
+    share_->evaluate(points, shares);
+    for (std::size_t k = 0; k < points.size(); ++k)
       widths[k] = blended_width(widths[k], others[k], Weight(shares[k]));
   }
-  Bounds bounds(const Vec3& place, double reach) const override {
-    const Bounds shares = share_->bounds(place, reach), a = a_->bounds(place, reach),
-                 b = b_->bounds(place, reach);
+  Bounds bounds(const Vec3& point, double reach) const override {
+    const Bounds shares = share_->bounds(point, reach), a = a_->bounds(point, reach),
+                 b = b_->bounds(point, reach);
     Bounds bounds; // linear in t, and grows with both widths
     for (const double t : {Weight(shares.least), Weight(shares.greatest)}) {
       bounds.add(blended_width(a.least, b.least, t));
@@ -380,7 +380,7 @@ double common_radius(const std::vector<Widths>& widths) {
 }
 
 /// make(rules) of the rules of some widths.
-template <class Make> Widths made_of(const std::vector<Widths>& widths, const Make& make) {
+template <class Make> Widths combine_rules(const std::vector<Widths>& widths, const Make& make) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
   std::vector<std::shared_ptr<const WidthsOfRadius>> parts;
   for (const Widths& one : widths)
@@ -396,7 +396,7 @@ template <class Make> Widths made_of(const std::vector<Widths>& widths, const Ma
 }
 
 Widths combined(const std::vector<Widths>& of, CombinedRule::Combine combine) {
-  return made_of(of, [combine](std::vector<Rule> rules) {
+  return combine_rules(of, [combine](std::vector<Rule> rules) {
     return std::make_shared<CombinedRule>(std::move(rules), combine);
   });
 }
@@ -428,15 +428,15 @@ std::shared_ptr<const OfRadius<Of>> of_sides(const std::vector<Points3>& lines,
       });
 }
 
-/// body(block, begin) for blocks of places of a rule's space: unit vectors, or x y 0.
+/// body(block, begin) for blocks of points of a rule's space: unit vectors, or x y 0.
 template <class Body>
-void for_each_block_of(const PointsRef& places, RuleSpace space, const Body& body) {
+void for_each_block_of(const PointsRef& points, RuleSpace space, const Body& body) {
   const bool plane = space == RuleSpace::plane, sphere = space == RuleSpace::sphere;
-  Points3 x = Points3::Zero(3, places.cols()); // of a number no place matters
+  Points3 x = Points3::Zero(3, points.cols()); // of a number no point matters
   if (plane)
-    x = base_detail::with_z(base_detail::plane_points_of(places));
+    x = base_detail::with_z(base_detail::plane_points_of(points));
   if (sphere)
-    x = base_detail::directions_of(places);
+    x = base_detail::directions_of(points);
   base_detail::for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     std::vector<Vec3> block;
     for (std::int64_t i = begin; i != end; ++i)
@@ -526,19 +526,19 @@ Widths Widths::on_sphere(double radius_km) const {
   return there;
 }
 
-DoubleVector evaluate(const Widths& widths, const PointsRef& places) {
-  DoubleVector values(places.cols());
+DoubleVector evaluate(const Widths& widths, const PointsRef& points) {
+  DoubleVector values(points.cols());
   const Rule rule = widths.rule();
-  for_each_block_of(places, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
+  for_each_block_of(points, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
     rule->evaluate(block, {values.data() + begin, block.size()});
   });
   return values;
 }
 
-Ids active_rules(const Widths& minimum, const PointsRef& places) {
-  Ids active(places.cols());
+Ids active_rules(const Widths& minimum, const PointsRef& points) {
+  Ids active(points.cols());
   const Rule rule = minimum.rule();
-  for_each_block_of(places, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
+  for_each_block_of(points, rule->space(), [&](const std::vector<Vec3>& block, std::int64_t begin) {
     rule->find_active(block, {active.data() + begin, block.size()});
   });
   return active;
@@ -562,7 +562,7 @@ Widths Widths::around(const std::vector<Points3>& lines, double width, double ov
 }
 
 Widths Widths::minimum(const std::vector<Widths>& of) {
-  return made_of(
+  return combine_rules(
       of, [](std::vector<Rule> rules) { return std::make_shared<MinimumRule>(std::move(rules)); });
 }
 Widths Widths::maximum(const std::vector<Widths>& of) { return combined(of, greatest_of); }
@@ -591,8 +591,8 @@ WidthShare::WidthShare(const Surface& region, const WidthProfile& profile) {
   require(region.is_bounded(), "a surface without a boundary has none to be distant from; give a "
                                "region");
   const double farthest = farthest_on(region);
-  const auto is_inside = [region](const Vec3& place) {
-    return region.contains({place.x, place.y, place.z});
+  const auto is_inside = [region](const Vec3& point) {
+    return region.contains({point.x, point.y, point.z});
   };
   rule_of_radius_ = of_sides<DistanceRule<ShareRule>, ShareRule>(
       closed_rings(region), is_inside,

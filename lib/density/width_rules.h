@@ -25,48 +25,48 @@ namespace calotte::density_detail {
 /// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
 enum class RuleSpace { any, sphere, plane };
 
-/// A value for every place. Immutable.
-class PlaceRule {
+/// A value for every point. Immutable.
+class PointRule {
 public:
-  explicit PlaceRule(RuleSpace space) : space_(space) {}
-  PlaceRule(const PlaceRule&) = delete;
-  PlaceRule& operator=(const PlaceRule&) = delete;
-  virtual ~PlaceRule() = default;
+  explicit PointRule(RuleSpace space) : space_(space) {}
+  PointRule(const PointRule&) = delete;
+  PointRule& operator=(const PointRule&) = delete;
+  virtual ~PointRule() = default;
 
   RuleSpace space() const { return space_; }
 
-  /// \param places unit vectors, in a plane x y 0. Where each lies next to the one before, it takes
+  /// \param points unit vectors, in a plane x y 0. Where each lies next to the one before, it takes
   /// less time.
-  virtual void evaluate(std::span<const Vec3> places, std::span<double> values) const = 0;
+  virtual void evaluate(std::span<const Vec3> points, std::span<double> values) const = 0;
 
-  /// Of the values within a distance of a place, not always the narrowest.
-  /// \param reach radians, in a plane its unit; infinite for all places.
-  virtual Bounds bounds(const Vec3& place, double reach) const = 0;
+  /// Of the values within a distance of a point, not always the narrowest.
+  /// \param reach radians, in a plane its unit; infinite for all points.
+  virtual Bounds bounds(const Vec3& point, double reach) const = 0;
 
 private:
   RuleSpace space_;
 };
 
 /// A share from 0 to 1.
-class ShareRule : public PlaceRule {
+class ShareRule : public PointRule {
 public:
-  using PlaceRule::PlaceRule;
+  using PointRule::PointRule;
 };
 
 /// A width, or Widths::no_demand.
-class WidthRule : public PlaceRule {
+class WidthRule : public PointRule {
 public:
-  explicit WidthRule(RuleSpace space = RuleSpace::sphere) : PlaceRule(space) {}
+  explicit WidthRule(RuleSpace space = RuleSpace::sphere) : PointRule(space) {}
 
-  /// By place the part of a minimum that is the least, by index; 0 of other rules.
-  virtual void find_active(std::span<const Vec3> places, std::span<std::int32_t> active) const;
+  /// By point the part of a minimum that is the least, by index; 0 of other rules.
+  virtual void find_active(std::span<const Vec3> points, std::span<std::int32_t> active) const;
 
   /// A bound from below of all widths, km, > 0.
   double least() const { return bounds({0, 0, 1}, std::numeric_limits<double>::infinity()).least; }
 
   /// The raster that was given as the rule; null for other rules.
   virtual const Raster* raster() const { return nullptr; }
-  /// Places that matter for a limit of the gradient, beside those of a regular raster: the nodes
+  /// Points that matter for a limit of the gradient, beside those of a regular raster: the nodes
   /// of the rule's own; null for other rules.
   virtual const RasterField* field() const { return nullptr; }
 
@@ -108,8 +108,8 @@ private:
 using WidthsOfRadius = OfRadius<WidthRule>;
 using SharesOfRadius = OfRadius<ShareRule>;
 
-/// A rule by the distance from lines, which is negative at places where `is_behind` is true.
-/// \param lines closed boundaries of these places.
+/// A rule by the distance from lines, which is negative at points where `is_behind` is true.
+/// \param lines closed boundaries of these points.
 ///
 /// \param curve by the distance, on the sphere in km.
 ///

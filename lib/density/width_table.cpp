@@ -53,7 +53,7 @@ void find_cells(const WidthTable::Grid& grid, const double* x, const double* y, 
     double u = 0, v = 0;
     split_position((turned - g.west) * g.inverse_dx, g.columns, i, u);
     split_position((latitude - g.south) * g.inverse_dy, g.rows, j, v);
-    out.place[k] = j * (g.columns + 1) + i;
+    out.corner[k] = j * (g.columns + 1) + i;
     out.u[k] = u;
     out.v[k] = v;
   }
@@ -66,7 +66,7 @@ void interpolate(const GridCells& cells, const double* low, const double* high, 
                  double* widths) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t at = cells.place[k];
+    const std::int32_t at = cells.corner[k];
     const double u = cells.u[k];
     const double south = low[at] + u * (low[at + 1] - low[at]),
                  north = high[at] + u * (high[at + 1] - high[at]);
@@ -104,7 +104,7 @@ std::vector<std::vector<double>> rows_to_pole(const std::vector<double>& latitud
 std::optional<WidthTable> WidthTable::make(const std::vector<double>& longitudes,
                                            const std::vector<double>& latitudes,
                                            const std::vector<double>& widths) {
-  constexpr std::size_t most = std::size_t{1} << 30; // places are int32
+  constexpr std::size_t most = std::size_t{1} << 30; // indices are int32
   const std::size_t columns = longitudes.size(), last = latitudes.size() - 1;
   if (last < 3 || !has_equal_steps(longitudes, 0, columns - 1) ||
       !has_equal_steps(latitudes, 1, last - 1))

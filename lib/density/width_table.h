@@ -43,11 +43,11 @@ private:
   std::vector<double> widths_;
 };
 
-/// Where some places lie on a grid.
+/// Where some points lie on a grid.
 struct GridCells {
   static constexpr std::size_t size = 128;
-  std::array<std::int32_t, size> place; ///< of the south-west corner: row * (columns + 1) + column
-  std::array<double, size> u, v;        ///< within the cell, 0 to 1
+  std::array<std::int32_t, size> corner; ///< of the south-west corner: row * (columns + 1) + column
+  std::array<double, size> u, v;         ///< within the cell, 0 to 1
 };
 
 /// The interval of a position on an axis in steps, and the position within it.

@@ -40,15 +40,15 @@ void join(const Edge& a, const Edge& b) {
 
 } // namespace
 
-Vec3 place_of(double x, double y, bool of_plane) {
+Vec3 point_at(double x, double y, bool of_plane) {
   return of_plane ? Vec3{x, y, 0} : base_detail::from_lonlat(x, y);
 }
 
-Extent extent_of(const BoxOfPlaces& box, bool of_plane) {
-  const Vec3 middle = place_of(box.west + box.dx / 2, box.south + box.dy / 2, of_plane);
+Extent extent_of(const CoordinateBox& box, bool of_plane) {
+  const Vec3 middle = point_at(box.west + box.dx / 2, box.south + box.dy / 2, of_plane);
   double reach = 0, widest = 0;
   for (const double y : {box.south, box.south + box.dy}) {
-    const Vec3 a = place_of(box.west, y, of_plane), b = place_of(box.west + box.dx, y, of_plane);
+    const Vec3 a = point_at(box.west, y, of_plane), b = point_at(box.west + box.dx, y, of_plane);
     reach = std::max({reach, norm(a - middle), norm(b - middle)});
     widest = std::max(widest, norm(b - a));
   }
@@ -94,9 +94,9 @@ WidthTiles::Tile WidthTiles::operator[](std::int64_t tile) const {
   return result;
 }
 
-std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
+std::vector<Vec3> WidthTiles::points(std::int64_t tile) const {
   const TileNodes nodes = at(tile);
-  std::vector<Vec3> round, places;
+  std::vector<Vec3> round, points;
   for (std::int32_t i = 0; i <= nodes.columns; ++i)
     round.push_back(box_.of_plane ? Vec3{x_of(tile, i), 0, 0}
                                   : base_detail::from_lonlat(x_of(tile, i), 0));
@@ -104,10 +104,10 @@ std::vector<Vec3> WidthTiles::places(std::int64_t tile) const {
     const double y = y_of(tile, j);
     const Vec3 meridian = box_.of_plane ? Vec3() : base_detail::from_lonlat(0, y);
     for (const Vec3& at : round)
-      places.push_back(box_.of_plane ? Vec3{at.x, y, 0}
+      points.push_back(box_.of_plane ? Vec3{at.x, y, 0}
                                      : Vec3{meridian.x * at.x, meridian.x * at.y, meridian.z});
   }
-  return places;
+  return points;
 }
 
 /// \param across whether b lies east of a, and not north.
@@ -146,7 +146,7 @@ void find_cells_of_plane(const WidthTable::Grid& grid, const double* x, const do
     std::int32_t i = 0, j = 0;
     split_position((x[k] - grid.west) * grid.inverse_dx, grid.columns, i, out.u[k]);
     split_position((y[k] - grid.south) * grid.inverse_dy, grid.rows, j, out.v[k]);
-    out.place[k] = j * (grid.columns + 1) + i;
+    out.corner[k] = j * (grid.columns + 1) + i;
   }
 }
 
@@ -159,12 +159,12 @@ void find_nodes(const WidthTiles::Layout& layout, std::size_t count, GridCells& 
                             *const rows = layout.rows.data();
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t tile = cells.place[k], across = columns[tile], up = rows[tile];
+    const std::int32_t tile = cells.corner[k], across = columns[tile], up = rows[tile];
     std::int32_t i = 0, j = 0;
     double u = 0, v = 0;
     split_position(cells.u[k] * across, across, i, u);
     split_position(cells.v[k] * up, up, j, v);
-    cells.place[k] = begin[tile] + j * (across + 1) + i;
+    cells.corner[k] = begin[tile] + j * (across + 1) + i;
     stride[k] = across + 1;
     cells.u[k] = u;
     cells.v[k] = v;
@@ -176,7 +176,7 @@ void interpolate_in_tiles(const GridCells& cells, const std::int32_t* stride, co
                           std::size_t count, double* widths) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t k = 0; k < count; ++k) {
-    const double* const low = values + cells.place[k];
+    const double* const low = values + cells.corner[k];
     const double* const high = low + stride[k];
     const double u = cells.u[k], south = low[0] + u * (low[1] - low[0]),
                  north = high[0] + u * (high[1] - high[0]);

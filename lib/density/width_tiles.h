@@ -25,7 +25,7 @@ struct EvenAxis {
 };
 
 /// A box of x and y: degrees, or of the plane.
-struct BoxOfPlaces {
+struct CoordinateBox {
   double west, dx, south, dy;
 };
 
@@ -36,7 +36,7 @@ struct TileBox {
   bool of_plane;
   bool around_x, around_y; ///< whether the last tile of a row, of a column, lies beside the first
 
-  BoxOfPlaces tile(std::int64_t k) const {
+  CoordinateBox tile(std::int64_t k) const {
     return {west + static_cast<double>(k % columns) * dx, dx,
             south + static_cast<double>(k / columns) * dy, dy};
   }
@@ -47,15 +47,15 @@ struct TileBox {
 /// The whole sphere in tiles of one degree.
 TileBox tiles_of_sphere();
 
-/// What a place is to rules and surfaces. \param x, y degrees on the sphere.
-Vec3 place_of(double x, double y, bool of_plane);
+/// What a corner is to rules and surfaces. \param x, y degrees on the sphere.
+Vec3 point_at(double x, double y, bool of_plane);
 
 /// A box's middle, how far its corners are at most, and its largest extents.
 struct Extent {
   Vec3 middle;
   double reach, width, height; ///< radians, or of the plane
 };
-Extent extent_of(const BoxOfPlaces& box, bool of_plane);
+Extent extent_of(const CoordinateBox& box, bool of_plane);
 
 /// Values at nodes that are dense where they need to be: tiles of longitude and latitude or of x
 /// and y, each with its own number of nodes, and bilinear between four of them.
@@ -90,8 +90,8 @@ public:
   /// The values of a tile, row by row from its south-west corner.
   double* values(std::int64_t tile) { return &values_[static_cast<std::size_t>(at(tile).begin)]; }
   const std::vector<double>& values() const { return values_; } ///< tile by tile
-  /// The places of a tile's nodes, in the order of its values: unit vectors, or x y 0.
-  std::vector<Vec3> places(std::int64_t tile) const;
+  /// The points of a tile's nodes, in the order of its values: unit vectors, or x y 0.
+  std::vector<Vec3> points(std::int64_t tile) const;
   /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
     const TileNodes nodes = at(tile);
@@ -108,7 +108,7 @@ public:
   void join_edges();
 
   /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
-  /// depend on its place alone.
+  /// depend on its corner alone.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* values) const;
 

@@ -5,9 +5,9 @@
 
 namespace calotte::domain_detail {
 
-bool on_arc(const Arc& arc, const Vec3& place, int turning) {
-  return turning == 0 && (same_direction(arc.from, place) || same_direction(arc.to, place) ||
-                          between(View{}, arc.from, place, arc.to));
+bool on_arc(const Arc& arc, const Vec3& point, int turning) {
+  return turning == 0 && (same_direction(arc.from, point) || same_direction(arc.to, point) ||
+                          between(View{}, arc.from, point, arc.to));
 }
 
 bool meet(const Arc& a, const Arc& b) {

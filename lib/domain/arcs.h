@@ -55,10 +55,10 @@ inline int turn(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// True if a direction lies on the arc; exact.
-/// \param turning turn(arc.from, arc.to, place), if it is known.
-bool on_arc(const Arc& arc, const Vec3& place, int turning);
-inline bool on_arc(const Arc& arc, const Vec3& place) {
-  return on_arc(arc, place, turn(arc.from, arc.to, place));
+/// \param turning turn(arc.from, arc.to, point), if it is known.
+bool on_arc(const Arc& arc, const Vec3& point, int turning);
+inline bool on_arc(const Arc& arc, const Vec3& point) {
+  return on_arc(arc, point, turn(arc.from, arc.to, point));
 }
 
 /// True if the path from one direction to another crosses the arc. The path is an arc, or empty;
@@ -73,7 +73,7 @@ inline bool crosses(const Vec3& start, const Vec3& end, const Arc& arc) {
   return turn(arc.from, arc.to, end) == way && turn(arc.from, arc.to, start) == -way;
 }
 
-/// True if two arcs have a common place; exact.
+/// True if two arcs have a common point; exact.
 bool meet(const Arc& a, const Arc& b);
 
 /// True if two arcs have more in common than the end of a, where b begins; exact.
@@ -87,7 +87,7 @@ bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after);
 /// A box that contains an arc, with a margin for round-off.
 Box3 box_of(const Arc& arc);
 
-/// The square of the chord between a unit vector and the nearest place of an arc; rounded.
+/// The square of the chord between a unit vector and the nearest point of an arc; rounded.
 double square_from(const Arc& arc, const Vec3& p);
 
 } // namespace calotte::domain_detail

@@ -18,11 +18,11 @@ std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& 
   std::vector<CellCorner> part;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const CellCorner &a = polygon[k], &b = polygon[k + 1 == polygon.size() ? 0 : k + 1];
-    const double over_a = dot(normal, a.place) - offset, over_b = dot(normal, b.place) - offset;
+    const double over_a = dot(normal, a.point) - offset, over_b = dot(normal, b.point) - offset;
     if (over_a <= 0)
-      part.push_back({a.place, over_a == 0 && over_b > 0 ? beyond : a.beyond});
+      part.push_back({a.point, over_a == 0 && over_b > 0 ? beyond : a.beyond});
     if ((over_a < 0) != (over_b < 0) && over_a != 0 && over_b != 0)
-      part.push_back({a.place + (over_a / (over_a - over_b)) * (b.place - a.place),
+      part.push_back({a.point + (over_a / (over_a - over_b)) * (b.point - a.point),
                       over_b > 0 ? beyond : a.beyond});
   }
   return part;
@@ -43,10 +43,10 @@ std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box
 /// The bounding box of a polygon, widened by more than rounding and more than the inward offset of
 /// Part.
 Box2 box_around(const std::vector<CellCorner>& polygon, const Vec2& site) {
-  Vec2 low = polygon.front().place, high = low;
+  Vec2 low = polygon.front().point, high = low;
   for (const CellCorner& corner : polygon) {
-    low = {std::min(low.x, corner.place.x), std::min(low.y, corner.place.y)};
-    high = {std::max(high.x, corner.place.x), std::max(high.y, corner.place.y)};
+    low = {std::min(low.x, corner.point.x), std::min(low.y, corner.point.y)};
+    high = {std::max(high.x, corner.point.x), std::max(high.y, corner.point.y)};
   }
   const double wider =
       1e-7 * (high.x - low.x + high.y - low.y) + 1e-12 * (std::abs(site.x) + std::abs(site.y));
@@ -95,19 +95,19 @@ void add_boundary(const std::vector<CellCorner>& cell, const Vec2& from, const V
 /// The intersection of a side of a cell with the boundary.
 struct Crossing {
   double along;
-  Vec2 place;
+  Vec2 point;
 };
 
 /// A side of a cell between two crossings.
 class Part {
 public:
   Part(const Bisector& bisector, const Crossing& from, const Crossing& to)
-      : bisector_(bisector), middle_(0.5 * (from.place + to.place)),
+      : bisector_(bisector), middle_(0.5 * (from.point + to.point)),
         along_(from.along + (to.along - from.along) / 2),
-        noise_(1e-9 * (norm(from.place) + norm(to.place))) {}
+        noise_(1e-9 * (norm(from.point) + norm(to.point))) {}
 
   /// True if the domain contains the part; its middle decides. If the boundary is so close that
-  /// rounding could move it across the middle, a place farther inside decides, together with the
+  /// rounding could move it across the middle, a point farther inside decides, together with the
   /// edges between the two, which are those that add_boundary() counts as the cell's.
   template <class AnyOutline>
   bool inside(const AnyOutline& outline, const Vec2& site,
@@ -117,7 +117,7 @@ public:
     std::vector<double> depths;
     bool close = false;
     for (const Outline::Edge& edge : boundary)
-      if (const std::optional<double> depth = depth_of(edge.from - site, edge.to - site)) {
+      if (const std::optional<double> depth = intersect(edge.from - site, edge.to - site)) {
         depths.push_back(*depth);
         close = close || std::abs(*depth) <= noise;
       }
@@ -130,13 +130,13 @@ public:
         inward = depth + 2 * noise;
     const auto between =
         std::count_if(depths.begin(), depths.end(), [&](double d) { return d >= 0 && d < inward; });
-    const Vec2 place = middle_ - (inward / norm(bisector_.beyond)) * bisector_.beyond;
-    return (outline.side(site + place) == Side::inside) == (between % 2 == 0);
+    const Vec2 point = middle_ - (inward / norm(bisector_.beyond)) * bisector_.beyond;
+    return (outline.side(site + point) == Side::inside) == (between % 2 == 0);
   }
 
 private:
   /// The distance to an edge on the cell's side, in the normal direction from the middle.
-  std::optional<double> depth_of(const Vec2& from, const Vec2& to) const {
+  std::optional<double> intersect(const Vec2& from, const Vec2& to) const {
     const double a = bisector_.along(from), b = bisector_.along(to);
     if ((a <= along_) == (b <= along_))
       return std::nullopt;
@@ -150,14 +150,14 @@ private:
   double noise_; ///< of cells' corners
 };
 
-/// The parts of a cell's side inside the domain. They end at the places where add_boundary() ends
+/// The parts of a cell's side inside the domain. They end at the points where add_boundary() ends
 /// the edges that cross the side.
 template <class AnyOutline>
 void add_inner(const AnyOutline& outline, const Vec2& site,
                const std::vector<Outline::Edge>& boundary, const CellCorner& corner, const Vec2& to,
                std::vector<Crossing>& crossings, std::vector<CellSide>& sides) {
   const Bisector bisector{corner.beyond};
-  const Crossing begin{bisector.along(corner.place), corner.place}, end{bisector.along(to), to};
+  const Crossing begin{bisector.along(corner.point), corner.point}, end{bisector.along(to), to};
   if (bisector.none() || !(begin.along < end.along)) // along the box, or of no length
     return;
   crossings.assign({begin, end});
@@ -167,19 +167,19 @@ void add_inner(const AnyOutline& outline, const Vec2& site,
     // A crossing that rounding adds only divides a part in two.
     if (!(share > -1e-9 && share < 1 + 1e-9))
       continue;
-    const Vec2 place = a + share * (b - a);
-    if (const double at = bisector.along(place); at > begin.along && at < end.along)
-      crossings.push_back({at, place});
+    const Vec2 point = a + share * (b - a);
+    if (const double at = bisector.along(point); at > begin.along && at < end.along)
+      crossings.push_back({at, point});
   }
   std::sort(crossings.begin(), crossings.end(),
             [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
   for (std::size_t k = 0; k + 1 < crossings.size(); ++k)
     if (const Crossing& p = crossings[k], &q = crossings[k + 1];
         p.along < q.along && Part(bisector, p, q).inside(outline, site, boundary))
-      sides.push_back({p.place, q.place, false});
+      sides.push_back({p.point, q.point, false});
 }
 
-/// Finds the place of segments that is nearest to a given one.
+/// Finds the point of segments that is nearest to a given one.
 class Nearest {
 public:
   explicit Nearest(const Vec2& to) : to_(to) {}
@@ -187,29 +187,29 @@ public:
   void look_at(const Vec2& p, const Vec2& q) {
     const Vec2 way = q - p;
     const double length2 = dot(way, way);
-    const Vec2 place =
+    const Vec2 point =
         length2 > 0 ? p + std::clamp(dot(to_ - p, way) / length2, 0.0, 1.0) * way : p;
-    if (const double square = dot(place - to_, place - to_); square < least_) {
+    if (const double square = dot(point - to_, point - to_); square < least_) {
       least_ = square;
-      place_ = place;
+      point_ = point;
     }
   }
 
   /// The inward direction of an edge, and of a corner that points into the cell.
   template <class AnyOutline>
   std::optional<Vec2> inside(const AnyOutline& outline, const Vec2& site) const {
-    const Vec2 onward = place_ - to_;
-    const double length = norm(onward), reach = norm(place_) + length;
+    const Vec2 onward = point_ - to_;
+    const double length = norm(onward), reach = norm(point_) + length;
     for (double share = 1e-9; share < 0.1 && length > 0 && std::isfinite(least_); share *= 8) {
-      const Vec2 place = place_ + (share * reach / length) * onward;
-      if (outline.side(site + place) == Side::inside)
-        return place;
+      const Vec2 point = point_ + (share * reach / length) * onward;
+      if (outline.side(site + point) == Side::inside)
+        return point;
     }
     return std::nullopt;
   }
 
 private:
-  Vec2 to_, place_{0, 0};
+  Vec2 to_, point_{0, 0};
   double least_ = std::numeric_limits<double>::infinity();
 };
 
@@ -229,7 +229,7 @@ bool near_boundary(const Outline& outline, const Vec2& site, double reach) {
 bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell) {
   double reach2 = 0;
   for (const CellCorner& corner : cell)
-    reach2 = std::max(reach2, dot(corner.place, corner.place));
+    reach2 = std::max(reach2, dot(corner.point, corner.point));
   return near_boundary(outline, site, std::sqrt(reach2));
 }
 
@@ -250,7 +250,7 @@ std::vector<CellSide> clipped_cell(const AnyOutline& outline, const Vec2& site,
     add_boundary(cell, edge.from - site, edge.to - site, sides);
   std::vector<Crossing> crossings;
   for (std::size_t k = 0; k < cell.size(); ++k)
-    add_inner(outline, site, boundary, cell[k], cell[k + 1 == cell.size() ? 0 : k + 1].place,
+    add_inner(outline, site, boundary, cell[k], cell[k + 1 == cell.size() ? 0 : k + 1].point,
               crossings, sides);
   return sides;
 }

@@ -20,7 +20,7 @@ inline double norm(const Vec2& a) { return std::sqrt(dot(a, a)); }
 /// A corner of a Voronoi cell, and the generator across the side from this corner to the next,
 /// counter-clockwise; both relative to the cell's generator.
 struct CellCorner {
-  Vec2 place, beyond;
+  Vec2 point, beyond;
 };
 
 /// The functions below take the boundary as an Outline, or as a TangentOutline with the site 0.
@@ -49,14 +49,14 @@ std::vector<CellSide> clipped_cell(const AnyOutline& outline, const Vec2& site,
 std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
                                    const CellCorner& corner, const Vec2& to);
 
-/// The place inside the domain that is nearest to one outside, moved towards the generator by a
+/// The point inside the domain that is nearest to one outside, moved towards the generator by a
 /// billionth of the distance and relative to the generator. Only the boundary within the cell
 /// counts. None if the boundary can nowhere be entered.
 template <class AnyOutline>
 std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside);
 
-/// The same for all of the domain's boundary no farther from the place than the generator.
+/// The same for all of the domain's boundary no farther from the point than the generator.
 template <class AnyOutline>
 std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const Vec2& outside);

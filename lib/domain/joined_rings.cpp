@@ -35,23 +35,23 @@ public:
   }
 
 private:
-  using Place = std::array<double, 3>;
+  using Point = std::array<double, 3>;
   struct Start {
     std::size_t ring, corner; ///< the corner where an arc starts
   };
 
-  Place start_of(const Start& arc) const {
+  Point start_of(const Start& arc) const {
     const Vec3& p = rings_[arc.ring].corners[arc.corner];
     return {p.x, p.y, p.z};
   }
-  Place end_of(const Start& arc) const {
+  Point end_of(const Start& arc) const {
     return start_of({arc.ring, (arc.corner + 1) % rings_[arc.ring].corners.size()});
   }
 
   void mark(const Start& arc) { paired_[arc.ring][arc.corner] = true; }
 
   void mark_pairs() {
-    std::map<std::pair<Place, Place>, std::vector<Start>> unpaired;
+    std::map<std::pair<Point, Point>, std::vector<Start>> unpaired;
     for (std::size_t r = 0; r < rings_.size(); ++r) {
       paired_.emplace_back(rings_[r].corners.size(), false);
       for (std::size_t c = 0; c < rings_[r].corners.size(); ++c) {
@@ -75,13 +75,13 @@ private:
         starts_[start_of({r, c})].push_back({r, c});
   }
 
-  /// As many arcs start at a place as end there: a path ends where it began.
+  /// As many arcs start at a point as end there: a path ends where it began.
   WrittenRing next_ring() {
     const auto first = starts_.begin();
-    const Place begin = first->first;
+    const Point begin = first->first;
     WrittenRing ring{
         {}, rings_[first->second.back().ring].origin + " without edges in common with others"};
-    Place at = begin;
+    Point at = begin;
     do {
       const auto here = starts_.find(at);
       const Start arc = here->second.back();
@@ -96,7 +96,7 @@ private:
 
   std::vector<WrittenRing> rings_;
   std::vector<std::vector<bool>> paired_; ///< by ring and corner: the arc that starts there
-  std::map<Place, std::vector<Start>> starts_;
+  std::map<Point, std::vector<Start>> starts_;
 };
 
 // ---- Cuts whose sides differ by rounding
@@ -154,16 +154,16 @@ private:
 
   void compare(std::int32_t i) {
     constexpr double reach = nearby * nearby;
-    const Vec3& place = corner(i);
-    tree_.visit([&](const Box3& box) { return square_from(box, place) <= reach; },
+    const Vec3& point = corner(i);
+    tree_.visit([&](const Box3& box) { return square_from(box, point) <= reach; },
                 [&](std::int32_t e) {
                   if (e == i || next(e) == i ||
-                      !(domain_detail::square_from(arc(e), place) <= reach))
+                      !(domain_detail::square_from(arc(e), point) <= reach))
                     return;
                   ++near_;
-                  if (square(place, arc(e).from) <= reach)
+                  if (square(point, arc(e).from) <= reach)
                     unite(i, e);
-                  else if (square(place, arc(e).to) <= reach)
+                  else if (square(point, arc(e).to) <= reach)
                     unite(i, next(e));
                   else
                     cuts_[static_cast<std::size_t>(e)].push_back(i);

@@ -11,11 +11,11 @@
 
 namespace calotte::domain_detail {
 
-/// The places of a line: unit vectors, joined by arcs shorter than a half circle, or x y 0 of a
+/// The points of a line: unit vectors, joined by arcs shorter than a half circle, or x y 0 of a
 /// plane, joined straight. Equal ones may follow each other.
 /// \param line 3 x n. \param number of it, for messages.
-/// \throws Error invalid_argument, naming line and point: no direction, or no place of a plane;
+/// \throws Error invalid_argument, naming line and point: no direction, or no point of a plane;
 ///         opposite neighbours on the sphere.
-std::vector<Vec3> places_of(const Points3& line, std::int64_t number, bool sphere);
+std::vector<Vec3> checked_line(const Points3& line, std::int64_t number, bool sphere);
 
 } // namespace calotte::domain_detail

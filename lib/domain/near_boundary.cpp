@@ -7,16 +7,16 @@
 
 namespace calotte::domain_detail {
 
-bool is_near_boundary(const Surface& surface, const Vec3& place, double reach) {
+bool is_near_boundary(const Surface& surface, const Vec3& point, double reach) {
   if (!surface.is_bounded())
     return false;
   bool near = false;
   const auto meets = [&](const auto&) { near = true; };
   if (surface.is_sphere())
-    outline_of<Sphere>(surface)->for_each_edge_near(place, reach, meets);
+    outline_of<Sphere>(surface)->for_each_edge_near(point, reach, meets);
   else
     outline_of<Plane>(surface)->for_each_edge_near(
-        {{place.x - reach, place.y - reach}, {place.x + reach, place.y + reach}}, meets);
+        {{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}}, meets);
   return near;
 }
 

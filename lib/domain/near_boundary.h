@@ -8,8 +8,8 @@
 
 namespace calotte::domain_detail {
 
-/// Whether the boundary of a surface may come within a distance of a place: false is certain.
-/// \param place unit vector, in a plane x y 0. \param reach radians, in a plane its unit.
-bool is_near_boundary(const Surface& surface, const Vec3& place, double reach);
+/// Whether the boundary of a surface may come within a distance of a point: false is certain.
+/// \param point unit vector, in a plane x y 0. \param reach radians, in a plane its unit.
+bool is_near_boundary(const Surface& surface, const Vec3& point, double reach);
 
 } // namespace calotte::domain_detail

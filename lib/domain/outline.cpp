@@ -35,13 +35,13 @@ void require_ring(const DoubleMatrix& ring, std::int64_t r) {
   }
 }
 
-/// True if a place lies on an edge or at one of its ends.
+/// True if a point lies on an edge or at one of its ends.
 bool on_edge(const Outline::Edge& edge, const Vec2& p) {
   return orientation(edge.from, edge.to, p) == 0 &&
          compare(edge.from, p) * compare(p, edge.to) >= 0;
 }
 
-/// True if two edges have a common place.
+/// True if two edges have a common point.
 bool meet(const Outline::Edge& a, const Outline::Edge& b) {
   const int b_from = orientation(a.from, a.to, b.from), b_to = orientation(a.from, a.to, b.to),
             a_from = orientation(b.from, b.to, a.from), a_to = orientation(b.from, b.to, a.to);
@@ -68,8 +68,8 @@ bool crosses_ray(const Outline::Edge& edge, const Vec2& p) {
 } // namespace
 
 std::int64_t Outline::strip(double y) const {
-  const double place = (y - box_.low.y) / (box_.high.y - box_.low.y) * static_cast<double>(strips_);
-  return static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(strips_ - 1)));
+  const double strip = (y - box_.low.y) / (box_.high.y - box_.low.y) * static_cast<double>(strips_);
+  return static_cast<std::int64_t>(std::clamp(strip, 0.0, static_cast<double>(strips_ - 1)));
 }
 
 /// Lists the edges of each strip. There are about as many strips as edges, or fewer if long edges
@@ -165,15 +165,15 @@ std::vector<std::vector<Vec2>> Outline::rings() const {
   return rings;
 }
 
-Side Outline::side(const Vec2& place) const {
-  if (!(place.x >= box_.low.x && place.x <= box_.high.x && place.y >= box_.low.y &&
-        place.y <= box_.high.y))
+Side Outline::side(const Vec2& point) const {
+  if (!(point.x >= box_.low.x && point.x <= box_.high.x && point.y >= box_.low.y &&
+        point.y <= box_.high.y))
     return Side::outside;
   bool boundary = false, inside = false;
-  for_each_edge_near({place, {box_.high.x, place.y}}, [&](const Edge& edge) {
-    if (boundary || on_edge(edge, place))
+  for_each_edge_near({point, {box_.high.x, point.y}}, [&](const Edge& edge) {
+    if (boundary || on_edge(edge, point))
       boundary = true;
-    else if (crosses_ray(edge, place))
+    else if (crosses_ray(edge, point))
       inside = !inside;
   });
   return boundary ? Side::boundary : inside ? Side::inside : Side::outside;

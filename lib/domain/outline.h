@@ -39,8 +39,8 @@ public:
   /// The corners of each ring in the order that has the domain to the left.
   std::vector<std::vector<Vec2>> rings() const;
 
-  /// The position of a place relative to the boundary; exact.
-  Side side(const Vec2& place) const;
+  /// The position of a point relative to the boundary; exact.
+  Side side(const Vec2& point) const;
 
   /// Calls body(edge) once for each edge whose bounding box meets a box.
   template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {
@@ -76,10 +76,10 @@ private:
   Lists<std::vector<std::int32_t>, std::vector<std::int64_t>> edges_in_; ///< by strip
 };
 
-/// The square of the distance between an edge and a place; rounded.
-inline double square_from(const Outline::Edge& edge, const Vec2& place) {
+/// The square of the distance between an edge and a point; rounded.
+inline double square_from(const Outline::Edge& edge, const Vec2& point) {
   const double x = edge.to.x - edge.from.x, y = edge.to.y - edge.from.y, square = x * x + y * y,
-               dx = place.x - edge.from.x, dy = place.y - edge.from.y,
+               dx = point.x - edge.from.x, dy = point.y - edge.from.y,
                share = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0;
   const double beside_x = dx - share * x, beside_y = dy - share * y;
   return beside_x * beside_x + beside_y * beside_y;

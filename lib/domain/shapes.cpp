@@ -28,15 +28,15 @@ CosSin part_of_turn(std::int64_t i, std::int64_t n) {
                                        static_cast<double>(n));
 }
 
-/// The directions of east and north at a place; at a pole, those at longitude 0.
+/// The directions of east and north at a point; at a pole, those at longitude 0.
 struct Compass {
   Vec3 up, east, north;
 };
 
-Compass compass_at(const Eigen::Vector3d& place, const std::string& what) {
-  require(place.allFinite() && !place.isZero(0),
+Compass compass_at(const Eigen::Vector3d& point, const std::string& what) {
+  require(point.allFinite() && !point.isZero(0),
           "the {}'s centre is no direction; give three finite numbers that are not all 0", what);
-  const Vec3 up = as_unit({place.x(), place.y(), place.z()});
+  const Vec3 up = as_unit({point.x(), point.y(), point.z()});
   const double sideways = std::sqrt(up.x * up.x + up.y * up.y);
   const Vec3 east = sideways > 0 ? Vec3{-up.y / sideways, up.x / sideways, 0} : Vec3{0, 1, 0};
   return {up, east, cross(up, east)};
@@ -47,11 +47,11 @@ void require_corners(int corners) {
           corners);
 }
 
-/// The ring of place(cosine, sine) for the angles of a regular polygon.
-template <class Place> Points3 ring_of(int corners, const Place& place) {
+/// The ring of point(cosine, sine) for the angles of a regular polygon.
+template <class PointAt> Points3 ring_of(int corners, const PointAt& point_at) {
   Points3 ring(3, corners);
   for (int i = 0; i < corners; ++i)
-    set_column(ring, i, as_unit(place(part_of_turn(i, corners))));
+    set_column(ring, i, as_unit(point_at(part_of_turn(i, corners))));
   return ring;
 }
 
@@ -133,13 +133,13 @@ Surface channel(double lower, double upper, int corners) {
   return UncheckedSurface::of_sphere(std::move(rings));
 }
 
-Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& place) {
+Surface region_around(const std::vector<Points3>& rings, const Eigen::Vector3d& point) {
   require(!rings.empty(), "the region has no rings; give one at least");
-  require(place.allFinite() && !place.isZero(0),
+  require(point.allFinite() && !point.isZero(0),
           "the place inside the region is no direction; give three finite numbers that are not "
           "all 0");
   return UncheckedSurface::of_sphere(
-      corners_of(around(written(rings), as_unit({place.x(), place.y(), place.z()}))));
+      corners_of(around(written(rings), as_unit({point.x(), point.y(), point.z()}))));
 }
 
 Surface enclosed_region(const std::vector<Points3>& rings) {

@@ -16,8 +16,8 @@ namespace calotte::domain_detail {
 Vec3 SideCells::probe_in(const Square& square, int number) {
   constexpr double u_step = 0.7548776662466927, v_step = 0.5698402909980532; // Roberts, 2018
   const auto at = [&](double low, double step) {
-    const double place = 0.5 + step * (number + 1);
-    return low + square.size * (0.25 + 0.5 * (place - std::floor(place)));
+    const double fraction = 0.5 + step * (number + 1);
+    return low + square.size * (0.25 + 0.5 * (fraction - std::floor(fraction)));
   };
   return as_unit(
       curve_detail::from_cube({square.face, at(square.u, u_step), at(square.v, v_step)}));
@@ -67,9 +67,9 @@ SideCells::Ids SideCells::those_in(const Square& square, const Ids& ids) const {
   return found;
 }
 
-bool SideCells::on_any(const Vec3& place, std::span<const std::int32_t> ids) const {
+bool SideCells::on_any(const Vec3& point, std::span<const std::int32_t> ids) const {
   return std::any_of(ids.begin(), ids.end(),
-                     [&](std::int32_t id) { return on_arc(arc(id), place); });
+                     [&](std::int32_t id) { return on_arc(arc(id), point); });
 }
 
 bool SideCells::crosses_oddly(const Vec3& start, const Vec3& end,
@@ -175,8 +175,8 @@ void SideCells::keep(const Part& part) {
   cells_.push_back({part.probe, begin, std::ssize(listed_), part.inside});
 }
 
-SideCells::Found SideCells::find(const Vec3& place) const {
-  const curve_detail::CubePoint at = curve_detail::to_cube(place);
+SideCells::Found SideCells::find(const Vec3& point) const {
+  const curve_detail::CubePoint at = curve_detail::to_cube(point);
   Square square{at.face, -1, -1, 2};
   std::int32_t node = nodes_[static_cast<std::size_t>(at.face)];
   while (node >= 0) {
@@ -193,17 +193,17 @@ std::span<const std::int32_t> SideCells::ids_of(const Cell& cell) const {
   return {listed_.data() + cell.begin, listed_.data() + cell.end};
 }
 
-Side SideCells::side(const Vec3& place) const {
-  const std::int32_t node = find(place).node;
+Side SideCells::side(const Vec3& point) const {
+  const std::int32_t node = find(point).node;
   if (node > first_cell)
     return node == all_inside ? Side::inside : Side::outside;
   const Cell& cell = cell_of(node);
   bool inside = cell.inside;
   for (const std::int32_t id : ids_of(cell)) {
     const Arc& each = arc(id);
-    if (on_arc(each, place))
+    if (on_arc(each, point))
       return Side::boundary;
-    inside ^= crosses(cell.probe, place, each);
+    inside ^= crosses(cell.probe, point, each);
   }
   return inside ? Side::inside : Side::outside;
 }

@@ -30,8 +30,8 @@ public:
   const std::vector<Arc>& arcs() const { return arcs_; }
 
   /// The position of a direction relative to the polygons; exact.
-  /// \param place unit vector.
-  Side side(const Vec3& place) const;
+  /// \param point unit vector.
+  Side side(const Vec3& point) const;
 
   /// True if the inside is to the left of a corner; exact.
   bool inside_is_left(Corner corner) const;
@@ -67,7 +67,7 @@ private:
   static Square quarter_of(const Square& square, int quarter);
   static bool reaches(const Arc& arc, const Square& square);
   Ids those_in(const Square& square, const Ids& ids) const;
-  bool on_any(const Vec3& place, std::span<const std::int32_t> ids) const;
+  bool on_any(const Vec3& point, std::span<const std::int32_t> ids) const;
   bool crosses_oddly(const Vec3& start, const Vec3& end, std::span<const std::int32_t> ids) const;
   Vec3 free_probe(const Square& square, std::span<const std::int32_t> ids, int& number) const;
   std::pair<Vec3, bool> probe_at_corner(Corner corner, const Square& square,
@@ -75,7 +75,7 @@ private:
   std::vector<Part> bisected(const std::vector<Part>& parts);
   Part child_of(const Part& part, int child);
   void keep(const Part& part);
-  Found find(const Vec3& place) const;
+  Found find(const Vec3& point) const;
   const Cell& cell_of(std::int32_t node) const {
     return cells_[static_cast<std::size_t>(first_cell - node)];
   }

@@ -13,34 +13,34 @@ namespace {
 
 constexpr DoubleDouble sphere{4 * std::numbers::pi, 4 * 1.2246467991473532e-16};
 
-/// Places to sum triangles from: the mean direction of the arcs, and those of a cube's faces, edges
+/// Points to sum triangles from: the mean direction of the arcs, and those of a cube's faces, edges
 /// and corners.
 std::vector<Vec3> origins(std::span<const Arc> arcs) {
   Vec3 sum{0, 0, 0};
   for (const Arc& arc : arcs)
     sum = sum + norm(arc.to - arc.from) * (arc.from + arc.to);
-  std::vector<Vec3> places;
+  std::vector<Vec3> points;
   if (norm(sum) > 0)
-    places.push_back(normalised(sum));
+    points.push_back(normalised(sum));
   for (const double x : {-1.0, 0.0, 1.0})
     for (const double y : {-1.0, 0.0, 1.0})
       for (const double z : {-1.0, 0.0, 1.0})
         if (x != 0 || y != 0 || z != 0)
-          places.push_back(normalised({x, y, z}));
-  return places;
+          points.push_back(normalised({x, y, z}));
+  return points;
 }
 
 /// The one whose opposite is farthest from all arcs.
 Vec3 best_origin(std::span<const Arc> arcs) {
   Vec3 best{0, 0, 1};
   double farthest = -1;
-  for (const Vec3& place : origins(arcs)) {
+  for (const Vec3& point : origins(arcs)) {
     double nearest = 4;
     for (auto arc = arcs.begin(); arc != arcs.end() && nearest > farthest; ++arc)
-      nearest = std::min(nearest, square_from(*arc, -place));
+      nearest = std::min(nearest, square_from(*arc, -point));
     if (nearest > farthest) {
       farthest = nearest;
-      best = place;
+      best = point;
     }
   }
   return best;

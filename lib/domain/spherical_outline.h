@@ -28,19 +28,19 @@ public:
 
   /// The position of a direction relative to the boundary; exact for the stored corners. Directions
   /// whose norm is not 1 up to round-off are rounded to unit vectors first, as the corners are.
-  Side side(const Vec3& place) const { return cells_.side(as_unit(place)); }
+  Side side(const Vec3& point) const { return cells_.side(as_unit(point)); }
 
-  /// Calls body(edge) once for each edge that may come within a distance of a place. It calls it
+  /// Calls body(edge) once for each edge that may come within a distance of a point. It calls it
   /// for all edges that do, and few others. The order of the calls is a function of the edges and
-  /// the place.
-  /// \param place unit vector. \param reach angle in radians.
+  /// the point.
+  /// \param point unit vector. \param reach angle in radians.
   template <class Body>
-  void for_each_edge_near(const Vec3& place, double reach, const Body& body) const {
+  void for_each_edge_near(const Vec3& point, double reach, const Body& body) const {
     const double chord = reach + 1e-14; // a chord is shorter than its arc
-    tree_.visit([&](const Box3& box) { return square_from(box, place) <= chord * chord; },
+    tree_.visit([&](const Box3& box) { return square_from(box, point) <= chord * chord; },
                 [&](std::int32_t e) {
                   const Edge& edge = edges()[static_cast<std::size_t>(e)];
-                  if (square_from(edge, place) <= chord * chord) // boxes of long edges reach far
+                  if (square_from(edge, point) <= chord * chord) // boxes of long edges reach far
                     body(edge);
                 });
   }

@@ -35,7 +35,7 @@ public:
   Vec3 lifted(const Vec2& u) const { return at_ + tangent(u); }
   Vec3 tangent(const Vec2& u) const { return u.x * first_ + u.y * second_; }
 
-  /// The place in the plane whose bisector with 0 is the projection of the bisector of a direction
+  /// The point in the plane whose bisector with 0 is the projection of the bisector of a direction
   /// with the point: the line u.t = 1 - x.at, t = along(x).
   Vec2 mirrored(const Vec3& x) const {
     const Vec2 t = along(x);
@@ -62,7 +62,7 @@ public:
     return all;
   }
 
-  Side side(const Vec2& place) const { return outline_->side(plane_->lifted(place)); }
+  Side side(const Vec2& point) const { return outline_->side(plane_->lifted(point)); }
 
   /// Calls body(edge) for the edges, where they are in front, whose box meets a box.
   template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {

@@ -22,8 +22,8 @@ namespace {
 using namespace domain_detail;
 namespace bg = boost::geometry;
 
-using Place = bg::model::d2::point_xy<double>;
-using Polygon = bg::model::polygon<Place, false, false>; ///< counter-clockwise, not closed
+using Point = bg::model::d2::point_xy<double>;
+using Polygon = bg::model::polygon<Point, false, false>; ///< counter-clockwise, not closed
 using MultiPolygon = bg::model::multi_polygon<Polygon>;
 
 /// The stereographic projection from the point across from a centre; distances at the centre are
@@ -32,12 +32,12 @@ class Stereographic {
 public:
   explicit Stereographic(const Vec3& centre) : plane_(centre) {}
 
-  Place projected(const Vec3& x) const {
+  Point projected(const Vec3& x) const {
     const Vec2 u = (2 / (1 + plane_.height(x))) * plane_.along(x);
     return {u.x, u.y};
   }
-  Vec3 lifted(const Place& place) const {
-    const Vec2 u{place.x() / 2, place.y() / 2};
+  Vec3 lifted(const Point& point) const {
+    const Vec2 u{point.x() / 2, point.y() / 2};
     const double square = dot(u, u);
     return (1 / (1 + square)) * ((1 - square) * plane_.at() + 2 * plane_.tangent(u));
   }
@@ -63,7 +63,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return 2 * std::atan2(norm(a - b), norm(a + b));
 }
 
-/// A ring's corners, and places on its arcs at most a hundredth apart, so that straight lines
+/// A ring's corners, and points on its arcs at most a hundredth apart, so that straight lines
 /// between them are near the arcs.
 Polygon::ring_type projected(const Points3& ring, const Stereographic& map) {
   constexpr double step = 0.01;
@@ -106,10 +106,10 @@ MultiPolygon polygons_of(const Surface::Rings& rings, const Stereographic& map) 
 /// \param least distance between corners; others are left out, which rounding could make one.
 Points3 lifted(const Polygon::ring_type& ring, double least, const Stereographic& map) {
   Polygon::ring_type corners;
-  for (const Place& place : ring)
-    if (corners.empty() || (bg::distance(place, corners.back()) > least &&
-                            bg::distance(place, corners.front()) > least))
-      corners.push_back(place);
+  for (const Point& point : ring)
+    if (corners.empty() || (bg::distance(point, corners.back()) > least &&
+                            bg::distance(point, corners.front()) > least))
+      corners.push_back(point);
   Points3 out(3, static_cast<Eigen::Index>(corners.size()));
   for (std::size_t k = 0; k < corners.size(); ++k)
     base_detail::set_column(out, static_cast<Eigen::Index>(k), map.lifted(corners[k]));

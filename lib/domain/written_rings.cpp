@@ -34,10 +34,10 @@ double turn_about_axis(std::span<const Arc> arcs) {
   return angle;
 }
 
-double square_from(std::span<const Arc> arcs, const Vec3& place) {
+double square_from(std::span<const Arc> arcs, const Vec3& point) {
   double least = 4;
   for (const Arc& arc : arcs)
-    least = std::min(least, square_from(arc, place));
+    least = std::min(least, square_from(arc, point));
   return least;
 }
 
@@ -139,10 +139,10 @@ std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings) {
              : turned(std::move(rings), cells, false);
 }
 
-std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place) {
+std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& point) {
   rings = joined(std::move(rings));
   const SideCells cells = sides_of(rings);
-  const Side side = cells.side(place);
+  const Side side = cells.side(point);
   require(side != Side::boundary,
           "the place that is to be inside the region is on its boundary; give another");
   return turned(std::move(rings), cells, side == Side::inside);

@@ -57,11 +57,11 @@ std::vector<WrittenRing> joined(std::vector<WrittenRing> rings);
 /// \throws Error as Surface::within(), orientation aside.
 std::vector<WrittenRing> enclosed(std::vector<WrittenRing> rings);
 
-/// Joined rings, turned so that the side that contains a place is to the left of each.
-/// \param place unit vector.
-/// \throws Error as Surface::within(), orientation aside; invalid_argument for a place on the
+/// Joined rings, turned so that the side that contains a point is to the left of each.
+/// \param point unit vector.
+/// \throws Error as Surface::within(), orientation aside; invalid_argument for a point on the
 /// boundary.
-std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& place);
+std::vector<WrittenRing> around(std::vector<WrittenRing> rings, const Vec3& point);
 
 /// The corners of each ring, 3 x n.
 Surface::Rings corners_of(const std::vector<WrittenRing>& rings);

@@ -23,7 +23,7 @@ using namespace generators_detail;
 using base_detail::require;
 
 /// The rings of a boundary as segments with the surface to their left.
-template <Space S> std::vector<std::vector<Segment>> segments_of(const Surface& surface) {
+template <Space S> std::vector<std::vector<Segment>> list_segments(const Surface& surface) {
   std::vector<std::vector<Segment>> all;
   if constexpr (S::on_sphere) {
     const Rings rings = rings_of(surface.rings());
@@ -42,14 +42,14 @@ template <Space S> std::vector<std::vector<Segment>> segments_of(const Surface& 
 }
 
 template <Space S>
-std::vector<Curve<S>> curves_of(const Surface& surface, const DemandedSpacing& spacing) {
+std::vector<Curve<S>> make_curves(const Surface& surface, const DemandedSpacing& spacing) {
   std::vector<Curve<S>> curves;
-  for (std::vector<Segment>& ring : segments_of<S>(surface))
+  for (std::vector<Segment>& ring : list_segments<S>(surface))
     curves.emplace_back(spacing, longest_step<S>(surface), std::move(ring), true);
   return curves;
 }
 
-/// Rounding may put a place of the boundary outside; some roundoffs farther in it is inside.
+/// Rounding may put a point of the boundary outside; some roundoffs farther in it is inside.
 template <Space S>
 Vec3 inside(const OutlineOf<S>& outline, const Vec3& on, const Segment& segment) {
   const Vec3 left = left_of<S>(segment);
@@ -79,23 +79,23 @@ Points3 points_on_boundary(const Surface& surface, std::int64_t cells, const Den
   const auto n = static_cast<double>(cells);
   double edges = 0;
   const DemandedSpacing of_all(surface, density, n, samples);
-  for (const Curve<S>& curve : curves_of<S>(surface, of_all))
+  for (const Curve<S>& curve : make_curves<S>(surface, of_all))
     edges += curve.edges();
   const DemandedSpacing spacing(surface, density, whole_cells(n, edges), samples);
-  const std::vector<Curve<S>> curves = curves_of<S>(surface, spacing);
-  std::vector<Vec3> places;
+  const std::vector<Curve<S>> curves = make_curves<S>(surface, spacing);
+  std::vector<Vec3> positions;
   for (std::size_t ring = 0; ring < curves.size(); ++ring) {
     const Curve<S>& curve = curves[ring];
     require(curve.edges() > 0,
             "the density is zero along ring {} of the boundary; make it positive", ring);
     for (const double stop : curve.stops()) {
-      const auto [place, segment] = curve.place(stop);
-      places.push_back(inside<S>(*outline_of<S>(surface), place, curve.segments()[segment]));
+      const auto [point, segment] = curve.position(stop);
+      positions.push_back(inside<S>(*outline_of<S>(surface), point, curve.segments()[segment]));
     }
   }
-  Points3 points(3, std::ssize(places));
-  for (std::size_t i = 0; i < places.size(); ++i)
-    base_detail::set_column(points, static_cast<std::int64_t>(i), places[i]);
+  Points3 points(3, std::ssize(positions));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    base_detail::set_column(points, static_cast<std::int64_t>(i), positions[i]);
   return points;
 }
 

@@ -20,7 +20,7 @@ template <Space S> double length_of(const Segment& segment) {
   return S::on_sphere ? 2 * base_detail::arc_sine(std::min(1.0, chord / 2)) : chord;
 }
 
-template <Space S> Vec3 place_at(const Segment& segment, double along) {
+template <Space S> Vec3 point_at(const Segment& segment, double along) {
   if (along == 0)
     return segment.from;
   const Vec3 chord = segment.to - segment.from;
@@ -53,7 +53,7 @@ Curve<S>::Curve(const DemandedSpacing& spacing, double longest, std::vector<Segm
 
 /// Demanded edges in a unit of length.
 template <Space S> double Curve<S>::rate_at(std::size_t segment, double along) const {
-  const double spacing = spacing_.at(place_at<S>(segments_[segment], along));
+  const double spacing = spacing_.at(point_at<S>(segments_[segment], along));
   return 1 / hexagon_width(spacing * spacing);
 }
 
@@ -72,7 +72,7 @@ template <Space S> void Curve<S>::measure(std::size_t segment, double longest) {
   corners_.push_back(edges);
 }
 
-template <Space S> typename Curve<S>::Place Curve<S>::place(double edges) const {
+template <Space S> typename Curve<S>::Position Curve<S>::position(double edges) const {
   const auto after = std::upper_bound(marks_.begin(), marks_.end() - 1, edges,
                                       [](double e, const Mark& mark) { return e < mark.edges; });
   const Mark &mark = *(after - 1), &next = *after;
@@ -82,7 +82,7 @@ template <Space S> typename Curve<S>::Place Curve<S>::place(double edges) const 
       next.edges > mark.edges ? (edges - mark.edges) / (next.edges - mark.edges) : 0;
   if (!closed_ && after == marks_.end() - 1 && share >= 1)
     return {segment.to, mark.segment};
-  return {place_at<S>(segment, mark.along + std::clamp(share, 0.0, 1.0) * (end - mark.along)),
+  return {point_at<S>(segment, mark.along + std::clamp(share, 0.0, 1.0) * (end - mark.along)),
           mark.segment};
 }
 

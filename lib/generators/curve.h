@@ -11,7 +11,7 @@
 
 namespace calotte::generators_detail {
 
-/// The shorter arc between two unit vectors, or in the plane the straight line between two places.
+/// The shorter arc between two unit vectors, or in the plane the straight line between two points.
 using Segment = Arc;
 
 /// A curve of segments, measured in the edges between neighbours that a density demands along it.
@@ -27,12 +27,12 @@ public:
   bool is_closed() const { return closed_; }
   double edges() const { return marks_.back().edges; } ///< of the whole
 
-  struct Place {
+  struct Position {
     Vec3 at;
     std::size_t segment;
   };
-  /// The place after a number of edges, from 0 to edges().
-  Place place(double edges) const;
+  /// The position after a number of edges, from 0 to edges().
+  Position position(double edges) const;
 
   /// Where generators stand, ascending: at the corners that are kept, and between two of them at
   /// equal numbers of edges, from 5/8 to 5/4, of an open curve from 2/3 to 5/3. Corners where the
@@ -42,7 +42,7 @@ public:
   std::vector<double> stops() const;
 
 private:
-  /// A place by the number of edges from the start.
+  /// A position by the number of edges from the start.
   struct Mark {
     double edges;
     std::size_t segment;

@@ -101,14 +101,14 @@ std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_
 /// Sorted by their vertices.
 void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, Mesh& mesh) {
   const std::vector<LinkedTriangle> triangles = hexagons_triangles(columns, rows);
-  std::vector<std::int32_t> order(triangles.size()), place(triangles.size());
+  std::vector<std::int32_t> order(triangles.size()), index(triangles.size());
   std::iota(order.begin(), order.end(), 0);
   const auto triangle = [&](std::int32_t t) { return triangles[static_cast<std::size_t>(t)]; };
   std::sort(order.begin(), order.end(), [&](std::int32_t s, std::int32_t t) {
     return triangle(s).vertices < triangle(t).vertices;
   });
   for (std::size_t t = 0; t < order.size(); ++t)
-    place[static_cast<std::size_t>(order[t])] = static_cast<std::int32_t>(t);
+    index[static_cast<std::size_t>(order[t])] = static_cast<std::int32_t>(t);
   mesh.triangles.resize(3, std::ssize(triangles));
   mesh.neighbours.resize(3, std::ssize(triangles));
   for (std::size_t t = 0; t < order.size(); ++t) {
@@ -116,7 +116,7 @@ void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, Mesh& mesh)
     for (std::size_t v = 0; v < 3; ++v) {
       const auto row = static_cast<Eigen::Index>(v), column = static_cast<Eigen::Index>(t);
       mesh.triangles(row, column) = from.vertices[v];
-      mesh.neighbours(row, column) = place[static_cast<std::size_t>(from.neighbours[v])];
+      mesh.neighbours(row, column) = index[static_cast<std::size_t>(from.neighbours[v])];
     }
   }
 }

@@ -23,7 +23,7 @@ using namespace generators_detail;
 /// A direction from the corners of a spherical triangle. The polynomial is fitted to uniform CVTs
 /// of 12 defects.
 /// \param u, v, w its barycentric coordinates in the plane of the lattice; their sum is 1.
-Vec3 place_at(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v, double w) {
+Vec3 point_at(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v, double w) {
   const auto weight = [](double t) { return t * (1 + t * (0.21 * t - 0.36)); };
   const Vec3 p = weight(u) * a + weight(v) * b + weight(w) * c;
   const double length = norm(p);
@@ -63,7 +63,7 @@ template <class Visit> void for_each_inside(const Step& p, const Step& q, const 
   }
 }
 
-Points3 points_of(const Net& net) {
+Points3 make_points(const Net& net) {
   const std::array<Vec3, icosahedron_vertices> corners = icosahedron_points();
   const auto corner = [&](std::int32_t vertex) {
     return corners[static_cast<std::size_t>(vertex)];
@@ -78,7 +78,7 @@ Points3 points_of(const Net& net) {
     const std::int64_t parts = std::gcd(net[e].x, net[e].y);
     for (std::int64_t k = 1; k < parts; ++k) {
       const double u = static_cast<double>(k) / static_cast<double>(parts);
-      set_column(points, next++, place_at(corner(a), corner(b), Vec3{}, 1 - u, u, 0));
+      set_column(points, next++, point_at(corner(a), corner(b), Vec3{}, 1 - u, u, 0));
     }
   }
   for (std::size_t face = 0; face < solid.triangles.size(); ++face) {
@@ -88,7 +88,7 @@ Points3 points_of(const Net& net) {
     const auto whole = static_cast<double>(area);
     for_each_inside(p, q, [&, a = a, b = b, c = c](std::int64_t u, std::int64_t v) {
       set_column(points, next++,
-                 place_at(corner(a), corner(b), corner(c),
+                 point_at(corner(a), corner(b), corner(c),
                           static_cast<double>(area - u - v) / whole, static_cast<double>(u) / whole,
                           static_cast<double>(v) / whole));
     });
@@ -111,14 +111,14 @@ Points3 geodesic_sphere(std::int64_t b, std::int64_t c) {
           "the vector is ({}, {}); give two numbers from 0, not both 0, with at most {} points, "
           "10 (b^2 + b c + c^2) + 2",
           b, c, most_points);
-  return points_of(regular({b, c}));
+  return make_points(regular({b, c}));
 }
 
 Points3 geodesic_sphere(std::int64_t n) {
   require_count(n, 12, "the number of points");
   require(n != 13, "no triangulation of 13 points has 12 with five neighbours and one with six; "
                    "give another number of points");
-  return points_of(net_of(n));
+  return make_points(find_net(n));
 }
 
 std::int64_t geodesic_count(double points) {

@@ -20,7 +20,7 @@ public:
     std::int32_t before = -1;
     for (const Vec3& at : line) {
       const std::int32_t here = id_of(at);
-      const Vec3 apart = before >= 0 ? at - place(before) : Vec3{};
+      const Vec3 apart = before >= 0 ? at - point(before) : Vec3{};
       if (dot(apart, apart) > 0)
         join(before, here);
       before = here;
@@ -32,20 +32,20 @@ public:
     LineNetwork out;
     for (const auto& near : near_)
       out.neighbours.push_back(static_cast<int>(near.size()));
-    out.places = std::move(places_);
+    out.points = std::move(points_);
     out.chains = std::move(chains_);
     return out;
   }
 
 private:
-  const Vec3& place(std::int32_t id) const { return places_[static_cast<std::size_t>(id)]; }
+  const Vec3& point(std::int32_t id) const { return points_[static_cast<std::size_t>(id)]; }
   std::vector<std::int32_t>& near(std::int32_t id) { return near_[static_cast<std::size_t>(id)]; }
 
   std::int32_t id_of(const Vec3& at) {
     const auto [found, is_new] = ids_.try_emplace({at.x + 0.0, at.y + 0.0, at.z + 0.0}, // no -0
-                                                  static_cast<std::int32_t>(places_.size()));
+                                                  static_cast<std::int32_t>(points_.size()));
     if (is_new) {
-      places_.push_back(at);
+      points_.push_back(at);
       near_.emplace_back();
     }
     return found->second;
@@ -58,7 +58,7 @@ private:
     near(b).push_back(a);
   }
 
-  /// From a place to its neighbour and on, to a place that is an end or a confluence, or back.
+  /// From a point to its neighbour and on, to a point that is an end or a confluence, or back.
   void follow(std::int32_t from, std::int32_t to) {
     std::vector<std::int32_t>& chain = chains_.emplace_back();
     chain.push_back(from);
@@ -79,11 +79,11 @@ private:
         follow(from, to);
   }
 
-  /// In an order that depends on the places alone where the lines leave a choice.
+  /// In an order that depends on the points alone where the lines leave a choice.
   void trace() {
-    const auto count = static_cast<std::int32_t>(places_.size());
+    const auto count = static_cast<std::int32_t>(points_.size());
     const auto before = [&](std::int32_t a, std::int32_t b) {
-      const Vec3 &p = place(a), &q = place(b);
+      const Vec3 &p = point(a), &q = point(b);
       return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
     };
     for (auto& near : near_)
@@ -102,18 +102,18 @@ private:
   }
 
   std::map<std::array<double, 3>, std::int32_t> ids_;
-  std::vector<Vec3> places_;
-  std::vector<std::vector<std::int32_t>> near_; ///< neighbours of each place
+  std::vector<Vec3> points_;
+  std::vector<std::vector<std::int32_t>> near_; ///< neighbours of each point
   std::set<std::pair<std::int32_t, std::int32_t>> passed_;
   std::vector<std::vector<std::int32_t>> chains_;
 };
 
 } // namespace
 
-LineNetwork network_of(const std::vector<Points3>& lines, bool sphere) {
+LineNetwork make_network(const std::vector<Points3>& lines, bool sphere) {
   Builder builder;
   for (std::size_t k = 0; k < lines.size(); ++k)
-    builder.add(domain_detail::places_of(lines[k], static_cast<std::int64_t>(k), sphere));
+    builder.add(domain_detail::checked_line(lines[k], static_cast<std::int64_t>(k), sphere));
   return builder.network();
 }
 

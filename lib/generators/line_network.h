@@ -14,15 +14,15 @@ namespace calotte::generators_detail {
 /// Lines as one network: how they are cut into parts does not matter, and what several of them
 /// share is there once.
 struct LineNetwork {
-  std::vector<Vec3> places;    ///< distinct; unit vectors on the sphere
-  std::vector<int> neighbours; ///< of each place: 1 at an end, 3 or more at a confluence
+  std::vector<Vec3> points;    ///< distinct; unit vectors on the sphere
+  std::vector<int> neighbours; ///< of each point: 1 at an end, 3 or more at a confluence
   /// Ways from an end or confluence to the next one, or round a loop that has neither: indices of
-  /// places, two or more; of a single point one.
+  /// points, two or more; of a single point one.
   std::vector<std::vector<std::int32_t>> chains;
 };
 
 /// \param lines each 3 x n, on the sphere directions. \param sphere or in the plane.
-/// \throws Error invalid_argument as domain_detail::places_of().
-LineNetwork network_of(const std::vector<Points3>& lines, bool sphere);
+/// \throws Error invalid_argument as domain_detail::checked_line().
+LineNetwork make_network(const std::vector<Points3>& lines, bool sphere);
 
 } // namespace calotte::generators_detail

@@ -24,19 +24,20 @@ namespace {
 using namespace generators_detail;
 using base_detail::require;
 
-/// A tree of places; those of a plane are in the order of lines, which keeps neighbours together.
-BoxTree tree_of(const std::vector<Vec3>& places, bool sphere) {
+/// A tree of positions; those of a plane are in the order of lines, which keeps neighbours
+/// together.
+BoxTree tree_of(const std::vector<Vec3>& positions, bool sphere) {
   std::vector<Box3> boxes;
   std::vector<std::uint64_t> keys;
-  for (const Vec3& p : places) {
+  for (const Vec3& p : positions) {
     boxes.push_back({p, p});
     keys.push_back(sphere ? curve_key(to_cube(p)) : keys.size());
   }
   return {boxes, keys};
 }
 
-/// Places where generators may stand, the most important ones first: confluences, ends, then those
-/// along the lines.
+/// Positions for generators, the most important ones first: confluences, ends, then those along the
+/// lines.
 template <Space S> class Candidates {
 public:
   Candidates(const LineNetwork& network, const DemandedSpacing& spacing, double longest)
@@ -45,35 +46,35 @@ public:
       return network.neighbours[id] != 2 && (network.neighbours[id] > 2) == confluence;
     };
     for (const bool confluence : {true, false})
-      for (std::size_t id = 0; id < network.places.size(); ++id)
+      for (std::size_t id = 0; id < network.points.size(); ++id)
         if (is(id, confluence))
-          places_.push_back(network.places[id]);
+          positions_.push_back(network.points[id]);
     for (const std::vector<std::int32_t>& chain : network.chains)
       if (chain.size() > 1)
         add(network, chain, longest);
   }
 
-  const std::vector<Vec3>& places() const { return places_; }
+  const std::vector<Vec3>& positions() const { return positions_; }
   const std::vector<Curve<S>>& curves() const { return curves_; }
 
 private:
   void add(const LineNetwork& network, const std::vector<std::int32_t>& chain, double longest) {
-    const auto place = [&](std::size_t k) {
-      return network.places[static_cast<std::size_t>(chain[k])];
+    const auto position = [&](std::size_t k) {
+      return network.points[static_cast<std::size_t>(chain[k])];
     };
     std::vector<Segment> segments;
     for (std::size_t k = 1; k < chain.size(); ++k)
-      segments.push_back({place(k - 1), place(k)});
+      segments.push_back({position(k - 1), position(k)});
     const bool loop = chain.front() == chain.back() &&
                       network.neighbours[static_cast<std::size_t>(chain.front())] == 2;
     curves_.emplace_back(spacing_, longest, std::move(segments), loop);
     const std::vector<double> stops = curves_.back().stops();
     for (std::size_t k = loop ? 0 : 1; k + (loop ? 0 : 1) < stops.size(); ++k)
-      places_.push_back(curves_.back().place(stops[k]).at);
+      positions_.push_back(curves_.back().position(stops[k]).at);
   }
 
   const DemandedSpacing& spacing_;
-  std::vector<Vec3> places_;
+  std::vector<Vec3> positions_;
   std::vector<Curve<S>> curves_;
 };
 
@@ -82,13 +83,13 @@ double edge_at(const DemandedSpacing& spacing, const Vec3& x) {
   return hexagon_width(h * h);
 }
 
-/// Those of some places that are not nearer than two thirds of the demanded edge to one before
+/// Those of some positions that are not nearer than two thirds of the demanded edge to one before
 /// them, or to other points.
-std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& places,
+std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& positions,
                         const DemandedSpacing& spacing, bool sphere) {
   constexpr double nearest = 2.0 / 3;
   std::vector<Vec3> all = others;
-  all.insert(all.end(), places.begin(), places.end());
+  all.insert(all.end(), positions.begin(), positions.end());
   std::vector<std::uint8_t> taken(all.size(), 0);
   std::fill_n(taken.begin(), others.size(), 1);
   const BoxTree tree = tree_of(all, sphere);
@@ -106,7 +107,7 @@ std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>
   return kept;
 }
 
-/// The largest distance of a place on curves from the nearest of some points, over the demanded
+/// The largest distance of a position on curves from the nearest of some points, over the demanded
 /// edge there.
 template <Space S>
 double farthest(const std::vector<Curve<S>>& curves, const LineDistance& from_points,
@@ -115,14 +116,14 @@ double farthest(const std::vector<Curve<S>>& curves, const LineDistance& from_po
   double most = 0;
   for (const Curve<S>& curve : curves) {
     const auto samples = std::max<std::int64_t>(1, std::llround(std::ceil(curve.edges() / step)));
-    std::vector<Vec3> places;
+    std::vector<Vec3> positions;
     for (std::int64_t k = 0; k <= samples; ++k)
-      places.push_back(
-          curve.place(curve.edges() * static_cast<double>(k) / static_cast<double>(samples)).at);
-    std::vector<double> distances(places.size());
-    from_points(places, distances);
-    for (std::size_t k = 0; k < places.size(); ++k)
-      most = std::max(most, distances[k] / edge_at(spacing, places[k]));
+      positions.push_back(
+          curve.position(curve.edges() * static_cast<double>(k) / static_cast<double>(samples)).at);
+    std::vector<double> distances(positions.size());
+    from_points(positions, distances);
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      most = std::max(most, distances[k] / edge_at(spacing, positions[k]));
   }
   return most;
 }
@@ -148,11 +149,11 @@ LinePoints points_on_lines(const std::vector<Points3>& lines, const Surface& sur
                            std::int64_t cells, const Density& density, const Points3& beside) {
   constexpr std::int64_t samples = 65536;
   const DemandedSpacing spacing(surface, density, static_cast<double>(cells), samples);
-  const LineNetwork network = network_of(lines, S::on_sphere);
+  const LineNetwork network = make_network(lines, S::on_sphere);
   require_inside(lines, surface);
   const Candidates<S> candidates(network, spacing, longest_step<S>(surface));
   const std::vector<Vec3> others = columns_of(beside, S::on_sphere);
-  std::vector<Vec3> points = apart(others, candidates.places(), spacing, S::on_sphere);
+  std::vector<Vec3> points = apart(others, candidates.positions(), spacing, S::on_sphere);
   for (const Vec3& x : points)
     require(side_of<S>(outline_of<S>(surface), x) != Side::outside,
             "a line crosses what the surface leaves out, at {} {} {}; cut it there", x.x, x.y, x.z);

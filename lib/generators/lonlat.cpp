@@ -42,9 +42,9 @@ Points2 to_lonlat(const PointsRef& points) {
   base_detail::require(points.rows() == 3, "points on the sphere must have 3 rows");
   Points2 lonlat(2, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const base_detail::LonLat place =
+    const base_detail::LonLat at =
         base_detail::lonlat_of({points(0, i), points(1, i), points(2, i)});
-    lonlat.col(i) << place.longitude, place.latitude;
+    lonlat.col(i) << at.longitude, at.latitude;
   }
   return lonlat;
 }

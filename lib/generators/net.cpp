@@ -19,8 +19,8 @@ const EdgeMesh& solid() {
   return mesh;
 }
 
-std::size_t edge(std::size_t face, std::size_t place) {
-  return static_cast<std::size_t>(solid().triangle_edges[face][place % 3]);
+std::size_t edge(std::size_t face, std::size_t index) {
+  return static_cast<std::size_t>(solid().triangle_edges[face][index % 3]);
 }
 
 Step operator+(const Step& p, const Step& q) { return {p.x + q.x, p.y + q.y}; }
@@ -87,16 +87,16 @@ Net move_of_edge(std::size_t e) {
 
 /// An edge of a face.
 struct Side {
-  std::size_t face, place;
+  std::size_t face, index;
 
-  std::size_t edge() const { return generators_detail::edge(face, place); }
+  std::size_t edge() const { return generators_detail::edge(face, index); }
 };
 
 /// The same edge in the other face.
 Side across(const Side& side) {
   for (std::size_t face = 0; face < solid().triangles.size(); ++face)
-    for (std::size_t place = 0; place < 3; ++place)
-      if (const Side other{face, place}; face != side.face && other.edge() == side.edge())
+    for (std::size_t index = 0; index < 3; ++index)
+      if (const Side other{face, index}; face != side.face && other.edge() == side.edge())
         return other;
   return side;
 }
@@ -108,7 +108,7 @@ Net move_of_zigzag(Side side) {
   Net net{};
   for (int sixths = 0; net[side.edge()] == Step(); sixths = 1 - sixths) {
     net[side.edge()] = turned({1, 0}, sixths);
-    side = across({side.face, side.place + (sixths == 0 ? 1 : 2)});
+    side = across({side.face, side.index + (sixths == 0 ? 1 : 2)});
   }
   return net;
 }
@@ -136,8 +136,8 @@ Moves make_moves() {
     moves.add(move_of_edge(e));
   const std::size_t polygons = moves.nets.size();
   for (std::size_t face = 0; face < solid().triangles.size(); ++face)
-    for (std::size_t place = 0; place < 3; ++place)
-      moves.add(move_of_zigzag({face, place}));
+    for (std::size_t index = 0; index < 3; ++index)
+      moves.add(move_of_zigzag({face, index}));
   for (std::size_t sixths = 0; sixths < 6; ++sixths)
     for (const std::size_t begin : {std::size_t{0}, polygons})
       moves.first.push_back(begin + sixths);
@@ -228,7 +228,7 @@ std::pair<Step, Step> sides(const Net& net, std::size_t face) {
 
 std::int64_t triangles(const Net& net) { return mixed(net, net) / 2; }
 
-Net net_of(std::int64_t n) {
+Net find_net(std::int64_t n) {
   constexpr std::int64_t good =
       18 * icosahedron_edges;     // hardly any n has only nets of a larger spread
   constexpr double nearest = 0.5; // steps of the lattice

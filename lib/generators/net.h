@@ -59,6 +59,6 @@ std::int64_t triangles(const Net& net);
 
 /// A net of n points whose vectors differ little; a regular one if there is one.
 /// \pre 12 <= n <= 2^30, but not 13.
-Net net_of(std::int64_t n);
+Net find_net(std::int64_t n);
 
 } // namespace calotte::generators_detail

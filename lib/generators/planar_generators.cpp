@@ -39,29 +39,29 @@ struct Lattice {
         rows(count(outline.box().high.y - corner.y, rise * spacing)),
         columns(count(outline.box().high.x - corner.x, spacing)) {}
 
-  Vec2 place(std::int64_t row, std::int64_t column) const {
+  Vec2 point(std::int64_t row, std::int64_t column) const {
     const double shift = row % 2 == 0 ? 0.25 : 0.75;
     return {corner.x + (static_cast<double>(column) + shift) * spacing,
             corner.y + (static_cast<double>(row) + 0.5) * (rise * spacing)};
   }
 
 private:
-  /// Bounded by the count of a box of most_points places that is as narrow as the spacing.
+  /// Bounded by the count of a box of most_points points that is as narrow as the spacing.
   static std::int64_t count(double extent, double step) {
     return static_cast<std::int64_t>(std::min(extent / step + 1, double(8 * most_points)));
   }
 };
 
-/// body(row, column) for the places of some rows that are inside.
+/// body(row, column) for the points of some rows that are inside.
 template <class Body>
 void for_each_inside(const Outline& outline, const Lattice& lattice, std::int64_t row,
                      const Body& body) {
   for (std::int64_t column = 0; column < lattice.columns; ++column)
-    if (const Vec2 place = lattice.place(row, column); outline.side(place) == Side::inside)
-      body(place);
+    if (const Vec2 point = lattice.point(row, column); outline.side(point) == Side::inside)
+      body(point);
 }
 
-/// The number of places inside, for each row.
+/// The number of points inside, for each row.
 std::vector<std::int64_t> count_rows(const Outline& outline, const Lattice& lattice) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(lattice.rows));
   base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
@@ -80,7 +80,7 @@ std::int64_t count_inside(const Outline& outline, double spacing) {
 }
 
 /// Among the spacings that the bisection tries, the one whose number is nearest to n. A wider
-/// spacing gives fewer places on the whole, but not monotonically.
+/// spacing gives fewer points on the whole, but not monotonically.
 double spacing_for(std::int64_t n, const Outline& outline) {
   const double first = std::sqrt(outline.area() / (rise * static_cast<double>(n)));
   std::int64_t best_miss = std::numeric_limits<std::int64_t>::max();
@@ -93,7 +93,7 @@ double spacing_for(std::int64_t n, const Outline& outline) {
     }
     return miss;
   };
-  // A boundary may have any length; a factor of 2 in the spacing gives 4 times as many places.
+  // A boundary may have any length; a factor of 2 in the spacing gives 4 times as many points.
   double low = first, high = first;
   constexpr int most_steps = 24;
   const std::int64_t miss = misses(first);
@@ -115,13 +115,13 @@ Points3 lattice_inside(std::int64_t n, const Outline& outline) {
   const std::int64_t total = base_detail::exclusive_scan(std::span(begin));
   require(total > 0, "no place of a lattice of {} places is inside the domain; increase the number",
           n);
-  Points3 places(3, total);
+  Points3 points(3, total);
   base_detail::for_each_task(lattice.rows, [&](std::int64_t row) {
     std::int64_t next = begin[static_cast<std::size_t>(row)];
     for_each_inside(outline, lattice, row,
-                    [&](const Vec2& p) { places.col(next++) << p.x, p.y, 0; });
+                    [&](const Vec2& p) { points.col(next++) << p.x, p.y, 0; });
   });
-  return places;
+  return points;
 }
 
 // ---- The lattice of a periodic box
@@ -131,7 +131,7 @@ struct Grid {
 };
 
 /// The sum of the relative misses, see the header.
-double miss_of(const Grid& grid, std::int64_t n, const Eigen::Vector2d& period) {
+double relative_error(const Grid& grid, std::int64_t n, const Eigen::Vector2d& period) {
   const auto columns = static_cast<double>(grid.columns), rows = static_cast<double>(grid.rows);
   const double shape = (period.y() / rows) / (period.x() / columns) / rise;
   const double number = columns * rows / static_cast<double>(n);
@@ -155,7 +155,7 @@ Grid grid_for(std::int64_t n, const Eigen::Vector2d& period) {
       const Grid grid{std::clamp(static_cast<std::int64_t>(std::min(columns, double(most_points))),
                                  least_columns, most_points / rows),
                       rows};
-      if (const double miss = miss_of(grid, n, period); miss < least) {
+      if (const double miss = relative_error(grid, n, period); miss < least) {
         least = miss;
         best = grid;
       }
@@ -180,13 +180,13 @@ Points3 lattice_of_box(std::int64_t n, const Eigen::Vector2d& period) {
     return hexagonal_box(grid.columns, grid.rows, *spacing).points;
   const double across = period.x() / static_cast<double>(grid.columns),
                up = period.y() / static_cast<double>(grid.rows);
-  Points3 places(3, grid.columns * grid.rows);
+  Points3 points(3, grid.columns * grid.rows);
   for (std::int64_t row = 0; row < grid.rows; ++row)
     for (std::int64_t column = 0; column < grid.columns; ++column)
-      places.col(row * grid.columns + column)
+      points.col(row * grid.columns + column)
           << (static_cast<double>(column) + (row % 2 == 0 ? 0 : 0.5)) * across,
           static_cast<double>(row) * up, 0;
-  return places;
+  return points;
 }
 
 } // namespace

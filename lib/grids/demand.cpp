@@ -17,20 +17,20 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Places, and the sites that each is for; -1 for none.
+/// Sampled positions, and the site that each is for; -1 for none.
 struct Samples {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<std::array<std::int32_t, 3>> sites;
 
   Points3 points() const {
-    Points3 out(3, std::ssize(places));
-    for (std::size_t k = 0; k < places.size(); ++k)
-      set_column(out, static_cast<std::int64_t>(k), places[k]);
+    Points3 out(3, std::ssize(positions));
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      set_column(out, static_cast<std::int64_t>(k), positions[k]);
     return out;
   }
 };
 
-/// A lattice in each triangle with a site that may change. A place on an edge is that of the
+/// A lattice in each triangle with a site that may change. A position on an edge is that of the
 /// triangle with the lower number.
 template <Space S>
 Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const Marks& may_change,
@@ -53,9 +53,9 @@ Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const
       return beyond >= 0 && beyond < t;
     };
     const std::array<bool, 3> elsewhere{is_other(0), is_other(1), is_other(2)};
-    const Vec3 a = place_of(space, column(mesh.points, id[0]));
-    const Vec3 u = space.offset(a, place_of(space, column(mesh.points, id[1]))),
-               v = space.offset(a, place_of(space, column(mesh.points, id[2])));
+    const Vec3 a = measured_point(space, column(mesh.points, id[0]));
+    const Vec3 u = space.offset(a, measured_point(space, column(mesh.points, id[1]))),
+               v = space.offset(a, measured_point(space, column(mesh.points, id[2])));
     for (int i = 0; parts > 1 && i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j) {
         const int k = parts - i - j; // of the first corner; 0 on the edge across from it
@@ -63,8 +63,8 @@ Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const
         if (is_corner || (k == 0 && elsewhere[0]) || (i == 0 && elsewhere[1]) ||
             (j == 0 && elsewhere[2]))
           continue;
-        samples.places.push_back(space.wrapped(a + static_cast<double>(i) / parts * u +
-                                               static_cast<double>(j) / parts * v));
+        samples.positions.push_back(space.wrapped(a + static_cast<double>(i) / parts * u +
+                                                  static_cast<double>(j) / parts * v));
         samples.sites.push_back(id);
       }
   }
@@ -85,8 +85,9 @@ Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface&
       const Vec3 from = column(corners, k), way = column(corners, (k + 1) % corners.cols()) - from;
       const double step = std::max(0.25 * own[nearest[k]], 1e-12);
       const auto parts = std::clamp<std::int64_t>(std::llround(norm(way) / step), 1, most);
-      for (std::int64_t p = 0; p < parts && std::ssize(samples.places) < most; ++p)
-        samples.places.push_back(from + static_cast<double>(p) / static_cast<double>(parts) * way);
+      for (std::int64_t p = 0; p < parts && std::ssize(samples.positions) < most; ++p)
+        samples.positions.push_back(from +
+                                    static_cast<double>(p) / static_cast<double>(parts) * way);
     }
   }
   for (const std::int32_t site : locator.nearest(samples.points()))
@@ -149,14 +150,14 @@ DoubleVector Demand::on_cells(const Mesh& mesh, const DoubleVector& own, const M
                        : lattice(mesh, space, own, may_change, unit_ * widths_->rule()->least());
     const DoubleVector there =
         demand_.region ? within_region(samples.points()) : at(samples.points());
-    for (std::size_t k = 0; k < samples.places.size(); ++k)
+    for (std::size_t k = 0; k < samples.positions.size(); ++k)
       for (const std::int32_t site : samples.sites[k]) {
         const double width = there[static_cast<Eigen::Index>(k)];
         if (site < 0 || may_change[static_cast<std::size_t>(site)] == 0 || !(width < widths[site]))
           continue;
-        const Vec3 way = space.offset(place_of(space, column(mesh.points, site)),
-                                      place_of(space, samples.places[k]));
-        if (norm(way) < own[site]) // not where the mesh ends far from the place
+        const Vec3 way = space.offset(measured_point(space, column(mesh.points, site)),
+                                      measured_point(space, samples.positions[k]));
+        if (norm(way) < own[site]) // not where the mesh ends far from the position
           widths[site] = std::min(widths[site], width + gradient * norm(way));
       }
   });

@@ -13,7 +13,7 @@
 
 namespace calotte::grids_detail {
 
-/// A demand as widths at places, in the unit of a mesh: radians, or that of its plane. The mesh,
+/// A demand as widths at positions, in the unit of a mesh: radians, or that of its plane. The mesh,
 /// its widths and the demand must outlive it.
 class Demand {
 public:
@@ -22,14 +22,14 @@ public:
   Demand(const Demand&) = delete; // one part refers to another
   Demand& operator=(const Demand&) = delete;
 
-  /// At places. Infinite where nothing finer is demanded, 0 where nothing coarser is.
+  /// At positions. Infinite where nothing finer is demanded, 0 where nothing coarser is.
   DoubleVector at(const Points3& points) const;
 
   /// By site of a mesh the finest demand on its cell: at the site, or, wider by the gradient times
-  /// the distance from it, at a place in the triangles around it. The places are a lattice in each
-  /// triangle, as dense as the least demand, up to sixteen times as dense as the sites and some
-  /// millions in all; of a region they lie along its boundary.
-  /// \param own widths of that mesh. \param may_change by site; infinite for others.
+  /// the distance from it, at a position in the triangles around it. The positions are a lattice in
+  /// each triangle, as dense as the least demand, up to sixteen times as dense as the sites and
+  /// some millions in all; of a region they lie along its boundary. \param own widths of that mesh.
+  /// \param may_change by site; infinite for others.
   DoubleVector on_cells(const Mesh& mesh, const DoubleVector& own, const Marks& may_change,
                         double gradient) const;
 
@@ -38,7 +38,7 @@ public:
 
 private:
   DoubleVector of_region(const Points3& points) const;
-  DoubleVector within_region(const Points3& points) const; ///< at places that it has
+  DoubleVector within_region(const Points3& points) const; ///< at positions that it has
 
   const WidthDemand& demand_;
   const DoubleVector& own_;

@@ -23,9 +23,9 @@ namespace {
 
 using delaunay_detail::owners;
 
-/// Places that follow the density, and what is next to them.
+/// Points that follow the density, and the points next to them.
 struct Candidates {
-  Points3 places;
+  Points3 points;
   Array<std::int32_t> nearest; ///< fixed generator
   DoubleVector distance;       ///< from it, over the demanded distance of neighbours
 };
@@ -39,35 +39,35 @@ struct Supply {
   Points3 draw(std::int64_t n, std::uint64_t seed) const {
     return random_points(n, surface, sites, seed);
   }
-  Sites sorted(const Points3& places) const {
+  Sites sorted(const Points3& points) const {
     return surface.is_sphere()
-               ? delaunay_detail::make_sites(places, Duplicates::merge, 0)
-               : delaunay_detail::make_planar_sites(places.topRows<2>(), Duplicates::merge, 0);
+               ? delaunay_detail::make_sites(points, Duplicates::merge, 0)
+               : delaunay_detail::make_planar_sites(points.topRows<2>(), Duplicates::merge, 0);
   }
   /// In the frame of sites: the fixed ones, then their copies in a periodic plane.
   std::vector<Vec3> centres(const Sites& in) const {
-    std::vector<Vec3> places;
+    std::vector<Vec3> points;
     if (surface.is_sphere()) {
       for (Eigen::Index k = 0; k < fixed.cols(); ++k)
-        places.push_back(normalised(column(fixed, k)));
-      return places;
+        points.push_back(normalised(column(fixed, k)));
+      return points;
     }
     const Eigen::Vector2d& period = surface.period();
     for (const int shift : {0, -1, 1})
       for (const int up : {0, -1, 1})
         if ((shift == 0 || period.x() > 0) && (up == 0 || period.y() > 0))
           for (const auto& p : fixed.colwise())
-            places.push_back((*in.frame)(p.x() + shift * period.x(), p.y() + up * period.y()));
-    return places;
+            points.push_back((*in.frame)(p.x() + shift * period.x(), p.y() + up * period.y()));
+    return points;
   }
 };
 
-/// The mean of 1/density over places that follow it is area / integral, whence the spacing.
+/// The mean of 1/density over points that follow it is area / integral, whence the spacing.
 Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, std::uint64_t seed) {
   Candidates out{from.draw(n, seed), Array<std::int32_t>(n), DoubleVector(n)};
-  const DoubleVector inverse = evaluate(from.sites, out.places, from.surface).cwiseInverse();
+  const DoubleVector inverse = evaluate(from.sites, out.points, from.surface).cwiseInverse();
   const double scale = from.surface.area() / (inverse.mean() * static_cast<double>(cells));
-  const Sites sites = from.sorted(out.places);
+  const Sites sites = from.sorted(out.points);
   const std::vector<Vec3> centres = from.centres(sites);
   const Array<std::int32_t> owner = owners(sites.cells, sites.unit, centres);
   const double unit = sites.frame ? sites.frame->half / sites.frame->scale : 1;
@@ -86,7 +86,7 @@ Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, st
 }
 
 /// Whether candidates are farther than some distance from the fixed generators, next to a gap. The
-/// centres of hexagons are no farther than 0.577 of their distance from any place: beyond 0.65
+/// centres of hexagons are no farther than 0.577 of their distance from any point: beyond 0.65
 /// there is a gap.
 std::vector<bool> have_room(const Candidates& in, std::int64_t fixed, double distance) {
   constexpr double gap = 0.65;
@@ -135,7 +135,7 @@ Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed
   if (fixed.cols() == 0 || count == 0)
     return from.draw(count, seed);
   const Candidates in = candidates(from, candidates_for(cells), cells, seed);
-  return in.places(Eigen::all, best(in, fixed.cols(), count));
+  return in.points(Eigen::all, best(in, fixed.cols(), count));
 }
 
 std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Surface& surface,

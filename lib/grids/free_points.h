@@ -16,7 +16,7 @@ namespace calotte::grids_detail {
 
 /// Random points that follow a density of sites where fixed generators leave it unmet: 0.85 of
 /// the demanded distance or more from each of them, and near to one whose neighbours leave a gap.
-/// Where such places do not suffice, those farthest from fixed generators are taken.
+/// Where such points do not suffice, those farthest from fixed generators are taken.
 /// \param count number of points; 0 or more.
 /// \param cells number of cells that the density demands on the surface, fixed ones included.
 /// \param fixed on the sphere of any norm; if there are none, the points are those of
@@ -26,7 +26,7 @@ Points3 free_points(std::int64_t count, std::int64_t cells, const Points3& fixed
                     const Surface& surface, const Density& sites, std::uint64_t seed);
 
 /// The number of cells of a grid with fixed generators: theirs, and as many of `cells`, which the
-/// density demands without them, as they leave unmet. An estimate from random places.
+/// density demands without them, as they leave unmet. An estimate from random points.
 std::int64_t cells_beside_fixed(const Points3& fixed, std::int64_t cells, const Surface& surface,
                                 const Density& sites);
 

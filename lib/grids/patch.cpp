@@ -34,8 +34,8 @@ using mesh_detail::Submesh;
 /// From one site to another, in the unit of widths.
 template <Space S>
 Vec3 chord(const S& space, const Mesh& mesh, std::int32_t from, std::int32_t to) {
-  return space.offset(place_of(space, column(mesh.points, from)),
-                      place_of(space, column(mesh.points, to)));
+  return space.offset(measured_point(space, column(mesh.points, from)),
+                      measured_point(space, column(mesh.points, to)));
 }
 
 template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64_t t) {
@@ -62,7 +62,7 @@ DoubleVector cell_areas(const Mesh& mesh, const S& space, const Stars& stars,
 
 /// The triangles around some sites; all of them where a boundary passes through a site more than
 /// once.
-Marks stars_of(const Mesh& mesh, const Marks& sites) {
+Marks mark_stars(const Mesh& mesh, const Marks& sites) {
   Marks triangles(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t)
@@ -122,7 +122,7 @@ void separate(const Mesh& mesh, Marks& triangles) {
     Marks touched(static_cast<std::size_t>(mesh.points.cols()), 0);
     for (const auto& [site, edges] : fans)
       touched[static_cast<std::size_t>(site)] = edges > 1;
-    const Marks stars = stars_of(mesh, touched);
+    const Marks stars = mark_stars(mesh, touched);
     before = std::exchange(count, 0);
     for (std::size_t t = 0; t < triangles.size(); ++t)
       count += triangles[t] |= stars[t];
@@ -143,7 +143,7 @@ std::vector<std::int32_t> take_component(const Mesh& mesh, Marks& triangles, std
   return found;
 }
 
-std::vector<std::vector<std::int32_t>> rings_of(const Submesh& part) {
+std::vector<std::vector<std::int32_t>> trace_rings(const Submesh& part) {
   std::vector<std::int32_t> next(part.sites.size(), -1); // along the rim
   const auto after = [&](std::int32_t site) -> std::int32_t& {
     return next[static_cast<std::size_t>(site)];
@@ -168,14 +168,14 @@ std::vector<std::vector<std::int32_t>> rings_of(const Submesh& part) {
   return rings;
 }
 
-PatchRegion patch_of(const Mesh& mesh, const Marks& is_free,
-                     std::vector<std::int32_t>&& component) {
+PatchRegion make_patch(const Mesh& mesh, const Marks& is_free,
+                       std::vector<std::int32_t>&& component) {
   PatchRegion patch{extract(mesh.triangles, mesh.neighbours, std::move(component))};
   Marks stays;
   for (const std::int32_t site : patch.part.sites)
     stays.push_back(is_free[static_cast<std::size_t>(site)] == 0);
   patch.fixed = put_first(patch.part, stays);
-  patch.rings = rings_of(patch.part);
+  patch.rings = trace_rings(patch.part);
   return patch;
 }
 
@@ -295,9 +295,9 @@ WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Ma
   return wanted;
 }
 
-std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
-                                    const DoubleVector& own, const WantedWidths& wanted,
-                                    int rows_that_adapt) {
+std::vector<PatchRegion> find_patches(const Mesh& mesh, const IdLists& neighbours,
+                                      const DoubleVector& own, const WantedWidths& wanted,
+                                      int rows_that_adapt) {
   constexpr double least_change = 0.01;
   constexpr int rows_that_stay = 1; // and one more, the rim of their stars
   const auto n = static_cast<std::size_t>(mesh.points.cols());
@@ -312,13 +312,13 @@ std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
       if (wanted.stays[i] != 0)
         is_free[i] = 0;
   }
-  Marks triangles = stars_of(mesh, grown(neighbours, is_free, rows_that_stay));
+  Marks triangles = mark_stars(mesh, grown(neighbours, is_free, rows_that_stay));
   separate(mesh, triangles);
   Marks left = triangles;
   std::vector<PatchRegion> patches;
   for (std::int32_t t = 0; t < mesh.triangles.cols(); ++t)
     if (left[static_cast<std::size_t>(t)] != 0)
-      patches.push_back(patch_of(mesh, is_free, take_component(mesh, left, t)));
+      patches.push_back(make_patch(mesh, is_free, take_component(mesh, left, t)));
   return patches;
 }
 

@@ -29,7 +29,7 @@ Marks sites_at_boundary(const Mesh& mesh);
 DoubleVector own_widths(const Mesh& mesh, const Marks& at_boundary);
 
 /// A position for measures: on the sphere a unit vector, as files may give other norms.
-template <Space S> Vec3 place_of(const S&, const Vec3& x) {
+template <Space S> Vec3 measured_point(const S&, const Vec3& x) {
   if constexpr (S::on_sphere)
     return domain_detail::as_unit(x);
   else
@@ -80,8 +80,8 @@ private:
 /// \param rows_that_adapt of cells around those whose widths change.
 /// \throws Error invalid_argument, with the index of a site where the mesh's boundary meets itself,
 ///         if a patch would hold triangles on both sides of it.
-std::vector<PatchRegion> patches_of(const Mesh& mesh, const IdLists& neighbours,
-                                    const DoubleVector& own, const WantedWidths& wanted,
-                                    int rows_that_adapt);
+std::vector<PatchRegion> find_patches(const Mesh& mesh, const IdLists& neighbours,
+                                      const DoubleVector& own, const WantedWidths& wanted,
+                                      int rows_that_adapt);
 
 } // namespace calotte::grids_detail

@@ -38,11 +38,11 @@ template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const 
   } else {
     // From one triangle to the next, each corner in the copy nearest to the corners before.
     const auto& [triangles, neighbours] = part.faces;
-    std::vector<std::uint8_t> placed(part.sites.size(), 0);
-    const auto place = [&](std::int32_t k, const auto& beside) {
+    std::vector<std::uint8_t> is_set(part.sites.size(), 0);
+    const auto set_corner = [&](std::int32_t k, const auto& beside) {
       const auto position = space.near(given(k), beside);
       const Vec3 here = space.coordinates(position);
-      require(std::exchange(placed[static_cast<std::size_t>(k)], std::uint8_t{1}) == 0 ||
+      require(std::exchange(is_set[static_cast<std::size_t>(k)], std::uint8_t{1}) == 0 ||
                   norm(column(out, k) - here) == 0,
               "a patch leads around the periodic plane; give a smaller region, or make a new grid");
       set_column(out, k, here);
@@ -55,7 +55,7 @@ template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const 
       const std::int32_t t = queue[q];
       const auto at = *first[static_cast<std::size_t>(t)];
       for (int i = 0; i < 3; ++i) {
-        const auto corner = place(triangles(i, t), at);
+        const auto corner = set_corner(triangles(i, t), at);
         for (int across = 0; across < 3; ++across)
           if (const std::int32_t beyond = neighbours(across, t);
               across != i && beyond >= 0 && !first[static_cast<std::size_t>(beyond)]) {
@@ -83,9 +83,9 @@ Density density_between(const Mesh& local, const DoubleVector& width) {
 }
 
 /// The density of widths at sites, and of finer ones between them. Where sites beside a boundary
-/// are to be wider than demanded, so are the places around them.
-Density density_of(const Mesh& local, const DoubleVector& width, const FineWidths* fine,
-                   double tolerance) {
+/// are to be wider than demanded, so are the positions around them.
+Density make_density(const Mesh& local, const DoubleVector& width, const FineWidths* fine,
+                     double tolerance) {
   const double least = width.minCoeff();
   const Density between = density_between(local, width);
   if (fine == nullptr)
@@ -95,16 +95,16 @@ Density density_of(const Mesh& local, const DoubleVector& width, const FineWidth
   const DoubleVector wider =
       (width.array() / (met * evaluate(fine->widths, local.points)).array()).max(1);
   const Density beside = interpolated_density(local, wider.array().pow(-4).matrix());
-  const bool is_held = wider.maxCoeff() > 1;
+  const bool is_wider = wider.maxCoeff() > 1;
   Density result;
   result.kind = Density::Kind::callable;
   const double scale = met / least;
-  result.callable = [between, beside, is_held, widths = fine->widths,
+  result.callable = [between, beside, is_wider, widths = fine->widths,
                      scale](const Eigen::Ref<const Points3>& x, Eigen::Ref<Eigen::VectorXd> rho) {
     between.callable(x, rho);
     const DoubleVector narrow = evaluate(widths, x);
     DoubleVector share = DoubleVector::Ones(x.cols());
-    if (is_held)
+    if (is_wider)
       beside.callable(x, share);
     for (Eigen::Index i = 0; i < x.cols(); ++i)
       rho[i] = std::max(rho[i], share[i] * std::pow(scale * narrow[i], -4));
@@ -112,19 +112,19 @@ Density density_of(const Mesh& local, const DoubleVector& width, const FineWidth
   return result;
 }
 
-/// The widths of a density over those that the mesh had, at some places.
+/// The widths of a density over those that the mesh had, at some positions.
 /// \param least width at which the density is 1.
 DoubleVector width_ratio(const Mesh& local, const DoubleVector& own, const Density& density,
-                         double least, const Points3& places) {
-  if (places.cols() == 0)
+                         double least, const Points3& positions) {
+  if (positions.cols() == 0)
     return {};
-  const DoubleVector now = evaluate(density, places, local.surface),
-                     before = evaluate(density_between(local, own), places, local.surface);
+  const DoubleVector now = evaluate(density, positions, local.surface),
+                     before = evaluate(density_between(local, own), positions, local.surface);
   return least / own.minCoeff() * (before.array() / now.array()).pow(0.25);
 }
 
 /// The surface that the rings of a patch bound.
-Surface surface_of(const Mesh& mesh, const PatchRegion& patch, const Mesh& local) {
+Surface make_surface(const Mesh& mesh, const PatchRegion& patch, const Mesh& local) {
   Surface::Rings rings;
   const bool sphere = mesh.surface.is_sphere();
   for (const std::vector<std::int32_t>& ring : patch.rings) {
@@ -137,8 +137,8 @@ Surface surface_of(const Mesh& mesh, const PatchRegion& patch, const Mesh& local
 }
 
 /// The number of sites that a patch is to have.
-std::int64_t count_of(const PatchRegion& patch, const DoubleVector& own,
-                      const DoubleVector& wanted) {
+std::int64_t choose_count(const PatchRegion& patch, const DoubleVector& own,
+                          const DoubleVector& wanted) {
   double sum = 0;
   for (const std::int32_t site : patch.free_sites()) {
     const double ratio = own[site] / wanted[site];
@@ -186,8 +186,8 @@ Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t f
 }
 
 /// The run of a patch from points, whose choices are made here.
-Schedule schedule_of(const Surface& surface, const Density& density, std::int64_t cells,
-                     std::int64_t fixed, const Points3& points) {
+Schedule make_schedule(const Surface& surface, const Density& density, std::int64_t cells,
+                       std::int64_t fixed, const Points3& points) {
   constexpr double tolerance = 1e-4;
   constexpr int rounds = 3;
   Schedule schedule;
@@ -244,25 +244,25 @@ Mesh mesh_within(Points3&& points, const Submesh& part, const Surface& surface) 
 
 } // namespace
 
-Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
-                           const DoubleVector& wanted, const FineWidths* fine,
-                           const RefineOptions& options) {
+Replacement make_replacement(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
+                             const DoubleVector& wanted, const FineWidths* fine,
+                             const RefineOptions& options) {
   const Mesh local = local_mesh(mesh, patch.part);
   const DoubleVector width = wanted(patch.part.sites);
-  const Density density = density_of(local, width, fine, options.tolerance);
+  const Density density = make_density(local, width, fine, options.tolerance);
   const std::int64_t fixed = patch.fixed;
-  const Surface surface = surface_of(mesh, patch, local);
+  const Surface surface = make_surface(mesh, patch, local);
   const Schedule schedule =
-      schedule_of(surface, density, count_of(patch, own, wanted), fixed,
-                  with_midpoints(local, surface, fixed, density, width.minCoeff()));
+      make_schedule(surface, density, choose_count(patch, own, wanted), fixed,
+                    with_midpoints(local, surface, fixed, density, width.minCoeff()));
   RunOptions run;
   run.decomposition = options.decomposition;
   run.progress = options.progress;
   Cvt grid = make_grid(schedule, std::move(run));
   const std::int64_t added = grid.mesh.points.cols() - fixed;
-  const Points3 places = grid.mesh.points.rightCols(added);
+  const Points3 positions = grid.mesh.points.rightCols(added);
   Replacement out;
-  out.width_ratio = width_ratio(local, own(patch.part.sites), density, width.minCoeff(), places);
+  out.width_ratio = width_ratio(local, own(patch.part.sites), density, width.minCoeff(), positions);
   out.change = {std::ssize(patch.free_sites()), added, std::move(grid.report)};
   out.mesh = patch.rings.empty()
                  ? std::move(grid.mesh)

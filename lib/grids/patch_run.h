@@ -31,8 +31,8 @@ struct FineWidths {
 /// \param own, wanted as of wanted_widths(). \param fine limits widths between sites; null for
 /// none. \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic
 /// plane.
-Replacement replacement_of(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
-                           const DoubleVector& wanted, const FineWidths* fine,
-                           const RefineOptions& options);
+Replacement make_replacement(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
+                             const DoubleVector& wanted, const FineWidths* fine,
+                             const RefineOptions& options);
 
 } // namespace calotte::grids_detail

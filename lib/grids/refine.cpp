@@ -88,7 +88,7 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
       id = kept++;
 
   // Columns of the sphere have the norm of those beside them.
-  Points3 places(3, added);
+  Points3 positions(3, added);
   std::int64_t next = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const std::int64_t fixed = patches[p].fixed;
@@ -96,9 +96,9 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
         S::on_sphere && fixed > 0 ? norm(column(mesh.points, patches[p].part.sites.front())) : 1;
     const double scale = std::abs(length - 1) < 1e-9 ? 1 : length;
     for (std::int64_t k = fixed; k < replacements[p].mesh.points.cols(); ++k)
-      set_column(places, next++, scale * space.wrapped(column(replacements[p].mesh.points, k)));
+      set_column(positions, next++, scale * space.wrapped(column(replacements[p].mesh.points, k)));
   }
-  const Array<std::int32_t> order = mesh_detail::curve_order(places, mesh.surface);
+  const Array<std::int32_t> order = mesh_detail::curve_order(positions, mesh.surface);
   std::vector<std::int32_t> rank(static_cast<std::size_t>(added));
   out.points.resize(3, kept + added);
   out.old_of_new = Ids::Constant(kept + added, -1);
@@ -109,7 +109,7 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
     }
   for (std::int32_t r = 0; r < added; ++r) {
     rank[static_cast<std::size_t>(order[r])] = kept + r;
-    out.points.col(kept + r) = places.col(order[r]);
+    out.points.col(kept + r) = positions.col(order[r]);
   }
   auto at = rank.begin();
   for (const Replacement& replacement : replacements) {
@@ -214,7 +214,7 @@ void triangulate_anew(const Mesh& old, const S& space, const std::vector<PatchRe
   mesh = delaunay(std::move(mesh.points), mesh.surface);
 }
 
-/// Puts the patches' replacements in their places.
+/// Replaces the patches by their replacements.
 template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                       std::vector<Replacement>&& replacements) {
@@ -264,8 +264,8 @@ struct Given {
   DoubleVector own;
 };
 
-WantedWidths wanted_of(const Given& given, const DoubleVector& demanded, Way way,
-                       const RefineOptions& options) {
+WantedWidths want_widths(const Given& given, const DoubleVector& demanded, Way way,
+                         const RefineOptions& options) {
   return wanted_widths(given.mesh, given.around, given.at_boundary, given.own, demanded, way,
                        options.tolerance, options.gradient);
 }
@@ -277,11 +277,11 @@ ChangedMesh changed_once(const Given& given, const Demand& demand, const WantedW
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
     const std::vector<PatchRegion> patches =
-        patches_of(mesh, given.around, given.own, wanted, rows);
+        find_patches(mesh, given.around, given.own, wanted, rows);
     std::vector<Replacement> replacements;
     for (const PatchRegion& patch : patches)
       replacements.push_back(
-          replacement_of(mesh, patch, given.own, wanted.width, demand.fine(), options));
+          make_replacement(mesh, patch, given.own, wanted.width, demand.fine(), options));
     if (rows < last_rows && !std::ranges::all_of(replacements, [](const Replacement& made) {
           return made.change.report.well_centred;
         }))
@@ -319,7 +319,7 @@ std::int64_t bad_shapes(const ChangedMesh& changed) {
     std::vector<Vec3> points;
     std::vector<std::uint8_t> stays;
     for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
-      points.push_back(place_of(space, column(mesh.points, i)));
+      points.push_back(measured_point(space, column(mesh.points, i)));
       stays.push_back(changed.old_of_new[i] >= 0);
     }
     const DoubleVector no_spacing = DoubleVector::Zero(mesh.points.cols());
@@ -406,14 +406,14 @@ ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
     require(!wanted.region || (demanded.array() > 0).any(),
             "the region holds the centre of no cell, so that none becomes coarser; give a larger "
             "one");
-    const WantedWidths widths = wanted_of(given, demanded, way, options);
+    const WantedWidths widths = want_widths(given, demanded, way, options);
     ChangedMesh out = changed_once(given, demand, widths, options);
     out.missed = nowhere_as_wide(given.own, demanded, widths, options.tolerance);
     return out;
   }
   const auto finer = [&](const Given& now, const Marks& may_change) {
-    return wanted_of(now, demand.on_cells(now.mesh, now.own, may_change, options.gradient), way,
-                     options);
+    return want_widths(now, demand.on_cells(now.mesh, now.own, may_change, options.gradient), way,
+                       options);
   };
   const Marks all(static_cast<std::size_t>(mesh.points.cols()), 1);
   ChangedMesh out = changed_once(given, demand, finer(given, all), options);

@@ -39,7 +39,7 @@ FirstLevel first_of_kind(CvtStart::Kind kind, std::int64_t cells, int bisections
 Points3 free_generators(const Schedule& schedule);
 
 /// The number of cells of a grid with fixed generators: theirs, and as many of those that a density
-/// demands as the fixed ones leave unmet. An estimate from random places.
+/// demands as the fixed ones leave unmet. An estimate from random points.
 /// \param cells number that the density demands without fixed generators.
 std::int64_t cells_beside(const Points3& fixed, std::int64_t cells, const Density& density,
                           const Surface& surface);

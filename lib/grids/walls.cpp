@@ -15,31 +15,31 @@ namespace {
 
 constexpr std::int64_t samples = 1 << 16;
 
-/// Places on the walls.
+/// Points on the walls.
 Points2 on_walls(const Eigen::Vector2d& extent, Walls walls) {
   constexpr int side = 500;
-  Points2 places(2, 4 * side);
+  Points2 points(2, 4 * side);
   Eigen::Index count = 0;
   for (int i = 0; i < side; ++i)
     for (const double end : {0.0, 1.0}) {
       const double part = (i + 0.5) / side;
       if (walls.x)
-        places.col(count++) << end * extent.x(), part * extent.y();
+        points.col(count++) << end * extent.x(), part * extent.y();
       if (walls.y)
-        places.col(count++) << part * extent.x(), end * extent.y();
+        points.col(count++) << part * extent.x(), end * extent.y();
     }
-  return places.leftCols(count);
+  return points.leftCols(count);
 }
 
-double mean_root(const Density& density, const Surface& box, const Points3& places) {
-  return evaluate(density, places, box).cwiseSqrt().mean();
+double mean_root(const Density& density, const Surface& box, const Points3& points) {
+  return evaluate(density, points, box).cwiseSqrt().mean();
 }
 
-/// A callable that sees beyond a wall the places from 0 on as those before 0, from the middle of
+/// A callable that sees beyond a wall the points from 0 on as those before 0, from the middle of
 /// the gap on.
 Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
                   const Eigen::Vector2d& period) {
-  const Density::Callable given = density_detail::callable_of(density);
+  const Density::Callable given = density_detail::make_callable(density);
   if (!given)
     return density;
   Density out;

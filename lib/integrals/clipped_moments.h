@@ -30,7 +30,7 @@ bool near_boundary(const Outline& outline, const Vec3& x, double square);
 /// these bound. A density may be asked for outside of the surface, but within the cell.
 ///
 /// Where the centroid lies outside, as it may beside a boundary that is not convex, `first` is that
-/// of a cell whose centroid is the nearest place of the boundary within the cell, so that a
+/// of a cell whose centroid is the nearest point of the boundary within the cell, so that a
 /// generator at its centroid is inside, and rests where it can come no nearer to the true one.
 /// \param neighbours of the cell, in any order.
 CellMoments clipped_moments(const Integrand& integrand, const SphericalOutline& outline,

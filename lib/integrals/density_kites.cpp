@@ -36,7 +36,7 @@ struct Edge {
 };
 
 /// Shares of an edge's ends and of the circumcentre in a node on the first half kite. On the second
-/// the ends change places.
+/// the ends change positions.
 struct Shares {
   double near, far, centre;
 
@@ -114,8 +114,8 @@ NoLift lift_of(const FlatTriangles&, const QuadratureRule::Node& node) { return 
 
 /// Sets the rows of a node of each edge, but for the density.
 template <class Lift>
-CALOTTE_VECTOR_WIDTHS void place_node(const Lift& given_lift, const Shares& given_shares,
-                                      const Edge& edge, std::size_t k, NodeRows& nodes) {
+CALOTTE_VECTOR_WIDTHS void set_node(const Lift& given_lift, const Shares& given_shares,
+                                    const Edge& edge, std::size_t k, NodeRows& nodes) {
   const Lift lift = given_lift; // writing to rows cannot change it
   const Shares shares = given_shares;
   HalfRows &x = nodes.x[0][k], &y = nodes.x[1][k], &z = nodes.x[2][k];
@@ -144,10 +144,10 @@ void density_at(const SphericalTriangles&, const Integrand& integrand, const Bat
 }
 
 void density_at(const FlatTriangles&, const Integrand& integrand, const Batch& batch,
-                const Array<Vec3>& places, NodeRows& nodes) {
+                const Array<Vec3>& positions, NodeRows& nodes) {
   std::array<std::array<HalfRows, group>, 3> x{};
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Vec3& origin = places[batch.locals[std::min(lane, batch.count - 1)][0]];
+    const Vec3& origin = positions[batch.locals[std::min(lane, batch.count - 1)][0]];
     for (std::size_t k = 0; k < group; ++k)
       for (const std::size_t i : {lane, lanes + lane}) {
         x[0][k][i] = origin.x + nodes.x[0][k][i];
@@ -163,16 +163,16 @@ CALOTTE_VECTOR_WIDTHS void add_nodes(const NodeRows& nodes, const Edge& edge, Ve
                                      VertexTerms& second) {
   CALOTTE_VECTOR_LOOP
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const auto add = [&](const Rows3& corner, std::size_t place, VertexTerms& terms) {
+    const auto add = [&](const Rows3& corner, std::size_t index, VertexTerms& terms) {
       const Vec3 end = at(corner, lane);
       Vec3 moment = at(terms.first, lane);
       double energy = terms.energy[lane], mass = terms.mass[lane];
       for (std::size_t k = 0; k < group; ++k) {
-        const double weight = nodes.weight[k][lane] * nodes.rho[k][place];
+        const double weight = nodes.weight[k][lane] * nodes.rho[k][index];
         mass += weight;
         energy += weight * nodes.square[k][lane];
-        moment = moment + weight * Lift::moment({nodes.x[0][k][place], nodes.x[1][k][place],
-                                                 nodes.x[2][k][place]},
+        moment = moment + weight * Lift::moment({nodes.x[0][k][index], nodes.x[1][k][index],
+                                                 nodes.x[2][k][index]},
                                                 end);
       }
       put(moment, terms.first, lane);
@@ -200,7 +200,7 @@ void density_terms(const Triangles& space, const Batch& batch, const TriangleRow
     for (std::size_t first = 0; first < integrand.nodes.size(); first += group) {
       for (std::size_t k = 0; k < group; ++k) {
         const QuadratureRule::Node& node = integrand.nodes[first + k];
-        place_node(lift_of(space, node), Shares(node), edge, k, nodes);
+        set_node(lift_of(space, node), Shares(node), edge, k, nodes);
       }
       density_at(space, integrand, batch, x, nodes);
       add_nodes<decltype(lift_of(space, integrand.nodes[0]))>(nodes, edge, terms[a], terms[b]);

@@ -70,8 +70,8 @@ std::vector<Sliver> slivers_of(const FlatTriangles&, const Batch&, TriangleRows&
 
 /// Gives sites whose first moment is less than the rounding of its terms, as in a cluster, one of
 /// that size along the site: the direction of the sum is arbitrary, or there is none.
-void settle_vanishing(const std::vector<std::int32_t>& sites, const Array<Vec3>& x,
-                      Array<CellMoments>& moments) {
+void set_vanishing(const std::vector<std::int32_t>& sites, const Array<Vec3>& x,
+                   Array<CellMoments>& moments) {
   constexpr double rounding = 0x1p-50;
   for (const std::int32_t i : sites)
     if (norm(moments[i].first) < rounding)
@@ -119,7 +119,7 @@ void sum_batches(const Surface& surface, const Integrand& integrand,
       scatter_mass(batch, terms, *sums.mass);
   }
   if (integrand.uniform)
-    settle_vanishing(of_slivers, x, sums.moments);
+    set_vanishing(of_slivers, x, sums.moments);
 }
 
 template <class Surface>

@@ -19,8 +19,8 @@ SphericalTriangles triangles_in(const Generators<Sphere>&, const Array<Vec3>&) {
 
 FlatTriangles triangles_in(const Generators<Plane>& of, const Array<Vec3>& x) {
   double largest = std::max(of.space.period().x, of.space.period().y);
-  for (const Vec3& place : x)
-    largest = std::max({largest, std::abs(place.x), std::abs(place.y)});
+  for (const Vec3& point : x)
+    largest = std::max({largest, std::abs(point.x), std::abs(point.y)});
   return {of.space, largest};
 }
 

@@ -32,7 +32,7 @@ template <Space S> struct Generators {
 ///
 /// \param x by local number: unit vectors, or positions with z = 0, in a periodic box inside it.
 /// \param sums with masses only on the sphere without a boundary.
-/// \param suspects triangles of the patch, by place in its list, that are not clearly acute and
+/// \param suspects triangles of the patch, by index in its list, that are not clearly acute and
 ///        counter-clockwise, are added. Where none is, the mesh is Delaunay: the angles across
 ///        each edge sum to less than two right ones.
 template <Space S>

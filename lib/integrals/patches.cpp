@@ -38,16 +38,16 @@ void for_each_owner(const Triple& sites, const Array<std::int32_t>& owner, const
 }
 
 /// The numbers of each region's triangles, ascending. Parts of the mesh are counted, then written
-/// to disjoint places. There are few parts, because each counts for all regions.
+/// to disjoint indices. There are few parts, because each counts for all regions.
 std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& triangles,
                                                            const Ownership& ownership) {
   const std::size_t regions = ownership.owned.size();
   const std::int64_t parts = std::min<std::int64_t>(block_count(triangles.cols()), 256);
-  std::vector<std::vector<std::int32_t>> place(static_cast<std::size_t>(parts),
+  std::vector<std::vector<std::int32_t>> index(static_cast<std::size_t>(parts),
                                                std::vector<std::int32_t>(regions, 0));
   const auto visit = [&](const auto& body) {
     for_each_task(parts, [&](std::int64_t part) {
-      std::vector<std::int32_t>& here = place[static_cast<std::size_t>(part)];
+      std::vector<std::int32_t>& here = index[static_cast<std::size_t>(part)];
       const std::int64_t begin = triangles.cols() * part / parts,
                          end = triangles.cols() * (part + 1) / parts;
       for (auto t = static_cast<std::int32_t>(begin); t != end; ++t)
@@ -61,7 +61,7 @@ std::vector<std::vector<std::int32_t>> triangles_by_region(const Triangles& tria
   for_each_task(static_cast<std::int64_t>(regions), [&](std::int64_t region) {
     const auto k = static_cast<std::size_t>(region);
     std::int32_t sum = 0;
-    for (std::vector<std::int32_t>& here : place)
+    for (std::vector<std::int32_t>& here : index)
       sum += std::exchange(here[k], sum);
     out[k].resize(static_cast<std::size_t>(sum));
   });
@@ -89,7 +89,7 @@ void number_sites(Patch& patch, const Triangles& triangles, const Ownership& own
   patch.sites.insert(patch.sites.end(), halo.begin(), halo.end());
   const auto local = [&](std::int32_t site) {
     if (is_own(site))
-      return ownership.place[site];
+      return ownership.index[site];
     const auto at = std::lower_bound(halo.begin(), halo.end(), site);
     return patch.owned + static_cast<std::int32_t>(at - halo.begin());
   };
@@ -131,18 +131,18 @@ void sort_by_sites(std::vector<std::int32_t>& list, const Triangles& triangles) 
 Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions) {
   Ownership result{std::move(owner), {}, {}};
   const std::int64_t n = result.owner.size();
-  result.place = Array<std::int32_t>(n);
+  result.index = Array<std::int32_t>(n);
   std::vector<std::int32_t> count(static_cast<std::size_t>(regions), 0);
   for (std::int64_t i = 0; i < n; ++i)
     if (result.owner[i] >= 0)
-      result.place[i] = count[static_cast<std::size_t>(result.owner[i])]++;
+      result.index[i] = count[static_cast<std::size_t>(result.owner[i])]++;
   for (const std::int32_t own : count)
     result.owned.emplace_back(static_cast<std::size_t>(own));
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
       if (result.owner[i] >= 0)
         result.owned[static_cast<std::size_t>(result.owner[i])]
-                    [static_cast<std::size_t>(result.place[i])] = static_cast<std::int32_t>(i);
+                    [static_cast<std::size_t>(result.index[i])] = static_cast<std::int32_t>(i);
   });
   return result;
 }

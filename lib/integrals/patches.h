@@ -16,7 +16,7 @@ namespace calotte::integrals_detail {
 /// Which region owns each site.
 struct Ownership {
   Array<std::int32_t> owner;                    ///< by site; negative if no region owns it
-  Array<std::int32_t> place;                    ///< by site: its place among those of its owner
+  Array<std::int32_t> index;                    ///< by site: its index among those of its owner
   std::vector<std::vector<std::int32_t>> owned; ///< by region: its sites, ascending
 };
 

@@ -10,14 +10,14 @@ using Quad = double __attribute__((vector_size(32)));
 
 /// Four doubles at any address of doubles. A copy by std::memcpy would go through the stack in
 /// halves; a vector type of lower alignment is not enough for clang.
-struct [[gnu::packed, gnu::aligned(8), gnu::may_alias]] QuadInPlace {
+struct [[gnu::packed, gnu::aligned(8), gnu::may_alias]] QuadView {
   Quad value;
 };
 
-CALOTTE_INLINE const QuadInPlace& quad_at(const void* from) {
-  return *static_cast<const QuadInPlace*>(from);
+CALOTTE_INLINE const QuadView& quad_at(const void* from) {
+  return *static_cast<const QuadView*>(from);
 }
-CALOTTE_INLINE QuadInPlace& quad_at(void* to) { return *static_cast<QuadInPlace*>(to); }
+CALOTTE_INLINE QuadView& quad_at(void* to) { return *static_cast<QuadView*>(to); }
 
 /// Replaces the rows of a matrix of 4 x 4 by its columns.
 CALOTTE_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {

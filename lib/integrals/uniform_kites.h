@@ -11,7 +11,7 @@
 namespace calotte::integrals_detail {
 
 /// The terms of uniform density in closed form, see kites.h.
-/// \param slivers of the batch: their sides and halves take the place of the rows.
+/// \param slivers of the batch: their sides and halves replace the rows.
 /// \param with_mass otherwise the masses are not set.
 void uniform_terms(const SphericalTriangles&, const Batch& batch, const TriangleRows& rows,
                    const std::vector<Sliver>& slivers, bool with_mass, TriangleTerms& terms);

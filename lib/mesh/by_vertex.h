@@ -44,21 +44,21 @@ template <class Item> std::vector<Item> sorted_block(std::span<const Item> block
 
 /// Calls body(first, sorted) for each block of vertices with its items; `first` is the index of the
 /// first item in the order of all.
-/// \tparam Place type that counts the items.
+/// \tparam Index type that counts the items.
 /// \tparam Item has a vertex() and an operator< that compares all of it, vertices first.
 /// \param vertex_of(i) vertex of item i, below `vertices`.
 /// \param item_of(i) called once, in order within each part of the items.
-template <class Place, class Item, class VertexOf, class ItemOf, class Body>
+template <class Index, class Item, class VertexOf, class ItemOf, class Body>
 void for_each_vertex_block(std::int64_t items, std::int64_t vertices, const VertexOf& vertex_of,
                            const ItemOf& item_of, const Body& body) {
   const std::int64_t blocks =
       std::max<std::int64_t>(vertices - 1, 0) / (1 << vertex_block_bits) + 1;
   Array<Item> by_block(items);
-  const std::vector<Place> begin = distribute<Place>(
+  const std::vector<Index> begin = distribute<Index>(
       items, blocks, [&](std::int64_t i) { return vertex_of(i) >> vertex_block_bits; },
-      [&](std::int64_t i, Place place) { by_block[place] = item_of(i); });
+      [&](std::int64_t i, Index index) { by_block[index] = item_of(i); });
   for_each_task(blocks, [&](std::int64_t block) {
-    const Place first = begin[static_cast<std::size_t>(block)],
+    const Index first = begin[static_cast<std::size_t>(block)],
                 end = begin[static_cast<std::size_t>(block) + 1];
     body(first,
          sorted_block(std::span<const Item>(by_block.begin() + first, by_block.begin() + end)));

@@ -74,13 +74,13 @@ struct Moved {
 
 } // namespace
 
-CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
-                                Triangles& out) {
+CanonicalOrder order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
+                               Triangles& out) {
   const Renamed renamed{triangles, new_id};
   const std::int64_t count = renamed.size();
   const std::int64_t sites =
       new_id.empty() ? std::int64_t{highest_id(triangles)} + 1 : std::ssize(new_id);
-  CanonicalPlaces places{Array<std::int32_t>(count), Array<std::int8_t>(count)};
+  CanonicalOrder order{Array<std::int32_t>(count), Array<std::int8_t>(count)};
   const auto lowest = [&](std::int64_t t) {
     const Triple ids = renamed[t];
     return std::min({ids[0], ids[1], ids[2]});
@@ -88,33 +88,33 @@ CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std:
   const auto moved = [&](std::int64_t t) {
     const Triple ids = renamed[t];
     const int first = first_vertex(ids);
-    places.first[t] = static_cast<std::int8_t>(first);
+    order.first[t] = static_cast<std::int8_t>(first);
     return Moved{turned(ids, first), static_cast<std::int32_t>(t)};
   };
   make_room(out, 3, count);
   for_each_vertex_block<std::int32_t, Moved>(
       count, sites, lowest, moved, [&](std::int32_t k, const std::vector<Moved>& sorted) {
         for (const Moved& triangle : sorted) {
-          places.place[triangle.from] = k;
+          order.index[triangle.from] = k;
           for (int i = 0; i < 3; ++i)
             out(i, k) = triangle.ids[static_cast<std::size_t>(i)];
           ++k;
         }
       });
-  return places;
+  return order;
 }
 
-void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places, Triangles& out) {
+void order_neighbours(const Triangles& neighbours, const CanonicalOrder& order, Triangles& out) {
   constexpr std::int64_t ahead = 16;
   make_room(out, 3, neighbours.cols());
   for_each_block(neighbours.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t != end; ++t) {
       if (t + ahead < end)
-        __builtin_prefetch(&out(0, places.place[t + ahead]), 1);
-      const Triple across = turned(triple(neighbours, t), places.first[t]);
+        __builtin_prefetch(&out(0, order.index[t + ahead]), 1);
+      const Triple across = turned(triple(neighbours, t), order.first[t]);
       for (int i = 0; i < 3; ++i) {
         const std::int32_t old = across[static_cast<std::size_t>(i)];
-        out(i, places.place[t]) = old < 0 ? -1 : places.place[old];
+        out(i, order.index[t]) = old < 0 ? -1 : order.index[old];
       }
     }
   });
@@ -123,12 +123,12 @@ void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places
 void make_canonical(Triangles& triangles, Triangles& neighbours,
                     std::span<const std::int32_t> new_id) {
   Triangles ordered;
-  const CanonicalPlaces places = order_triangles(triangles, new_id, ordered);
+  const CanonicalOrder order = order_triangles(triangles, new_id, ordered);
   triangles = std::move(ordered); // frees the old ones before the neighbours are allocated
   if (neighbours.cols() == 0)
     return;
   Triangles across;
-  order_neighbours(neighbours, places, across);
+  order_neighbours(neighbours, order, across);
   neighbours = std::move(across);
 }
 

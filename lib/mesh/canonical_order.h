@@ -21,16 +21,16 @@ namespace calotte::mesh_detail {
 void make_canonical(Triangles& triangles, Triangles& neighbours,
                     std::span<const std::int32_t> new_id = {});
 
-/// The places of the triangles in canonical order, for arrays that follow them.
-struct CanonicalPlaces {
-  Array<std::int32_t> place; ///< of each triangle
+/// The order of the triangles in canonical order, for arrays that follow them.
+struct CanonicalOrder {
+  Array<std::int32_t> index; ///< of each triangle
   Array<std::int8_t> first;  ///< which of its old vertices comes first
 };
 
 /// The two stages of make_canonical(), for a mesh that stays unchanged.
-CanonicalPlaces order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
-                                Triangles& out);
-void order_neighbours(const Triangles& neighbours, const CanonicalPlaces& places, Triangles& out);
+CanonicalOrder order_triangles(const Triangles& triangles, std::span<const std::int32_t> new_id,
+                               Triangles& out);
+void order_neighbours(const Triangles& neighbours, const CanonicalOrder& order, Triangles& out);
 
 /// True if make_canonical() would not change the triangles.
 bool is_canonical(const Triangles& triangles);

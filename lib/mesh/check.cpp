@@ -158,9 +158,9 @@ EdgeCounts count_edges(const Mesh& mesh) {
 // once, so the mesh covers the sphere without folds or branch points. Closed, it is a covering of
 // the sphere, which is simply connected: each of its parts is one sheet, and Euler's characteristic
 // 2 allows one part. Open, it bends at its boundary to the left alone: by Gauss and Bonnet each
-// part has the characteristic 1, so there is one; and two places in it over one direction would be
+// part has the characteristic 1, so there is one; and two points in it over one direction would be
 // joined by a shortest path, which is not longer than pi and runs along a great circle: they are
-// one place. Such a mesh with Delaunay edges is Delaunay.
+// one point. Such a mesh with Delaunay edges is Delaunay.
 CheckReport check(const Mesh& mesh, const ProgressCallback& progress) {
   return prove(mesh, mesh_detail::Proof::delaunay, progress);
 }

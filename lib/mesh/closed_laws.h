@@ -83,7 +83,7 @@ Tally tally_block(const Surface& s, const Traversal& way, std::int64_t begin, st
   return out;
 }
 
-template <class Surface> Traversal traversal_of(const Surface& s) {
+template <class Surface> Traversal order_traversal(const Surface& s) {
   if (!are_scattered(s.neighbour_ids))
     return {};
   return {s.triangles(), s.sites(), Surface::cube_faces,
@@ -104,13 +104,13 @@ template <class Surface> Traversal traversal_of(const Surface& s) {
 /// counter-clockwise, cover the sphere or the periodic box evenly, except for branch points at
 /// sites around which they turn more than once; the number of sheets is the sum of their areas
 /// divided by the whole. If that is less than 3/2, there is one sheet: the surface has the shape of
-/// the whole, and no place is covered twice. The triangles at a site are then a single cycle that
+/// the whole, and no point is covered twice. The triangles at a site are then a single cycle that
 /// turns around it once, and by Euler's characteristic there are as many cycles as sites. The sum
 /// is below that bound if it is the whole within its error, and this error is small.
 template <class Surface>
 bool is_proven_closed(const Surface& s, CheckReport& result, Monitor& monitor) {
   std::vector<Tally> tallies(static_cast<std::size_t>(block_count(s.triangles())));
-  const Traversal way = traversal_of(s);
+  const Traversal way = order_traversal(s);
   for_each_block(s.triangles(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     tallies[static_cast<std::size_t>(block)] = tally_block(s, way, begin, end);
     monitor.step();

@@ -112,21 +112,21 @@ private:
   std::int32_t locate(const Position& p, std::int32_t from, Rim rim, std::int64_t i,
                       Locations& out) const {
     const std::int32_t end = walk(p, from);
-    std::int32_t holder = end >= 0                     ? lowest_at(end, p)
-                          : end == outside && convex() ? outside
-                                                       : search(p);
-    if (holder < 0 && rim == Rim::within_rounding)
-      holder = search_rim(p);
-    out.triangle[i] = holder;
-    set_weights(holder, p, i, out);
-    const Near near = nearest_from(holder >= 0 ? holder : from, p);
+    std::int32_t containing = end >= 0                     ? lowest_at(end, p)
+                              : end == outside && convex() ? outside
+                                                           : search(p);
+    if (containing < 0 && rim == Rim::within_rounding)
+      containing = search_rim(p);
+    out.triangle[i] = containing;
+    set_weights(containing, p, i, out);
+    const Near near = nearest_from(containing >= 0 ? containing : from, p);
     out.nearest[i] = near.site;
     return near.triangle;
   }
 
   /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
   /// to a higher plane of the convex hull over p, so that no triangle comes twice. Returns the
-  /// triangle that holds p; `outside` where it leaves the mesh; `lost` where a mesh that is not
+  /// triangle that contains p; `outside` where it leaves the mesh; `lost` where a mesh that is not
   /// Delaunay leads round.
   std::int32_t walk(const Position& p, std::int32_t t) const {
     int came = 3; // from across this vertex: p is on the inner side there
@@ -151,11 +151,11 @@ private:
     return came == 3 || mesh_.surface.period().isZero() || seen_.side(t, came, p) >= 0;
   }
 
-  bool holds(std::int64_t t, const Position& p) const {
+  bool contains(std::int64_t t, const Position& p) const {
     return seen_.side(t, 0, p) >= 0 && seen_.side(t, 1, p) >= 0 && seen_.side(t, 2, p) >= 0;
   }
 
-  /// Of all triangles, the lowest that holds p, or `outside`.
+  /// Of all triangles, the lowest that contains p, or `outside`.
   std::int32_t search(const Position& p) const {
     std::int32_t lowest = outside;
     for (int k = 0; k < S::copies; ++k) {
@@ -163,7 +163,7 @@ private:
       const Vec3 at = seen_.coordinates(copy);
       tree().visit([&](const Box3& box) { return square_from(box, at) <= 0; },
                    [&](std::int32_t t) {
-                     if ((lowest < 0 || t < lowest) && holds(t, copy))
+                     if ((lowest < 0 || t < lowest) && contains(t, copy))
                        lowest = t;
                    });
     }

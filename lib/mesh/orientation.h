@@ -27,7 +27,7 @@ struct Orientations {
 Orientations orientations_of(const Points3& points, const Triangles& triangles,
                              const Surface& surface = {});
 
-/// Reverses every triangle: its last two vertices change places.
+/// Reverses every triangle: swaps its last two vertices.
 void reverse(Triangles& triangles);
 
 /// An edge that more than two triangles share, or that two triangles run through in the same

@@ -55,12 +55,12 @@ template <class Square> Array<std::uint64_t> keys_of(const Points3& points, cons
 
 /// For each site its position in the order.
 Array<std::int32_t> inverse(const Array<std::int32_t>& order) {
-  Array<std::int32_t> place(order.size());
+  Array<std::int32_t> rank(order.size());
   for_each_block(order.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i)
-      place[order[i]] = static_cast<std::int32_t>(i);
+      rank[order[i]] = static_cast<std::int32_t>(i);
   });
-  return place;
+  return rank;
 }
 
 void require_ids(const Mesh& mesh) {
@@ -111,7 +111,7 @@ bool is_in_curve_order(const Mesh& mesh) {
 }
 
 Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
-  const Array<std::int32_t> place = inverse(order);
+  const Array<std::int32_t> rank = inverse(order);
   Mesh out;
   out.surface = mesh.surface;
   make_room(out.points, 3, mesh.points.cols());
@@ -119,12 +119,12 @@ Mesh in_order(const Mesh& mesh, const Array<std::int32_t>& order) {
     for (std::int64_t i = begin; i != end; ++i)
       out.points.col(i) = mesh.points.col(order[i]);
   });
-  const CanonicalPlaces places =
-      order_triangles(mesh.triangles, std::span(place.begin(), place.end()), out.triangles);
-  order_neighbours(mesh.neighbours, places, out.neighbours);
+  const CanonicalOrder triangles =
+      order_triangles(mesh.triangles, std::span(rank.begin(), rank.end()), out.triangles);
+  order_neighbours(mesh.neighbours, triangles, out.neighbours);
   out.site_of_input.resize(mesh.site_of_input.size());
   std::transform(mesh.site_of_input.begin(), mesh.site_of_input.end(), out.site_of_input.begin(),
-                 [&](std::int32_t site) { return place[site]; });
+                 [&](std::int32_t site) { return rank[site]; });
   return out;
 }
 

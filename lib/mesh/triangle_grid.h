@@ -19,7 +19,7 @@
 namespace calotte::mesh_detail {
 
 /// Where to start looking in a mesh: squares over it, and a triangle near the middle of each. From
-/// there a walk in rounded arithmetic leads to the triangle at a place, for many places in loops
+/// there a walk in rounded arithmetic leads to the triangle at a at, for many points in loops
 /// over a density; LocatorIn, which is exact, starts there too.
 ///
 /// It refers to the mesh, which must outlive it.
@@ -44,8 +44,8 @@ public:
     fill_empty();
   }
 
-  /// A triangle, and the weights of its vertices at a place: not negative, with the sum 1.
-  struct Place {
+  /// A triangle, and the weights of its vertices at a at: not negative, with the sum 1.
+  struct Location {
     std::int32_t triangle;
     std::array<double, 3> weight;
   };
@@ -53,12 +53,12 @@ public:
   /// The walk crosses edges towards x. Where rounding or a boundary stops it, the nearest weights
   /// of the last triangle are used.
   /// \pre on the sphere x and the points of the mesh are unit vectors.
-  Place place_of(const Vec3& x) const { return place_from(start(x), x); }
+  Location locate(const Vec3& x) const { return locate_from(start(x), x); }
 
-  /// A triangle near a place, on the sphere near a direction of any norm.
+  /// A triangle near a at, on the sphere near a direction of any norm.
   std::int32_t start(const Vec3& x) const { return start_[bucket_of(x)]; }
 
-  /// The key of a place along the curve through the squares.
+  /// The key of a at along the curve through the squares.
   std::uint64_t key_of(const Vec3& x) const { return curve_key(squares_(x)); }
 
   std::int64_t cells() const { return std::ssize(start_); }
@@ -66,7 +66,7 @@ public:
 private:
   static constexpr int faces = CurveSquares<S>::count;
 
-  /// The part of a face that the cells cover; a place beyond is in the nearest cell.
+  /// The part of a face that the cells cover; a at beyond is in the nearest cell.
   struct Frame {
     double low_u = -1, low_v = -1, half_u = 1, half_v = 1;
     bool covered = true; ///< holds vertices
@@ -79,10 +79,10 @@ private:
     low.fill({0, 1, 1});
     high.fill({0, -1, -1});
     for (Eigen::Index i = 0; i < mesh_.points.cols(); i += step) {
-      const CubePoint place = squares_(space_.wrapped(column(mesh_.points, i)));
-      const auto f = static_cast<std::size_t>(place.face);
-      low[f] = {0, std::min(low[f].u, place.u), std::min(low[f].v, place.v)};
-      high[f] = {0, std::max(high[f].u, place.u), std::max(high[f].v, place.v)};
+      const CubePoint at = squares_(space_.wrapped(column(mesh_.points, i)));
+      const auto f = static_cast<std::size_t>(at.face);
+      low[f] = {0, std::min(low[f].u, at.u), std::min(low[f].v, at.v)};
+      high[f] = {0, std::max(high[f].u, at.u), std::max(high[f].v, at.v)};
     }
     for (std::size_t f = 0; f < frames_.size(); ++f) {
       frames_[f].covered = low[f].u <= high[f].u;
@@ -92,7 +92,7 @@ private:
     }
   }
 
-  Place place_from(std::int32_t t, const Vec3& x) const {
+  Location locate_from(std::int32_t t, const Vec3& x) const {
     const std::int64_t count = mesh_.triangles.cols();
     for (std::int64_t step = 0; step < count; ++step) {
       const std::array<double, 3> sides = sides_of(t, x);
@@ -104,12 +104,12 @@ private:
       t = beyond;
     }
     if constexpr (!S::on_sphere) // half a period away a walk may lead round
-      t = holder_of(x, t);
+      t = find_containing(x, t);
     return {t, weights_of(sides_of(t, x))};
   }
 
   /// Of all triangles; `otherwise` if there is none.
-  std::int32_t holder_of(const Vec3& x, std::int32_t otherwise) const {
+  std::int32_t find_containing(const Vec3& x, std::int32_t otherwise) const {
     for (std::int32_t t = 0; t < mesh_.triangles.cols(); ++t) {
       const std::array<double, 3> sides = sides_of(t, x);
       if (*std::min_element(sides.begin(), sides.end()) >= 0)
@@ -130,8 +130,8 @@ private:
           const Frame& frame = frames_[static_cast<std::size_t>(face)];
           if (start < 0)
             start =
-                place_from(t, squares_.point({face, frame.low_u + (middle(row) + 1) * frame.half_u,
-                                              frame.low_v + (middle(column) + 1) * frame.half_v}))
+                locate_from(t, squares_.point({face, frame.low_u + (middle(row) + 1) * frame.half_u,
+                                               frame.low_v + (middle(column) + 1) * frame.half_v}))
                     .triangle;
           t = start;
         }
@@ -147,15 +147,15 @@ private:
   }
 
   std::size_t bucket_of(const Vec3& x) const {
-    const CubePoint place = squares_(space_.wrapped(x));
-    const Frame& frame = frames_[static_cast<std::size_t>(place.face)];
+    const CubePoint at = squares_(space_.wrapped(x));
+    const Frame& frame = frames_[static_cast<std::size_t>(at.face)];
     const auto cell = [&](double u) { // 0 to 1 within the frame; 0 for NaN
       const auto last = static_cast<double>(cells_a_side_ - 1);
       return static_cast<std::int64_t>(
           std::min(std::max(0.0, u * static_cast<double>(cells_a_side_)), last));
     };
-    return bucket(place.face, cell((place.u - frame.low_u) / (2 * frame.half_u)),
-                  cell((place.v - frame.low_v) / (2 * frame.half_v)));
+    return bucket(at.face, cell((at.u - frame.low_u) / (2 * frame.half_u)),
+                  cell((at.v - frame.low_v) / (2 * frame.half_v)));
   }
 
   const Vec3& vertex(std::int64_t t, int v) const {

@@ -64,8 +64,8 @@ VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neigh
   rings.items = Array<Corner>(rings.begin[n]);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
-      std::int64_t place = rings.begin[i];
-      walk_around(mesh, first[i], [&](Corner corner) { rings.items[place++] = corner; });
+      std::int64_t at = rings.begin[i];
+      walk_around(mesh, first[i], [&](Corner corner) { rings.items[at++] = corner; });
     }
   });
   return rings;

@@ -2,7 +2,7 @@
 #include "base/require.h"
 #include "density/width_profile.h"
 #include "density/width_rules.h"
-#include "oceans/shores.h"
+#include "oceans/coast_sides.h"
 
 #include <calotte/widths.h>
 
@@ -18,7 +18,7 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
   constexpr double farthest = density_detail::farthest_on_sphere;
   const bool both = side == CoastSide::both;
   const density_detail::ProfileCurve curve(profile, "a distance", both ? -farthest : 0, farthest);
-  constexpr double rounding = 1e-6; // km: the shore itself is of both sides
+  constexpr double rounding = 1e-6; // km: the arcs itself is of both sides
   return both ? curve : curve.within(-rounding, std::numeric_limits<double>::infinity());
 }
 
@@ -27,12 +27,12 @@ density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide sid
 Widths Widths::by_distance(const Coast& coast, const WidthProfile& profile, CoastSide side) {
   using namespace oceans_detail;
   const density_detail::ProfileCurve curve = curve_of(profile, side);
-  const std::vector<ShoreArc> shore = shore_arcs(coast);
-  base_detail::require(!shore.empty(), "the coast has no shore to be distant from; give rings");
-  const auto sides = std::make_shared<const CoastSides>(shore);
+  const std::vector<CoastArc> arcs = coast_arcs(coast);
+  base_detail::require(!arcs.empty(), "the coast has no shore to be distant from; give rings");
+  const auto sides = std::make_shared<const CoastSides>(arcs);
   const bool on_land = side == CoastSide::land;
-  const auto is_behind = [sides, on_land](const Vec3& place) {
-    return sides->is_land(place) != on_land;
+  const auto is_behind = [sides, on_land](const Vec3& point) {
+    return sides->is_land(point) != on_land;
   };
   return Widths(density_detail::rule_of_sides(shores(coast), is_behind, curve));
 }

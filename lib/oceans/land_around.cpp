@@ -15,7 +15,7 @@ namespace {
 
 using namespace oceans_detail;
 
-/// Sines and cosines of azimuths of directions seen from a place, up to a common factor.
+/// Sines and cosines of azimuths of directions seen from a point, up to a common factor.
 class Compass {
 public:
   explicit Compass(const Vec3& up) {
@@ -34,8 +34,8 @@ private:
   Vec3 east_, north_;
 };
 
-/// True if a ring has a place, and not its antipode, to its left: it winds around the line through
-/// both, counter-clockwise seen from above the place. It errs by round-off only.
+/// True if a ring has a point, and not its antipode, to its left: it winds around the line through
+/// both, counter-clockwise seen from above the point. It errs by round-off only.
 bool is_left_of(const Points3& ring, const Compass& compass) {
   double angle = 0;
   for (Eigen::Index i = 0; i < ring.cols(); ++i)
@@ -45,10 +45,10 @@ bool is_left_of(const Points3& ring, const Compass& compass) {
 
 } // namespace
 
-Surface land_around(const Coast& coast, const Eigen::Vector3d& place) {
-  require(place.allFinite() && !place.isZero(0),
+Surface land_around(const Coast& coast, const Eigen::Vector3d& point) {
+  require(point.allFinite() && !point.isZero(0),
           "the place on land is no direction; give three finite numbers that are not all 0");
-  const Vec3 here = normalised(Vec3{place.x(), place.y(), place.z()});
+  const Vec3 here = normalised(Vec3{point.x(), point.y(), point.z()});
   const Compass compass(here);
   Surface smallest;
   double least = 2 * std::numbers::pi; // the left side of a lake's ring is larger

@@ -49,7 +49,7 @@ struct Arcs {
   std::vector<bool> starts;
 };
 
-Arcs arcs_of(const Coast& coast) {
+Arcs make_arcs(const Coast& coast) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t r = 0; r < coast.rings.size(); ++r)
     if (coast.rings[r].cols() > 2)
@@ -73,12 +73,12 @@ Arcs arcs_of(const Coast& coast) {
 
 // ---- What the arcs leave in cells and on edges
 
-/// A place where the coast crosses an edge, which runs from its lower to its higher vertex.
+/// A point where the coast crosses an edge, which runs from its lower to its higher vertex.
 struct Crossing {
   std::int32_t edge;
   std::int32_t change; ///< of the number of areas of land, along the edge
   double along;        ///< increases along the edge
-  Vec3 place;
+  Vec3 point;
 };
 
 /// The triangles of a generator with arcs of the coast.
@@ -96,14 +96,14 @@ class Tracer {
 public:
   Tracer(const Voronoi& cells, Traces& out) : cells_(cells), walk_(cells), out_(out) {}
 
-  void begin(const Vec3& place) { cell_ = walk_.locate(cell_, place); }
+  void begin(const Vec3& point) { cell_ = walk_.locate(cell_, point); }
 
   void trace(const Arc& arc) {
     Vec3 from = arc.from;
     cell_ = walk_.walk(cell_, arc, [&](std::int32_t cell, std::size_t k) {
-      const Vec3 place = cross_edge(cell, k, arc);
-      add_piece(cell, from, place);
-      from = place;
+      const Vec3 point = cross_edge(cell, k, arc);
+      add_piece(cell, from, point);
+      from = point;
     });
     add_piece(cell_, from, arc.to);
   }
@@ -124,10 +124,10 @@ private:
     const double before = dot(normal, arc.from), after = dot(normal, arc.to);
     const double ratio = before / (before - after);
     const double part = ratio >= 0 && ratio <= 1 ? ratio : ratio > 1 ? 1 : 0;
-    const Vec3 place = normalised(arc.from + part * (arc.to - arc.from));
+    const Vec3 point = normalised(arc.from + part * (arc.to - arc.from));
     out_.crossings.push_back(
-        {cells_.edges_on_cell[cell][k], a < b ? 1 : -1, dot(place - low, high - low), place});
-    return place;
+        {cells_.edges_on_cell[cell][k], a < b ? 1 : -1, dot(point - low, high - low), point});
+    return point;
   }
 
   const Voronoi& cells_;
@@ -136,7 +136,7 @@ private:
   std::int32_t cell_ = 0;
 };
 
-Traces traces_of(const Voronoi& cells, const Arcs& arcs) {
+Traces trace_coast(const Voronoi& cells, const Arcs& arcs) {
   constexpr std::int64_t at_once = 4096;
   const auto count = std::ssize(arcs.arcs);
   std::vector<Traces> parts(static_cast<std::size_t>((count + at_once - 1) / at_once));
@@ -169,8 +169,8 @@ EdgeCrossings by_edge(std::vector<Crossing> crossings, std::int64_t edges) {
   out.begin = sort_in_groups(
       edges, [](const Crossing& c) { return c.edge; },
       [](const Crossing& a, const Crossing& b) {
-        return std::tie(a.along, a.change, a.place.x, a.place.y, a.place.z) <
-               std::tie(b.along, b.change, b.place.x, b.place.y, b.place.z);
+        return std::tie(a.along, a.change, a.point.x, a.point.y, a.point.z) <
+               std::tie(b.along, b.change, b.point.x, b.point.y, b.point.z);
       },
       out.items);
   return out;
@@ -235,7 +235,7 @@ double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
     from = &to;
   };
   for (const Crossing& crossing : crossings[cells.edges_on_cell[cell][k]]) {
-    add(crossing.place);
+    add(crossing.point);
     count += crossing.change;
   }
   add(column(cells.vertices, std::max(a, b)));
@@ -246,8 +246,8 @@ struct CellAreas {
   DoubleVector land, whole; ///< the land less as many spheres as counts are too low
 };
 
-CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
-                   std::vector<Piece> pieces) {
+CellAreas sum_areas(const Voronoi& cells, const EdgeCrossings& crossings,
+                    std::vector<Piece> pieces) {
   const std::vector<std::int32_t> counts = counts_at_vertices(cells, crossings);
   const std::int64_t n = cells.cells.cols();
   CellAreas areas{DoubleVector(n), DoubleVector(n)};
@@ -271,7 +271,7 @@ CellAreas areas_of(const Voronoi& cells, const EdgeCrossings& crossings,
 }
 
 /// The fractions, once it is known how many spheres the areas are too low.
-DoubleVector fractions_of(const CellAreas& areas, double area) {
+DoubleVector make_fractions(const CellAreas& areas, double area) {
   const double excess = (area - areas.land.sum()) / whole_sphere, spheres = std::round(excess);
   require(std::abs(excess - spheres) < 1e-6,
           "the area of the land is not that of its coast; give both anew");
@@ -290,10 +290,10 @@ DoubleVector fractions_of(const CellAreas& areas, double area) {
 
 DoubleVector land_fractions(const Voronoi& cells, const Coast& coast) {
   using namespace oceans_detail;
-  Traces traces = traces_of(cells, arcs_of(coast));
+  Traces traces = trace_coast(cells, make_arcs(coast));
   const EdgeCrossings crossings =
       by_edge(std::move(traces.crossings), cells.edges_on_cell.items.maxCoeff() + 1);
-  return fractions_of(areas_of(cells, crossings, std::move(traces.pieces)), coast.area);
+  return make_fractions(sum_areas(cells, crossings, std::move(traces.pieces)), coast.area);
 }
 
 std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector<Points3>& lines) {
@@ -310,8 +310,8 @@ std::vector<std::int32_t> cells_on_lines(const Voronoi& cells, const std::vector
       const Vec3 next = turned(column(line, k));
       if (next.x == here.x && next.y == here.y && next.z == here.z)
         continue;
-      cell = walk.walk(cell, {here, next}, [&](std::int32_t left, std::size_t place) {
-        found.push_back(cells.cells_on_cell[left][place]);
+      cell = walk.walk(cell, {here, next}, [&](std::int32_t left, std::size_t index) {
+        found.push_back(cells.cells_on_cell[left][index]);
       });
       here = next;
     }

@@ -9,7 +9,7 @@
 #include "domain/arcs.h"
 #include "exact/predicates.h"
 
-/// Coasts, land and sea: the shores of a coast and their sides, the land around a place, the
+/// Coasts, land and sea: the shores of a coast and their sides, the land around a point, the
 /// fraction of each cell that is land, and which cells are the sea.
 ///
 /// Of the class Widths, which is of the room density, two members are defined here, since they know

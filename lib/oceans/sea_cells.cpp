@@ -56,7 +56,7 @@ struct SeaParts {
   std::vector<std::int64_t> size; ///< cells of each
 };
 
-SeaParts parts_of(const IdLists& cells_on_cell, const Ids& of_cell) {
+SeaParts find_parts(const IdLists& cells_on_cell, const Ids& of_cell) {
   SeaParts parts{Ids::Constant(of_cell.size(), -1), {}};
   std::vector<std::int32_t> stack;
   for (std::int32_t first = 0; first < of_cell.size(); ++first) {
@@ -106,7 +106,7 @@ SeaCells sea_cells(const IdLists& cells_on_cell, const std::vector<std::uint8_t>
   counts.opened = set(options.opened, sea, of_cell);
   if (options.fill)
     counts.filled = fill(cells_on_cell, of_cell);
-  const SeaParts parts = parts_of(cells_on_cell, of_cell);
+  const SeaParts parts = find_parts(cells_on_cell, of_cell);
   require(!parts.size.empty(), "no cell is sea; check the land");
   const std::vector<bool> kept = kept_parts(parts, options.seeds);
   counts.parts = std::ssize(parts.size);

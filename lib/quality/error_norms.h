@@ -14,9 +14,9 @@
 /// Sums and extremes of errors, which have the same bits for any number of threads.
 namespace calotte::quality_detail {
 
-using Errors = Array<double>; ///< by place; NaN without a complete stencil
+using Errors = Array<double>; ///< by index; NaN without a complete stencil
 
-/// Squares at one place, summed over the fields.
+/// Squares at one index, summed over the fields.
 struct Squares {
   double error = 0, exact = 0;
 
@@ -30,13 +30,13 @@ struct NormPart {
   double weight = 0, error = 0, exact = 0, greatest = 0;
   std::int64_t at = -1;
 
-  void add(double w, const Squares& squares, std::int64_t place) {
+  void add(double w, const Squares& squares, std::int64_t index) {
     weight += w;
     error += w * squares.error;
     exact += w * squares.exact;
     if (at < 0 || squares.error > greatest) {
       greatest = squares.error;
-      at = place;
+      at = index;
     }
   }
   void join(const NormPart& other) {
@@ -50,11 +50,11 @@ struct NormPart {
   }
 };
 
-/// The norms of errors at n places, over the root mean square of the exact values.
-/// \param weight(i) of a place; 0 without a complete stencil.
+/// The norms of errors at n points, over the root mean square of the exact values.
+/// \param weight(i) of a index; 0 without a complete stencil.
 /// \param measure(i) its Squares.
 /// \param errors receives the relative errors.
-/// \returns `cell` is the index of the worst place, the first of several.
+/// \returns `cell` is the index of the worst index, the first of several.
 template <class Weight, class Measure>
 ErrorNorms error_norms(std::int64_t n, const Weight& weight, const Measure& measure,
                        Errors& errors) {
@@ -83,8 +83,8 @@ ErrorNorms error_norms(std::int64_t n, const Weight& weight, const Measure& meas
   return out;
 }
 
-/// The norms of distances at n places, of equal weight; `cell` is the place.
-/// \param distance(i) NaN for a place to leave out.
+/// The norms of distances at n points, of equal weight; `cell` is the index.
+/// \param distance(i) NaN for a index to leave out.
 template <class Distance> ErrorNorms distance_norms(std::int64_t n, const Distance& distance) {
   Errors distances(n), squares;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -35,7 +35,7 @@ void set_position(const Points3& cells, ErrorNorms& norms) {
 }
 
 /// All but off_centroid.
-OperatorErrors errors_of(const Voronoi& cells) {
+OperatorErrors measure_errors(const Voronoi& cells) {
   OperatorErrors out;
   set_truncation(cells, out);
   out.primal_eigenvalue = primal_eigenvalue(cells);
@@ -67,7 +67,7 @@ bool require_delaunay(const Mesh& mesh) {
 
 OperatorErrors of_closed(const Mesh& mesh, const Density& density) {
   const Voronoi cells = voronoi(mesh);
-  OperatorErrors out = errors_of(cells);
+  OperatorErrors out = measure_errors(cells);
   const Moments moments = mesh_moments(mesh, density);
   FirstFault fault;
   out.off_centroid = off_centroid(cells, [&](std::int64_t i) {
@@ -126,7 +126,7 @@ Ids surrounded(const Mesh& mesh) {
 
 OperatorErrors of_open(const Mesh& mesh) {
   const voronoi_detail::CellPart whole = voronoi_detail::part_of(mesh, surrounded(mesh));
-  OperatorErrors out = errors_of(whole.voronoi);
+  OperatorErrors out = measure_errors(whole.voronoi);
   out.off_centroid =
       off_centroid(whole.voronoi, [&](std::int64_t i) { return first_moment(whole.voronoi, i); });
   renumber(whole.site, mesh.points.cols(), out);
@@ -136,7 +136,7 @@ OperatorErrors of_open(const Mesh& mesh) {
 OperatorErrors in_plane(const Mesh& mesh, const Density& density) {
   const DoubleVector off = cell_measures(mesh, density).off_centroid;
   const Voronoi cells = voronoi(mesh);
-  OperatorErrors out = errors_of(cells);
+  OperatorErrors out = measure_errors(cells);
   out.off_centroid = distance_norms(off.size(), [&](std::int64_t i) { return off[i]; });
   set_position(cells.cells, out.off_centroid);
   return out;

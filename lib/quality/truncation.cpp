@@ -85,15 +85,15 @@ private:
           continue;
         const Vec3 across =
             fields_.offset(cell(of_.cells_on_edge(0, e)), cell(of_.cells_on_edge(1, e)));
-        const Vec3 place = column(of_.edges, e), normal = (1 / norm(across)) * across;
-        slopes_[e] = {fields_.slopes(place, normal),
-                      fields_.slopes(place, cross(fields_.up(place), normal))};
+        const Vec3 point = column(of_.edges, e), normal = (1 / norm(across)) * across;
+        slopes_[e] = {fields_.slopes(point, normal),
+                      fields_.slopes(point, cross(fields_.up(point), normal))};
       }
     });
   }
   const Vec3& cell(std::int64_t i) const { return column(of_.cells, i); }
 
-  // ---- Operators: the errors at one place
+  // ---- Operators: the errors at one point
 
   /// Calls add(edge, sign) for the edges of a cell; sign is 1 if the normal leaves it.
   template <class Add> void around_cell(std::int64_t i, const Add& add) const {
@@ -264,7 +264,7 @@ private:
 };
 
 /// The longest waves of a periodic plane, or of the box around the cells.
-Waves waves_of(const Voronoi& of) {
+Waves longest_waves(const Voronoi& of) {
   constexpr double turn = 2 * std::numbers::pi;
   if (of.surface.period().minCoeff() > 0)
     return {{0, 0, 0},
@@ -282,7 +282,7 @@ void set_truncation(const Voronoi& of, OperatorErrors& out) {
   if (of.surface.is_sphere())
     Truncation(of, Harmonics{}).measure(out);
   else
-    Truncation(of, waves_of(of)).measure(out);
+    Truncation(of, longest_waves(of)).measure(out);
 }
 
 } // namespace calotte::quality_detail

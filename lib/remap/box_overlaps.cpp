@@ -179,7 +179,7 @@ void BoxOverlaps::set_path(std::span<const Vec3> corners) {
 /// Around the north pole the boundary goes there, round it, and back along the same meridian.
 void BoxOverlaps::close_path() {
   const double around = path_.back().longitude - path_.front().longitude;
-  holds_south_pole_ = around < -180;
+  contains_south_pole_ = around < -180;
   if (around <= 180)
     return;
   const PathPoint end = path_.back();
@@ -306,7 +306,7 @@ double BoxOverlaps::set_areas(WeightRow& out) {
       pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.row < b.row; });
   const std::int64_t first = west->column, all = tiling_.columns(),
                      columns = std::min(east->column - first + 1, all),
-                     base = holds_south_pole_ ? 0 : south->row, rows = north->row - base + 1;
+                     base = contains_south_pole_ ? 0 : south->row, rows = north->row - base + 1;
   areas_.assign(static_cast<std::size_t>(columns * rows), 0);
   turns_.assign(static_cast<std::size_t>(columns * rows), 0);
   for (const Piece& piece : pieces_) {

@@ -63,7 +63,7 @@ private:
   std::vector<double> rises_;         ///< heights of its rows
   std::vector<Column> columns_;
   std::int64_t column_ = 0, row_ = 0; ///< of the last point
-  bool holds_south_pole_ = false;
+  bool contains_south_pole_ = false;
 };
 
 } // namespace calotte::remap_detail

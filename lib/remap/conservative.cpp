@@ -216,20 +216,20 @@ public:
   void set_linear(const Vec3& unit, WeightRow& row) const {
     if (tiling_.box_at(unit) < 0)
       return;
-    const base_detail::LonLat place = base_detail::lonlat_of(unit);
-    const Bracket along = along_longitude(place.longitude);
+    const base_detail::LonLat at = base_detail::lonlat_of(unit);
+    const Bracket along = along_longitude(at.longitude);
     const Eigen::Index southern = node(0), northern = node(rows_ - 1);
-    if (place.latitude > boxes_.latitudes[northern])
-      return beyond(northern, place.latitude, 90, along, row);
-    if (place.latitude < boxes_.latitudes[southern])
-      return beyond(southern, place.latitude, -90, along, row);
+    if (at.latitude > boxes_.latitudes[northern])
+      return beyond(northern, at.latitude, 90, along, row);
+    if (at.latitude < boxes_.latitudes[southern])
+      return beyond(southern, at.latitude, -90, along, row);
     Eigen::Index low = 0, high = rows_ - 1; // of rows from the south
     while (high - low > 1) {
       const Eigen::Index middle = (low + high) / 2;
-      (boxes_.latitudes[node(middle)] <= place.latitude ? low : high) = middle;
+      (boxes_.latitudes[node(middle)] <= at.latitude ? low : high) = middle;
     }
     const double from = boxes_.latitudes[node(low)], to = boxes_.latitudes[node(high)],
-                 part = high > low ? (place.latitude - from) / (to - from) : 0;
+                 part = high > low ? (at.latitude - from) / (to - from) : 0;
     add(node(low), along, 1 - part, row);
     add(node(high), along, part, row);
     finish(row);
@@ -349,7 +349,7 @@ Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
     for_each_block(found.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
       PolygonRow worker(overlaps);
       for (std::int64_t i = begin; i < end; ++i)
-        found[i] = worker.holder_of(position_of(i));
+        found[i] = worker.find_containing(position_of(i));
     });
   };
   if (polygons.surface.is_sphere()) {
@@ -360,9 +360,9 @@ Ids cells_at(const Polygons& polygons, const PointsRef& positions) {
     });
   } else {
     const Plane plane(polygons.surface.period());
-    const base_detail::Points2Ref places = mesh_detail::checked_positions(plane, positions);
+    const base_detail::Points2Ref points = mesh_detail::checked_positions(plane, positions);
     locate_in(plane, [&](std::int64_t i) {
-      return plane.wrapped(Vec3{places(0, i), places(1, i), 0});
+      return plane.wrapped(Vec3{points(0, i), points(1, i), 0});
     });
   }
   return found;

@@ -23,8 +23,8 @@ struct Valid {
 };
 
 /// \param values of the first cell of the source; those of the next are `stride` further.
-Valid valid_of(const Weights& weights, std::int64_t row, const double* values,
-               std::int64_t stride) {
+Valid sum_valid(const Weights& weights, std::int64_t row, const double* values,
+                std::int64_t stride) {
   Valid valid{0, 0, 0};
   for (Weights::InnerIterator entry(weights, row); entry; ++entry) {
     const double value = values[entry.col() * stride];
@@ -37,8 +37,8 @@ Valid valid_of(const Weights& weights, std::int64_t row, const double* values,
   return valid;
 }
 
-double category_of(const Weights& weights, std::int64_t row, const double* values,
-                   std::int64_t stride) {
+double heaviest_category(const Weights& weights, std::int64_t row, const double* values,
+                         std::int64_t stride) {
   std::map<double, double> shares;
   for (Weights::InnerIterator entry(weights, row); entry; ++entry)
     if (const double value = values[entry.col() * stride]; !std::isnan(value))
@@ -72,13 +72,13 @@ MeshField interpolate(const GridWeights& weights, const MeshField& field, double
     for (std::int64_t i = begin; i < end; ++i)
       for (std::int64_t k = 0; k < count; ++k) {
         const double* const values = field.values.data() + k;
-        const Valid valid = valid_of(matrix, i, values, count);
+        const Valid valid = sum_valid(matrix, i, values, count);
         const double cover = weights.target_fraction[i] * valid.weight / valid.whole;
         double& value = out.values[i * count + k];
         if (!(valid.weight > 0) || cover < min_cover * (1 - 1e-9))
           value = missing;
         else if (field.integer)
-          value = category_of(matrix, i, values, count);
+          value = heaviest_category(matrix, i, values, count);
         else // divided where some do not count, so that other weights act as they are
           value =
               valid.weight == valid.whole ? valid.sum : valid.sum * (valid.whole / valid.weight);

@@ -201,8 +201,8 @@ public:
     merge_columns(out);
   }
 
-  /// The lowest polygon of the source that holds a point; -1 if there is none.
-  std::int32_t holder_of(const Vec3& point) {
+  /// The lowest polygon of the source that contains a point; -1 if there is none.
+  std::int32_t find_containing(const Vec3& point) {
     std::int32_t lowest = -1;
     for_each_shift([&](const Vec3& shift) {
       const Vec3 moved = S::on_sphere ? point : point + shift;
@@ -211,7 +211,7 @@ public:
             return overlap(box, {moved, moved});
           },
           [&](std::int32_t other) {
-            if ((lowest < 0 || other < lowest) && holds(other, moved))
+            if ((lowest < 0 || other < lowest) && contains(other, moved))
               lowest = other;
           });
     });
@@ -233,7 +233,7 @@ private:
   }
 
   /// By the signs of the convex parts that hold the point.
-  bool holds(std::int32_t polygon, const Vec3& point) {
+  bool contains(std::int32_t polygon, const Vec3& point) {
     constexpr double rounding = 1e-14;
     set_corners(overlaps_.space(), overlaps_.source(), polygon, others_);
     set_parts(overlaps_.space(), others_, other_parts_);

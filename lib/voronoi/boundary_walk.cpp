@@ -27,7 +27,7 @@ public:
   Walk(const Points3& sites, const Neighbours& neighbours)
       : sites_(sites), neighbours_(neighbours) {}
 
-  /// Goes from a cell at one place to the cell at another. Calls cross(cell, next, place).
+  /// Goes from a cell at one point to the cell at another. Calls cross(cell, next, point).
   template <class Cross>
   std::int32_t go(std::int32_t cell, const Vec2& from, const Vec2& to, const Cross& cross) const {
     double share = 0;
@@ -42,24 +42,24 @@ public:
     throw Error(ErrorCode::internal, "the walk along the domain's boundary has no end");
   }
 
-  /// Whether two consecutive vertices are one place but for rounding.
+  /// Whether two consecutive vertices are one point but for rounding.
   bool near(const BoundaryVertex& a, const BoundaryVertex& b) const {
-    const double rounding = 0x1p-50 * (std::abs(a.place.x) + std::abs(a.place.y));
-    return norm(b.place - a.place) <= rounding + relative * norm(a.place - site(a.after));
+    const double rounding = 0x1p-50 * (std::abs(a.point.x) + std::abs(a.point.y));
+    return norm(b.point - a.point) <= rounding + relative * norm(a.point - site(a.after));
   }
 
-  /// The crossings at a place where several cells meet, from one of them to another by the least
+  /// The crossings at a point where several cells meet, from one of them to another by the least
   /// number of cells on the domain's side. None if rounding has put them in another order.
-  std::optional<std::vector<BoundaryVertex>> around(const Vec2& place, std::int32_t from,
+  std::optional<std::vector<BoundaryVertex>> around(const Vec2& point, std::int32_t from,
                                                     std::int32_t to) const {
     std::vector<BoundaryVertex> path;
     if (from == to)
-      path.push_back({place, from, from});
+      path.push_back({point, from, from});
     for (std::int32_t cell = from; cell != to;) {
-      const std::int32_t next = towards(place, cell, to);
+      const std::int32_t next = towards(point, cell, to);
       if (next < 0)
         return std::nullopt;
-      path.push_back({place, cell, next});
+      path.push_back({point, cell, next});
       cell = next;
     }
     return path;
@@ -70,23 +70,23 @@ public:
 private:
   static constexpr double relative = 0x1p-44; ///< error of an offset or product
 
-  /// The angle by which the way from a place to one site turns right to that to another, 0 to 2 pi.
-  double turn(const Vec2& place, std::int32_t from, std::int32_t to) const {
-    const Vec2 a = site(from) - place, b = site(to) - place;
+  /// The angle by which the way from a point to one site turns right to that to another, 0 to 2 pi.
+  double turn(const Vec2& point, std::int32_t from, std::int32_t to) const {
+    const Vec2 a = site(from) - point, b = site(to) - point;
     const double angle = -std::atan2(cross(a, b), dot(a, b));
     return angle < 0 ? angle + 2 * std::numbers::pi : angle;
   }
 
-  /// The neighbour of a cell that is as near to a place, and comes next to another cell clockwise.
-  std::int32_t towards(const Vec2& place, std::int32_t cell, std::int32_t last) const {
-    const double all = turn(place, cell, last);
+  /// The neighbour of a cell that is as near to a point, and comes next to another cell clockwise.
+  std::int32_t towards(const Vec2& point, std::int32_t cell, std::int32_t last) const {
+    const double all = turn(point, cell, last);
     std::int32_t farthest = -1;
     double most = 0;
     for (const std::int32_t other : neighbours_[cell]) {
       if (other == last)
         return last;
-      const double part = turn(place, cell, other);
-      if (over(cell, other, place) == 0 && part < all && part > most) {
+      const double part = turn(point, cell, other);
+      if (over(cell, other, point) == 0 && part < all && part > most) {
         farthest = other;
         most = part;
       }
@@ -95,10 +95,10 @@ private:
   }
 
   /// Half the difference of squared distances, positive if a is nearer; 0 if rounding could decide.
-  double over(std::int32_t a, std::int32_t b, const Vec2& place) const {
+  double over(std::int32_t a, std::int32_t b, const Vec2& point) const {
     if (a > b) // the same value for both
-      return -over(b, a, place);
-    const Vec2 way = site(b) - site(a), there = place - site(a);
+      return -over(b, a, point);
+    const Vec2 way = site(b) - site(a), there = point - site(a);
     const double value = dot(way, 0.5 * way - there);
     return std::abs(value) > relative * norm(way) * (norm(way) + norm(there)) ? value : 0;
   }
@@ -159,7 +159,7 @@ std::vector<BoundaryVertex> straightened(const Walk& walk, std::vector<BoundaryV
       ++end;
     const auto path = end == k + 1
                           ? std::nullopt
-                          : walk.around(ring[k].place, ring[k].before, ring[end - 1].after);
+                          : walk.around(ring[k].point, ring[k].before, ring[end - 1].after);
     if (path)
       out.insert(out.end(), path->begin(), path->end());
     else
@@ -176,8 +176,8 @@ std::vector<BoundaryVertex> walk_once(const Walk& walk, const std::vector<Vec2>&
   for (std::size_t k = 0; k < corners.size(); ++k) {
     append(walk, {corners[k], cell, cell}, ring);
     cell = walk.go(cell, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1],
-                   [&](std::int32_t before, std::int32_t after, const Vec2& place) {
-                     append(walk, {place, before, after}, ring);
+                   [&](std::int32_t before, std::int32_t after, const Vec2& point) {
+                     append(walk, {point, before, after}, ring);
                    });
   }
   close(walk, ring);

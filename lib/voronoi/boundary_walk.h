@@ -16,10 +16,10 @@ namespace calotte::voronoi_detail {
 /// The neighbours of each site in a Delaunay triangulation.
 using Neighbours = Lists<std::vector<std::int32_t>, std::vector<std::int64_t>>;
 
-/// A place on the boundary where sides of cells along it meet: a corner of the boundary, or the end
+/// A point on the boundary where sides of cells along it meet: a corner of the boundary, or the end
 /// of a Voronoi edge.
 struct BoundaryVertex {
-  Vec2 place;
+  Vec2 point;
   /// The cells of the sides that end and start here, with the domain to the left; equal at a corner
   /// of the boundary within a cell. Others are neighbours.
   std::int32_t before, after;

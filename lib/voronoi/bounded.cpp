@@ -71,10 +71,10 @@ std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_
       edges.push_back(side);
       continue;
     }
-    std::int32_t& place = side.left >= 0 ? edges.back().left : edges.back().right;
-    if (place >= 0)
+    std::int32_t& slot = side.left >= 0 ? edges.back().left : edges.back().right;
+    if (slot >= 0)
       refuse_edge(side);
-    place = std::max(side.left, side.right);
+    slot = std::max(side.left, side.right);
   }
   return edges;
 }
@@ -99,13 +99,13 @@ Neighbours neighbours_across(const std::vector<DelaunayEdge>& edges, std::int64_
 struct Crossing {
   std::size_t edge;
   bool starts;  ///< the part of the edge inside the domain starts here, seen from its lower site
-  double along; ///< its place on the edge, which has its lower site to the left
+  double along; ///< its position on the edge, which has its lower site to the left
   std::int32_t vertex; ///< of all of the boundary
 };
 
 /// In their order on each edge.
-std::vector<Crossing> crossings_of(const std::vector<std::vector<BoundaryVertex>>& rings,
-                                   const std::vector<DelaunayEdge>& edges, const Points3& sites) {
+std::vector<Crossing> find_crossings(const std::vector<std::vector<BoundaryVertex>>& rings,
+                                     const std::vector<DelaunayEdge>& edges, const Points3& sites) {
   std::vector<Crossing> crossings;
   std::int32_t vertex = 0;
   for (const auto& ring : rings)
@@ -119,7 +119,7 @@ std::vector<Crossing> crossings_of(const std::vector<std::vector<BoundaryVertex>
           [](const DelaunayEdge& e, const auto& key) { return std::pair(e.low, e.high) < key; });
       const Vec2 from{sites(0, low), sites(1, low)}, to{sites(0, high), sites(1, high)};
       crossings.push_back({static_cast<std::size_t>(edge - edges.begin()), at.before == low,
-                           cross(to - from, at.place - from), own});
+                           cross(to - from, at.point - from), own});
     }
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     return std::tie(a.edge, a.along, a.vertex) < std::tie(b.edge, b.along, b.vertex);
@@ -134,9 +134,9 @@ struct Beyond {
 };
 
 void add(std::array<Beyond, 3>& list, const Beyond& beyond) {
-  for (Beyond& place : list)
-    if (place.triangle < 0) {
-      place = beyond;
+  for (Beyond& entry : list)
+    if (entry.triangle < 0) {
+      entry = beyond;
       return;
     }
 }
@@ -191,8 +191,8 @@ Vec3 circumcentre_of(const Points3& sites, const Triangles& triangles, std::int6
       corner = i;
     }
   const Vec2 from = at(corner);
-  const Vec2 place = from + circumcentre(at(corner + 1) - from, at(corner + 2) - from);
-  return {place.x, place.y, 0};
+  const Vec2 point = from + circumcentre(at(corner + 1) - from, at(corner + 2) - from);
+  return {point.x, point.y, 0};
 }
 
 // ---- Cells
@@ -304,14 +304,14 @@ void set_vertices(const Mesh& mesh, const std::vector<std::int32_t>& vertex_of_t
   std::int64_t v = inner;
   for (const auto& ring : rings)
     for (const BoundaryVertex& at : ring)
-      set_column(out.vertices, v++, {at.place.x, at.place.y, 0});
+      set_column(out.vertices, v++, {at.point.x, at.point.y, 0});
 }
 
 Voronoi bounded(const Mesh& mesh, const Outline& outline) {
   const std::vector<DelaunayEdge> edges = delaunay_edges(mesh.triangles, mesh.points.cols());
   const auto rings =
       walk_boundary(outline, mesh.points, neighbours_across(edges, mesh.points.cols()));
-  const std::vector<Crossing> crossings = crossings_of(rings, edges, mesh.points);
+  const std::vector<Crossing> crossings = find_crossings(rings, edges, mesh.points);
   std::vector<int> starts(edges.size());
   for (const Crossing& crossing : crossings)
     starts[crossing.edge] += crossing.starts ? 1 : -1;

@@ -11,15 +11,15 @@ namespace calotte::voronoi_detail {
 
 /// On the cell's side of an edge. The great circle runs from the lower vertex to the higher one; it
 /// belongs to its left side.
-bool CellWalk::is_inside(std::int32_t cell, std::size_t place, const Vec3& x) const {
-  const std::int32_t a = start_of(cells_, cell, place), b = cells_.vertices_on_cell[cell][place];
+bool CellWalk::is_inside(std::int32_t cell, std::size_t index, const Vec3& x) const {
+  const std::int32_t a = start_of(cells_, cell, index), b = cells_.vertices_on_cell[cell][index];
   const Vec3 &from = column(cells_.vertices, a), &to = column(cells_.vertices, b);
   return a < b ? turn(from, to, x) >= 0 : turn(to, from, x) < 0;
 }
 
 /// The great circle of the arc leaves a cell through the edge, counter-clockwise, that passes to
 /// its left; the arc ends before it or beyond.
-std::optional<std::size_t> CellWalk::exit_of(std::int32_t cell, const Arc& arc) const {
+std::optional<std::size_t> CellWalk::find_exit(std::int32_t cell, const Arc& arc) const {
   const std::span<const std::int32_t> vertices = cells_.vertices_on_cell[cell];
   const auto is_left = [&](std::int32_t vertex) {
     return turn(arc.from, arc.to, column(cells_.vertices, vertex)) >= 0;
@@ -34,14 +34,14 @@ std::optional<std::size_t> CellWalk::exit_of(std::int32_t cell, const Arc& arc) 
   lose();
 }
 
-std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
+std::int32_t CellWalk::locate(std::int32_t near, const Vec3& point) const {
   std::int32_t cell = near;
-  double nearest = dot(column(cells_.cells, cell), place);
+  double nearest = dot(column(cells_.cells, cell), point);
   for (bool moved = true; moved;) {
     moved = false;
     const std::int32_t here = cell;
     for (const std::int32_t other : cells_.cells_on_cell[here]) {
-      const double cosine = other < 0 ? -2 : dot(column(cells_.cells, other), place);
+      const double cosine = other < 0 ? -2 : dot(column(cells_.cells, other), point);
       if (cosine > nearest) {
         nearest = cosine;
         cell = other;
@@ -50,9 +50,9 @@ std::int32_t CellWalk::locate(std::int32_t near, const Vec3& place) const {
     }
   }
   const Vec3& generator = column(cells_.cells, cell);
-  if (generator.x == place.x && generator.y == place.y && generator.z == place.z)
+  if (generator.x == point.x && generator.y == point.y && generator.z == point.z)
     return cell;
-  return walk(cell, {generator, place}, [](std::int32_t, std::size_t) {});
+  return walk(cell, {generator, point}, [](std::int32_t, std::size_t) {});
 }
 
 void CellWalk::lose() {

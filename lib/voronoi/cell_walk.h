@@ -13,10 +13,10 @@
 namespace calotte::voronoi_detail {
 
 /// Walks along arcs from cell to cell of a closed tessellation of the sphere. The cells are the
-/// polygons of its vertices; which side of an edge a place is on is exact, and the same for both
+/// polygons of its vertices; which side of an edge a point is on is exact, and the same for both
 /// cells. The walk passes through edges only.
 ///
-/// A place on an edge, or an arc through a vertex, may have no such walk: a caller turns its arcs a
+/// A point on an edge, or an arc through a vertex, may have no such walk: a caller turns its arcs a
 /// little.
 class CellWalk {
 public:
@@ -26,10 +26,10 @@ public:
   /// The cell that contains a unit vector. \param near a cell; the time is the number of cells on
   /// the way from it.
   /// \throws Error invalid_argument, if there is no walk.
-  std::int32_t locate(std::int32_t near, const Vec3& place) const;
+  std::int32_t locate(std::int32_t near, const Vec3& point) const;
 
   /// Walks along an arc from the cell that contains its start.
-  /// \param cross called as cross(cell, k) before the walk leaves a cell through the edge at place
+  /// \param cross called as cross(cell, k) before the walk leaves a cell through the edge at point
   ///        k of its lists.
   /// \returns the cell that contains the end.
   /// \throws Error invalid_argument, if there is no walk, as in a mesh that does not cover the
@@ -37,7 +37,7 @@ public:
   template <class Cross>
   std::int32_t walk(std::int32_t cell, const Arc& arc, const Cross& cross) const {
     for (std::int64_t steps = 0; steps <= cells_.cells.cols(); ++steps) {
-      const std::optional<std::size_t> exit = exit_of(cell, arc);
+      const std::optional<std::size_t> exit = find_exit(cell, arc);
       if (!exit)
         return cell;
       cross(cell, *exit);
@@ -49,10 +49,10 @@ public:
   }
 
 private:
-  /// The place in the cell's lists of the edge through which the arc leaves it; none if it ends
+  /// The point in the cell's lists of the edge through which the arc leaves it; none if it ends
   /// there.
-  std::optional<std::size_t> exit_of(std::int32_t cell, const Arc& arc) const;
-  bool is_inside(std::int32_t cell, std::size_t place, const Vec3& x) const;
+  std::optional<std::size_t> find_exit(std::int32_t cell, const Arc& arc) const;
+  bool is_inside(std::int32_t cell, std::size_t index, const Vec3& x) const;
   [[noreturn]] static void lose();
 
   const Voronoi& cells_;

@@ -108,19 +108,19 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
 
 // ---- Edges: numbered by their lower cell, then by their higher one
 
-/// A neighbour of a cell, and the place of its edge in the cell's list.
+/// A neighbour of a cell, and the index of its edge in the cell's list.
 struct Neighbour {
   std::int32_t cell;
-  std::size_t place;
+  std::size_t index;
 };
 
-/// Sets all data of edge e, the `place`-th of the lower cell's list.
-void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::size_t place,
+/// Sets all data of edge e, the `index`-th of the lower cell's list.
+void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::size_t index,
               Voronoi& out) {
-  const std::int32_t left = out.vertices_on_cell[lower][place], right = start_of(out, lower, place);
-  out.cells_on_edge.col(e) << lower, out.cells_on_cell[lower][place];
+  const std::int32_t left = out.vertices_on_cell[lower][index], right = start_of(out, lower, index);
+  out.cells_on_edge.col(e) << lower, out.cells_on_cell[lower][index];
   out.vertices_on_edge.col(e) << right, left;
-  out.edges_on_cell[lower][place] = e;
+  out.edges_on_cell[lower][index] = e;
   // Edge j of a vertex joins its cells j - 1 and j.
   out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, left, lower)), left) = e;
   out.edges_on_vertex(vertex_at(surface.triangle_ids, right, lower), right) = e;
@@ -129,15 +129,15 @@ void set_edge(const Faces& surface, std::int32_t e, std::int32_t lower, std::siz
 void set_cell(const Faces& surface, const Rings& rings, std::int32_t i,
               std::vector<Neighbour>& higher, Voronoi& out, FirstFault& twice) {
   const std::span<std::int32_t> vertices = out.vertices_on_cell[i], cells = out.cells_on_cell[i];
-  std::size_t place = 0;
+  std::size_t index = 0;
   higher.clear();
   walk_ring(surface, rings.first[i], i, [&](Corner corner) {
     const std::int32_t j = following_site(surface, corner);
-    vertices[place] = corner.triangle;
-    cells[place] = j;
+    vertices[index] = corner.triangle;
+    cells[index] = j;
     if (j > i)
-      higher.push_back({j, place});
-    ++place;
+      higher.push_back({j, index});
+    ++index;
   });
   std::sort(higher.begin(), higher.end(),
             [](const Neighbour& a, const Neighbour& b) { return a.cell < b.cell; });
@@ -145,7 +145,7 @@ void set_cell(const Faces& surface, const Rings& rings, std::int32_t i,
   for (std::size_t k = 0; k < higher.size(); ++k) {
     if (k > 0 && higher[k].cell == higher[k - 1].cell)
       twice.at(i);
-    set_edge(surface, e++, i, higher[k].place, out);
+    set_edge(surface, e++, i, higher[k].index, out);
   }
 }
 
@@ -166,10 +166,10 @@ void set_edges_of_higher_cells(const Faces& surface, Voronoi& out) {
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::int32_t>(begin); i != end; ++i) {
       const std::span<const std::int32_t> cells = out.cells_on_cell[i];
-      for (std::size_t place = 0; place != cells.size(); ++place)
-        if (cells[place] < i) {
-          const std::int32_t t = out.vertices_on_cell[i][place];
-          out.edges_on_cell[i][place] =
+      for (std::size_t index = 0; index != cells.size(); ++index)
+        if (cells[index] < i) {
+          const std::int32_t t = out.vertices_on_cell[i][index];
+          out.edges_on_cell[i][index] =
               out.edges_on_vertex(next_vertex(vertex_at(surface.triangle_ids, t, i)), t);
         }
     }

@@ -19,11 +19,11 @@ struct Rings {
   Array<std::int32_t> first_edge; ///< of those of which the site is the lower cell
 };
 
-/// The vertex that edge `place` of a cell comes from, counter-clockwise; it leads to the vertex of
-/// the same place.
-inline std::int32_t start_of(const Voronoi& of, std::int64_t cell, std::size_t place) {
+/// The vertex that edge `index` of a cell comes from, counter-clockwise; it leads to the vertex of
+/// the same index.
+inline std::int32_t start_of(const Voronoi& of, std::int64_t cell, std::size_t index) {
   const std::span<const std::int32_t> vertices = of.vertices_on_cell[cell];
-  return place == 0 ? vertices.back() : vertices[place - 1];
+  return index == 0 ? vertices.back() : vertices[index - 1];
 }
 
 /// The first of two stages that set the ids of the tessellation dual to a closed surface: where

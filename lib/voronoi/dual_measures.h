@@ -51,7 +51,7 @@ struct HalfKite {
   double area; ///< signed, of either
 };
 
-/// The unit sphere; places are unit vectors.
+/// The unit sphere; points are unit vectors.
 struct SphereMeasures {
   const Array<double>& surplus; ///< by cell: by how much its norm exceeds 1
 
@@ -101,7 +101,7 @@ struct SphereMeasures {
   }
 };
 
-/// A periodic plane; places are in its box.
+/// A periodic plane; points are in its box.
 struct PlaneMeasures {
   double width, depth;
 
@@ -112,7 +112,7 @@ struct PlaneMeasures {
     const double inside = x - period * std::floor(x / period);
     return inside < period ? inside : 0; // rounding can reach it
   }
-  CALOTTE_INLINE Vec3 place(const Vec3& p) const {
+  CALOTTE_INLINE Vec3 wrapped_point(const Vec3& p) const {
     return {wrapped(p.x, width), wrapped(p.y, depth), 0};
   }
 
@@ -121,7 +121,7 @@ struct PlaneMeasures {
     return {nearest(b.x - a.x, width), nearest(b.y - a.y, depth), 0};
   }
   CALOTTE_INLINE Vec3 circumcentre(const Vec3&, const Vec3& a, const Vec3& middle) const {
-    return place(a + middle);
+    return wrapped_point(a + middle);
   }
   CALOTTE_INLINE double height(const Vec3& normal, const Vec3&) const {
     return 2 * std::abs(normal.z);
@@ -133,7 +133,7 @@ struct PlaneMeasures {
     return {arc, 0.25 * length * arc};
   }
   CALOTTE_INLINE Vec3 midpoint(const Vec3& a, const Vec3& difference, const Vec3&) const {
-    return place(a + 0.5 * difference);
+    return wrapped_point(a + 0.5 * difference);
   }
   CALOTTE_INLINE double distance(const Vec3&, const Vec3& difference) const {
     return std::sqrt(square(difference));

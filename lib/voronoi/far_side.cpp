@@ -31,7 +31,7 @@ namespace {
 }
 
 /// The sites of the boundary, the mesh to the left.
-std::vector<std::int32_t> boundary_of(const Mesh& mesh) {
+std::vector<std::int32_t> trace_boundary(const Mesh& mesh) {
   const std::int64_t n = mesh.points.cols();
   std::vector<std::int32_t> following(static_cast<std::size_t>(n), -1);
   std::int32_t first = -1;
@@ -74,7 +74,7 @@ void require_convex(const Mesh& mesh, const std::vector<std::int32_t>& ring) {
   }
 }
 
-/// A triangulation of a polygon by places in its ring, halved until triangles are left: flips are
+/// A triangulation of a polygon by indices in its ring, halved until triangles are left: flips are
 /// few from it.
 void halve(std::int32_t from, std::int32_t to, Triangles& out, Eigen::Index& count) {
   if (to - from < 2)
@@ -89,9 +89,9 @@ void halve(std::int32_t from, std::int32_t to, Triangles& out, Eigen::Index& cou
 struct Polygon {
   const Points3& points;
   const std::vector<std::int32_t>& ring;
-  Triangles triangles, neighbours; ///< places in the ring
+  Triangles triangles, neighbours; ///< indices in the ring
 
-  const Vec3& place(int v, Eigen::Index t) const {
+  const Vec3& point(int v, Eigen::Index t) const {
     return column(points, ring[static_cast<std::size_t>(triangles(v % 3, t))]);
   }
 
@@ -101,8 +101,8 @@ struct Polygon {
     if (u < 0)
       return false;
     const int w = opposite(u, t);
-    return exact_detail::in_circle_resolved({}, place(0, t), place(1, t), place(2, t),
-                                            place(w, u)) > 0;
+    return exact_detail::in_circle_resolved({}, point(0, t), point(1, t), point(2, t),
+                                            point(w, u)) > 0;
   }
 
   /// The vertex of a triangle across from another.
@@ -170,10 +170,10 @@ Triangles far_triangles(const Points3& points, std::vector<std::int32_t> ring) {
 
 } // namespace
 
-Mesh hull_of(const Mesh& mesh) {
+Mesh triangulate_hull(const Mesh& mesh) {
   if (const CheckReport found = check_surface(mesh); !found.passed())
     refuse_boundary(-1, found.failure);
-  std::vector<std::int32_t> ring = boundary_of(mesh);
+  std::vector<std::int32_t> ring = trace_boundary(mesh);
   require_convex(mesh, ring);
   const Triangles far = far_triangles(mesh.points, std::move(ring));
   Mesh hull{mesh.points, Triangles(3, mesh.triangles.cols() + far.cols()), {}, mesh.site_of_input};

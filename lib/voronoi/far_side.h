@@ -22,7 +22,7 @@ namespace calotte::voronoi_detail {
 /// \throws Error invalid_argument, naming a site, for a mesh whose boundary is not that of the
 ///         sites' hull: it has several parts, a corner to the inside, or sites without triangles;
 ///         for one that fails check_surface().
-Mesh hull_of(const Mesh& mesh);
+Mesh triangulate_hull(const Mesh& mesh);
 
 /// Sets the kites of a triangle on the far side, and its area.
 ///
@@ -34,7 +34,7 @@ Mesh hull_of(const Mesh& mesh);
 /// occurs where circumcentres are nearly opposite their sites.
 void measure_far(const Mesh& hull, std::int64_t triangle, Voronoi& out);
 
-/// True for a triangle of hull_of() on the far side, whose circumcentre is there.
+/// True for a triangle of triangulate_hull() on the far side, whose circumcentre is there.
 bool is_far(const Mesh& hull, std::int64_t triangle);
 
 } // namespace calotte::voronoi_detail

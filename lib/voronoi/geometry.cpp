@@ -107,7 +107,7 @@ void scatter_triangle(const TriangleBatch& batch, std::size_t lane, std::int64_t
 
 template <class Measures>
 void set_vertices(const Measures& measures, std::int64_t begin, std::int64_t end, Voronoi& out,
-                  Vec3* places) {
+                  Vec3* positions) {
   TriangleBatch batch;
   for (std::int64_t first = begin; first < end; first += lanes) {
     gather_triangles(measures, out, first, end, batch);
@@ -115,7 +115,7 @@ void set_vertices(const Measures& measures, std::int64_t begin, std::int64_t end
     const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
     for (std::int64_t t = first; t < last; ++t) {
       const auto lane = static_cast<std::size_t>(t - first);
-      places[t - begin] = at(batch.centre, lane);
+      positions[t - begin] = at(batch.centre, lane);
       scatter_triangle(batch, lane, t, out);
     }
   }
@@ -167,10 +167,10 @@ void measure_edges(const PlaneMeasures& measures, EdgeBatch& batch) {
 /// The vertex to the left of an edge's normal.
 std::int32_t left_vertex(const Voronoi& of, std::int64_t edge) {
   const std::int32_t cell = of.cells_on_edge(0, edge);
-  std::size_t place = 0;
-  while (of.edges_on_cell[cell][place] != edge)
-    ++place;
-  return of.vertices_on_cell[cell][place];
+  std::size_t index = 0;
+  while (of.edges_on_cell[cell][index] != edge)
+    ++index;
+  return of.vertices_on_cell[cell][index];
 }
 
 template <class Measures>
@@ -192,7 +192,7 @@ void gather_edges(const Measures& measures, const Voronoi& of, std::int64_t e, s
 
 template <class Measures>
 void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, Voronoi& out,
-               Vec3* places, double* angles) {
+               Vec3* positions, double* angles) {
   EdgeBatch batch;
   for (std::int64_t first = begin; first < end; first += lanes) {
     gather_edges(measures, out, first, end, batch);
@@ -200,7 +200,7 @@ void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, V
     const std::int64_t last = std::min(first + static_cast<std::int64_t>(lanes), end);
     for (std::int64_t e = first; e < last; ++e) {
       const auto lane = static_cast<std::size_t>(e - first);
-      places[e - begin] = at(batch.middle, lane);
+      positions[e - begin] = at(batch.middle, lane);
       angles[e - begin] = batch.angle[lane];
       out.dc[e] = batch.dc[lane];
       out.dv[e] = batch.dv[lane];
@@ -256,15 +256,15 @@ Array<double> begin_measures(Voronoi& out) {
 }
 
 void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
-                      Voronoi& out, Vec3* places) {
+                      Voronoi& out, Vec3* positions) {
   with_measures(out, surplus,
-                [&](const auto& measures) { set_vertices(measures, begin, end, out, places); });
+                [&](const auto& measures) { set_vertices(measures, begin, end, out, positions); });
 }
 
 void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
-                   Vec3* places, double* angles) {
+                   Vec3* positions, double* angles) {
   with_measures(out, surplus, [&](const auto& measures) {
-    set_edges(measures, begin, end, out, places, angles);
+    set_edges(measures, begin, end, out, positions, angles);
   });
 }
 

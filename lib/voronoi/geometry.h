@@ -11,7 +11,7 @@
 
 namespace calotte::voronoi_detail {
 
-/// Sets all places, lengths, angles and areas of a tessellation from its cells and ids.
+/// Sets all positions, lengths, angles and areas of a tessellation from its cells and ids.
 ///
 /// A triangle's circumcentre lies, from the middle of its edge ab, a signed arc delta away, towards
 /// the third vertex c: tan(delta) = |a-b| cos(C)|a-c||b-c| / (2 h), h the height of the centre's
@@ -24,7 +24,7 @@ namespace calotte::voronoi_detail {
 /// Of three sites that are one but for rounding, the deltas are 0.
 void measure(Voronoi& out);
 
-/// The same in parts, for callers that use places and angles as they are computed and store
+/// The same in parts, for callers that use positions and angles as they are computed and store
 /// neither: first begin_measures(); then all vertices; then all edges. measure_areas() may follow
 /// the vertices. Several threads may measure disjoint ranges.
 
@@ -34,14 +34,14 @@ void measure(Voronoi& out);
 Array<double> begin_measures(Voronoi& out);
 
 /// Sets the kites of vertices begin to end - 1.
-/// \param places receives the vertices.
+/// \param positions receives the vertices.
 void measure_vertices(const Array<double>& surplus, std::int64_t begin, std::int64_t end,
-                      Voronoi& out, Vec3* places);
+                      Voronoi& out, Vec3* positions);
 
 /// Sets dv and dc of edges begin to end - 1.
-/// \param places receives the midpoints. \param angles receives the angles of the normals.
+/// \param positions receives the midpoints. \param angles receives the angles of the normals.
 void measure_edges(const Array<double>& surplus, std::int64_t begin, std::int64_t end, Voronoi& out,
-                   Vec3* places, double* angles);
+                   Vec3* positions, double* angles);
 
 /// Sets the areas of the cells.
 void measure_areas(Voronoi& out);

@@ -24,46 +24,46 @@ namespace {
 
 // ---- Edges
 
-/// A side of a cell, between two vertices: place k of the cell's lists runs from vertex k - 1 to k.
+/// A side of a cell, between two vertices: index k of the cell's lists runs from vertex k - 1 to k.
 struct CellSide {
   std::int32_t low, high; ///< the vertices by number
   std::int32_t cell;
-  std::size_t place;
+  std::size_t index;
 };
 
 /// Sorted by their vertices, then by cell.
-std::vector<CellSide> sides_of(const Voronoi& of) {
+std::vector<CellSide> list_sides(const Voronoi& of) {
   std::vector<CellSide> sides;
   sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.items.size()));
   for (std::int32_t i = 0; i < of.cells.cols(); ++i)
-    for (std::size_t place = 0; place != of.vertices_on_cell[i].size(); ++place) {
-      const auto [low, high] = std::minmax({start_of(of, i, place), of.vertices_on_cell[i][place]});
-      sides.push_back({low, high, i, place});
+    for (std::size_t index = 0; index != of.vertices_on_cell[i].size(); ++index) {
+      const auto [low, high] = std::minmax({start_of(of, i, index), of.vertices_on_cell[i][index]});
+      sides.push_back({low, high, i, index});
     }
   sort_in_groups(
       of.vertices.cols(), [](const CellSide& side) { return side.low; },
       [](const CellSide& a, const CellSide& b) {
-        return std::tie(a.high, a.cell, a.place) < std::tie(b.high, b.cell, b.place);
+        return std::tie(a.high, a.cell, a.index) < std::tie(b.high, b.cell, b.index);
       },
       sides);
   return sides;
 }
 
-/// An edge, with its place in the lists of its cells.
+/// An edge, with its index in the lists of its cells.
 struct Edge {
   std::array<std::int32_t, 2> cell{none, none};
-  std::array<std::size_t, 2> place{};
+  std::array<std::size_t, 2> index{};
 
   bool inner() const { return cell[1] >= 0; }
 };
 
 /// Two sides of one edge run in opposite directions.
 bool fit(const Voronoi& of, const CellSide& a, const CellSide& b) {
-  return a.cell != b.cell && start_of(of, a.cell, a.place) == of.vertices_on_cell[b.cell][b.place];
+  return a.cell != b.cell && start_of(of, a.cell, a.index) == of.vertices_on_cell[b.cell][b.index];
 }
 
-std::vector<Edge> edges_of(const Voronoi& of) {
-  const std::vector<CellSide> sides = sides_of(of);
+std::vector<Edge> join_sides(const Voronoi& of) {
+  const std::vector<CellSide> sides = list_sides(of);
   const auto same = [&](std::size_t k) {
     return k + 1 < sides.size() && sides[k].low == sides[k + 1].low &&
            sides[k].high == sides[k + 1].high;
@@ -71,7 +71,7 @@ std::vector<Edge> edges_of(const Voronoi& of) {
   std::vector<Edge> edges;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const CellSide& side = sides[k];
-    Edge edge{{side.cell, none}, {side.place, 0}};
+    Edge edge{{side.cell, none}, {side.index, 0}};
     if (same(k)) {
       const CellSide& other = sides[++k];
       if (same(k) || !fit(of, side, other))
@@ -80,7 +80,7 @@ std::vector<Edge> edges_of(const Voronoi& of) {
                   "common edge",
                   other.cell);
       edge.cell[1] = other.cell;
-      edge.place[1] = other.place;
+      edge.index[1] = other.index;
     }
     edges.push_back(edge);
   }
@@ -88,7 +88,7 @@ std::vector<Edge> edges_of(const Voronoi& of) {
   sort_in_groups(
       2 * cells, [&](const Edge& edge) { return edge.cell[0] + (edge.inner() ? 0 : cells); },
       [](const Edge& a, const Edge& b) {
-        return std::tie(a.cell, a.place) < std::tie(b.cell, b.place);
+        return std::tie(a.cell, a.index) < std::tie(b.cell, b.index);
       },
       edges);
   return edges;
@@ -104,12 +104,12 @@ void set_edges(const std::vector<Edge>& edges, Voronoi& out) {
   for (std::int32_t e = 0; e < count; ++e) {
     const Edge& edge = edges[static_cast<std::size_t>(e)];
     out.cells_on_edge.col(e) << edge.cell[0], edge.cell[1];
-    out.vertices_on_edge.col(e) << start_of(out, edge.cell[0], edge.place[0]),
-        out.vertices_on_cell[edge.cell[0]][edge.place[0]];
+    out.vertices_on_edge.col(e) << start_of(out, edge.cell[0], edge.index[0]),
+        out.vertices_on_cell[edge.cell[0]][edge.index[0]];
     for (std::size_t k = 0; k < 2; ++k)
       if (edge.cell[k] >= 0) {
-        out.edges_on_cell[edge.cell[k]][edge.place[k]] = e;
-        out.cells_on_cell[edge.cell[k]][edge.place[k]] = edge.cell[1 - k];
+        out.edges_on_cell[edge.cell[k]][edge.index[k]] = e;
+        out.cells_on_cell[edge.cell[k]][edge.index[k]] = edge.cell[1 - k];
       }
   }
 }
@@ -122,62 +122,62 @@ struct Sector {
   std::int32_t cell = none, from = none, to = none;
 };
 
-struct Fan {
+struct VertexSectors {
   std::array<Sector, 3> sectors;
   int count = 0;
 };
 
-std::vector<Fan> fans_of(const Voronoi& of) {
-  std::vector<Fan> fans(static_cast<std::size_t>(of.vertices.cols()));
+std::vector<VertexSectors> sectors_at_vertices(const Voronoi& of) {
+  std::vector<VertexSectors> at_vertices(static_cast<std::size_t>(of.vertices.cols()));
   for (std::int32_t i = 0; i < of.cells.cols(); ++i) {
     const std::span<const std::int32_t> vertices = of.vertices_on_cell[i],
                                         edges = of.edges_on_cell[i];
-    for (std::size_t place = 0; place != vertices.size(); ++place) {
-      const std::int32_t v = vertices[place];
-      Fan& fan = fans[static_cast<std::size_t>(v)];
-      if (fan.count == 3)
+    for (std::size_t index = 0; index != vertices.size(); ++index) {
+      const std::int32_t v = vertices[index];
+      VertexSectors& around = at_vertices[static_cast<std::size_t>(v)];
+      if (around.count == 3)
         refuse_at(v, "vertex {} is on more than three cells");
-      fan.sectors[static_cast<std::size_t>(fan.count++)] = {
-          i, edges[place + 1 == edges.size() ? 0 : place + 1], edges[place]};
+      around.sectors[static_cast<std::size_t>(around.count++)] = {
+          i, edges[index + 1 == edges.size() ? 0 : index + 1], edges[index]};
     }
   }
-  return fans;
+  return at_vertices;
 }
 
 /// Which sector follows an edge counter-clockwise; 3 for none.
-int sector_from(const Fan& fan, std::int32_t edge) {
-  for (int k = 0; k < fan.count; ++k)
-    if (fan.sectors[static_cast<std::size_t>(k)].from == edge)
+int sector_from(const VertexSectors& around, std::int32_t edge) {
+  for (int k = 0; k < around.count; ++k)
+    if (around.sectors[static_cast<std::size_t>(k)].from == edge)
       return k;
   return 3;
 }
 
 /// The sector that follows the open part around the vertex; for a complete one, that of the lowest
 /// cell, which is the first.
-int first_sector(const Voronoi& of, const Fan& fan) {
-  for (int k = 0; k < fan.count; ++k)
-    if (of.cells_on_edge(1, fan.sectors[static_cast<std::size_t>(k)].from) < 0)
+int first_sector(const Voronoi& of, const VertexSectors& around) {
+  for (int k = 0; k < around.count; ++k)
+    if (of.cells_on_edge(1, around.sectors[static_cast<std::size_t>(k)].from) < 0)
       return k;
   return 0;
 }
 
-void set_vertex(std::int32_t v, const Fan& fan, Voronoi& out) {
+void set_vertex(std::int32_t v, const VertexSectors& around, Voronoi& out) {
   out.cells_on_vertex.col(v).setConstant(none);
   out.edges_on_vertex.col(v).setConstant(none);
-  const int first = first_sector(out, fan);
+  const int first = first_sector(out, around);
   const bool complete =
-      out.cells_on_edge(1, fan.sectors[static_cast<std::size_t>(first)].from) >= 0;
-  for (int j = 0, k = first; j < fan.count; ++j) {
+      out.cells_on_edge(1, around.sectors[static_cast<std::size_t>(first)].from) >= 0;
+  for (int j = 0, k = first; j < around.count; ++j) {
     if (k == 3 || (j > 0 && k == first) || (j == 2 && !complete))
       refuse_at(v, "vertex {} has more than three edges");
-    const Sector& sector = fan.sectors[static_cast<std::size_t>(k)];
+    const Sector& sector = around.sectors[static_cast<std::size_t>(k)];
     out.cells_on_vertex(j, v) = sector.cell;
     out.edges_on_vertex(j, v) = sector.from;
     if (j < 2)
       out.edges_on_vertex(j + 1, v) = sector.to;
-    k = sector_from(fan, sector.to);
+    k = sector_from(around, sector.to);
   }
-  if (complete != (fan.count == 3))
+  if (complete != (around.count == 3))
     refuse_at(v, "vertex {} is on two cells only, but not on the boundary");
 }
 
@@ -205,14 +205,14 @@ double angle(const Plane&, const Vec3&, const Vec3& direction) {
   return eastern(std::atan2(direction.y, direction.x), 2 * std::numbers::pi);
 }
 
-/// The place, length and angle of an edge.
+/// The index, length and angle of an edge.
 struct EdgeMeasure {
   Vec3 middle;
   double dc;
   Vec3 normal;
 };
 
-/// \param cut the place of an edge that halves the way to a missing cell; null for other edges.
+/// \param cut the index of an edge that halves the way to a missing cell; null for other edges.
 template <Space S>
 EdgeMeasure measured(const S& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
   const Vec3& from = column(of.cells, of.cells_on_edge(0, e));
@@ -259,13 +259,13 @@ template <Space S> void measure_kites(const S& space, std::int64_t v, Voronoi& o
   }
 }
 
-/// The fan of triangles from the site.
+/// The around of triangles from the site.
 template <Space S> void measure_cell(const S& space, std::int32_t i, Voronoi& out) {
   double sum = 0;
   const std::span<const std::int32_t> vertices = out.vertices_on_cell[i];
-  for (std::size_t place = 0; place != vertices.size(); ++place)
-    sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, place)),
-                      column(out.vertices, vertices[place]));
+  for (std::size_t index = 0; index != vertices.size(); ++index)
+    sum += space.area(column(out.cells, i), column(out.vertices, start_of(out, i, index)),
+                      column(out.vertices, vertices[index]));
   out.cell_area[i] = sum;
 }
 
@@ -288,12 +288,12 @@ template <Space S> void measure_part(const S& space, const Points3& cut_edges, V
 } // namespace
 
 void connect_open(Voronoi& out) {
-  set_edges(edges_of(out), out);
+  set_edges(join_sides(out), out);
   make_room(out.cells_on_vertex, 3, out.vertices.cols());
   make_room(out.edges_on_vertex, 3, out.vertices.cols());
-  const std::vector<Fan> fans = fans_of(out);
+  const std::vector<VertexSectors> at_vertices = sectors_at_vertices(out);
   for (std::int32_t v = 0; v < out.vertices.cols(); ++v)
-    set_vertex(v, fans[static_cast<std::size_t>(v)], out);
+    set_vertex(v, at_vertices[static_cast<std::size_t>(v)], out);
 }
 
 void measure_open(Voronoi& out, const Points3& cut_edges) {

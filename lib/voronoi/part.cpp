@@ -63,7 +63,7 @@ KeptStars kept_stars(const Mesh& mesh, const Ids& mask) {
   return out;
 }
 
-/// The triangles of the stars, ascending. \param lists receive their places among these.
+/// The triangles of the stars, ascending. \param lists receive their centres among these.
 std::vector<std::int32_t> number_triangles(const Mesh& mesh, IdLists& lists) {
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(mesh.triangles.cols()), none), used;
   for (const std::int32_t t : lists.items)
@@ -78,7 +78,7 @@ std::vector<std::int32_t> number_triangles(const Mesh& mesh, IdLists& lists) {
   return used;
 }
 
-/// Of edges half way to a cell that is missing, the places; NaN for the others.
+/// Of edges half way to a cell that is missing, the centres; NaN for the others.
 template <class S>
 Points3 cut_edges(const S& space, const IdLists& neighbours, const Points3& sites,
                   const Voronoi& cells) {
@@ -96,7 +96,7 @@ Points3 cut_edges(const S& space, const IdLists& neighbours, const Points3& site
 
 CellPart part_of(const Mesh& mesh, const Ids& mask) {
   KeptStars stars = kept_stars(mesh, mask);
-  const Points3 sites = places_of(mesh);
+  const Points3 sites = checked_centres(mesh);
   CellPart out{.voronoi = {}, .site = std::move(stars.site)};
   Voronoi& cells = out.voronoi;
   cells.surface = mesh.surface.is_sphere() ? Surface{} : mesh.surface;

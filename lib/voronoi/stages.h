@@ -10,9 +10,9 @@
 /// own the mesh: begun(), connect(), then measure() or its parts.
 namespace calotte::voronoi_detail {
 
-/// The places of cells: unit columns, in a plane z = 0. \throws Error invalid_argument, naming the
+/// The centres of cells: unit columns, in a plane z = 0. \throws Error invalid_argument, naming the
 /// first site without a direction, or outside of the plane's box.
-Points3 places_of(const Mesh& mesh);
+Points3 checked_centres(const Mesh& mesh);
 
 struct BegunVoronoi {
   Voronoi voronoi; ///< cells, cells_on_vertex, and where edges_on_cell begin

@@ -18,17 +18,17 @@ namespace {
 std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int32_t cell,
                                  double sign, std::int32_t* edges, double* weights) {
   const std::span<const std::int32_t> on_cell = of.edges_on_cell[cell];
-  std::size_t place = 0;
-  while (on_cell[place] != edge)
-    ++place;
+  std::size_t index = 0;
+  while (on_cell[index] != edge)
+    ++index;
   const double divisor = of.cell_area[cell] * of.dc[edge], half = 0.5 * of.cell_area[cell];
   const double scale = std::abs(divisor) > 1e-200 ? 1 / divisor : 0; // no cell is that small
   double passed = 0;
   for (std::size_t k = 0; k + 1 < on_cell.size(); ++k) {
-    const std::int32_t vertex = of.vertices_on_cell[cell][place];
+    const std::int32_t vertex = of.vertices_on_cell[cell][index];
     passed += of.kites(vertex_at(of.cells_on_vertex, vertex, cell), vertex);
-    place = place + 1 == on_cell.size() ? 0 : place + 1;
-    const std::int32_t other = on_cell[place];
+    index = index + 1 == on_cell.size() ? 0 : index + 1;
+    const std::int32_t other = on_cell[index];
     const double side = of.cells_on_edge(0, other) == cell ? sign : -sign;
     edges[k] = other;
     weights[k] = side * (half - passed) * scale * of.dv[other];

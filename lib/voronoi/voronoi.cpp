@@ -54,7 +54,7 @@ Rings begin(const Mesh& mesh, Voronoi& out) {
           mesh.points.cols(), most_cells);
   require_neighbours(mesh);
   Rings rings = find_rings(faces_of(mesh), out);
-  out.cells = places_of(mesh);
+  out.cells = checked_centres(mesh);
   return rings;
 }
 
@@ -74,10 +74,10 @@ Voronoi voronoi_of_closed(const Mesh& mesh) {
   return out;
 }
 
-/// Of an open mesh: measures place corners on the near side, thus those of the far side are set
+/// Of an open mesh: measures centre corners on the near side, thus those of the far side are set
 /// here.
 Voronoi voronoi_of_open(const Mesh& mesh) {
-  const Mesh hull = hull_of(mesh);
+  const Mesh hull = triangulate_hull(mesh);
   Voronoi out;
   const Rings rings = begin(hull, out);
   copy_triangles(hull.triangles, out);
@@ -104,22 +104,22 @@ Voronoi voronoi_of_open(const Mesh& mesh) {
 
 } // namespace
 
-Points3 places_of(const Mesh& mesh) {
+Points3 checked_centres(const Mesh& mesh) {
   const bool on_sphere = mesh.surface.is_sphere();
   const Eigen::Vector2d& period = mesh.surface.period();
   const auto is_in = [](double x, double side) {
     return std::isfinite(x) && (side == 0 || (x >= 0 && x < side));
   };
-  Points3 places;
-  make_room(places, 3, mesh.points.cols());
+  Points3 centres;
+  make_room(centres, 3, mesh.points.cols());
   FirstFault fault;
   for_each_block(mesh.points.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {
       const Vec3& point = column(mesh.points, i);
-      const Vec3 place = on_sphere ? unit_column(point) : Vec3{point.x, point.y, 0};
-      set_column(places, i, place);
-      const bool right = on_sphere ? std::abs(dot(place, place) - 1) < 1e-9 // not NaN
-                                   : is_in(place.x, period[0]) && is_in(place.y, period[1]);
+      const Vec3 centre = on_sphere ? unit_column(point) : Vec3{point.x, point.y, 0};
+      set_column(centres, i, centre);
+      const bool right = on_sphere ? std::abs(dot(centre, centre) - 1) < 1e-9 // not NaN
+                                   : is_in(centre.x, period[0]) && is_in(centre.y, period[1]);
       if (!right)
         fault.at(i);
     }
@@ -127,7 +127,7 @@ Points3 places_of(const Mesh& mesh) {
   fault.refuse("site", on_sphere
                            ? "has no direction: give finite points other than 0"
                            : "lies outside the periodic box: give the copy of it that is inside");
-  return places;
+  return centres;
 }
 
 BegunVoronoi begun(Mesh& mesh) {

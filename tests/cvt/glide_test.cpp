@@ -87,7 +87,7 @@ Glided glided(const Points3& points, const Density& density,
   Glided result{points, 0, std::nullopt};
   const auto functional = cvt_detail::make_functional(result.points, Surface::sphere(), density,
                                                       {.decomposition = decomposition});
-  functional->hold(fixed);
+  functional->pin(fixed);
   result.steps = functional->glide(result.points, cvt_detail::shape_limits);
   result.mesh = functional->take_mesh(result.points);
   return result;

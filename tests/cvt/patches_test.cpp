@@ -19,7 +19,7 @@ using namespace calotte::cvt_detail;
 
 namespace {
 
-PlacedSites<Sphere> placed(const Points3& points) {
+SitePositions<Sphere> placed(const Points3& points) {
   static constexpr Sphere sphere;
   return {sphere, {&column(points, 0), static_cast<std::size_t>(points.cols())}};
 }

@@ -108,7 +108,7 @@ AllMoments planar_moments(const Points2& points, const Surface& domain, const De
   Cells<Plane> cells(domain);
   cells.move(x);
   const Connectivity mesh = cells.triangulate();
-  Array<std::int32_t> owner(cells.places());
+  Array<std::int32_t> owner(cells.site_count());
   for (std::int64_t i = 0; i < owner.size(); ++i)
     owner[i] = static_cast<std::int32_t>(i % regions);
   const std::vector<Patch> patches =
@@ -119,7 +119,7 @@ AllMoments planar_moments(const Points2& points, const Surface& domain, const De
   for (const Patch& patch : patches) {
     Array<Vec3> places(std::ssize(patch.sites));
     for (std::int64_t i = 0; i < places.size(); ++i)
-      places[i] = cells.place(patch.sites[static_cast<std::size_t>(i)]);
+      places[i] = cells.position(patch.sites[static_cast<std::size_t>(i)]);
     Array<CellMoments> moments(places.size());
     std::vector<std::int32_t> suspects;
     cells.integrate(integrand, patch, places, moments, suspects);
@@ -387,7 +387,7 @@ TEST_CASE("in a box a triangle whose nearest copies do not close is invalid") {
     Connectivity mesh{Triangles(3, 1), Triangles::Constant(3, 1, -1)};
     mesh.triangles << a, b, c;
     Faults faults;
-    add_faults(mesh, PlacedSites<Plane>{box, points}, 0, faults);
+    add_faults(mesh, SitePositions<Plane>{box, points}, 0, faults);
     return faults.overturned.empty();
   };
   CHECK(is_valid(0, 1, 2));

@@ -39,12 +39,12 @@ struct Moving {
 
   LocalInput input() const { return {density, integrand, fixed}; }
 
-  /// Runs a task around all triangles that `choose_surroundings` takes of some.
+  /// Runs a task around all triangles that `choose_disjoint` takes of some.
   std::vector<std::int32_t> work(const Seeds& seeds, const LocalTask<Sphere>& task) {
     std::vector<std::int32_t> changed;
     tessellation.change_mesh(
         points, [&](Connectivity& mesh) -> std::optional<std::vector<std::int32_t>> {
-          const ChosenSurroundings around = choose_surroundings(mesh, seeds);
+          const DisjointSurroundings around = choose_disjoint(mesh, seeds);
           chosen = std::ssize(around.chosen);
           if (!work_in<Sphere>(around.chosen, task, input(), tessellation, mesh, points, changed))
             return std::nullopt;
@@ -92,7 +92,7 @@ TEST_CASE("subdomains: the chosen ones have no common triangle, and those left a
   const Mesh whole = delaunay(random_sphere(3000, {}, 1));
   const Connectivity mesh{whole.triangles, whole.neighbours};
   const Seeds seeds = seeds_of(mesh, 7);
-  const ChosenSurroundings around = choose_surroundings(mesh, seeds);
+  const DisjointSurroundings around = choose_disjoint(mesh, seeds);
   std::set<std::int32_t> taken;
   std::size_t count = 0;
   for (const Surroundings& some : around.chosen) {
@@ -179,7 +179,7 @@ TEST_CASE("subdomains: the numbers of triangles have no effect") {
           Seeds seeds;
           for (std::size_t k = 0; k < place.size(); k += 97)
             seeds.push_back({place[k], place[k]});
-          const auto around = choose_surroundings(mesh, seeds).chosen;
+          const auto around = choose_disjoint(mesh, seeds).chosen;
           REQUIRE(around.size() > 3);
           const bool sound = work_in<Sphere>(
               around,

@@ -171,10 +171,10 @@ TEST_CASE("in-circle signs are exact for any sizes of triangle and offset") {
       std::array<std::int64_t, 4> rank{r, 0, 0, 0};
       for (std::size_t i = 1; i < 4; ++i)
         rank[i] = engine() % 4 == 0 ? any(engine) : std::min(r + near(engine), sites.size() - 1);
-      std::array<delaunay_detail::PlaneChart::Place, 4> p;
+      std::array<delaunay_detail::PlaneChart::Point, 4> p;
       std::array<exact_detail::Vec2, 4> x;
       for (std::size_t i = 0; i < 4; ++i) {
-        p[i] = plane.place(rank[i]);
+        p[i] = plane.point(rank[i]);
         const base_detail::Vec3& given = sites.given(p[i].site);
         x[i] = {given.x, given.y};
       }

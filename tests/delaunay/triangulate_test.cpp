@@ -39,7 +39,7 @@ std::set<Triple> finite_faces(Cap& cap) {
     }
     if (Cap::is_infinite(face))
       return;
-    Triple t{face->vertex(0)->place.site, face->vertex(1)->place.site, face->vertex(2)->place.site};
+    Triple t{face->vertex(0)->point.site, face->vertex(1)->point.site, face->vertex(2)->point.site};
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     CHECK(faces.insert(t).second);
   });
@@ -100,6 +100,6 @@ TEST_CASE("sites on one line of the view cannot be triangulated") {
   CHECK(!cap.build(all_members(sites)));
   Cap from_focus{SphereChart(sites, {1, 0, 0}, 2)}; // on the equator: a line of that view too
   std::vector<Member> members = all_members(sites);
-  std::erase_if(members, [&](const Member& m) { return !from_focus.chart().has_place(m.rank); });
+  std::erase_if(members, [&](const Member& m) { return !from_focus.chart().has_point(m.rank); });
   CHECK(!from_focus.build(members));
 }

@@ -27,7 +27,7 @@ inline double sum_of_cells(const Surface& region, const Points3& points,
     for (int v = 0; v < 3; ++v)
       if (mesh.triangles(v, t) < points.cols())
         around[static_cast<std::size_t>(mesh.triangles(v, t))].push_back(
-            cells.place(mesh.triangles((v + 1) % 3, t)));
+            cells.position(mesh.triangles((v + 1) % 3, t)));
   double sum = 0;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     sum += integrals_detail::clipped_area(outline, base_detail::column(points, i),

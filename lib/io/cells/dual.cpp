@@ -129,7 +129,7 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
                          corner_tolerance(width, rounding), closed ? 0 : 1e-6, dual.corner))
     return {};
   Mesh mesh{std::move(centres), {}, {}, themselves(sites)};
-  const CanonicalPlaces places = order_triangles(dual.triangles, {}, mesh.triangles);
+  const CanonicalOrder places = order_triangles(dual.triangles, {}, mesh.triangles);
   order_neighbours(dual.neighbours, places, mesh.neighbours);
   if (!(closed ? check(mesh) : check_surface(mesh)).passed()) {
     centres = std::move(mesh.points);
@@ -137,7 +137,7 @@ std::optional<Mesh> mesh_of_cells(Points3& centres, const Polygons& polygons, do
   }
   if (closed) {
     select_corners(corners, dual.corner, fields);
-    move_vertex_values(fields, {places.place.begin(), places.place.end()});
+    move_vertex_values(fields, {places.index.begin(), places.index.end()});
   }
   return mesh;
 }

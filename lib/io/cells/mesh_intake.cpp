@@ -63,23 +63,23 @@ void orient(const std::string& name, Triangles& triangles, const Orientations& f
 }
 
 /// Reorders the corners of polygons. Each corner belongs to one triangle.
-void reorder_corners(Polygons& polygons, const CanonicalPlaces& places) {
-  if (polygons.corners.cols() != places.place.size())
+void reorder_corners(Polygons& polygons, const CanonicalOrder& places) {
+  if (polygons.corners.cols() != places.index.size())
     return;
   const Points3 old = polygons.corners;
   for (Eigen::Index v = 0; v < old.cols(); ++v)
-    polygons.corners.col(places.place[v]) = old.col(v);
+    polygons.corners.col(places.index[v]) = old.col(v);
   for (std::int32_t& id : polygons.ids.items)
-    id = places.place[id];
+    id = places.index[id];
 }
 
 void sort(Triangles& triangles, Polygons* polygons, MeshFile& file) {
   if (is_canonical(triangles))
     return;
   Triangles sorted;
-  const CanonicalPlaces places = order_triangles(triangles, {}, sorted);
+  const CanonicalOrder places = order_triangles(triangles, {}, sorted);
   triangles = std::move(sorted);
-  move_vertex_values(file.fields, {places.place.begin(), places.place.end()});
+  move_vertex_values(file.fields, {places.index.begin(), places.index.end()});
   if (polygons != nullptr)
     reorder_corners(*polygons, places);
   file.changes.push_back(message("sorted {} triangles", triangles.cols()));

@@ -95,10 +95,10 @@ void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
     for (Eigen::Index i = 0; i < old.size(); ++i)
       (*values)[new_site[static_cast<std::size_t>(i)]] = old[i];
   }
-  mesh_detail::CanonicalPlaces places;
+  mesh_detail::CanonicalOrder places;
   EdgeOrder edges;
   for (MeshField& field : options.fields) {
-    if (field.location == FieldLocation::vertices && places.place.size() == 0) {
+    if (field.location == FieldLocation::vertices && places.index.size() == 0) {
       Triangles renumbered;
       places = mesh_detail::order_triangles(mesh.triangles, new_site, renumbered);
     }
@@ -110,7 +110,7 @@ void renumber_values(const Mesh& mesh, std::span<const std::int32_t> new_site,
       move_values(field,
                   field.location == FieldLocation::cells
                       ? new_site
-                      : std::span<const std::int32_t>(places.place.begin(), places.place.end()));
+                      : std::span<const std::int32_t>(places.index.begin(), places.index.end()));
   }
 }
 

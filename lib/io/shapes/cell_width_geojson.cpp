@@ -33,7 +33,7 @@ public:
     }
     where_.clear();
     require_narrower();
-    return named(name_, [&] { return cell_width_of(regions_, widths_); });
+    return named(name_, [&] { return make_cell_width(regions_, widths_); });
   }
 
 private:
@@ -70,7 +70,7 @@ private:
     WidthRegion region{width_inside(geometry.properties), {}};
     const std::optional<GeoPosition> inside = read_inside(geometry, name_);
     if (inside)
-      region.polygons.push_back({{}, Place{(*inside)[0], (*inside)[1]}});
+      region.polygons.push_back({{}, base_detail::LonLat{(*inside)[0], (*inside)[1]}});
     std::int64_t rings = 0;
     for (const GeoPolygon& polygon : geometry.polygons) {
       if (!inside)

@@ -39,7 +39,7 @@ Points3 make_line(const LineNetwork& network, const std::vector<std::int32_t>& c
   Points3 line(3, std::ssize(chain));
   for (std::size_t k = 0; k < chain.size(); ++k)
     base_detail::set_column(line, static_cast<std::int64_t>(k),
-                            network.places[static_cast<std::size_t>(chain[k])]);
+                            network.points[static_cast<std::size_t>(chain[k])]);
   return line;
 }
 
@@ -48,7 +48,7 @@ Points3 make_line(const LineNetwork& network, const std::vector<std::int32_t>& c
 class ClosedChains {
 public:
   explicit ClosedChains(const LineNetwork& network)
-      : chains_(network.chains), at_(network.places.size()), closed_(chains_.size(), true),
+      : chains_(network.chains), at_(network.points.size()), closed_(chains_.size(), true),
         entered_(at_.size(), 0), lowest_(at_.size(), 0) {
     for (std::size_t c = 0; c < chains_.size(); ++c) {
       at_[static_cast<std::size_t>(chains_[c].front())].push_back(c);
@@ -116,12 +116,12 @@ JigsawGeometry in_plane(const JigsawFile& file, const std::string& path) {
     fail_file(path, "a geometry of {} parts (BOUND); give each part a file of its own", file.parts);
   JigsawGeometry out;
   const LineNetwork all =
-      generators_detail::network_of(make_lines(file, make_columns(file, path)), false);
+      generators_detail::make_network(make_lines(file, make_columns(file, path)), false);
   const ClosedChains closed(all);
   std::vector<Points3> sides;
   for (std::size_t c = 0; c < all.chains.size(); ++c)
     (closed.has(c) ? sides : out.lines).push_back(make_line(all, all.chains[c]));
-  const LineNetwork network = generators_detail::network_of(sides, false);
+  const LineNetwork network = generators_detail::make_network(sides, false);
   Surface::Rings rings;
   for (const std::vector<std::int32_t>& chain : network.chains) {
     const Points3 line = make_line(network, chain);

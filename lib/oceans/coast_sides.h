@@ -15,27 +15,27 @@ namespace calotte::oceans_detail {
 using domain_detail::Side, domain_detail::SideCells;
 
 /// An arc of a coast between land, to its left, and the sea.
-struct ShoreArc {
+struct CoastArc {
   Arc arc;
-  std::int32_t shore; ///< the closed line that it belongs to, from 0 on
+  std::int32_t line; ///< the closed line that it belongs to, from 0 on
 };
 
-/// Those of a coast, see shores(), each after the one before. A shore is a ring, or what is left of
-/// several that are cut along each other.
+/// The arcs of a coast as they follow each other, line by line, see shores(). A line is a ring, or
+/// what is left of several rings that are cut along each other.
 ///
 /// \throws Error invalid_argument, naming ring and corner: one that is no direction, or opposite to
 ///         the one before.
-std::vector<ShoreArc> shore_arcs(const Coast& coast);
+std::vector<CoastArc> coast_arcs(const Coast& coast);
 
 /// The sides of a coast, exact.
 class CoastSides {
 public:
-  /// \param shore not empty.
-  explicit CoastSides(const std::vector<ShoreArc>& shore);
+  /// \param arcs of the whole coast; not empty.
+  explicit CoastSides(const std::vector<CoastArc>& arcs);
 
-  /// \param place unit vector. Of the shore itself: neither.
-  bool is_land(const Vec3& place) const { return cells_.side(place) == land_; }
-  bool is_sea(const Vec3& place) const { return cells_.side(place) == sea_; }
+  /// \param point unit vector. A point on the coast is neither.
+  bool is_land(const Vec3& point) const { return cells_.side(point) == land_; }
+  bool is_sea(const Vec3& point) const { return cells_.side(point) == sea_; }
 
 private:
   SideCells cells_;

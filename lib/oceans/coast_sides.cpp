@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "oceans/shores.h"
+#include "oceans/coast_sides.h"
 
 #include "base/lonlat.h"
 #include "base/message.h"
@@ -47,19 +47,19 @@ std::array<double, 6> ends(const Vec3& from, const Vec3& to) {
 
 using ArcStart = std::pair<std::array<double, 3>, std::size_t>; ///< of an arc, and its index
 
-std::array<double, 3> place_of(const Vec3& x) { return {x.x, x.y, x.z}; }
+std::array<double, 3> coordinates(const Vec3& x) { return {x.x, x.y, x.z}; }
 
-/// The arcs as they follow each other.
-std::vector<ShoreArc> in_shores(const std::vector<Arc>& arcs) {
+/// Joins arcs to closed lines: the arcs as they follow each other.
+std::vector<CoastArc> joined_lines(const std::vector<Arc>& arcs) {
   std::vector<ArcStart> starts;
   for (std::size_t k = 0; k < arcs.size(); ++k)
-    starts.emplace_back(place_of(arcs[k].from), k);
+    starts.emplace_back(coordinates(arcs[k].from), k);
   std::sort(starts.begin(), starts.end());
   std::vector<bool> used(arcs.size());
   const auto after = [&](std::size_t arc) {
-    const std::array<double, 3> end = place_of(arcs[arc].to);
+    const std::array<double, 3> end = coordinates(arcs[arc].to);
     // Where several begin, the ring goes on with the next one.
-    if (arc + 1 < arcs.size() && !used[arc + 1] && place_of(arcs[arc + 1].from) == end)
+    if (arc + 1 < arcs.size() && !used[arc + 1] && coordinates(arcs[arc + 1].from) == end)
       return arc + 1;
     for (auto next = std::lower_bound(starts.begin(), starts.end(), ArcStart{end, 0});
          next != starts.end() && next->first == end; ++next)
@@ -67,26 +67,26 @@ std::vector<ShoreArc> in_shores(const std::vector<Arc>& arcs) {
         return next->second;
     return arcs.size();
   };
-  std::vector<ShoreArc> shores;
-  std::int32_t shore = 0;
+  std::vector<CoastArc> lines;
+  std::int32_t line = 0;
   for (std::size_t first = 0; first < arcs.size(); ++first) {
     if (used[first])
       continue;
     for (std::size_t arc = first; arc < arcs.size(); arc = after(arc)) {
       used[arc] = true;
-      shores.push_back({arcs[arc], shore});
+      lines.push_back({arcs[arc], line});
     }
-    ++shore;
+    ++line;
   }
-  return shores;
+  return lines;
 }
 
-std::vector<SideCells::Corner> corners_between(const std::vector<ShoreArc>& shore) {
+std::vector<SideCells::Corner> corners_between(const std::vector<CoastArc>& arcs) {
   std::vector<SideCells::Corner> corners;
-  for (std::int32_t k = 0; k < std::ssize(shore); ++k) {
+  for (std::int32_t k = 0; k < std::ssize(arcs); ++k) {
     const auto at = static_cast<std::size_t>(k);
-    const std::int32_t next = k + 1 < std::ssize(shore) ? k + 1 : 0;
-    const Vec3 &to = shore[at].arc.to, &from = shore[static_cast<std::size_t>(next)].arc.from;
+    const std::int32_t next = k + 1 < std::ssize(arcs) ? k + 1 : 0;
+    const Vec3 &to = arcs[at].arc.to, &from = arcs[static_cast<std::size_t>(next)].arc.from;
     if (to.x == from.x && to.y == from.y && to.z == from.z)
       corners.push_back({k, next});
   }
@@ -103,43 +103,43 @@ bool inside_is_land(const SideCells& cells, const std::vector<SideCells::Corner>
   return 2 * left > all;
 }
 
-std::vector<Arc> arcs_of(const std::vector<ShoreArc>& shore) {
-  std::vector<Arc> arcs;
-  for (const ShoreArc& each : shore)
-    arcs.push_back(each.arc);
-  return arcs;
+std::vector<Arc> without_lines(const std::vector<CoastArc>& arcs) {
+  std::vector<Arc> result;
+  for (const CoastArc& each : arcs)
+    result.push_back(each.arc);
+  return result;
 }
 
-/// Areas of land that are there twice would leave their sides undecided. Cuts of a coast may repeat
-/// some arcs.
-const std::vector<ShoreArc>& once(const std::vector<ShoreArc>& shore) {
+/// Refuses a coast that repeats many of its arcs: areas of land that it contains twice would have
+/// no defined sides. Cuts of a coast may repeat some arcs.
+const std::vector<CoastArc>& require_distinct(const std::vector<CoastArc>& arcs) {
   constexpr std::size_t share = 20;
   std::set<std::array<double, 6>> seen;
   std::size_t repeated = 0;
   Vec3 last{};
-  for (const ShoreArc& each : shore)
+  for (const CoastArc& each : arcs)
     if (!seen.insert(ends(each.arc.from, each.arc.to)).second) {
       ++repeated;
       last = each.arc.from;
     }
-  if (share * repeated > shore.size()) {
+  if (share * repeated > arcs.size()) {
     const base_detail::LonLat at = base_detail::lonlat_of(last);
     refuse(message("areas of land are there twice, one with a corner at longitude {}, "
                    "latitude {}; give each once",
                    at.longitude, at.latitude));
   }
-  return shore;
+  return arcs;
 }
 
 } // namespace
 
-CoastSides::CoastSides(const std::vector<ShoreArc>& shore)
-    : cells_(arcs_of(once(shore)), corners_between(shore).front()) {
-  if (!inside_is_land(cells_, corners_between(shore)))
+CoastSides::CoastSides(const std::vector<CoastArc>& arcs)
+    : cells_(without_lines(require_distinct(arcs)), corners_between(arcs).front()) {
+  if (!inside_is_land(cells_, corners_between(arcs)))
     std::swap(land_, sea_);
 }
 
-std::vector<ShoreArc> shore_arcs(const Coast& coast) {
+std::vector<CoastArc> coast_arcs(const Coast& coast) {
   std::vector<Arc> all;
   for (std::size_t r = 0; r < coast.rings.size(); ++r) {
     const std::vector<Vec3> corners = corners_of(coast.rings[r], static_cast<std::int64_t>(r));
@@ -153,15 +153,15 @@ std::vector<ShoreArc> shore_arcs(const Coast& coast) {
   std::erase_if(all, [&](const Arc& arc) {
     return std::binary_search(sorted.begin(), sorted.end(), ends(arc.to, arc.from));
   });
-  return in_shores(all);
+  return joined_lines(all);
 }
 
 } // namespace oceans_detail
 
 std::vector<Points3> shores(const Coast& coast) {
   std::vector<Points3> lines;
-  for (const oceans_detail::ShoreArc& shore : oceans_detail::shore_arcs(coast)) {
-    const auto& [from, to] = shore.arc;
+  for (const oceans_detail::CoastArc& each : oceans_detail::coast_arcs(coast)) {
+    const auto& [from, to] = each.arc;
     lines.emplace_back(3, 2) << from.x, to.x, from.y, to.y, from.z, to.z;
   }
   return lines;

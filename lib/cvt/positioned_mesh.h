@@ -11,21 +11,23 @@
 
 namespace calotte::cvt_detail {
 
-/// The triangles of a tessellation, or of a part of it, with the places of their sites.
-template <Space S> struct PlacedMesh {
+/// The triangles of a tessellation, or of a part of it, with the positions of their sites.
+template <Space S> struct PositionedMesh {
   const Cells<S>& cells;
   const Connectivity& mesh;
-  std::span<const Vec3> places; ///< by site
+  std::span<const Vec3> positions; ///< by site
 
-  const Vec3& place(std::int32_t site) const { return places[static_cast<std::size_t>(site)]; }
+  const Vec3& position(std::int32_t site) const {
+    return positions[static_cast<std::size_t>(site)];
+  }
   Vec3 offset(std::int32_t from, std::int32_t to) const {
-    return cells.offset(place(from), place(to));
+    return cells.offset(position(from), position(to));
   }
   std::int32_t site(std::int32_t t, int v) const { return mesh.triangles(v, t); }
   /// The triangle across from a vertex; negative if there is none.
   std::int32_t across(std::int32_t t, int v) const { return mesh.neighbours(v, t); }
   bool has_centre(std::int32_t t) const {
-    return cells.has_centre(place(site(t, 0)), place(site(t, 1)), place(site(t, 2)));
+    return cells.has_centre(position(site(t, 0)), position(site(t, 1)), position(site(t, 2)));
   }
 };
 
