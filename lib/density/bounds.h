@@ -8,7 +8,7 @@
 
 namespace calotte::density_detail {
 
-/// Of some values; before the first, of none.
+/// The bounds of the values added so far. Without values, `least` exceeds `greatest`.
 struct Bounds {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
 

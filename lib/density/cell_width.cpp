@@ -35,9 +35,9 @@ using density_detail::require_radius;
 using density_detail::SampledWidths;
 using density_detail::WidthTiles;
 
-/// The integral of 1/h^2 over the boxes between rows j and j + 1 of the unit sphere. Along a
-/// parallel h is linear in a box, so that the integral is the box's length over the product of the
-/// ends; across, Gauss' rule in the sine of the latitude, in which areas are uniform.
+/// Integrates 1/h^2 over the boxes between rows j and j + 1 of the unit sphere. Along a parallel h
+/// is linear in a box: the integral is the box's length over the product of the end values. Across
+/// parallels, Gauss' rule integrates in the sine of the latitude, in which areas are uniform.
 /// \tparam Field a RasterField, or a tile.
 template <class Field> double integral_of_row(const Field& field, std::int64_t j) {
   constexpr std::array nodes{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
@@ -65,15 +65,15 @@ struct Corner {
   double x = 0, y = 0; ///< radians
 };
 
-/// How far from the end of an interval the middle of a cell is: half of its width, as a part of the
-/// interval, or the middle of the interval.
+/// The distance from the end of an interval to the middle of a cell, as a part of the interval:
+/// half of the cell's width, at most 1/2.
 double middle_of_cell(double width, double interval) {
   return std::min(0.5, 0.5 * width / interval);
 }
 
-/// The steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
-/// longitude and dh/dlon linear in latitude, so that the mean over the cell in a corner is the
-/// value at its middle. \param radians of a width of 1.
+/// Finds the steepest corner of the boxes between rows j and j + 1. In a box dh/dlat is linear in
+/// longitude and dh/dlon is linear in latitude: the mean over the cell in a corner is the value at
+/// the cell's middle. \param radians of a width of 1.
 template <class Field> Corner steepest_of_row(const Field& field, std::int64_t j, double radians) {
   const double height = field.y()[j + 1] - field.y()[j];
   Corner steepest;
@@ -99,8 +99,8 @@ template <class Field> Corner steepest_of_row(const Field& field, std::int64_t j
   return steepest;
 }
 
-/// of_row(field, j) of the rows of boxes of a field, joined in their order: of a raster's rows one
-/// by one, of tiles each tile's first.
+/// Calls of_row(field, j) for the rows of boxes and joins the results in a fixed order: row by row
+/// in a raster; in tiles, the rows of each tile are joined first.
 template <class Value, class OfRow, class Join>
 Value joined_rows(const RasterField& field, const Value& none, const OfRow& of_row,
                   const Join& join) {
@@ -245,8 +245,8 @@ Cover make_cover(const Raster& raster) {
   return cover;
 }
 
-/// A point of the region that is not covered, if there is one: on the boundary, which is sampled,
-/// or else the region contains all of a part that is not covered.
+/// Finds a point of the region that is not covered. It tests samples of the boundary, then points
+/// outside the cover, in case the region contains a whole part that is not covered.
 std::optional<Eigen::Vector3d> point_outside(const Cover& cover, const Surface& region) {
   constexpr double apart = 1e-3; // radians
   for (const Points3 ring : region.rings())

@@ -33,7 +33,7 @@ constexpr Longitude turn = 360'000'000'000;
 
 Longitude to_units(double degrees) { return std::llround(std::remainder(degrees, 360) * units); }
 
-/// From 0 to below one turn.
+/// The longitude in [0, 360) degrees.
 Longitude wrapped(Longitude longitude) {
   const Longitude rest = longitude % turn;
   return rest < 0 ? rest + turn : rest;
@@ -46,8 +46,8 @@ struct Edge {
   std::int32_t polygon, ring;
 };
 
-/// The longitude step to the next point: the shorter way, but a written difference of 360 degrees
-/// is kept.
+/// The longitude step to the next point, the shorter way around. A written difference of 360
+/// degrees is kept.
 Longitude eastward(const LonLat& from, const LonLat& to) {
   const double written = to.longitude - from.longitude;
   if (std::abs(written) == 360)
@@ -56,8 +56,9 @@ Longitude eastward(const LonLat& from, const LonLat& to) {
   return way < turn / 2 || (way == turn / 2 && written > 0) ? way : way - turn;
 }
 
-/// The arcs of an edge, from west to east. An edge is straight in longitude and latitude; parts of
-/// half a degree leave it by 30 m at most. body(arc, start, end) has the part, 0 to 1.
+/// Calls body(arc, start, end) for the arcs of an edge, from west to east; start and end are from 0
+/// to 1 along the edge. An edge is straight in longitude and latitude; arcs of half a degree
+/// deviate from it by 30 m at most.
 template <class Body> void for_each_arc(const Edge& edge, const Body& body) {
   constexpr double longest = 0.5;
   const double north = edge.east_latitude - edge.west_latitude,
@@ -132,10 +133,10 @@ public:
 private:
   static constexpr Longitude bin_count = 7200, bin_width = turn / bin_count;
 
-  /// True if contains(polygon, whether it contains the point) is true for a polygon.
-  template <class Holds>
-  bool any(Longitude longitude, double latitude, const Holds& contains) const {
-    // A pole counts as the points next to it.
+  /// True if holds(polygon, inside) is true for a polygon; `inside` tells whether it contains the
+  /// point.
+  template <class Holds> bool any(Longitude longitude, double latitude, const Holds& holds) const {
+    // A pole has the side of the points next to it.
     constexpr double highest = 90 - 1e-9;
     latitude = std::clamp(latitude, -highest, highest);
     const Longitude meridian = wrapped(longitude);
@@ -145,7 +146,7 @@ private:
       bool inside = pole_[p];
       for (; next != bin.end() && edge(*next).polygon == static_cast<std::int32_t>(p); ++next)
         inside ^= crosses(edge(*next), meridian, latitude);
-      if (contains(p, inside))
+      if (holds(p, inside))
         return true;
     }
     return false;
@@ -232,7 +233,7 @@ private:
 
 // ---- Widths
 
-/// Merges regions of equal width: borders between them are no boundary.
+/// Merges regions of equal width, so that edges between them are no boundary.
 std::vector<WidthRegion> merged(const std::vector<WidthRegion>& regions) {
   std::vector<WidthRegion> all;
   for (const WidthRegion& region : regions) {
@@ -275,7 +276,7 @@ double width_at(const Region& region, const PolygonWidths& widths, double longit
   return (1 - weight) * region.width + weight * widths.outside;
 }
 
-/// Degrees between the samples.
+/// The step between samples, degrees.
 double step_for(const PolygonWidths& widths) {
   constexpr double finest = 0.05, coarsest = 1;
   constexpr double samples = 16, fewest_samples = 4; ///< of a transition

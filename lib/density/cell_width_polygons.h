@@ -20,8 +20,8 @@ using Ring = std::vector<LonLat>;
 /// The first ring and its holes: the interior is the set of points within an odd number of rings.
 struct Polygon {
   std::vector<Ring> rings;
-  std::optional<LonLat> inside = std::nullopt; ///< a point of the interior, which is else that of
-                                               ///< rings that enclose what enclose_left() tells
+  std::optional<LonLat> inside = std::nullopt; ///< a point of the interior; by default the rings
+                                               ///< enclose the side that enclose_left() tells
 };
 
 /// Polygons with one width inside, in km.

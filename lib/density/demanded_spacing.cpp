@@ -10,8 +10,9 @@ namespace calotte::density_detail {
 
 namespace {
 
-/// The mean of the root of a density over a surface. Points that follow the root give the mean of
-/// its inverse, which is 1 / mean; a surface with a boundary has uniform ones.
+/// The mean of the root of a density over a surface. Random points that are distributed as the root
+/// give the mean of its inverse, which is 1 / mean. On a surface with a boundary the random points
+/// are uniform.
 double mean_root(const Density& density, const Surface& surface, std::int64_t samples) {
   if (density.uniform())
     return 1;

@@ -20,7 +20,7 @@ public:
   DemandedSpacing(const Surface& surface, const Density& density, double cells,
                   std::int64_t samples = 4096);
 
-  /// Radians, in a plane its unit; infinite where the density is 0.
+  /// The spacing at x: radians, in a plane its unit. Infinite where the density is 0.
   double at(const Vec3& x) const;
 
 private:

@@ -59,8 +59,8 @@ CALOTTE_INLINE double angle_of(double arc, double side) {
 constexpr std::size_t row = 64;
 using Row = std::array<double, row>;
 
-/// The loops are apart because an iteration of all of them is one long chain of operations: a
-/// processor sees too few of them at a time to overlap them.
+/// The loops are separate: fused, an iteration would be one long chain of dependent operations, and
+/// the processor could overlap few iterations.
 CALOTTE_INLINE void bump_row(const Profile& bump, const double* x, const double* y, const double* z,
                              std::size_t count, double* rho) {
   alignas(64) Row square, side, angle;

@@ -17,8 +17,8 @@ namespace {
 constexpr double gravity = 9.80665, rotation = 7.292e-5; // of the Earth, m/s^2 and 1/s
 constexpr double radians = std::numbers::pi / 180;
 
-/// Of the barotropic wave; near the equator the equatorial one (Gill, Atmosphere-Ocean Dynamics,
-/// 1982, Sect. 11.5).
+/// The barotropic Rossby radius, metres; near the equator the equatorial radius (Gill,
+/// Atmosphere-Ocean Dynamics, 1982, Sect. 11.5).
 /// \param radius of the sphere, metres.
 double rossby_radius(double depth, double latitude, double radius) {
   const double speed = std::sqrt(gravity * depth),
@@ -27,7 +27,8 @@ double rossby_radius(double depth, double latitude, double radius) {
   return speed / std::max(f, std::sqrt(2 * beta * speed));
 }
 
-/// By differences of the neighbours in both directions; at an end of one, by one side.
+/// The slope of the sea floor, by central differences in both directions; at the ends of an axis by
+/// one-sided differences.
 class Slopes {
 public:
   /// \param radius of the sphere, metres.
@@ -53,7 +54,7 @@ private:
   double degree_; ///< metres
 };
 
-/// The sea at a node or one of the eight around it.
+/// Whether a node or one of the eight around it is sea.
 bool near_sea(const Raster& raster, Eigen::Index i, Eigen::Index j) {
   const Eigen::Index columns = raster.x.size(), rows = raster.y.size();
   for (Eigen::Index row = std::max<Eigen::Index>(j - 1, 0); row <= std::min(j + 1, rows - 1); ++row)

@@ -31,7 +31,7 @@ double DiscRule::grown(double width, double beyond) const {
   return beyond > 0 ? width + gradient_ * beyond : width;
 }
 
-/// \param reach by which a point may be nearer.
+/// The width that a disc allows at a point. \param reach distance by which the point may be nearer.
 double DiscRule::width_at(const Vec3& point, const Disc& disc, double reach) const {
   const double chord = norm(point - disc.centre),
                angle = 2 * base_detail::arc_sine(std::min(1.0, 0.5 * chord));
@@ -39,7 +39,8 @@ double DiscRule::width_at(const Vec3& point, const Disc& disc, double reach) con
 }
 
 /// The least width within a distance of a point.
-/// \param last the disc that decided before, or -1; becomes the one that decides here.
+/// \param last index of the disc that gave the previous width, or -1; set to the one that gives
+/// this width.
 double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& last) const {
   double least = Widths::no_demand;
   const auto take = [&](std::int32_t item) {
@@ -51,7 +52,7 @@ double DiscRule::least_within(const Vec3& point, double reach, std::int32_t& las
   };
   if (last >= 0)
     take(last);
-  // Rounding of a bound must not leave out a disc: else the last bit depends on where one begins.
+  // Rounding of a bound must not exclude a disc: otherwise the last bit would depend on `last`.
   constexpr double rounding = 1e-12;
   const auto may_demand_less = [&](const DiscBounds& bounds) {
     if (!(bounds.width < least))

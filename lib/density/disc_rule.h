@@ -12,32 +12,32 @@
 
 namespace calotte::density_detail {
 
-/// The width within a distance of a point.
+/// A disc on the sphere, and the width inside it.
 struct Disc {
   Vec3 centre;   ///< unit vector
   double radius; ///< radians
   double width;  ///< km
 };
 
-/// Of some discs.
+/// Bounds of a group of discs.
 struct DiscBounds {
   Box3 centres;
   double radius = 0, width = Widths::no_demand; ///< the largest, the least
 };
 DiscBounds joined(const DiscBounds& a, const DiscBounds& b);
 
-/// The least width of the discs that contain a point, and elsewhere nothing; with a limited
-/// gradient the least of what grows from them: an additively weighted distance.
+/// The minimum width of the discs that contain a point; no demand elsewhere. With a limited
+/// gradient, widths grow from the discs: the minimum is an additively weighted distance.
 class DiscRule : public WidthRule {
 public:
   explicit DiscRule(std::vector<Disc> discs);
   void evaluate(std::span<const Vec3> points, std::span<double> widths) const override;
   Bounds bounds(const Vec3& point, double reach) const override;
-  /// The way from a disc is straight.
+  /// The limit is exact: the shortest path from a disc is a great circle.
   std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const override;
 
 private:
-  /// What copies with other gradients share.
+  /// The data that copies with other gradients share.
   struct Discs {
     std::vector<Disc> all;
     BoundsTree<DiscBounds> tree;

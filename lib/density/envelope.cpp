@@ -26,8 +26,8 @@ double least_square(const Box& box) {
   return x * x + y * y;
 }
 
-/// True if an edge may pass through a box whose own box it meets, that is unless all corners lie on
-/// one side of it. A close miss may count as a hit.
+/// False only if all corners of the box lie on one side of the edge, so that the edge misses the
+/// box. A close miss may count as a hit. \pre the edge's bounding box meets the box.
 bool crosses(const Outline::Edge& edge, const Box2& box) {
   const double dx = edge.to.x - edge.from.x, dy = edge.to.y - edge.from.y;
   int left = 0, right = 0;
@@ -52,8 +52,8 @@ struct Around {
   double reach;
 };
 
-/// The disc is convex: a point in the disc and in the box is no farther from the box's middle,
-/// after that is moved into the disc, than half a diagonal.
+/// The disc is convex. If the box's middle is moved to the nearest point of the disc, every point
+/// of the disc in the box is still within half a diagonal of it.
 Around around_box(const Box& box) {
   const auto [x, y] = Hemispheres::nearest(box.x + 0.5 * box.side, box.y + 0.5 * box.side);
   const double half_chord = std::min(1.0, std::sqrt(0.5) * box.side);
@@ -165,7 +165,7 @@ EnvelopeOf<Map>::EnvelopeOf(const Density& density, Map map)
   finish();
 }
 
-/// Starts from both hemispheres, halved so often.
+/// Starts from the whole map, halved `depth` times.
 template <class Map> void EnvelopeOf<Map>::cover(int depth) {
   boxes_ = map_.squares();
   for (; depth > 0; --depth) {
@@ -177,8 +177,9 @@ template <class Map> void EnvelopeOf<Map>::cover(int depth) {
   bound(boxes_);
 }
 
-/// Halves the boxes with the largest effect until the bounds are close to each other on the whole,
-/// or there are too many boxes. In the latter case a long thin ridge costs more proposals.
+/// Halves the boxes with the largest effect until the integrals of both bounds are close, or until
+/// there are too many boxes. In the latter case, as at a long thin ridge, more proposals are
+/// rejected.
 template <class Map> void EnvelopeOf<Map>::refine() {
   const std::size_t most = boxes_.size() + (1 << 16);
   while (boxes_.size() < most) {
@@ -239,7 +240,7 @@ template <class Map> void EnvelopeOf<Map>::raise(const std::vector<Witness>& wit
         else
           siblings.push_back(quarter);
     }
-    // Both bounds are equal, so that the box is not halved again.
+    // Both bounds become equal, so that the box is not halved again.
     box.bounds.greatest = std::max(2 * witness.rho, box.bounds.greatest);
     box.bounds.least = box.bounds.greatest;
   }
@@ -262,7 +263,7 @@ template <class Map> void EnvelopeOf<Map>::bound(std::vector<Box>& boxes) const 
   });
 }
 
-/// Sampled in the box and a quarter of a side around it, with a margin.
+/// Samples the density in the box and a quarter of a side around it, and adds a margin.
 template <class Map> Bounds EnvelopeOf<Map>::sampled_bounds(const Box& box) const {
   constexpr double step = 1.5 / lattice, margin = 1.25;
   std::array<std::array<double, lattice * lattice>, 4> rows;

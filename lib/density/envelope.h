@@ -20,8 +20,8 @@ namespace calotte::density_detail {
 /// in the disc is at least half of the chord on the sphere.
 Vec3 on_sphere(double x, double y, bool south);
 
-/// A square of a map: corners (x, y) and (x + side, y + side). It may extend beyond the area that
-/// the map shows.
+/// A square of a map, with corners (x, y) and (x + side, y + side). It may extend beyond the mapped
+/// area.
 struct Box {
   double x = -1, y = -1, side = 2;
   bool south = false; ///< which hemisphere; false in a plane
@@ -33,13 +33,13 @@ struct Box {
 /// The part of a box that the map shows.
 enum class Shown { none, part, whole };
 
-/// The two maps of the sphere. (Area: half of that on the sphere.)
+/// The two maps of the sphere. Areas in a map are half of those on the sphere.
 struct Hemispheres {
   static constexpr const char* name = "sphere";
 
   static std::vector<Box> squares() { return {Box{}, Box{-1, -1, 2, true, {}}}; }
-  /// A box that extends beyond its disc counts as whole: the number of proposals in it follows from
-  /// a bound in the disc.
+  /// A box that extends beyond its disc counts as whole: the bound in the disc applies to all of
+  /// its proposals.
   static Shown shown(const Box& box);
   static Vec3 point(double x, double y, bool south) { return on_sphere(x, y, south); }
   static bool contains(double x, double y, const Vec3&) { return x * x + y * y < 1; }
@@ -89,7 +89,8 @@ public:
   Vec3 point(double x, double y, bool) const {
     return {middle_.x + half_ * x, middle_.y + half_ * y, 0};
   }
-  /// Inside, not on the boundary; in a periodic box, in the half-open box.
+  /// Whether a point is inside the domain, not on its boundary; in a periodic box, whether it is in
+  /// the half-open box.
   bool contains(double x, double y, const Vec3& point) const;
   std::array<double, 2> nearest(double x, double y) const;
   static bool is_certain(const Density& density) { return density.uniform(); }
@@ -103,7 +104,7 @@ private:
   double half_;               ///< the larger of half_extent_
 };
 
-/// A value of the density that was found in a box.
+/// A value of the density found in a box.
 struct Witness {
   std::int64_t box = 0;
   double x = 0, y = 0, rho = 0;

@@ -95,12 +95,12 @@ private:
   std::vector<Angle> along_, round_; ///< of latitudes, of longitudes
 };
 
-/// The edges of an outline, for straight ways that they cut.
+/// A tree of an outline's edges, which finds those that cut a straight path.
 class EdgeTree {
 public:
   explicit EdgeTree(const Outline& outline) : edges_(outline.edges()), tree_(tree_of(edges_)) {}
 
-  /// Whether a straight way passes from one side of an edge to the other. A way that ends on an
+  /// Whether a straight path passes from one side of an edge to the other. A path that ends on an
   /// edge, or runs along it, does not.
   bool cut(const Vec2& from, const Vec2& to) const {
     const double dx = to.x - from.x, dy = to.y - from.y;
@@ -111,7 +111,7 @@ public:
         return false;
       const double x = 0.5 * (box.low.x + box.high.x), y = 0.5 * (box.low.y + box.high.y),
                    reach = std::abs(dx) * (box.high.y - y) + std::abs(dy) * (box.high.x - x);
-      // Twice as far as rounding needs, and a little for a box without a width.
+      // The margin is twice the rounding error, and positive for a box without width.
       return std::abs(dx * (y - from.y) - dy * (x - from.x)) <=
              2 * reach + 1e-9 * (std::abs(dx) + std::abs(dy)) *
                              (std::abs(x - from.x) + std::abs(y - from.y));
@@ -143,8 +143,8 @@ private:
   BoxTree tree_;
 };
 
-/// The nodes of a raster of the plane, row by row, and after them the corners of the boundary at
-/// which shortest ways bend, which have no values of their own.
+/// The nodes of a raster of the plane, row by row. The reflex corners of the boundary follow, at
+/// which shortest paths bend; they have no values of their own.
 class PlaneNodes {
 public:
   PlaneNodes(const Raster& widths, const Surface& surface)
@@ -179,8 +179,8 @@ public:
                     (y_[rows_ - 1] - y_[0]) / (rows_ - 1));
   }
 
-  /// From now on only nodes outside the domain take values, from any node, and nothing is in the
-  /// way.
+  /// From now on only nodes outside the domain take values. They take them from any node, and the
+  /// boundary blocks no path.
   void turn_outside() { outwards_ = true; }
 
   bool sees(std::int32_t a, std::int32_t b) const {
@@ -189,7 +189,8 @@ public:
     const Vec2 from = position(a), to = position(b);
     if (edge_tree_->cut(from, to))
       return false;
-    // Between two points of the boundary it may pass through an island without crossing an edge.
+    // A path between two points of the boundary may pass through an island without crossing an
+    // edge.
     return side(a) != Side::boundary || side(b) != Side::boundary ||
            outline_->side({0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}) != Side::outside;
   }
@@ -231,7 +232,7 @@ public:
 private:
   struct Corner {
     Vec2 position;
-    std::int32_t before, after; ///< along the ring, if ways bend there, too; else -1
+    std::int32_t before, after; ///< along the ring, if paths bend there, too; else -1
   };
 
   static Axis axis_of(const DoubleVector& values) {
@@ -288,7 +289,7 @@ private:
     return a < raster_size() ? sides_[static_cast<std::size_t>(a)] : Side::boundary;
   }
 
-  /// -1 beyond the raster.
+  /// The index within the raster; -1 beyond it.
   static std::int32_t wrapped(std::int32_t i, std::int32_t count, bool periodic) {
     if (i >= 0 && i < count)
       return i;
@@ -357,7 +358,8 @@ Raster limited_on_sphere(const Raster& widths, double gradient, double radius_km
   const SphereNodes nodes(field, widths, radius_km);
   const std::int64_t columns = widths.x.size(), rows = field.y().intervals() - 1;
   std::vector<double> values(static_cast<std::size_t>(nodes.size()));
-  // A row at a pole is one position; a pole without one is passed.
+  // A row at a pole is one node. A pole without a row is a node without a value, through which
+  // paths pass.
   const bool south = widths.y[0] == -90, north = widths.y[widths.y.size() - 1] == 90;
   constexpr double none = std::numeric_limits<double>::infinity();
   values.front() = south ? widths.values.col(0).minCoeff() : none;

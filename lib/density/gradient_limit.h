@@ -21,7 +21,7 @@ namespace calotte::density_detail {
 /// \throws Error invalid_argument unless a limit is positive and finite.
 void require_gradient(double gradient);
 
-/// What limit_gradient() needs to know of the nodes of a raster.
+/// The requirements of limit_gradient() on the nodes of a raster.
 ///
 ///     std::int32_t size() const;
 ///     double distance(std::int32_t a, std::int32_t b) const;   // straight, > 0 for two points
@@ -78,8 +78,9 @@ public:
   }
 
 private:
-  /// The value over the least one, as a float, whose bits are in the order of the values, above the
-  /// source: 0 for the node itself, else the source's number and 1.
+  /// A node's value and source in one word. The high bits are the value over the least one, a float
+  /// whose bits are in the order of the values. The low bits are 0 if the node is its own source,
+  /// else the source's number plus 1.
   using State = std::uint64_t;
   static constexpr State nothing = std::numeric_limits<State>::max();
 
@@ -112,7 +113,7 @@ private:
     double value;
   };
 
-  /// Puts each node that lowers a neighbour at its level.
+  /// Adds each node that lowers a neighbour to its level.
   void begin() {
     own_ = values_;
     std::vector<std::vector<std::int32_t>> of_block(
@@ -143,7 +144,7 @@ private:
         levels_[std::max(least, level_of(states_[at(node)]))].push_back(node);
   }
 
-  /// Hands on what the nodes of a level have, once.
+  /// Finalises the nodes of a level: each hands its value on once.
   void finalise(std::size_t level) {
     const std::vector<std::int32_t> waiting = std::exchange(levels_[level], {});
     const std::int64_t count = std::ssize(waiting);
@@ -153,7 +154,7 @@ private:
       for (std::int64_t k = from; k != to; ++k) {
         const std::int32_t node = waiting[static_cast<std::size_t>(k)];
         const State state = states_[at(node)];
-        // It may wait several times.
+        // A node may be in the level several times.
         if (level_of(state) <= level &&
             std::atomic_ref(finalised_[at(node)]).exchange(state, std::memory_order_relaxed) !=
                 state)
@@ -177,8 +178,8 @@ private:
                     static_cast<std::uint32_t>(source) + 1);
   }
 
-  /// What is known of a neighbour depends on the threads. So it decides only whether an offer is in
-  /// vain: the straight one is, up to rounding, the least of both.
+  /// The neighbour's current state depends on the threads. So it only decides whether to skip an
+  /// offer: up to rounding, the offer along the straight path is the smaller of the two.
   void hand_on(const Finalised& from, std::vector<std::int32_t>& lowered) {
     constexpr float rounding = 1e-6F;
     nodes_.for_each_neighbour(from.node, [&](std::int32_t to) {
@@ -197,7 +198,7 @@ private:
   }
 
   const Nodes& nodes_;
-  std::vector<double> values_; ///< those of a source; at first the given ones
+  std::vector<double> values_; ///< by node: the value of its source; at first its own
   std::vector<double> own_;    ///< the given ones
   double gradient_, least_, level_ = 1;
   std::vector<State> states_, finalised_;

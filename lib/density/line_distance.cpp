@@ -21,7 +21,7 @@ bool is_point(const Arc& arc, bool sphere) {
   return sphere ? same_direction(arc.from, arc.to) : dot(apart, apart) == 0;
 }
 
-constexpr double longest = 0.1; ///< of a chord: boxes of long arcs hold much else
+constexpr double longest = 0.1; ///< of a chord: boxes of long arcs contain many other lines
 
 std::vector<Arc> make_arcs(const std::vector<Points3>& lines, bool sphere) {
   std::vector<Arc> arcs;
@@ -44,7 +44,7 @@ std::vector<Arc> make_arcs(const std::vector<Points3>& lines, bool sphere) {
   return arcs;
 }
 
-/// And their copies in the periods around that of a plane.
+/// The lines with their copies in the periods around the box of a plane.
 std::vector<Arc> with_copies(std::vector<Arc> lines, const Eigen::Vector2d& period) {
   const std::size_t own = lines.size();
   for (const int i : {-1, 0, 1})
@@ -57,7 +57,7 @@ std::vector<Arc> with_copies(std::vector<Arc> lines, const Eigen::Vector2d& peri
   return lines;
 }
 
-/// In the order of the lines, which keeps neighbours together.
+/// A tree in the order of the lines, which keeps neighbours together.
 BoxTree tree_in_plane(const std::vector<Arc>& lines) {
   std::vector<Box3> boxes;
   std::vector<std::uint64_t> along;
@@ -91,7 +91,7 @@ void LineDistance::operator()(std::span<const Vec3> points, std::span<double> di
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3& p = points[k];
     double least = nearest < 0 ? std::numeric_limits<double>::infinity() : square_from(nearest, p);
-    // Rounding must not leave out a line: else the last bit depends on the point before.
+    // Rounding must not exclude a line: otherwise the last bit would depend on the previous point.
     constexpr double rounding = 1e-9;
     tree_.visit(
         [&](const Box3& box) {

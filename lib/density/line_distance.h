@@ -23,8 +23,8 @@ public:
 
   bool on_sphere() const { return sphere_; }
 
-  /// Radians at unit vectors, in a plane its unit at x y 0. Where each point lies next to the one
-  /// before, it takes less time.
+  /// The distances at unit vectors, in radians; in a plane at x y 0, in its unit. Faster if each
+  /// point is near the previous one.
   void operator()(std::span<const Vec3> points, std::span<double> distances) const;
 
   double operator()(const Vec3& point) const {

@@ -17,7 +17,7 @@ namespace {
 using namespace density_detail;
 using mesh_detail::TriangleGrid;
 
-/// Widths at the sites of a mesh, with a copy of what they are found by.
+/// Interpolates widths at the sites of a mesh, of which it keeps a copy.
 template <Space S> class MeshWidths {
 public:
   MeshWidths(const Mesh& mesh, const S& space, const DoubleVector& density)
@@ -41,7 +41,7 @@ public:
 private:
   static constexpr double least = 1e-150; ///< a density that is 0 has no cell width
 
-  /// With sites that are unit vectors, or in the box.
+  /// The mesh with sites normalised on the sphere, or moved into the periodic box.
   const Mesh& prepared(const Points3& points, const S& space) {
     for (Eigen::Index i = 0; i < points.cols(); ++i)
       set_column(mesh_.points, i, space.coordinates(space.position(column(points, i))));

@@ -19,9 +19,11 @@ struct Window {
   double west, east, south, north;
 };
 
-/// That of longitudes and latitudes about a point of the sphere. \param reach below a half circle.
+/// The window of longitudes and latitudes about a point of the sphere. \param reach less than a
+/// half circle.
 Window window_about(const Vec3& centre, double reach) {
-  // Wider than sin(reach) asks for, by operations that have the same bits everywhere.
+  // The window is wider than sin(reach) requires; its operations have the same bits on every
+  // machine.
   const double x = base_detail::longitude_of(centre.x, centre.y),
                y = base_detail::latitude_of(centre.x, centre.y, centre.z),
                ring = std::sqrt(centre.x * centre.x + centre.y * centre.y);
@@ -61,7 +63,7 @@ RasterBounds::RasterBounds(const RasterField& field,
   }
 }
 
-/// Of all nodes in some columns and rows, both ends included.
+/// The bounds of all nodes in some columns and rows, both ends included.
 Bounds RasterBounds::of_nodes(std::int64_t west, std::int64_t east, std::int64_t south,
                               std::int64_t north) const {
   constexpr std::int64_t most = 3; // squares in a row

@@ -12,19 +12,19 @@
 
 namespace calotte::density_detail {
 
-/// Bounds of the values of a raster about points, from those of squares of nodes, which double in
-/// size from level to level.
+/// Bounds of the values of a raster near points, from bounds of squares of nodes whose size doubles
+/// from level to level.
 class RasterBounds {
 public:
   /// \param field must outlive it.
   explicit RasterBounds(const RasterField& field);
-  /// \param value of a node, instead of the field's.
+  /// \param value gives the value of a node instead of the field.
   RasterBounds(const RasterField& field,
                const std::function<double(std::int64_t i, std::int64_t j)>& value);
 
-  /// Bounds of what is interpolated within a distance of a point.
-  /// \param centre unit vector, of a plane x y 0.
-  /// \param reach radians, of a plane its unit.
+  /// Bounds of the interpolated values within a distance of a point.
+  /// \param centre unit vector, in a plane x y 0.
+  /// \param reach radians, in a plane its unit.
   Bounds within(const Vec3& centre, double reach) const;
 
 private:

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
-/// \param nearest of two nodes: slopes overflow where they are closer.
+/// Requires ascending values. \param nearest minimum distance of two values: slopes overflow where
+/// they are closer.
 void require_ascending(const DoubleVector& values, const std::string& name, const std::string& axis,
                        double nearest) {
   require(values.size() >= 2, "{}: fewer than 2 {}; give a grid that covers the domain", name,

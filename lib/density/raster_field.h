@@ -46,7 +46,7 @@ private:
   double bins_per_unit_ = 0;
 };
 
-/// What the values of a raster must be.
+/// A condition on the values of a raster.
 struct ValueLaw {
   bool (*holds)(double value);
   const char* name; ///< "positive and finite"
@@ -67,9 +67,10 @@ inline constexpr ValueLaw positive_and_finite{
 /// \throws Error invalid_argument, naming the node, unless axes and shape meet the conditions of
 ///         Raster.
 void require_raster(const Raster& raster, const std::string& name);
-/// The same, and that all values meet a law. \throws Error invalid_argument, naming the node.
+/// Requires a valid raster whose values all meet a law. \throws Error invalid_argument, naming the
+/// node.
 void require_values(const Raster& raster, const std::string& name, const ValueLaw& law);
-/// The same of cell widths: > 0 and finite, max / min at most 1e30.
+/// Requires a valid raster of cell widths: > 0 and finite, max / min at most 1e30.
 void require_widths(const Raster& widths);
 /// \throws Error invalid_argument unless a number of a rule is positive and finite.
 /// \param rules what it is a rule of, for the message.
@@ -84,8 +85,8 @@ public:
   /// \throws Error invalid_argument as require_raster().
   explicit RasterField(const Raster& raster);
 
-  /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
-  /// depend on its point alone.
+  /// Values at unit vectors, or at points of the plane, given by their coordinates. The bits of a
+  /// value depend on its point alone.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* values) const;
 
@@ -153,18 +154,18 @@ void require_kind(bool of_plane, const Surface& surface);
 /// \throws Error invalid_argument unless a radius is > 0 and finite.
 void require_radius(double radius_km);
 
-/// Why nodes do not cover a surface, see require_covering(); empty if they do.
+/// The reason why nodes do not cover a surface, see require_covering(); empty if they do.
 /// \param x, y names of the axes in the message.
 std::string uncovered(const Raster& raster, const Surface& surface, const std::string& x,
                       const std::string& y);
 
-/// The regular grid of the sphere, poles included, with the largest step of at most `step` degrees
-/// that divides 180. The values are not set.
+/// A regular grid of the sphere, poles included, without values. Its step is the largest divisor of
+/// 180 degrees of at most `step`.
 Raster regular_grid(double step);
 
-/// A grid over a rectangle of a plane without values, of at most so many nodes.
-/// \param size of the rectangle; > 0. \param step largest distance of its nodes, > 0, which grows
-///        where these would be more.
+/// A grid over a rectangle of a plane, of at most so many nodes, without values.
+/// \param size of the rectangle; > 0. \param step maximum distance of neighbouring nodes, > 0; it
+///        grows where there would be more nodes.
 Raster grid_over(const Eigen::Vector2d& low, const Eigen::Vector2d& size, double step,
                  double most_nodes);
 

@@ -32,7 +32,7 @@ public:
   double least() const { return least_; }
   double greatest() const { return greatest_; }
   std::int64_t count() const { return count_; }
-  /// The largest distance of nodes, in widths there.
+  /// The largest distance of neighbouring nodes, in local widths.
   double apart() const { return apart_; }
   bool of_plane() const { return of_plane_; }
 

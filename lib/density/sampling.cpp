@@ -36,7 +36,7 @@ struct Batch {
   std::array<double, batch> level; ///< of the envelope, at random from 0 to it
 };
 
-/// Every proposal takes four numbers of the stream.
+/// Makes a batch of proposals. Each takes four numbers of the random stream.
 template <class Map> void propose(const EnvelopeOf<Map>& envelope, SplitMix& random, Batch& out) {
   for (std::size_t i = 0; i < batch; ++i) {
     out.box[i] = envelope.choose(random.unit());
@@ -79,7 +79,7 @@ Drawn draw_task(const EnvelopeOf<Map>& envelope, std::uint64_t seed, std::uint64
   return drawn;
 }
 
-/// The greatest witness of each box, by box.
+/// The greatest witness of each box, in the order of the boxes.
 std::vector<Witness> greatest_of_boxes(const std::vector<Drawn>& drawn) {
   std::vector<Witness> all;
   for (const Drawn& d : drawn)
@@ -92,8 +92,8 @@ std::vector<Witness> greatest_of_boxes(const std::vector<Drawn>& drawn) {
   return all;
 }
 
-/// Appends what was accepted, in the order of the tasks, to the first `filled` columns; returns how
-/// many are filled.
+/// Appends the accepted points to the first `filled` columns, in the order of the tasks. Returns
+/// the number of filled columns.
 std::int64_t append(const std::vector<Drawn>& drawn, std::int64_t filled, Points3& points) {
   std::vector<std::int64_t> begin{filled};
   for (const Drawn& d : drawn)
@@ -108,7 +108,7 @@ std::int64_t append(const std::vector<Drawn>& drawn, std::int64_t filled, Points
   return begin.back();
 }
 
-/// The number of tasks that probably suffices if the share of accepted proposals stays the same.
+/// The number of tasks that probably suffices at the current acceptance rate.
 std::int64_t tasks_for(std::int64_t missing, std::int64_t accepted, std::int64_t proposed) {
   constexpr std::int64_t most = 512; // accepted points are in memory twice
   const double share = static_cast<double>(accepted + 1) / static_cast<double>(proposed + 2);
@@ -116,8 +116,8 @@ std::int64_t tasks_for(std::int64_t missing, std::int64_t accepted, std::int64_t
   return needed < most ? static_cast<std::int64_t>(needed) + 1 : most;
 }
 
-/// Above these limits a density is rejected: its envelope does not fit it, and drawing might not
-/// end.
+/// If the proposals exceed these limits, the density is refused: its envelope does not fit it, and
+/// drawing might not end.
 constexpr std::int64_t most_in_vain = 1 << 24, acceptable = 1 << 14;
 
 template <class Map> std::string remedy_in_vain() {

@@ -11,9 +11,10 @@
 
 namespace calotte::density_detail {
 
-/// n independent points distributed as a density on a surface: proposals from its envelope
-/// (envelope.h), each accepted with probability rho over the envelope (von Neumann, 1951). The
-/// random numbers of a proposal depend only on the seed and the index of the proposal.
+/// Draws n independent random points distributed as a density on a surface. Proposals come from the
+/// density's envelope (envelope.h); each is accepted with probability rho over the envelope (von
+/// Neumann, 1951). The random numbers of a proposal depend only on the seed and the index of the
+/// proposal.
 ///
 /// A proposal above the envelope, which only a callable can cause, shows that the points drawn so
 /// far follow the wrong distribution. The function then raises the envelope there and draws all

@@ -13,7 +13,7 @@
 namespace calotte::density_detail {
 namespace {
 
-/// \pre bumps.
+/// The profiles of a density's bumps in a plane. \pre the density has bumps.
 std::vector<Profile> planar_profiles(const Density& density) {
   require(!density.bumps.empty(), "the density has no bump: give one, or make it uniform");
   std::vector<Profile> profiles;

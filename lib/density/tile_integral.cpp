@@ -22,7 +22,7 @@ double area_of(const CoordinateBox& box, bool of_plane) {
   return box.dx * (std::numbers::pi / 180) * (sine(box.south + box.dy) - sine(box.south));
 }
 
-/// A tile in boxes, which are halved down to a number in each direction.
+/// Integrates over a tile by boxes, which are halved down to a number in each direction.
 class TileIntegral {
 public:
   /// \param columns, rows at least those of the tile: powers of two.

@@ -20,7 +20,7 @@ namespace {
 
 using base_detail::Vec3;
 
-/// Rows of rows from pole to pole, each at the same longitudes.
+/// Rows of points at fixed latitudes from pole to pole, each at the same longitudes.
 struct LatitudeRows {
   LatitudeRows(std::vector<double> of_columns, std::vector<double> of_rows)
       : longitudes(std::move(of_columns)), latitudes(std::move(of_rows)) {
@@ -42,7 +42,7 @@ LatitudeRows rows_of(const RasterField& field) {
   return {std::move(longitudes), std::move(latitudes)};
 }
 
-/// A raster `parts` times as fine.
+/// The rows of a raster `parts` times as fine.
 LatitudeRows rows_of(const Raster& raster, int parts) {
   const Raster fine = regular_grid(180.0 / static_cast<double>((raster.y.size() - 1) * parts));
   return {{fine.x.begin(), fine.x.end()}, {fine.y.begin(), fine.y.end()}};
@@ -52,7 +52,7 @@ double distance(const Vec3& a, const Vec3& b) {
   return 2 * base_detail::arc_sine(std::min(1.0, 0.5 * norm(a - b)));
 }
 
-/// Lowers a row of the raster by the rows within a step of its latitude.
+/// Lowers a row of the raster by the points within a step of its latitude.
 void lower_row(const WidthRule& rule, const LatitudeRows& rows, double gradient, Eigen::Index j,
                Raster& raster) {
   const Eigen::Index columns = raster.x.size();
@@ -82,12 +82,12 @@ void lower_row(const WidthRule& rule, const LatitudeRows& rows, double gradient,
   }
 }
 
-/// The row of a pole is one point.
+/// Gives all nodes of a row at a pole their minimum: they are one point.
 void join_pole(Eigen::Index j, Raster& raster) {
   raster.values.col(j).setConstant(raster.values.col(j).minCoeff());
 }
 
-/// How many times as fine as the raster the rows are: some millions in all.
+/// By how much finer than the raster the rows are: some million points in all.
 int parts_for(const Raster& raster) {
   constexpr double most = 4e6;
   return std::clamp(static_cast<int>(std::sqrt(most / static_cast<double>(raster.values.size()))),

@@ -21,13 +21,13 @@
 #include <numeric>
 #include <vector>
 
-// Rules at nodes: of tiles, as a run takes them, and of regular rasters.
+// Evaluates rules at nodes: at those of tiles, which a run uses, and of regular rasters.
 
 namespace calotte {
 namespace density_detail {
 namespace {
 
-/// What a raster of a plane covers.
+/// The box that a raster of a plane covers.
 struct PlaneBox {
   Eigen::Vector2d low, size;
 };
@@ -39,7 +39,7 @@ PlaneBox box_of(const Surface& plane) {
   return {{box.low.x, box.low.y}, {box.high.x - box.low.x, box.high.y - box.low.y}};
 }
 
-/// Of a width that is the same everywhere.
+/// A raster of a width that is the same everywhere.
 Raster one_width(double width, const Surface& surface) {
   constexpr double far = 1e30; // the largest coordinate of a domain
   const bool plane = !surface.is_sphere();
@@ -136,7 +136,8 @@ namespace {
 
 /// Gives nodes outside a surface without a demand the largest width of the others.
 /// \param for_each_node calls body(x, y, width) for nodes in a fixed order, degrees on the sphere.
-/// \throws Error invalid_argument for one inside; where none is inside, for a corner.
+/// \throws Error invalid_argument for a node inside without a demand; if no node is inside, for a
+/// corner without one.
 template <class ForEachNode>
 void fill_outside(const Widths& widths, const Surface& surface, const ForEachNode& for_each_node) {
   const bool of_plane = !surface.is_sphere();
@@ -176,7 +177,7 @@ void fill_outside(const Widths& widths, const Surface& surface, Raster& raster) 
 
 constexpr std::int32_t most_intervals = 1024; // of a tile in one direction
 
-/// The intervals of a length for nodes at most a distance apart: a power of two.
+/// The number of intervals of a length for nodes at most a distance apart, a power of two.
 std::int32_t intervals_for(double length, double apart) {
   std::int32_t intervals = 1;
   while (intervals < most_intervals && length > apart * intervals)
@@ -184,7 +185,7 @@ std::int32_t intervals_for(double length, double apart) {
   return intervals;
 }
 
-/// What a tile asks for: its extent in widths.
+/// The demand of a tile: its extent in widths.
 struct TileDemand {
   double across = 1, up = 1;
   bool outside = false; ///< it has no point in a bounded surface
@@ -202,7 +203,7 @@ TileDemand estimate_demand(const WidthRule& rule, const Extent& tile, double uni
   return {tile.width * unit / widths.least, tile.height * unit / widths.least};
 }
 
-/// Tiles' shapes for nodes at most so many widths apart.
+/// The shapes of tiles for nodes at most `apart` widths apart.
 std::vector<WidthTiles::Shape> shapes_for(const std::vector<TileDemand>& demands, double apart) {
   std::vector<WidthTiles::Shape> shapes;
   for (const TileDemand& demand : demands)
@@ -211,8 +212,8 @@ std::vector<WidthTiles::Shape> shapes_for(const std::vector<TileDemand>& demands
   return shapes;
 }
 
-/// The shapes of tiles with at most so many nodes: as dense as they ask for, or all of them as many
-/// times less dense.
+/// The shapes of tiles with at most so many nodes in all. They meet the demands, or all are coarser
+/// by the same factor.
 std::vector<WidthTiles::Shape> shapes_within(const std::vector<TileDemand>& demands, double most) {
   constexpr double factor = 1.1;
   for (double apart = 1;; apart *= factor) {
@@ -236,7 +237,7 @@ double apart_in(const std::vector<TileDemand>& demands,
   return apart;
 }
 
-/// Whether a tile has no point in a surface.
+/// Whether no point of a tile is in a surface.
 bool lies_outside(const Extent& tile, const Surface& surface) {
   const Vec3& at = tile.middle;
   return surface.is_bounded() && !domain_detail::is_near_boundary(surface, at, tile.reach) &&
@@ -273,7 +274,7 @@ SampledWidths sample_tiles(const Widths& widths, const TileBox& box, const Surfa
   return {std::move(tiles), apart_in(demands, shapes)};
 }
 
-/// The box of a plane in some thousand tiles that are nearly square.
+/// Divides the box of a plane into some thousand nearly square tiles.
 TileBox tiles_of_plane(const Surface& plane) {
   constexpr double tiles = 4096, most = 16384; // in all, and in a row
   const PlaneBox box = box_of(plane);

@@ -8,7 +8,7 @@
 namespace calotte::density_detail {
 namespace {
 
-/// Straight pieces of a cubic leave it by less than 1e-6 of its height.
+/// The straight pieces deviate from the cubic by less than 1e-6 of its height.
 constexpr int pieces_of_cubic = 1024;
 
 /// Limits how fast widths grow from each node to the next ones.
@@ -23,7 +23,7 @@ std::vector<Node> limited_forwards(const std::vector<Node>& nodes, double slope)
       out.push_back({to.x, reached});
       continue;
     }
-    // Where the steepest line meets the given piece.
+    // The steepest line meets the given piece here.
     const double gap = from.width - last.width, rise = (to.width - from.width) / length;
     if (const double meets = gap > 0 ? gap / (slope - rise) : 0; meets > 0 && meets < length)
       out.push_back({from.x + meets, last.width + slope * meets});
@@ -136,7 +136,7 @@ ProfileCurve ProfileCurve::limited(double slope) const {
   if (reach > 0 && !ends)
     nodes.push_back({nodes.back().x + reach, nodes.back().width});
   ProfileCurve result(mirrored(limited_forwards(mirrored(limited_forwards(nodes, slope)), slope)));
-  // Where there was no demand, or a slope, the width grows without an end.
+  // Where there is no demand, or the profile has a slope, the width grows without bound.
   const auto growth = [slope](double own) { return own > 0 ? std::min(own, slope) : slope; };
   if (begins)
     result.low_slope_ = growth(low_slope_);

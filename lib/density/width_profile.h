@@ -13,10 +13,10 @@
 
 namespace calotte::density_detail {
 
-/// A distance on a sphere, km: half round the largest planets.
+/// The largest distance on a sphere, km: half of the circumference of the largest planets.
 constexpr double farthest_on_sphere = 3e5;
 
-/// A profile as straight pieces, of widths or of shares.
+/// A profile of widths or of shares, as a piecewise linear function.
 class ProfileCurve {
 public:
   /// \param what its numbers are, for messages: "a distance".
@@ -26,7 +26,7 @@ public:
   ProfileCurve(const WidthProfile& profile, const char* what, double low, double high,
                const char* value = "width", const ValueLaw& law = positive_and_finite);
 
-  /// The same from a number to another one, and no demand beyond.
+  /// The same profile between two numbers, and no demand beyond them.
   ProfileCurve within(double low, double high) const;
 
   double operator()(double x) const {
@@ -42,9 +42,9 @@ public:
     return before.width + (after->width - before.width) * ((x - before.x) / (after->x - before.x));
   }
 
-  /// Of its values between two numbers, which may be infinite.
+  /// The bounds of its values between two numbers, which may be infinite.
   Bounds bounds(double low, double high) const;
-  /// Whether it nowhere falls away from 0, in either direction.
+  /// Whether its values nowhere decrease away from 0, in either direction.
   bool grows_from_zero() const;
 
   /// The largest curve below this one whose slope is at most `slope`, per unit of the number.
@@ -57,7 +57,7 @@ private:
 
   explicit ProfileCurve(std::vector<Node> nodes) : nodes_(std::move(nodes)) {}
 
-  /// The nodes in the range where there is a demand, and at its ends.
+  /// The nodes in the range with a demand, and nodes at the ends of that range.
   std::vector<Node> demanded() const;
 
   std::vector<Node> nodes_;

@@ -50,7 +50,7 @@ RuleSpace space_of(const Raster& raster) {
   return raster.of_plane ? RuleSpace::plane : RuleSpace::sphere;
 }
 
-/// The raster that was given, which is prepared when a point is asked for.
+/// A given raster, which is prepared when it is first evaluated.
 class RasterRule : public WidthRule {
 public:
   explicit RasterRule(Raster raster) : WidthRule(space_of(raster)), raster_(std::move(raster)) {
@@ -70,7 +70,7 @@ public:
     std::call_once(once_, [&] { tbb::this_task_arena::isolate([&] { field_.emplace(raster_); }); });
     return &*field_;
   }
-  /// At its own nodes.
+  /// The limit is computed at the raster's own nodes.
   Rule limited(double gradient, double radius_km) const override {
     return raster_.of_plane
                ? nullptr
@@ -84,13 +84,13 @@ private:
   mutable std::optional<RasterBounds> bounds_;
 };
 
-/// The nodes of a raster, by a function of their values.
+/// The raster of a function of the values.
 template <class Of> Raster mapped(Raster raster, const Of& of) {
   raster.values = raster.values.unaryExpr(of);
   return raster;
 }
 
-/// What follows from the values of a raster, with no demand next to a node without one.
+/// A rule that interpolates the values of a raster; no demand next to a node without one.
 class FieldRule : public WidthRule {
 public:
   explicit FieldRule(const Raster& raster)
@@ -129,7 +129,7 @@ public:
     const double latitude = latitude_of(point);
     return curve_.bounds(latitude - reach * degrees, latitude + reach * degrees);
   }
-  /// Along a meridian the way to another latitude is shortest.
+  /// The limit is exact: the shortest path to another latitude runs along a meridian.
   Rule limited(double gradient, double radius_km) const override {
     return std::make_shared<LatitudeRule>(curve_.limited(gradient * radius_km / degrees));
   }
@@ -137,7 +137,7 @@ public:
 private:
   /// Degrees.
   static double latitude_of(const Vec3& p) {
-    // Of the two forms the one that keeps its digits.
+    // Of two forms, this one keeps its digits.
     const double ring = std::sqrt(p.x * p.x + p.y * p.y);
     return degrees * (ring > std::abs(p.z)
                           ? base_detail::arc_sine(p.z)
@@ -153,7 +153,7 @@ template <class Of> class DistanceRule : public Of {
 public:
   using IsBehind = std::function<bool(const Vec3&)>;
 
-  /// \param is_behind null for nowhere.
+  /// \param is_behind null if no point is behind the lines.
   DistanceRule(std::shared_ptr<const LineDistance> distance, IsBehind is_behind, ProfileCurve curve,
                double radius_km)
       : Of(distance->on_sphere() ? RuleSpace::sphere : RuleSpace::plane),
@@ -164,7 +164,7 @@ public:
     for (std::size_t k = 0; k < points.size(); ++k)
       values[k] = curve_(number_of(points[k], values[k]));
   }
-  /// The distance changes by no more than the way.
+  /// The distance changes by at most the length of a path.
   Bounds bounds(const Vec3& point, double reach) const override {
     const double number = number_of(point, (*distance_)(point));
     return curve_.bounds(number - reach * unit_, number + reach * unit_);
@@ -187,7 +187,8 @@ private:
 class WidthByDistance : public DistanceRule<WidthRule> {
 public:
   using DistanceRule::DistanceRule;
-  /// Towards the line the distance changes by as much as the way.
+  /// The limit is exact: along the shortest path to the line, the distance changes by the path's
+  /// length.
   Rule limited(double gradient, double radius_km) const override {
     return curve().grows_from_zero()
                ? std::make_shared<WidthByDistance>(distance_, is_behind_, curve().limited(gradient),
@@ -196,7 +197,7 @@ public:
   }
 };
 
-/// Where two rules hold together.
+/// The space where two rules are both defined.
 RuleSpace common_space(RuleSpace a, RuleSpace b) {
   require(a == RuleSpace::any || b == RuleSpace::any || a == b,
           "some widths are of the sphere and some of a plane; give those of one of them");
@@ -246,7 +247,7 @@ double greatest_of(double a, double b) { return std::max(a, b); }
 double sum_of(double a, double b) { return a + b; }
 double product_of(double a, double b) { return a * b; }
 
-/// The least of several rules: its limit is the least of theirs.
+/// The minimum of several rules. Its limit is the minimum of their limits.
 class MinimumRule : public CombinedRule {
 public:
   explicit MinimumRule(std::vector<Rule> parts) : CombinedRule(std::move(parts), least_of) {}
@@ -314,11 +315,11 @@ double blended_width(double a, double b, double t) {
     return a;
   if (t >= 1)
     return b;
-  // What says nothing has no mean with a width.
+  // No demand has no mean with a width.
   return Widths::is_demand(std::max(a, b)) ? a + t * (b - a) : Widths::no_demand;
 }
 
-/// The same of rules. \tparam Weight t of a share.
+/// A rule that blends two rules by a share. \tparam Weight gives t for a share.
 template <double (*Weight)(double)> class BlendRule : public WidthRule {
 public:
   BlendRule(RuleSpace space, Rule a, Rule b, std::shared_ptr<const ShareRule> share)
@@ -365,7 +366,7 @@ std::shared_ptr<const WidthsOfRadius> for_any_radius(Rule rule) {
   return std::make_shared<WidthsOfRadius>(std::move(rule));
 }
 
-/// That of some widths together: those of the Earth go to the other's sphere.
+/// The common radius of some widths: those of the Earth take that of the other sphere.
 double common_radius(const std::vector<Widths>& widths) {
   double radius = earth_radius_km;
   for (const Widths& one : widths)
@@ -379,7 +380,7 @@ double common_radius(const std::vector<Widths>& widths) {
   return radius;
 }
 
-/// make(rules) of the rules of some widths.
+/// Widths that make(rules) combines from the rules of some widths.
 template <class Make> Widths combine_rules(const std::vector<Widths>& widths, const Make& make) {
   require(!widths.empty(), "there are no widths to combine; give one or more");
   std::vector<std::shared_ptr<const WidthsOfRadius>> parts;
@@ -414,7 +415,7 @@ Widths blended(const Widths& a, const Widths& b, const WidthShare& share) {
   return Widths(std::make_shared<WidthsOfRadius>(space, make), common_radius({a, b}));
 }
 
-/// of(curve, radius) of the distance from lines.
+/// A rule of(curve, radius) by the distance from lines.
 /// \tparam Made a rule by distance, of widths or of shares.
 template <class Made, class Of>
 std::shared_ptr<const OfRadius<Of>> of_sides(const std::vector<Points3>& lines,
@@ -428,7 +429,7 @@ std::shared_ptr<const OfRadius<Of>> of_sides(const std::vector<Points3>& lines,
       });
 }
 
-/// body(block, begin) for blocks of points of a rule's space: unit vectors, or x y 0.
+/// Calls body(block, begin) for blocks of points in a rule's space: unit vectors, or x y 0.
 template <class Body>
 void for_each_block_of(const PointsRef& points, RuleSpace space, const Body& body) {
   const bool plane = space == RuleSpace::plane, sphere = space == RuleSpace::sphere;

@@ -22,7 +22,7 @@
 
 namespace calotte::density_detail {
 
-/// Where a rule gives widths: a number, and what is made of numbers, does everywhere the same.
+/// Where a rule is defined. A number, and a combination of numbers, is defined in any space.
 enum class RuleSpace { any, sphere, plane };
 
 /// A value for every point. Immutable.
@@ -35,11 +35,10 @@ public:
 
   RuleSpace space() const { return space_; }
 
-  /// \param points unit vectors, in a plane x y 0. Where each lies next to the one before, it takes
-  /// less time.
+  /// \param points unit vectors, in a plane x y 0. Faster if each point is near the previous one.
   virtual void evaluate(std::span<const Vec3> points, std::span<double> values) const = 0;
 
-  /// Of the values within a distance of a point, not always the narrowest.
+  /// Bounds of the values within a distance of a point, not always tight.
   /// \param reach radians, in a plane its unit; infinite for all points.
   virtual Bounds bounds(const Vec3& point, double reach) const = 0;
 
@@ -58,30 +57,30 @@ class WidthRule : public PointRule {
 public:
   explicit WidthRule(RuleSpace space = RuleSpace::sphere) : PointRule(space) {}
 
-  /// By point the part of a minimum that is the least, by index; 0 of other rules.
+  /// By point, the index of the part of a minimum that gives the width; 0 for other rules.
   virtual void find_active(std::span<const Vec3> points, std::span<std::int32_t> active) const;
 
-  /// A bound from below of all widths, km, > 0.
+  /// A lower bound of all widths, km, > 0.
   double least() const { return bounds({0, 0, 1}, std::numeric_limits<double>::infinity()).least; }
 
-  /// The raster that was given as the rule; null for other rules.
+  /// The raster of a rule that is one; null for other rules.
   virtual const Raster* raster() const { return nullptr; }
-  /// Points that matter for a limit of the gradient, beside those of a regular raster: the nodes
-  /// of the rule's own; null for other rules.
+  /// The field whose nodes a limit of the gradient considers besides those of a regular raster: the
+  /// rule's own; null for rules without one.
   virtual const RasterField* field() const { return nullptr; }
 
-  /// The rule with a limited gradient if no other raster is needed for that; else null.
+  /// The rule with a limited gradient, if that needs no other raster; else null.
   virtual std::shared_ptr<const WidthRule> limited(double gradient, double radius_km) const;
 };
 
-/// A rule of widths or of shares as a function of the radius of its sphere. What it makes for a
-/// radius it keeps, so that rules that are made of others share it. Threads may ask at once.
+/// A rule of widths or of shares as a function of the radius of its sphere. It keeps the last rule
+/// that it made, so that combined rules share it. Thread-safe.
 template <class Rule> class OfRadius {
 public:
   using Make = std::function<std::shared_ptr<const Rule>(double radius_km)>;
 
   OfRadius(RuleSpace space, Make make) : space_(space), make_(std::move(make)) {}
-  /// Of a rule that depends on no radius.
+  /// Makes the function of a rule that does not depend on the radius.
   explicit OfRadius(std::shared_ptr<const Rule> rule)
       : OfRadius(rule->space(), [rule](double) { return rule; }) {}
 
@@ -90,7 +89,7 @@ public:
   std::shared_ptr<const Rule> operator()(double radius_km) const {
     const std::lock_guard lock(mutex_);
     if (rule_ == nullptr || radius_km != radius_km_) {
-      // A task of the caller, taken up meanwhile, could ask for the same.
+      // Isolated: another task of the caller that this thread took up could request the same rule.
       tbb::this_task_arena::isolate([&] { rule_ = make_(radius_km); });
       radius_km_ = radius_km;
     }
@@ -100,7 +99,7 @@ public:
 private:
   RuleSpace space_;
   Make make_;
-  mutable std::mutex mutex_; ///< of what follows: the last one that was asked for
+  mutable std::mutex mutex_; ///< guards the members below: the last rule requested
   mutable double radius_km_ = 0;
   mutable std::shared_ptr<const Rule> rule_;
 };
@@ -120,16 +119,16 @@ std::shared_ptr<const WidthsOfRadius> rule_of_sides(const std::vector<Points3>& 
                                                     const ProfileCurve& curve,
                                                     const Surface& surface = {});
 
-/// The values of a raster, with no demand next to a node whose value is none.
+/// A rule that interpolates the values of a raster; no demand next to a node without one.
 std::shared_ptr<const WidthRule> rule_of_field(const Raster& raster);
 
-/// Any rule with a limited gradient: nowhere above the rule.
+/// A rule with a limited gradient, nowhere above the given rule.
 /// \param radius_km for which the rule was made.
 /// \throws Error invalid_argument for a rule of a plane that needs a raster.
 std::shared_ptr<const WidthRule> limited(const std::shared_ptr<const WidthRule>& rule,
                                          double gradient, double radius_km);
 
-/// The step of a raster for the least width of a rule on a sphere, degrees.
+/// The step of a raster that resolves the least width of a rule on a sphere, degrees.
 double step_for(const WidthRule& rule, double radius_km);
 /// The widths of a rule at the nodes of a raster of the sphere.
 Raster sample(const WidthRule& rule, double step);

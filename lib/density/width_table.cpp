@@ -82,8 +82,8 @@ bool has_equal_steps(const std::vector<double>& values, std::size_t first, std::
   return true;
 }
 
-/// Rows at equal steps from row `from` to the pole `to` and beyond, which are linear between the
-/// two; nearest to the row first.
+/// Rows at equal steps from row `from` to the pole `to` and beyond, the nearest to the row first.
+/// Their values are linear between the row and the pole.
 std::vector<std::vector<double>> rows_to_pole(const std::vector<double>& latitudes, double step,
                                               const std::vector<double>& from,
                                               const std::vector<double>& to, std::size_t row,

@@ -39,18 +39,18 @@ public:
 
 private:
   Grid grid_{};
-  /// By row, the rows beyond the poles included.
+  /// Widths row by row, with the rows beyond the poles.
   std::vector<double> widths_;
 };
 
-/// Where some points lie on a grid.
+/// The positions of points on a grid.
 struct GridCells {
   static constexpr std::size_t size = 128;
   std::array<std::int32_t, size> corner; ///< of the south-west corner: row * (columns + 1) + column
   std::array<double, size> u, v;         ///< within the cell, 0 to 1
 };
 
-/// The interval of a position on an axis in steps, and the position within it.
+/// Splits a position on an axis, in steps, into its interval and the fraction within it.
 CALOTTE_INLINE void split_position(double position, std::int32_t intervals, std::int32_t& interval,
                                    double& fraction) {
   const double low = position > 0 ? position : 0;

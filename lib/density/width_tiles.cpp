@@ -22,7 +22,8 @@ struct Edge {
   double& operator[](std::int64_t k) const { return values[k * stride]; }
 };
 
-/// Puts the nodes of an edge between those of another one, which has as many or fewer, on lines.
+/// Sets the nodes of an edge to the linear interpolation of another edge, which has at most as many
+/// nodes.
 void follow(const Edge& other, const Edge& edge) {
   const std::int32_t parts = edge.intervals / other.intervals;
   for (std::int32_t k = 0; k < other.intervals; ++k)
@@ -110,7 +111,7 @@ std::vector<Vec3> WidthTiles::points(std::int64_t tile) const {
   return points;
 }
 
-/// \param across whether b lies east of a, and not north.
+/// \param across whether b lies east of a; else it lies north.
 void WidthTiles::join(std::int64_t a, std::int64_t b, bool across) {
   const TileNodes of_a = at(a), of_b = at(b);
   double *const values_a = values(a), *const values_b = values(b);
@@ -150,8 +151,8 @@ void find_cells_of_plane(const WidthTable::Grid& grid, const double* x, const do
   }
 }
 
-/// From the cells of a box, which are tiles, to those of the tiles.
-/// \param stride from a node to that north of it.
+/// Replaces the cells of a box, which are tiles, by the cells of these tiles.
+/// \param stride from a node to the one north of it.
 CALOTTE_VECTOR_WIDTHS
 void find_nodes(const WidthTiles::Layout& layout, std::size_t count, GridCells& cells,
                 std::int32_t* stride) {

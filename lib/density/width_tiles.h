@@ -12,7 +12,7 @@
 
 namespace calotte::density_detail {
 
-/// Ascending values at equal steps. The interface of Axis.
+/// Ascending values at equal steps, with the interface of Axis.
 struct EvenAxis {
   double start = 0, step = 1;
   std::int64_t count = 1; ///< of intervals
@@ -29,7 +29,7 @@ struct CoordinateBox {
   double west, dx, south, dy;
 };
 
-/// What tiles cover.
+/// The box that tiles cover, and their numbers.
 struct TileBox {
   double west, dx, south, dy; ///< degrees, or of a plane: the first tile's corner, and its size
   std::int32_t columns, rows;
@@ -40,38 +40,39 @@ struct TileBox {
     return {west + static_cast<double>(k % columns) * dx, dx,
             south + static_cast<double>(k / columns) * dy, dy};
   }
-  /// Of a degree, or of x and y.
+  /// Radians per degree, in a plane 1.
   double unit() const { return of_plane ? 1 : std::numbers::pi / 180; }
 };
 
 /// The whole sphere in tiles of one degree.
 TileBox tiles_of_sphere();
 
-/// What a corner is to rules and surfaces. \param x, y degrees on the sphere.
+/// The point at x and y in the form of rules and surfaces: a unit vector, or x y 0. \param x, y
+/// degrees on the sphere.
 Vec3 point_at(double x, double y, bool of_plane);
 
-/// A box's middle, how far its corners are at most, and its largest extents.
+/// A box's middle, the distance from there to its farthest corner, and its largest extents.
 struct Extent {
   Vec3 middle;
   double reach, width, height; ///< radians, or of the plane
 };
 Extent extent_of(const CoordinateBox& box, bool of_plane);
 
-/// Values at nodes that are dense where they need to be: tiles of longitude and latitude or of x
-/// and y, each with its own number of nodes, and bilinear between four of them.
+/// Values at nodes whose density varies: tiles of longitude and latitude, or of x and y, each with
+/// its own number of nodes. Between four nodes the values are bilinear.
 class WidthTiles {
 public:
   /// Intervals of a tile in both directions: powers of two.
   struct Shape {
     std::int32_t columns, rows;
-    bool outside = false; ///< of what the widths are for
+    bool outside = false; ///< the tile is outside the surface
   };
 
   /// Nodes without values.
   /// \param shapes of the tiles, row by row.
   WidthTiles(const TileBox& box, const std::vector<Shape>& shapes);
 
-  /// A tile, as RasterField has a raster.
+  /// A tile, with the interface of RasterField.
   class Tile {
   public:
     const EvenAxis& x() const { return x_; } ///< radians, or x of the plane
@@ -92,7 +93,7 @@ public:
   const std::vector<double>& values() const { return values_; } ///< tile by tile
   /// The points of a tile's nodes, in the order of its values: unit vectors, or x y 0.
   std::vector<Vec3> points(std::int64_t tile) const;
-  /// body(x, y, value) of the nodes of a tile, x and y in degrees, or of the plane.
+  /// Calls body(x, y, value) for the nodes of a tile; x and y in degrees, or in the plane's unit.
   template <class Body> void for_each_node(std::int64_t tile, const Body& body) {
     const TileNodes nodes = at(tile);
     double* value = values(tile);
@@ -103,20 +104,21 @@ public:
 
   bool lies_outside(std::int64_t tile) const { return outside_[static_cast<std::size_t>(tile)]; }
 
-  /// Puts nodes on the edge of a tile with fewer nodes there on the line between its own: then what
-  /// is between nodes is continuous, but beside tiles that lie outside.
+  /// Makes the interpolated values continuous across tiles: along an edge, the tile with more nodes
+  /// takes values that are linear between the nodes of the other. Tiles that lie outside are not
+  /// joined.
   void join_edges();
 
-  /// Values at unit vectors, or points of the plane, given by their coordinates. The bits of each
-  /// depend on its corner alone.
+  /// Values at unit vectors, or at points of the plane, given by their coordinates. The bits of a
+  /// value depend on its point alone.
   void operator()(const double* x, const double* y, const double* z, std::size_t count,
                   double* values) const;
 
   bool of_plane() const { return box_.of_plane; }
   const TileBox& box() const { return box_; }
 
-  /// Where tiles' values begin, and their shapes. By column and row of the box; one is spare at the
-  /// end of each row, as in WidthTable.
+  /// The shapes of tiles and the indices of their first values, by column and row of the box. Each
+  /// row has one spare entry at its end, as in WidthTable.
   struct Layout {
     std::vector<std::int32_t> begin, columns, rows;
   };
@@ -130,7 +132,7 @@ private:
     const auto k = static_cast<std::size_t>(tile + tile / box_.columns);
     return {layout_.begin[k], layout_.columns[k], layout_.rows[k]};
   }
-  /// Of a column and a row of a tile: degrees, or of the plane.
+  /// The coordinates of a column and a row of a tile: degrees, or the plane's unit.
   double x_of(std::int64_t tile, std::int32_t i) const {
     return box_.west +
            (static_cast<double>(tile % box_.columns) + static_cast<double>(i) / at(tile).columns) *
