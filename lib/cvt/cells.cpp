@@ -22,7 +22,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// The connectivity of a mesh of n site_count.
+/// The connectivity of a mesh, which must have n sites.
 template <Space S> Connectivity extract_connectivity(Mesh&& mesh, std::int64_t n) {
   if (mesh.points.cols() != n || (S::on_sphere && !mesh.closed()))
     throw Error(ErrorCode::too_few_sites,
@@ -65,8 +65,8 @@ Cells<S>::Cells(const Surface& surface, Boundary boundary, const Density& densit
   }
 }
 
-/// Removes those points of the hull, from one on, whose cells meet the region. False if there are
-/// none.
+/// Removes the points of the hull from index `far` on whose cells meet the region. False if there
+/// are none.
 template <Space S> bool Cells<S>::drop_intruders([[maybe_unused]] Eigen::Index far) {
   if constexpr (S::on_sphere) {
     const Connectivity mesh = triangulate();
@@ -186,7 +186,8 @@ void Cells<S>::retract(const Points3& x, double step, const Points3& d, Points3&
     enter(x, to);
 }
 
-/// Moves generators that have left x for outside to the nearest point inside.
+/// Moves generators that have left the surface to the nearest point inside. \param x where they
+/// were before.
 template <Space S> void Cells<S>::enter(const Points3& x, Points3& to) const {
   for_each_block(x.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i != end; ++i) {

@@ -39,20 +39,20 @@ struct Pull {
 /// The Voronoi cells of generators that move on a surface.
 ///
 /// Generators are unit columns on the sphere, and columns with z = 0 in the plane. In a periodic
-/// box they may leave the box; their site_count in the mesh are the copies inside. On a bounded
-/// surface the hull's points follow the generators in the mesh, see hull.h. They lie outside and do
-/// not move, so that all generators have closed stars, and the boundary clips their cells.
+/// plane they may leave the box; the mesh has their copies inside. On a bounded surface the hull's
+/// points follow the generators in the mesh, see hull.h. They lie outside and do not move, so that
+/// all generators have closed stars, and the boundary clips their cells.
 template <Space S> class Cells {
 public:
-  /// Whether the position of a generator in the mesh may be a copy of it.
+  /// Whether the mesh may have a copy of a generator instead of the generator itself.
   static constexpr bool positions_wrap = !S::on_sphere;
 
-  /// With the far hull, for any generators.
+  /// Cells with the far hull, for any generators.
   /// \throws Error as outline_of().
   explicit Cells(const Surface& surface, Boundary boundary = Boundary::clip);
-  /// For a run that starts from some generators: with hull_rows(), too, in a region of the
-  /// sphere, without those points whose cells meet the region, such as beside an island that no
-  /// generator is near.
+  /// Cells for a run that starts from some generators. In a region of the sphere they have
+  /// hull_rows(), too, without the points whose cells meet the region, such as points beside an
+  /// island without a generator near it.
   Cells(const Surface& surface, Boundary boundary, const Density& density, const Points3& start);
 
   /// Sets the generators, which must stay there until the next call.
@@ -62,7 +62,7 @@ public:
   std::int64_t generator_count() const { return generators_; }
   std::int64_t site_count() const {
     return std::ssize(sites_);
-  } ///< of the mesh: generators come first
+  } ///< sites of the mesh: generators come first
   const Vec3& position(std::int32_t site) const { return sites_[static_cast<std::size_t>(site)]; }
   SitePositions<S> positions() const { return {space_, sites_}; }
   Vec3 offset(const Vec3& from, const Vec3& to) const { return space_.offset(from, to); }
@@ -74,8 +74,8 @@ public:
   bool has_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
   Sites sites() const; ///< of the generators; equal ones merged
-  /// The mesh of all site_count.
-  /// \throws Error too_few_sites if two site_count coincide, or leave a hemisphere empty; as
+  /// The mesh of all sites.
+  /// \throws Error too_few_sites if two sites coincide, or all leave a hemisphere empty; as
   ///         delaunay().
   Connectivity triangulate() const;
   /// The same from the sites of the generators, which it consumes.
@@ -95,9 +95,9 @@ public:
       const Vec3 tangent = cell.first - along * x;
       return {centroid, -2 * tangent, std::copysign(norm(cell.first), along)};
     } else {
-      // |M|^2 <= m E for any density that is not negative (Cauchy and Schwarz). Where a jump of it
-      // leaves the signed kites of obtuse triangles more than the others, m and M are no moments:
-      // the generator waits until its neighbours have moved.
+      // |M|^2 <= m E for any density >= 0 (Cauchy and Schwarz). Where the density jumps, the signed
+      // kites of obtuse triangles may outweigh the others, and m and M are no moments: the
+      // generator then waits until its neighbours have moved.
       const double mass = cell.first.z,
                    square = cell.first.x * cell.first.x + cell.first.y * cell.first.y;
       if (mass < 0 || square > mass * cell.energy)
@@ -113,7 +113,7 @@ public:
   /// Sets `to` to x + step d, projected back to the surface: generators that would leave it move to
   /// the nearest point inside.
   void retract(const Points3& x, double step, const Points3& d, Points3& to) const;
-  /// Removes what is no motion of a generator.
+  /// Removes the components that are no motion of a generator.
   static void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part);
   Laplacian laplacian(const Connectivity& mesh, const Density& density) const;
 

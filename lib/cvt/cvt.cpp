@@ -36,7 +36,7 @@ bool is_in_actions(const State& state) {
          cursor.idle >= 0 && cursor.glides >= 0;
 }
 
-/// Throws for a state that no run can have left, in any space.
+/// Refuses a state that no run can have left, in any space.
 void require_state(const State& state) {
   const auto n = static_cast<std::size_t>(state.points.cols());
   std::vector<std::uint8_t> seen(n, 0);
@@ -90,7 +90,7 @@ bool level_ended(const State& state, const DescentOptions& options) {
          state.memory.stuck || has_stalled(state);
 }
 
-/// A CVT's generators are the centroids of its cells; a polish keeps its own.
+/// Moves the generators of a CVT to the centroids of their cells. Those of a polish stay.
 void end_descent(State& state, Descent& descent) {
   if (!state.in_polish()) {
     descent.end_at_centroids();
@@ -104,7 +104,7 @@ void end_descent(State& state, Descent& descent) {
       report.converged ? -1 : state.id[static_cast<std::size_t>(shapes.worst_generator)];
 }
 
-/// Moves dislocations, and polishes shapes, where they are.
+/// Moves dislocations or polishes shapes, in subdomains.
 void work_locally(State& state, const DescentOptions& options, RunFunctional& functional,
                   Descent& descent) {
   while (may_glide(state)) {
@@ -121,13 +121,13 @@ void work_locally(State& state, const DescentOptions& options, RunFunctional& fu
   }
 }
 
-/// How a level ended.
+/// The end of a level.
 struct Ending {
   bool stopped = false;
   std::optional<Connectivity> mesh; ///< of the state's points; none if they must be triangulated
 };
 
-/// What the descents of a run read.
+/// The data that the descents of a run read.
 struct Run {
   const Schedule& schedule;
   const Execution& execution;
@@ -140,7 +140,7 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   const Recipe& recipe = run.schedule.recipe;
   const DescentOptions options =
       make_descent_options(state, recipe, run.density, run.execution.quadrature);
-  if (!state.in_polish() && options.norm != Norm::none) // the tolerance may be another now
+  if (!state.in_polish() && options.norm != Norm::none) // the tolerance may have changed
     state.report.converged = state.report.converged &&
                              (state.report.residual <= options.tolerance || creeps(state, options));
   if (level_ended(state, options)) {
@@ -178,8 +178,9 @@ Ending iterate(const Run& run, CvtState& whole, Level&& level, const CvtCallback
   }
 }
 
-/// The actions of a state's run, whose ends may be others now.
-/// \throws Error invalid_argument for those of another run.
+/// Replaces the actions of a state's run by those of the schedule: the ends of their descents may
+/// have changed.
+/// \throws Error invalid_argument for the actions of another run.
 void renew_actions(const Schedule& schedule, State& state) {
   const auto same = [](const CvtAction& a, const CvtAction& b) {
     return a.kind == b.kind && a.times == b.times && a.cells == b.cells;
@@ -194,7 +195,7 @@ void renew_actions(const Schedule& schedule, State& state) {
   state.report.actions = schedule.actions;
 }
 
-/// Throws, before any work, for a surface or a density that a run refuses.
+/// Prepares a run. It refuses an invalid surface or density before any work.
 Run make_run(const Schedule& schedule, const Execution& execution) {
   const Surface& surface = schedule.recipe.surface;
   if (!surface.is_sphere())
@@ -225,7 +226,7 @@ Cvt executed(const Run& run, CvtState whole, Level&& level, const CvtCallback& c
   const bool polishes = has(state, CvtAction::Kind::polish);
   result.report = std::move(state.report);
   CvtReport& report = result.report;
-  if (!next) // the others were left out
+  if (!next) // the remaining actions were skipped
     report.done.resize(report.actions.size());
   report.well_centred = !next && state.in_polish() && report.converged;
   report.converged = !next && (polishes ? state.polish.descended : report.converged);

@@ -11,14 +11,14 @@
 /// The run of a schedule from given generators; make_grid() calls it.
 namespace calotte {
 
-/// Called after each accepted iteration; true ends the run there.
+/// Called after each accepted iteration; return true to stop.
 using CvtCallback = std::function<bool(const CvtProgress&)>;
 
-/// Executes the actions of a schedule. Its descents move the generators until they are, up to the
-/// tolerance, the constrained centroids M/|M| of their cells, with M the integral of rho x
-/// (Jacobsen et al., 2013, Sect. 3.3), or the centroids in the plane, and then move them to these
-/// centroids. They minimise the energy E, the sum over cells of the integral of rho |x - x_i|^2.
-/// Each region's task integrates over the cells that the region owns.
+/// Executes the actions of a schedule. Its descents minimise the energy E, the sum over cells of
+/// the integral of rho |x - x_i|^2. They move the generators until these are, up to the tolerance,
+/// the constrained centroids M/|M| of their cells, with M the integral of rho x (Jacobsen et al.,
+/// 2013, Sect. 3.3); in the plane, the centroids. At the end the generators are moved to these
+/// centroids. Each region's task integrates over the cells that the region owns.
 ///
 /// The same start gives the same bits for any number of threads and regions. A run that does not
 /// converge within its iterations is no error; the report says so. Lengths in the report are in
@@ -46,8 +46,8 @@ using CvtCallback = std::function<bool(const CvtProgress&)>;
 Cvt cvt(Points3 start, const Schedule& schedule, const cvt_detail::Execution& execution = {},
         const CvtCallback& callback = {});
 
-/// Continues from a state of a run of the same actions; the ends of their descents may be others.
-/// With the same schedule the result has the bits of an uninterrupted run.
+/// Continues from a state of a run of the same actions. The ends of their descents may differ. With
+/// the same schedule the result has the bits of an uninterrupted run.
 /// \throws Error as above; invalid_argument for an incomplete state, and for other actions.
 Cvt cvt(CvtState state, const Schedule& schedule, const cvt_detail::Execution& execution = {},
         const CvtCallback& callback = {});

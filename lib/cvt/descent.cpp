@@ -28,11 +28,11 @@ constexpr int laplacian_lasts = 60; ///< evaluations, once edges have flipped
 constexpr double near_enough =
     0.05; ///< rms distance from the centroids over h; below it the Laplacian is used
 
-/// Generators, from which on memory counts.
+/// The number of generators from which on memory is limited.
 constexpr std::int64_t short_memory_from = 1'000'000;
 
-/// The number of L-BFGS pairs. Three cost a few hundredths more evaluations where edges flip and
-/// none where they do not; in a large run each pair takes 24 bytes a generator.
+/// The number of L-BFGS pairs. With three, descents take some percent more evaluations where edges
+/// flip, and no more elsewhere. In a large run each pair takes 24 bytes a generator.
 std::size_t most_pairs(std::int64_t generators) { return generators < short_memory_from ? 10 : 3; }
 
 double scaled_l2(const CvtIteration& iteration) { return iteration.l2 / iteration.spacing; }
@@ -120,8 +120,8 @@ void Descent::lloyd_step() {
   evaluate(state_.points, here_);
 }
 
-// ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989); on the sphere of ambient vectors, projected
-// to the tangent planes where they are used
+// ---- L-BFGS (Nocedal, 1980; Liu and Nocedal, 1989). On the sphere its vectors are ambient, and
+// are projected to the tangent planes where they are used
 
 void Descent::forget() {
   Memory& memory = state_.memory;
@@ -146,9 +146,9 @@ void Descent::make_laplacian() {
     base_detail::empty_pools(); // of the parts that the rows were made from
 }
 
-/// Multiplies by the initial inverse of the second derivative: that of the graph Laplacian, whose
-/// scale is right; or of twice the masses, times a factor with which it agrees with the last step
-/// and the change of the gradient along it.
+/// Multiplies by the initial inverse Hessian. This is the inverse of the graph Laplacian, whose
+/// scale is right; or that of twice the masses, times a factor with which it agrees with the last
+/// step and the change of the gradient along it.
 void Descent::precondition(Points3& vectors) {
   if (method() == Method::lbfgs_laplacian) {
     laplacian_->solve(vectors);
@@ -171,9 +171,9 @@ void Descent::divide_by_masses(Points3& vectors) const {
   });
 }
 
-/// Sets the direction: minus the inverse of the approximate second derivative, times the gradient.
-/// That is Nocedal's recursion with the inner products of all pairs at hand, so that it reads each
-/// pair four times in all and writes only the result.
+/// Sets the direction: minus the approximate inverse Hessian times the gradient. It is Nocedal's
+/// recursion with all inner products of pairs stored, so that it reads each pair four times in all
+/// and writes only the result.
 Descent::Line Descent::set_direction() {
   const Memory& memory = state_.memory;
   const std::size_t pairs = memory.steps.size();
@@ -238,14 +238,14 @@ double Descent::greatest_motion(Part part) const {
   return std::sqrt(most);
 }
 
-/// Line search. It accepts a trial if its energy is lower and it is not far beyond the minimum, or,
-/// if the energies differ by less than quadrature resolves, if the slopes satisfy conditions like
-/// the approximate Wolfe conditions of Hager and Zhang (2005). The next trial follows from the
-/// secant of the slopes. Returns false if no trial is accepted.
+/// Line search. It accepts a trial with a lower energy that is not far beyond the minimum. Where
+/// the energies differ by less than quadrature resolves, it accepts a trial whose slopes satisfy
+/// conditions like the approximate Wolfe conditions of Hager and Zhang (2005). The secant of the
+/// slopes gives the next trial. Returns false if no trial is accepted.
 ///
-/// The first trial is the full step, but for a while after a search that has shortened it: where
-/// edges flip in steep widths, every full step would be rejected.
-/// The trial is then the accepted one.
+/// The first trial is the full step. After a search that has shortened the step it is shorter for a
+/// while: where edges flip in steep widths, every full step would be rejected. The trial is then
+/// the accepted one.
 bool Descent::search(const Line& line) {
   constexpr double growth = 1.4;
   Memory& memory = state_.memory;
@@ -271,8 +271,8 @@ bool Descent::search(const Line& line) {
   return false;
 }
 
-/// Stores the step from the state's points to the trial as an L-BFGS pair, in the memory of the
-/// oldest if there are enough.
+/// Stores the step from the state's points to the trial as an L-BFGS pair. It replaces the oldest
+/// pair if there are enough.
 void Descent::remember() {
   Memory& memory = state_.memory;
   CompactField step, change;

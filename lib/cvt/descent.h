@@ -15,7 +15,7 @@
 
 namespace calotte::cvt_detail {
 
-/// The methods over the functional. Each step goes from evaluated generators to
+/// The methods of optimisation, over a functional. Each step goes from evaluated generators to
 /// others whose energy is not higher, except for rounding. The state's report records every
 /// evaluation, and the state holds the memory of the method.
 class Descent {
@@ -28,10 +28,10 @@ public:
   /// before.
   void begin();
 
-  /// One step; the state's points are the new ones, evaluated.
+  /// Makes one step. The state's points are then the new ones, evaluated.
   void step();
 
-  /// Evaluates the state's points, which have been changed.
+  /// Evaluates the state's points after the caller has changed them.
   void restart();
 
   /// The evaluation at the state's points.
@@ -42,7 +42,7 @@ public:
   void end_at_centroids();
 
 private:
-  /// What a search needs of the direction.
+  /// Properties of the direction that a line search needs.
   struct Line {
     double slope;
     double longest; ///< the step that moves a generator by half of its cell's width

@@ -27,7 +27,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// What one generator adds to an evaluation's sums.
+/// The terms of one generator in an evaluation's sums.
 struct SiteTerms {
   double energy;
   double square; ///< of its distance from its centroid
@@ -60,7 +60,7 @@ void add_sums(const Array<SiteTerms>& terms, CvtIteration& iteration) {
   iteration.gradient = std::sqrt(total.slope);
 }
 
-/// Up to `lanes` generators that follow each other in a patch: what they are, and what follows.
+/// The input and output of a kernel for up to `lanes` consecutive generators of a patch.
 struct alignas(64) SiteRows {
   Rows3 x, first;
   Row energy;   ///< NaN if a cell has no mass
@@ -123,7 +123,8 @@ void put_site(const SiteRows& rows, std::size_t lane, std::int32_t site, bool fi
   }
 }
 
-/// Evaluates a patch's own generators; its other sites pin a plane's hull, and come last.
+/// Evaluates a patch's own generators. Its other sites may include those of a plane's hull, which
+/// come last.
 /// \param x the positions of the patch's sites.
 template <Space S>
 CALOTTE_ALL_INSTRUCTIONS void
@@ -331,7 +332,7 @@ void FunctionalOver<S>::make_tangential(Points3& vectors, const Points3& x,
       vectors.col(i).setZero();
 }
 
-/// Removes the couplings of fixed generators: those of a boundary condition.
+/// Removes the couplings of fixed generators, as for a Dirichlet condition.
 template <Space S> void FunctionalOver<S>::pin(Rows& weights) const {
   if (fixed_.empty())
     return;

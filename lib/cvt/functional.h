@@ -20,13 +20,13 @@
 
 namespace calotte::cvt_detail {
 
-/// The rule of an evaluation, as Quadrature has it.
+/// The rule of an evaluation, see Quadrature.
 inline int rule_of(const CvtIteration& iteration) {
   return iteration.linear_density ? integrals_detail::rule_at_sites : iteration.rule;
 }
 
-/// The CVT energy E of n generators x, with Lloyd's map or with the gradient, from which Lloyd's
-/// map follows: storing both would take 48 bytes more for each generator of a descent.
+/// The CVT energy E of n generators x, with Lloyd's map or with the gradient. Lloyd's map follows
+/// from the gradient: storing both would take 48 bytes more for each generator.
 struct Evaluation {
   CvtIteration iteration; ///< energy, norms, effort
   Points3 centroids;      ///< Lloyd's map, 3 x n; without the gradient
@@ -35,12 +35,12 @@ struct Evaluation {
   double penalty = 0;     ///< for the shapes of a polish; the gradient includes it
   ShapeTerms shapes;      ///< of a polish
 
-  /// What the steps of a descent lower.
+  /// The value that a descent minimises.
   double value() const { return iteration.energy + penalty; }
 };
 
-/// The energy as a function of generators, and the motions that these can make: what a Descent
-/// lowers.
+/// The energy as a function of generators, and the motions that these can make. A Descent minimises
+/// it.
 class Functional {
 public:
   virtual ~Functional() = default;
@@ -72,27 +72,27 @@ public:
   /// Adds the penalty of shape.h to each evaluation from here on.
   virtual void penalise(const ShapePenalty& penalty) = 0;
 
-  /// Holds generators where they are: each counts as being at its centroid, its gradient is 0, and
-  /// it makes no motion.
+  /// Pins generators: each counts as being at its centroid, its gradient is 0, and it does not
+  /// move.
   /// \param fixed a flag for each generator; empty if none is pinned.
   virtual void pin(std::vector<std::uint8_t> fixed) = 0;
 
   /// Moves dislocations, see glide.h. Returns the number of steps; 0 if the points stay.
   virtual std::int64_t glide(Points3& points, const ShapeLimits& limits) = 0;
 
-  /// Polishes shapes by themselves, see polish.h. Returns the number of subdomains; 0 if the points
+  /// Polishes shapes in subdomains, see polish.h. Returns the number of subdomains; 0 if the points
   /// stay.
   virtual std::int64_t polish(Points3& points) = 0;
 
   virtual std::vector<CvtRegion> regions() const = 0;
 
   /// Moves out the connectivity of the Delaunay triangulation of the generators at their current
-  /// points. No evaluation may follow. Empty if only a new triangulation gives it, as in a bounded
+  /// points. No evaluation may follow. Empty if the points must be triangulated, as in a bounded
   /// plane, where the mesh of this class has a hull of its own.
   virtual std::optional<Connectivity> take_mesh(const Points3& points) = 0;
 };
 
-/// The functional of a surface, see Cells.
+/// Makes the functional of a surface, see Cells.
 /// \param density as surface_density() gives it.
 /// \throws Error as Tessellation.
 std::unique_ptr<RunFunctional> make_functional(const Points3& points, const Surface& surface,

@@ -21,7 +21,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// A Delaunay edge ab that is about to flip, and the vertices c and d across from it: cd is nearly
+/// A Delaunay edge ab that is about to flip, with the vertices c and d across from it: cd is nearly
 /// Delaunay, too.
 struct Brink {
   double ratio; ///< Voronoi over Delaunay edge
@@ -46,7 +46,7 @@ template <Space S> struct Search {
     return dot(u, w) / norm(cross(u, w));
   }
 
-  /// Adds the edge across from vertex v of triangle t, if its other triangle does not.
+  /// Adds the edge across from vertex v of triangle t, unless its other triangle adds it.
   /// \param is_free tells whether a site may move.
   template <class IsFree>
   void add_if_brink(std::int32_t t, int v, const IsFree& is_free, std::vector<Brink>& out) const {
@@ -132,8 +132,8 @@ private:
     return all;
   }
 
-  /// Follows brinks that are far from each other, and replaces them all by those that are left.
-  /// False if no mesh is left.
+  /// Follows brinks that are far from each other, and replaces all brinks by those that are left.
+  /// False if the mesh has become unusable.
   bool step(Connectivity& mesh, std::vector<Brink>& brinks) {
     std::sort(brinks.begin(), brinks.end(), is_shorter);
     std::vector<std::array<std::int32_t, 2>> seeds;
@@ -167,8 +167,8 @@ private:
     return true;
   }
 
-  /// Follows a dislocation step by step while it is inside a subdomain. False if no mesh is left.
-  /// \param tried the edges at its steps are added.
+  /// Follows a dislocation step by step while it is inside a subdomain. False if the mesh has
+  /// become unusable. \param tried the edges at its steps are added.
   bool follow(const Brink& first, Subdomain<S>& part, std::vector<Ends>& tried) const {
     constexpr std::ptrdiff_t most_steps = 6;
     constexpr int most_evaluations = 12;

@@ -12,13 +12,13 @@
 
 namespace calotte::cvt_detail {
 
-/// Moves dislocations (pairs of cells with 5 and 7 neighbours) that a descent has left on the brink
-/// of a glide, a step along their row. There a Voronoi edge is short, or an angle nearly right. The
-/// four generators around the edge are pushed so that it flips, and those within some rings relax
-/// to the centroids of their cells; all others stay. The stress that brought the dislocation to the
-/// brink carries it on: afterwards the energy is lower, as a rule, and the cells around are as
-/// regular as others. A penalty for short edges would instead keep generators away from their
-/// centroids.
+/// Moves dislocations (pairs of cells with 5 and 7 neighbours) by glides. A glide is a step of a
+/// dislocation along its row of cells. A descent leaves some dislocations just before a glide: a
+/// Voronoi edge is then short, or an angle nearly right. The four generators around that edge are
+/// moved so that it flips. The generators within some rings then relax to the centroids of their
+/// cells; all others stay. As a rule the energy is lower afterwards, and the cells around the
+/// dislocation are as regular as others. A penalty for short edges would instead keep generators
+/// away from their centroids.
 ///
 /// The result has the same bits for any number of threads and regions.
 ///

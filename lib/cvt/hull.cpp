@@ -14,7 +14,8 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// Points outside the boundary, at some spacings from it, and at half of that from each other.
+/// A row of points outside the boundary, at a distance of some spacings, and at half of that
+/// distance from each other.
 class RowOutside {
 public:
   /// \param spacings distance from the boundary.

@@ -16,7 +16,7 @@
 namespace calotte::cvt_detail {
 namespace {
 
-/// The columns of triangles that are kept.
+/// The columns of the triangles to keep.
 Triangles selected(const Triangles& triangles, const std::vector<std::uint8_t>& keep) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
@@ -25,14 +25,15 @@ Triangles selected(const Triangles& triangles, const std::vector<std::uint8_t>& 
   return triangles(Eigen::all, kept);
 }
 
-/// The triangles at a site from one open edge to the next.
+/// A fan: the triangles at a site from one open edge to the next.
 struct Fan {
   Corner first;
   std::int32_t site;
   std::int32_t triangles, last; ///< their number, and the highest
 };
 
-/// Marks all triangles but those of each site's largest fan; returns how many.
+/// Unmarks the triangles that are not in the largest fan of each of their sites. Returns their
+/// number.
 std::int64_t drop_small_fans(const Triangles& triangles, std::int64_t points,
                              std::vector<std::uint8_t>& keep) {
   const Triangles neighbours = neighbours_of(triangles, points);
@@ -78,7 +79,7 @@ Mesh without_hull(Points3&& points, const Triangles& triangles, const Surface& s
 
 namespace {
 
-/// Flags of the triangles whose centre the surface has, see Cells::has_centre().
+/// Flags the triangles whose centre is on the surface, see Cells::has_centre().
 template <Space S> std::vector<std::uint8_t> with_centre(const Mesh& mesh, Boundary boundary) {
   Cells<S> cells(mesh.surface, boundary);
   cells.move(mesh.points);

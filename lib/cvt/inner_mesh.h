@@ -10,12 +10,12 @@
 /// The triangles of a mesh that belong to a bounded surface.
 namespace calotte::cvt_detail {
 
-/// The mesh of the triangles between generators only, which come first in a mesh with a hull.
+/// The mesh of the triangles between generators only. In a mesh with a hull, generators come first.
 Mesh without_hull(Points3&& generators, const Triangles& triangles, const Surface& surface);
 
-/// The part of a mesh that a bounded surface contains, see Boundary: without triangles that touch
-/// the others at a site in a vertex only. All of a mesh in a plane whose boundary clips cells, and
-/// of one without a boundary.
+/// The part of a mesh that a bounded surface contains, see Boundary. Triangles that touch the
+/// others at a site only in a vertex are removed. A mesh in a plane whose boundary clips cells, and
+/// one without a boundary, is returned whole.
 Mesh inner_mesh(Mesh&& mesh, Boundary boundary);
 
 } // namespace calotte::cvt_detail

@@ -33,8 +33,7 @@ using mesh_detail::Stars;
 using namespace domain_detail;
 using namespace cvt_detail;
 
-/// An edge, and its length in units of the spacing that the density demands there, up to one
-/// factor.
+/// An edge, and its length in units of the demanded spacing there, up to a common factor.
 struct Edge {
   double length;
   std::int32_t a, b; ///< a < b
@@ -53,13 +52,13 @@ DoubleVector fineness(const Density& density, const Points3& points) {
   return evaluate(density, points).cwiseSqrt().cwiseSqrt();
 }
 
-/// Edges that are far from each other: no end of one is an end of another or next to it.
+/// Selects edges that are far from each other: no end of one is an end of another or next to it.
 class Choice {
 public:
   explicit Choice(const Mesh& mesh)
       : stars_(faces_of(mesh)), blocked_(static_cast<std::size_t>(mesh.points.cols()), 0) {}
 
-  /// Up to `count` of the edges that are allowed, the first ones in an order. Reorders the edges.
+  /// Selects up to `count` of the allowed edges, the first ones in an order. Reorders the edges.
   template <class Before, class Allowed>
   std::vector<Edge> choose(std::vector<Edge>& edges, std::int64_t count, const Before& before,
                            const Allowed& allowed) {
@@ -102,8 +101,8 @@ void require_counts(std::int64_t sites, std::int64_t inserted, std::int64_t cont
           inserted, contracted, most_points);
 }
 
-/// Relaxation does not repair cells with 8 sides or 4: 1 for many, -1 for few, 0 for others and for
-/// sites on the hull of an open mesh.
+/// By site: 1 for 8 or more sides, -1 for 4 or fewer, 0 for others and for sites on the hull of an
+/// open mesh. Relaxation does not repair cells with 8 sides or 4.
 std::vector<std::int8_t> oddities(const Mesh& mesh) {
   constexpr int many = 8, few = 4;
   const Stars stars(faces_of(mesh));
@@ -115,8 +114,8 @@ std::vector<std::int8_t> oddities(const Mesh& mesh) {
   return odd;
 }
 
-/// The edges, with their lengths relative to the spacing. Those at sites with many neighbours count
-/// as longer, so that an insertion splits these; those at sites with few as shorter.
+/// The edges, with their lengths relative to the spacing. Edges at sites with many neighbours count
+/// as longer, so that they are split first; edges at sites with few neighbours count as shorter.
 template <Space S>
 std::vector<Edge> measure_edges(const Mesh& mesh, const Points3& points, const Density& density,
                                 const S& space) {
@@ -138,8 +137,8 @@ std::vector<Edge> measure_edges(const Mesh& mesh, const Points3& points, const D
   return edges;
 }
 
-/// The points that remain, those of contracted edges moved to the midpoints unless they are fixed,
-/// then the inserted ones.
+/// The remaining points, then the inserted ones. Points of contracted edges are moved to the
+/// midpoints unless they are fixed.
 template <class Middle>
 Points3 split_and_collapsed(const Points3& points, const std::vector<Edge>& split,
                             const std::vector<Edge>& contracted, std::int64_t fixed,
@@ -209,7 +208,7 @@ Points3 change_edges(const Mesh& mesh, const Points3& points, const Density& den
   return split_and_collapsed(points, split, contracted, numbers.fixed, middle);
 }
 
-/// The points as a run has them: unit vectors on the sphere.
+/// The points in the form of a run: on the sphere unit vectors.
 /// \param fixed number of points that keep their bits.
 Points3 points_of_run(const Mesh& mesh, std::int64_t fixed = 0) {
   Points3 out = mesh.points;
@@ -223,8 +222,8 @@ Points3 points_of_run(const Mesh& mesh, std::int64_t fixed = 0) {
 namespace cvt_detail {
 
 /// Where h changes by a factor 1 + g from one cell to the next, one row of cells in 1/g must end.
-/// Over all directions of an edge, its |change of log h| is 2/pi of g times its length; there are
-/// three edges for each cell, whose area is sqrt(3)/2 h^2.
+/// Averaged over directions, the |change of log h| along an edge is 2/pi of g times its length.
+/// There are three edges for each cell, whose area is sqrt(3)/2 h^2.
 double dislocations(const Mesh& mesh, const Density& density) {
   constexpr double per_edge = std::numbers::sqrt3 / 2 * (std::numbers::pi / 2) / 3;
   const DoubleVector fine = fineness(density, points_of_run(mesh));

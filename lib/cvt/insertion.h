@@ -18,7 +18,7 @@ namespace calotte::cvt_detail {
 /// \pre here and below, the density is that of surface_density().
 double dislocations(const Mesh& mesh, const Density& density);
 
-/// What a split and collapse of edges does.
+/// The options of a split and collapse of edges.
 struct EdgeChanges {
   std::int64_t splits = 0, collapses = 0; ///< numbers of edges
   /// The first points of the mesh, which keep their bits. No edge between two of them is
@@ -27,13 +27,13 @@ struct EdgeChanges {
   std::int64_t fixed = 0;
 };
 
-/// As split_and_collapse().
+/// Does what split_and_collapse() does.
 Points3 split_and_collapsed(const Mesh& mesh, const Density& density, const EdgeChanges& changes);
 
-/// Whether the gap between two fixed generators takes no generator: they lie along the boundary,
-/// the midpoint within a fifth of their distance, or are as near to each other as a density
-/// demands. A free one would stay there, in a cell far too small. \param outline null without a
-/// boundary.
+/// Whether the gap between two fixed generators needs no further generator. Their midpoint is
+/// within a fifth of their distance of the boundary, or they are as near to each other as the
+/// density demands. A free generator would stay between them, in a cell far too small. \param
+/// outline null without a boundary.
 template <Space S>
 bool is_full_gap(const OutlineOf<S>* outline, const DemandedSpacing& spacing, const S& space,
                  const Vec3& a, const Vec3& b);

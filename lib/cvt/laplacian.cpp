@@ -21,8 +21,8 @@ namespace {
 
 constexpr double least_share = 6e-5; ///< a thousandth of that of an equilateral triangle
 
-/// The shares of a triangle in the weights of its edges, from each vertex to the next, over the
-/// edges' squares: (1/4 - d^2/3) d, d = delta/l.
+/// The terms of a triangle in the weights of its edges, divided by the edges' squared lengths: (1/4
+/// - d^2/3) d, d = delta/l. Entry i is for the edge from vertex i to the next.
 using Shares = std::array<float, 3>;
 
 /// \param ratio delta/l, delta the signed distance from the edge's middle to the circumcentre.
@@ -32,7 +32,7 @@ float share_of(double ratio) { return static_cast<float>((0.25 - ratio * ratio /
 /// \param square l^2.
 /// \param q cotangent of the flat triangle's angle across from the edge.
 double arc_ratio(double square, double q) {
-  if (square * (1 + q * q) < 1e-3) // single precision does not show the terms that follow
+  if (square * (1 + q * q) < 1e-3) // further terms are below single precision
     return q / 2 * (1 + square * (1.0 / 8 + q * q / 24));
   const double sine = q * std::sqrt(square / (4 - square));
   return arc_sine(std::clamp(sine, -1.0, 1.0)) / std::sqrt(square);
@@ -60,7 +60,7 @@ Shares split_into_shares(const Plane& plane, const std::array<Vec3, 3>& x, doubl
   return shares;
 }
 
-/// The edges of the mesh. Of cells that a domain of the plane clips, only the parts inside count.
+/// The weights of the edges of a mesh. Only the parts of cells inside a domain of the plane count.
 template <Space S> class Edges {
 public:
   Edges(const ClippedSites<S>& sites, const Faces& mesh, const Array<Corner>& starts)
@@ -83,7 +83,7 @@ public:
   }
   /// The weight, for rho = 1/2, of the edge from i to j, which has c to its left and d to its
   /// right.
-  /// \param usual its value where no boundary comes near.
+  /// \param usual the weight where no boundary is near.
   double weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d,
                 double usual) const {
     if constexpr (!S::on_sphere)
@@ -92,8 +92,8 @@ public:
     return usual;
   }
   /// The other terms on the diagonal. A boundary that faces away from the generator, such as the
-  /// far side of an island, contributes a negative term; their sum is at least 0, so that the
-  /// matrix stays positive.
+  /// far side of an island, contributes a negative term. The sum is raised to 0, so that the matrix
+  /// stays positive.
   /// \param area of the site.
   double diagonal_terms(std::int32_t i, double rho, double area) const {
     if (S::on_sphere && sites_.outline == nullptr)
@@ -146,8 +146,9 @@ private:
     }
   }
 
-  /// The integral of l^2/4 - s^2 over l, s from the edge's middle on, where the Voronoi edge is
-  /// inside; a thousandth of an equilateral triangle's of the smaller cell's width at least.
+  /// The integral of (l^2/4 - s^2)/l over the part of the Voronoi edge inside the domain, s
+  /// measured from the middle of the edge. It is at least a thousandth of the value for an
+  /// equilateral triangle of the smaller cell's width.
   double clipped_weight(std::int32_t i, std::int32_t j, std::int32_t c, std::int32_t d) const {
     const Vec2 to = between(i, j);
     const double length = norm(to);
@@ -181,8 +182,8 @@ struct Source {
   Array<Corner> starts; ///< of their rings
 };
 
-/// The shares of triangles, each computed about once where sites that follow each other are close
-/// to each other: the last ones stay in a table.
+/// A cache of the shares of triangles. Where consecutive sites are close to each other, each is
+/// computed about once.
 template <Space S> class SharesTable {
 public:
   SharesTable(const Triangles& triangles, const Edges<S>& edges)
@@ -208,7 +209,7 @@ private:
   std::vector<Shares> shares_ = std::vector<Shares>(slots);
 };
 
-/// The row of a site: its neighbours with their weights, ascending, and the diagonal.
+/// The row of a site: its neighbours in ascending order with their weights, and the diagonal.
 struct MatrixRow {
   std::vector<Corner> ring;
   std::vector<std::pair<std::int32_t, double>> elements;
@@ -244,7 +245,7 @@ void set_row(const Source& source, SharesTable<S>& shares, const Edges<S>& edges
     row.diagonal += weight;
 }
 
-/// The start of each row: a row has an element for each neighbour with a row.
+/// The start of each row. A row has an element for each neighbour that has a row itself.
 Array<std::int32_t> row_begins(const Source& source) {
   Array<std::int32_t> begin(source.rows() + 1);
   for_each_block(source.rows(), [&](std::int64_t, std::int64_t first, std::int64_t last) {

@@ -25,8 +25,8 @@ struct Element {
 /// The rows of a sparse matrix; columns ascend.
 using Rows = Lists<Array<Element>, Array<std::int32_t>>;
 
-/// The most generators with a graph Laplacian, whose elements, at most 6 n on average, int32
-/// counts.
+/// The maximum number of generators with a graph Laplacian: int32 counts its elements, at most 6 n
+/// on average.
 constexpr std::int64_t most_laplacian_rows = std::numeric_limits<std::int32_t>::max() / 7;
 
 /// A symmetric, positive definite matrix D (I - W) D, D diagonal and W with a diagonal of zeros.
@@ -35,7 +35,7 @@ struct Laplacian {
   Array<double> scale; ///< 1/D
 };
 
-/// The sites of a mesh on a surface.
+/// The sites of a mesh on a surface that may be bounded.
 template <Space S> struct ClippedSites {
   SitePositions<S> positions;
   std::int64_t generators;     ///< the first of them
@@ -50,17 +50,17 @@ template <Space S> struct ClippedSites {
 /// the integral over the Voronoi edge of rho (x - x_i)(x - x_j)^T/l. Weights below a thousandth of
 /// an equilateral triangle's are raised to that.
 ///
-/// To it is added rho times the square of the site's area, a third of its triangles, over a 4 pi-th
-/// of the surface, on the diagonal: a motion of all generators in one direction,
-/// which costs the Laplacian nothing, is no symmetry of the sphere, nor of a clipped or refined
+/// The diagonal has a further term: rho times the squared area of the site (a third of its
+/// triangles) over 1/(4 pi) of the surface's area. Without it, a motion of all generators in one
+/// direction would have energy 0, which is no symmetry of the sphere, nor of a clipped or refined
 /// plane.
 ///
 /// On a bounded surface the hull's points follow the generators. Where the boundary of a region
 /// clips cells, circumcentres beyond half of an edge's length from it count as if they were there.
-/// In the plane Voronoi edges beside the hull's points lie outside of the domain, and count for
-/// nothing; a cell that the domain clips has on the diagonal 2 rho times the area between its
-/// generator and the boundary: half of the trace of what the second derivative, 2 m less the
-/// integrals over Voronoi edges, is when all generators move as one.
+/// In the plane, Voronoi edges beside the hull's points lie outside the domain and do not count. A
+/// cell that the domain clips has a diagonal term of 2 rho times the area between its generator and
+/// the boundary: half of the trace of the second derivative, 2 m less the integrals over Voronoi
+/// edges, for a common motion of all generators.
 ///
 /// \param mesh the Delaunay triangulation of the sites.
 /// \pre at most most_laplacian_rows generators.

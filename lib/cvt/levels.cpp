@@ -35,7 +35,7 @@ namespace {
 
 // ---- Distinct generators
 
-/// The same for equal directions, which have the same bits on the cube.
+/// A hash of a direction's bits on the cube, which are the same for equal directions.
 std::uint64_t hash_direction(const Vec3& direction) {
   const curve_detail::CubePoint on_cube = curve_detail::to_cube(direction);
   auto hash = static_cast<std::uint64_t>(on_cube.face);
@@ -59,8 +59,8 @@ template <class At> bool have_equal(std::int64_t n, const At& at) {
   return false;
 }
 
-/// The sites of a start, distinct as unit columns: directions that differ by less than rounding are
-/// duplicates, too. \throws Error as make_sites().
+/// The sites of a start, which are distinct after normalisation: directions that differ by less
+/// than rounding are duplicates, too. \throws Error as make_sites().
 Sites distinct_units(Sites&& sites, const Recipe& recipe) {
   const auto unit = [&](std::int64_t rank) {
     const std::int32_t id = sites.id[rank];
@@ -76,14 +76,14 @@ Sites distinct_units(Sites&& sites, const Recipe& recipe) {
   for (std::int32_t& site : before)
     site = merged.site_of_input[static_cast<std::size_t>(site)];
   merged.site_of_input = std::move(before);
-  // Once more normalised, others of them might be equal.
+  // They are not normalised again: that might make others equal.
   for (std::int64_t r = 0; r < merged.size(); ++r)
     merged.unit[r] = merged.given(merged.id[r]);
   merged.boxes = delaunay_detail::SiteBoxes(merged.unit);
   return merged;
 }
 
-/// See begin().
+/// Refuses a start whose fixed generators merged, see begin().
 void require_fixed(const Sites& sites, std::int64_t fixed) {
   const std::vector<std::int32_t>& site_of_input = sites.site_of_input;
   for (std::int64_t i = 0; i < fixed; ++i)
@@ -113,8 +113,8 @@ void require_enough(const Sites& sites, const Surface& surface) {
 
 // ---- The state of sites
 
-/// Sets the generators of a state, in the order of the sites. On the sphere a fixed one keeps the
-/// bits that it has by id, if it is a unit vector there up to round-off.
+/// Sets the generators of a state, in the order of the sites. On the sphere, a fixed generator
+/// keeps its given bits if it is a unit vector up to round-off.
 void set_points(State& state, const Sites& sites) {
   const std::int64_t n = sites.size();
   state.points.resize(3, n);
@@ -140,7 +140,7 @@ State make_start_state(Sites& sites, const Recipe& recipe) {
   return state;
 }
 
-/// The sites by rank alone, as the state has them.
+/// The sites with their ranks as ids, the numbering of the state.
 Sites by_rank(Sites&& sites) {
   sites.site_of_input = {};
   std::iota(sites.id.begin(), sites.id.end(), 0);
@@ -160,7 +160,7 @@ Connectivity bisected_mesh(const Triangles& triangles, const Triangles& neighbou
   return mesh;
 }
 
-/// A run on the whole sphere, whose sort of the sites serves the first level.
+/// Begins a run on the whole sphere. The first level uses the sorted sites.
 Begun begun_at(Sites&& sites, const Recipe& recipe) {
   require_enough(sites, Surface::sphere());
   State state = make_start_state(sites, recipe);
@@ -173,7 +173,7 @@ Sites make_distinct_sites(const Points3& points, const Surface& surface) {
                              : make_planar_sites(points.topRows<2>(), Duplicates::refuse, 0);
 }
 
-/// The points of a mesh of a bounded surface and the midpoints that a bisection adds.
+/// The points of a mesh of a bounded surface, then the midpoints that a bisection adds.
 template <Space S>
 Points3 bisected_inside(const State& state, const Mesh& coarse, const OutlineOf<S>& outline,
                         const DemandedSpacing& spacing) {
@@ -214,8 +214,8 @@ Points3 wrapped(Points3&& points, const Surface& surface) {
   return std::move(points);
 }
 
-/// Of a bounded part of the sphere: triangulated with the hull, which gives the triangles between
-/// generators only.
+/// The mesh of generators in a bounded part of the sphere. They are triangulated with the hull;
+/// only the triangles between generators are kept.
 Mesh mesh_in_region(Points3&& points, const Surface& surface) {
   Cells<Sphere> cells(surface);
   cells.move(points);

@@ -15,13 +15,13 @@
 #include <cstdint>
 #include <optional>
 
-/// What a run does on its surface before, between and after the descents.
+/// The operations of a run on its surface before, between and after the descents.
 namespace calotte::cvt_detail {
 
 /// The minimum number of generators of a run.
 std::int64_t fewest_generators(const Surface& surface);
-/// The largest number of generators after bisections of n: on the whole sphere their number; else
-/// some midpoints may be outside.
+/// The maximum number of generators after bisections of n. On the whole sphere it is exact; on a
+/// bounded surface some midpoints may be outside.
 std::int64_t bisected(const Surface& surface, std::int64_t n, int bisections = 1);
 /// The number whose bisection is nearest to n.
 std::int64_t halved(const Surface& surface, std::int64_t n);
@@ -40,11 +40,11 @@ Begun begin(Points3&& start, const Recipe& recipe);
 
 /// \throws Error invalid_argument: the state is not one that a run has left.
 [[noreturn]] void refuse_state();
-/// Throws for a state whose points are not on the surface, or too few.
+/// Refuses a state whose points are too few, or not on the surface.
 void require_points(const State& state, const Surface& surface);
 
-/// The Delaunay triangulation of a state's generators in the order of the start; on a bounded part
-/// of the sphere also the triangles that it does not contain.
+/// The Delaunay triangulation of a state's generators, in the order of the start. On a bounded part
+/// of the sphere it includes the triangles outside the part.
 /// \param connectivity of the generators, if it is known.
 Mesh mesh_of_run(const State& state, const Surface& surface,
                  std::optional<Connectivity>&& connectivity);

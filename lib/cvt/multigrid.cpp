@@ -102,11 +102,12 @@ Array<float> normalised(Array<double>& constant) {
 }
 
 /// The matrix of the aggregates: its diagonal, and the other elements negated. Smoothed aggregation
-/// takes P^T (I - W) P. For vectors that change slowly along the mesh, that is 0.28 to 0.37 times
-/// C^T (I - W) C, with the columns C before their smoothing; for the norms, which P and C prolong
-/// to the same vector, it is C^T (I - W) C itself. So this scales the part of that matrix that maps
-/// the norms to zero, and keeps the diagonal rest: a tenth of the time of the product, and half of
-/// its elements (Braess, Computing 55, 1995, corrects the energy of aggregates by such a factor).
+/// uses P^T (I - W) P. For vectors that change slowly along the mesh, this is 0.28 to 0.37 times
+/// C^T (I - W) C, with C the columns before smoothing. For the norms, which P and C prolong to the
+/// same vector, it equals C^T (I - W) C. So this function scales the part of C^T (I - W) C that
+/// maps the norms to zero, and keeps the diagonal remainder. That takes a tenth of the product's
+/// time and has half of its elements (Braess, Computing 55, 1995, corrects the energy of aggregates
+/// by such a factor).
 Rows matrix_of_aggregates(const Rows& weights, const Array<float>& constant,
                           const Array<double>& norms, Array<double>& diagonal) {
   const std::int64_t rows = weights.size(), aggregates = norms.size();
@@ -146,11 +147,11 @@ void scale(const Array<double>& diagonal, Rows& weights, Array<double>& constant
   });
 }
 
-// ---- The cycle, in single precision; each function for rows from begin to end
+// ---- The cycle, in single precision. Each function handles the rows from begin to end
 
-/// One sweep forward, from zero, and one backward; elements outside the block do not count. Both
-/// read whole rows: the number of elements before the diagonal varies, and a loop that ends there
-/// would be mispredicted.
+/// One sweep forward from zero, and one backward. Elements outside the block do not count. Both
+/// sweeps read whole rows: the number of elements before the diagonal varies, so that a loop ending
+/// there would be mispredicted.
 CALOTTE_VECTOR_WIDTHS void relax_from_zero(const Rows& w, std::int64_t begin, std::int64_t end,
                                            Column right, Float4* x) {
   std::fill(x + begin, x + end, Float4{});
@@ -262,7 +263,7 @@ void Multigrid::solve(Points3& vectors) {
       here = std::max(here, scale_[i] * vectors.col(i).cwiseAbs().maxCoeff());
     most[static_cast<std::size_t>(block)] = here;
   });
-  // Single precision has few exponents: the largest number becomes about 1.
+  // Scales the largest number to about 1, as single precision has a small range of exponents.
   const double largest = *std::max_element(most.begin(), most.end());
   if (!(largest > 0))
     return void(vectors.setZero());
@@ -281,7 +282,7 @@ void Multigrid::solve(Points3& vectors) {
   });
 }
 
-/// One cycle from a level on.
+/// One cycle, from a level to the coarsest and back.
 const Multigrid::Vectors& Multigrid::solve(std::size_t level, Column right) {
   if (level == levels_.size())
     return solve_coarsest(right);

@@ -12,10 +12,10 @@
 
 namespace calotte::cvt_detail {
 
-/// Three coordinates and a zero, which one instruction adds.
+/// Three coordinates and a zero, added by one instruction.
 using Float4 [[gnu::vector_size(16)]] = float;
 
-/// Vectors in single precision that stand some doubles apart, in the memory of doubles.
+/// Vectors in single precision at a stride of some doubles, stored in memory of doubles.
 class Column {
 public:
   Column(const void* data, std::int64_t doubles)
@@ -33,18 +33,17 @@ private:
 
 /// An approximate inverse of a symmetric, positive definite matrix of a mesh, in time proportional
 /// to its size: one V-cycle of algebraic multigrid by smoothed aggregation (Vanek, Mandel and
-/// Brezina, Computing 56, 1996), with coarse matrices that approximate that method's. Aggregates
-/// are eight rows that follow each other: the rows are to be ordered along a space-filling curve.
-/// It is symmetric and positive definite itself, but for rounding: the cycle computes in single
-/// precision with the matrix scaled to a diagonal of ones.
+/// Brezina, Computing 56, 1996), with coarse matrices that approximate that method's. An aggregate
+/// is eight consecutive rows: the rows must be ordered along a space-filling curve. The inverse is
+/// symmetric and positive definite itself, up to rounding: the cycle computes in single precision
+/// with the matrix scaled to a diagonal of ones.
 ///
-/// The smoother is Gauss and Seidel's method in fixed blocks of rows, forward and backward, and
-/// Jacobi's between blocks.
+/// The smoother is symmetric Gauss-Seidel within fixed blocks of rows, and Jacobi between blocks.
 class Multigrid {
 public:
   explicit Multigrid(Laplacian matrix);
 
-  /// The cycle for the three coordinates at once, 3 x n: replaces right sides by solutions.
+  /// Applies the cycle to three right sides at once, 3 x n; replaces them by the solutions.
   void solve(Points3& vectors);
 
 private:

@@ -11,21 +11,21 @@ namespace calotte::cvt_detail {
 /// Quadrature of a density over a cell, see make_integrand(). No effect for a uniform one.
 struct Quadrature {
   int rule = 3; ///< points per half kite
-  /// From the iteration on in which the norm is at most ten times the tolerance, or a line search
+  /// The finer rule. It is used once the norm is at most ten times the tolerance, or a line search
   /// fails. A descent converges with this rule only.
   int final_rule = 6;
   int divisions = 1; ///< of both
 };
 
-/// How the schedule of a run is executed.
+/// The options of the execution of a schedule.
 struct Execution {
   Decomposition decomposition = {}; ///< affects time and memory, not the result
-  /// Of the last descent and of a polish; coarser at a loose tolerance, and in other descents, see
-  /// make_descent_options().
+  /// The quadrature of the last descent and of a polish. It is coarser at a large tolerance and in
+  /// other descents, see make_descent_options().
   Quadrature quadrature = {};
 };
 
-/// How a descent goes, and where it ends.
+/// The options of a descent: its method, and where it ends.
 struct DescentOptions {
   Method method = Method::automatic;
   Norm norm = Norm::none;

@@ -14,8 +14,8 @@ namespace {
 
 using Seeds = std::vector<std::array<std::int32_t, 2>>;
 
-/// The triangles with shapes beyond the limits, the worst ones first: an order that the
-/// triangulation alone determines.
+/// The triangles with shapes beyond the limits, the worst ones first. The triangulation alone
+/// determines the order.
 template <Space S>
 Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
                    const LocalInput& input, const ShapePenalty& penalty) {
@@ -46,8 +46,7 @@ Seeds worst_shapes(const Tessellation<S>& tessellation, const Points3& points,
   return seeds;
 }
 
-/// Descends with the penalty, and raises it where it does not suffice.
-/// False if no mesh is left.
+/// Descends with the penalty, which is raised where it does not suffice. False if no mesh is left.
 template <Space S>
 bool polish_part(Subdomain<S>& part, const LocalInput& input, ShapePenalty penalty) {
   constexpr int least = 20, most = 40, most_raised = 2; // the least spread what moves

@@ -12,9 +12,9 @@
 
 namespace calotte::cvt_detail {
 
-/// Polishes shapes beyond the limits where they are: lowers the energy plus the penalty in
-/// subdomains around them, with up to 16 times the penalty's factor where less does not suffice. A
-/// few shapes that are near each other or whose surroundings do not allow it may be left.
+/// Polishes shapes beyond the limits: minimises the energy plus the penalty in subdomains around
+/// them, with up to 16 times the penalty's factor where less does not suffice. A few shapes may
+/// remain, where they are near each other or where their surroundings allow no better shape.
 ///
 /// The result has the same bits for any number of threads and regions.
 ///

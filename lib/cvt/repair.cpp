@@ -17,7 +17,8 @@ Corners corners_of(const Connectivity& mesh, std::int32_t t) {
   return {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
 }
 
-/// A triangle's corners; of periodic copies those next to the first.
+/// The positions of a triangle's corners; in a periodic plane, of the copies nearest to the first
+/// corner.
 template <Space S>
 std::array<typename S::Position, 3> positions_of(const SitePositions<S>& sites,
                                                  const Corners& corners) {
@@ -34,8 +35,8 @@ bool is_counter_clockwise(const SitePositions<S>& sites, const Corners& corners)
   return sites.space.is_short(b, c) && sites.space.orientation(a, b, c) > 0;
 }
 
-/// Whether the circumcircle of the triangle contains the far corner of the one beyond an edge; the
-/// library's rule resolves ties.
+/// Whether an edge is Delaunay: the circumcircle of its triangle does not contain the far corner of
+/// the triangle across. The library's rule resolves ties.
 template <Space S>
 bool is_delaunay(const Connectivity& mesh, const SitePositions<S>& sites,
                  const TriangleEdge& edge) {
@@ -83,8 +84,8 @@ void flip_and_count(Connectivity& mesh, const TriangleEdge& edge,
   flip(mesh, edge, pending);
 }
 
-/// Flips an edge of an overturned triangle such that both triangles are valid, as where a site has
-/// moved across the opposite edge. False if there is none.
+/// Flips an edge of an overturned triangle if that makes both triangles valid, as where a site has
+/// moved across the opposite edge. False if there is no such edge.
 template <Space S>
 bool turn_back(Connectivity& mesh, const SitePositions<S>& sites, std::int32_t t,
                std::vector<TriangleEdge>& pending, Repair& result) {
@@ -131,7 +132,8 @@ void add_faults(const Connectivity& mesh, const SitePositions<S>& sites, std::in
   const Corners corners = corners_of(mesh, triangle);
   if (!is_counter_clockwise(sites, corners))
     faults.overturned.push_back(triangle);
-  // Of a triangle with a long side other copies may be nearer, but it is overturned anyway.
+  // In a triangle with a long side, other copies may be nearer. It counts as overturned in any
+  // case.
   const auto at = positions_of(sites, corners);
   for (int v = 0; v < 3; ++v)
     if (!sites.space.is_clearly_acute(at[static_cast<std::size_t>(v)],

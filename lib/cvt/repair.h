@@ -29,7 +29,7 @@ struct Faults {
   bool none() const { return edges.empty() && overturned.empty(); }
 };
 
-/// A mesh's points in their space, by site.
+/// The positions of a mesh's sites, with their space.
 template <Space S> struct SitePositions {
   S space;
   std::span<const Vec3> points; ///< as the space has them; of a periodic plane in the box
@@ -47,10 +47,10 @@ struct Repair {
   std::vector<std::int32_t> changed; ///< triangles that flips made others; may repeat
 };
 
-/// Makes the mesh Delaunay by flips: first of an edge of each overturned triangle that makes two
-/// valid ones, then from the faulty edges on. Empty if a triangle stays overturned or the flips
-/// would take longer than a new triangulation; the mesh is then unusable. After flips of overturned
-/// triangles others may be overturned, which the caller must find.
+/// Makes the mesh Delaunay by flips. It first flips an edge of each overturned triangle so that
+/// both triangles become valid, then the edges that are not Delaunay. Empty if a triangle stays
+/// overturned, or if the flips would take longer than a new triangulation; the mesh is then
+/// unusable. Flips of overturned triangles may overturn others, which the caller must find.
 template <Space S>
 std::optional<Repair> repair(Connectivity& mesh, const SitePositions<S>& sites,
                              const Faults& faults);

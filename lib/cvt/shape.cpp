@@ -41,7 +41,7 @@ struct Cotangent {
   Vec3 derivative_b() const { return (1 / area) * (u - value * cross(normal, u)); }
 };
 
-/// A share in the gradient of one generator.
+/// A term in the gradient of one generator.
 struct Share {
   std::int32_t site;
   Vec3 vector;
@@ -72,7 +72,7 @@ struct PenaltyPart {
   }
 };
 
-/// How far a value is below the lower limit (negative slope) or above the upper.
+/// The excess of a value below the lower limit (negative slope) or above the upper limit.
 struct Excess {
   double size, sign;
 };
@@ -93,7 +93,7 @@ public:
     if (!is_inner(t))
       return;
     int v = 0;
-    mesh_.mesh.triangles.col(t).minCoeff(&v); // the order of the sums
+    mesh_.mesh.triangles.col(t).minCoeff(&v); // determines the order of the sums
     for (int k = 0; k < 3; ++k, v = next_vertex(v)) {
       const Angle angle = angle_at(mesh_, t, v);
       const Cotangent cotangent(mesh_, angle);
@@ -121,7 +121,8 @@ private:
     return mesh_.mesh.triangles.col(t).maxCoeff() < inverse_spacing_.size() && mesh_.has_centre(t);
   }
 
-  /// The length of the side across from a vertex: half of the penalty in each of its triangles.
+  /// Adds the penalty for the length of the side across from a vertex. Each of its triangles adds
+  /// half.
   void add_side(const Angle& angle, PenaltyPart& part) const {
     const Vec3 side = mesh_.offset(angle.a, angle.b);
     const double length = norm(side),
@@ -139,8 +140,8 @@ private:
     part.shares.push_back({angle.b, pull});
   }
 
-  /// The edge across from a vertex. If both cotangents are beyond the limits, the triangle with the
-  /// lower vertex across adds it.
+  /// Adds the penalty for the ratio of the edge across from a vertex. If both cotangents are beyond
+  /// the limits, the triangle with the lower vertex across adds it.
   void add_edge(std::int32_t t, int v, const Angle& angle, const Cotangent& cotangent,
                 PenaltyPart& part) const {
     const std::int32_t u = mesh_.across(t, v);

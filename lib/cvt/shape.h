@@ -15,9 +15,9 @@
 
 namespace calotte::cvt_detail {
 
-/// The limits of shape that a polish keeps. Models bear all shapes within them: a triangle must not
-/// be obtuse, and a short Voronoi edge shortens the step that is stable for diffusion of vorticity.
-/// A pure CVT has few shapes beyond them, all near pairs of cells with 5 and 7 neighbours.
+/// The limits of shape that a polish keeps. All shapes within them suit models: a triangle must not
+/// be obtuse, and a short Voronoi edge reduces the stable time step for diffusion of vorticity. A
+/// CVT without polish has few shapes beyond them, all near pairs of cells with 5 and 7 neighbours.
 struct ShapeLimits {
   /// Cotangents of the triangles' flat angles: 87 to 38 degrees.
   double least_cotangent = 0.05, most_cotangent = 1.3;
@@ -28,7 +28,7 @@ struct ShapeLimits {
 };
 inline constexpr ShapeLimits shape_limits;
 
-/// Whether a run may have it as its CvtStop::least_spacing.
+/// Whether a value is valid as a run's CvtStop::least_spacing.
 inline bool is_least_spacing(double spacing) { return spacing >= 0 && spacing <= 0.95; }
 
 // How far beyond its limit the worst cotangent or ratio may be:
@@ -36,7 +36,8 @@ inline constexpr double polished_excess = 0.02;  ///< where a polish ends
 inline constexpr double accepted_excess = 0.03;  ///< in a well-centred mesh
 inline constexpr double reachable_excess = 0.11; ///< where a raised penalty still helps
 
-/// The limits of an early glide, a little within shape_limits, so that few shapes come near these.
+/// The limits of an early glide, slightly narrower than shape_limits, so that few shapes come near
+/// those.
 constexpr ShapeLimits early_glide_limits() {
   constexpr double edge_margin = 0.03, cotangent_margin = 0.08;
   ShapeLimits limits = shape_limits;
@@ -45,7 +46,7 @@ constexpr ShapeLimits early_glide_limits() {
   return limits;
 }
 
-/// A penalty of a factor times the squares of excesses beyond limits.
+/// A penalty: a factor times the squared excesses beyond limits.
 struct ShapePenalty {
   double factor = 0;  ///< 0 for none
   double spacing = 1; ///< that the density demands, times rho^(1/4)
@@ -60,7 +61,7 @@ struct ShapeTerms {
   std::int64_t generators = 0;       ///< of all shapes with more than the accepted excess
 };
 
-/// Where shapes are judged.
+/// The mesh whose shapes are measured, with the demanded spacing.
 template <Space S> struct ShapeInput {
   PositionedMesh<S> mesh;
   const DoubleVector& inverse_spacing; ///< 1/h by generator, h the spacing that the density demands

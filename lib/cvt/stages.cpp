@@ -28,8 +28,8 @@ using Kind = CvtAction::Kind;
 
 int count_of_round(const State& state) { return state.memory.iterations > course::steep ? 2 : 1; }
 
-/// The edges of a round: of both kinds while rounds are left, and the difference to the number of
-/// cells.
+/// The edges that a round splits and collapses: an equal number of each while rounds are left, and
+/// in addition the difference to the number of cells at the level's end.
 EdgeChanges plan_edge_changes(const State& state, const Mesh& mesh, const Density& density) {
   const CvtAction& action = state.action();
   const std::int64_t n = mesh.points.cols();
@@ -73,7 +73,8 @@ bool is_due(const State& state, const Cursor& cursor) {
 
 bool inserts(const State& state) { return has(state, Kind::insert); }
 
-/// See stages.h. \param before of the action before; none of the first.
+/// Whether an action of a kind may follow another, see stages.h. \param before the kind of the
+/// previous action; none for the first.
 bool may_follow(std::optional<Kind> before, Kind kind) {
   switch (kind) {
   case Kind::start:
@@ -100,7 +101,7 @@ bool has_good_values(const CvtAction& action, std::int64_t fixed) {
          action.max_iterations >= (polishes ? 1 : 0);
 }
 
-/// One time more of the action at the cursor.
+/// Counts one more execution of the action at the cursor.
 void count_action(State& state) {
   std::vector<CvtDone>& done = state.report.done;
   done.resize(static_cast<std::size_t>(state.cursor.action) + 1);
@@ -118,7 +119,7 @@ Level begin_level(State& state, const Density& density, const Mesh& mesh) {
   return set_bisected(state, mesh, density, cells);
 }
 
-/// The descent of the last round of a run's last level is that of Kind::converge.
+/// Begins a round. The descent after the last round of the last level is that of Kind::converge.
 Level begin_round(State& state, const Density& density, const Mesh& mesh, int count) {
   Cursor& cursor = state.cursor;
   const std::int64_t before = missing_cells(state);
@@ -141,8 +142,8 @@ void begin_polish(State& state) {
   const CvtIteration& last = state.report.iterations.back();
   state.polish = {.penalty = course::penalty * last.energy / static_cast<double>(last.cells),
                   .demanded_spacing = estimate_spacing(last),
-                  .descended =
-                      state.report.converged || state.cursor.glides > 0}; // which need convergence
+                  .descended = state.report.converged ||
+                               state.cursor.glides > 0}; // a raise needs convergence
 }
 
 void begin_raised(State& state) {
@@ -150,9 +151,9 @@ void begin_raised(State& state) {
   ++state.cursor.times;
 }
 
-/// Whether cells of the sphere are flat, and a density nearly linear between generators: there are
-/// many, and the widest cells, whose area goes as rho^(-1/2), are within 15 degrees. Where the
-/// density is 0, cells are of any width.
+/// Whether cells of the sphere count as flat and the density as nearly linear between generators.
+/// There must be many generators, and the widest cells, whose area is proportional to rho^(-1/2),
+/// must be within 15 degrees. Where the density is 0, cells may have any width.
 bool is_resolved(const State& state, const Surface& surface, const Density& density) {
   const Eigen::Index n = state.points.cols();
   if (!surface.is_sphere() || n < course::flat_from)

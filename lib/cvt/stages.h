@@ -21,9 +21,9 @@
 ///
 ///     start -> insert* -> [ bisect -> insert* ]* -> converge -> [ polish -> raise* ]
 ///
-/// A descent follows each, see CvtAction. Without insertion the last bisection's is the end. A
-/// glide is part of the descent before the polish, see glide.h; a polish begins in subdomains, see
-/// polish.h.
+/// A descent follows each action, see CvtAction. Without insertion, the descent of the last
+/// bisection is the last one before a polish. A glide is part of the descent before the polish, see
+/// glide.h. A polish begins in subdomains, see polish.h.
 namespace calotte::cvt_detail {
 
 /// Whether the actions are in that order, and the values of each are within their range.
@@ -37,7 +37,7 @@ bool has(const State& state, CvtAction::Kind kind);
 const CvtIteration& last_accepted(const State& state);
 
 /// Whether the last evaluations of a descent before a polish have hardly lowered the norm, see
-/// course::creeping. After glides which no descent follows, always.
+/// course::creeping. Always true after glides that no descent follows.
 bool creeps(const State& state, const DescentOptions& options);
 
 /// Whether the last evaluations of a polish have hardly improved the worst shape.
@@ -46,7 +46,7 @@ bool has_stalled(const State& state);
 /// The cursor of the descent after the current one; none at the end of the run.
 std::optional<Cursor> next_cursor(const State& state);
 
-/// Levels that follow, and rounds of insertion on this one after the current descent.
+/// The numbers of bisections, and of rounds of insertion on this level, after the current descent.
 int bisections_left(const State& state);
 int rounds_left(const State& state);
 
@@ -59,9 +59,8 @@ ShapeLimits limits_of_glide(const State& state);
 
 /// The current descent.
 /// \param density of the run, here and below as surface_density() gives it.
-/// \param quadrature of the run, see Execution. Descents with others after them end with its first
-///        rule; where the density is nearly linear between generators, that at the sites replaces
-///        it.
+/// \param quadrature of the run, see Execution. All descents but the last end with its first rule.
+///        Where the density is nearly linear between generators, the rule at the sites replaces it.
 DescentOptions make_descent_options(const State& state, const Recipe& recipe,
                                     const Density& density, const Quadrature& quadrature);
 
@@ -70,7 +69,7 @@ DescentOptions make_descent_options(const State& state, const Recipe& recipe,
 Level begin_action(State& state, const Cursor& cursor, const Surface& surface,
                    const Density& density, std::optional<Connectivity>&& mesh);
 
-/// Adds a descent that has ended to what was done of its action.
+/// Adds a descent that has ended to the report of its action.
 void add_done(State& state);
 
 } // namespace calotte::cvt_detail

@@ -11,9 +11,9 @@
 
 namespace calotte::cvt_detail {
 
-/// Of a descent so far.
+/// The memory of a descent's method.
 struct Memory {
-  /// Of generators, and of the gradient then; oldest first.
+  /// The steps of generators and the changes of the gradient along them; the oldest first.
   std::vector<base_detail::CompactField> steps, changes;
   std::vector<double> curvatures; ///< their inner products
   double stride = 1;       ///< first trial of the next line search, as a share of the full step
@@ -26,22 +26,22 @@ struct Memory {
   bool stuck = false;      ///< no step lowers the value, as far as the method can tell
 };
 
-/// Where a run is in its actions.
+/// The position of a run in its actions.
 struct Cursor {
   std::int32_t action = 0; ///< in CvtReport::actions
   int times = 0;  ///< what counts of CvtAction::times: a round after a long descent counts for two
   int idle = 0;   ///< rounds that brought the number of generators no nearer to the level's end
-  int glides = 0; ///< how often dislocations were moved
+  int glides = 0; ///< number of glides
 };
 
-/// What a polish minimises beside the energy.
+/// The penalty that a polish minimises besides the energy.
 struct Polish {
   double penalty = 0;          ///< of shapes; 0 before a polish
   double demanded_spacing = 1; ///< at rho = 1
   bool descended = true;       ///< the descent before it converged
 };
 
-/// What a CvtState holds.
+/// The contents of a CvtState.
 struct State {
   static State& of(CvtState& state) { return *state.state_; }
   static const State& of(const CvtState& state) { return *state.state_; }

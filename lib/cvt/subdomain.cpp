@@ -84,8 +84,7 @@ template <Space S> void Subdomain<S>::set_patch() {
     patch_.corners.push_back(sites_from_lowest(part_.faces.triangles, t));
 }
 
-/// Integrates over the cells, with flips where the mesh is not Delaunay; false if they do not
-/// suffice.
+/// Integrates over the cells. Flips make the mesh Delaunay; false if they do not suffice.
 template <Space S> bool Subdomain<S>::integrate() {
   constexpr int most_repairs = 4;
   const SitePositions<S> positions{cells_.space(), {x_.begin(), part_.sites.size()}};
@@ -181,7 +180,8 @@ void Subdomain<S>::write(Connectivity& mesh, Points3& points, std::vector<std::i
                          std::vector<std::int32_t>& rim) const {
   for (std::int32_t i = 0; i < movable(); ++i)
     points.col(part_.sites[static_cast<std::size_t>(i)]) = points_.col(i);
-  // integrate() tests edges inside, from the triangles with a generator that moves.
+  // Other edges are tested by integrate(), which examines the triangles with a generator that
+  // moves.
   for (std::int64_t k = 0; k < triangles(); ++k)
     if (part_.faces.triangles.col(k).minCoeff() >= movable() ||
         part_.faces.neighbours.col(k).minCoeff() < 0)

@@ -25,22 +25,22 @@
 #include <span>
 #include <vector>
 
-/// Work where it is needed: parts of a tessellation that descend by themselves, each in one task.
+/// Local work: parts of a tessellation that descend independently, each in one task.
 namespace calotte::cvt_detail {
 
-/// What the subdomains of a run have in common.
+/// The input that all subdomains of a run share.
 struct LocalInput {
   const Density& density;
   const Integrand& integrand;
   const std::vector<std::uint8_t>& fixed; ///< a flag for each generator that stays, or empty
 };
 
-/// Some triangles of a mesh by themselves, as a functional of the generators between them. Those on
-/// their edge and the fixed ones stay. Subdomains without a common triangle do not depend on each
-/// other.
+/// Some triangles of a mesh, as a functional of the generators inside. The generators on the
+/// subdomain's boundary and the fixed ones stay. Subdomains without a common triangle are
+/// independent.
 ///
-/// Sites and triangles have local numbers, which follow from the sites of the triangles alone: the
-/// result has the same bits whatever the numbers of the triangles in the mesh.
+/// Sites and triangles have local numbers, which depend only on the sites of the triangles: the
+/// result has the same bits for any numbering of the mesh's triangles.
 template <Space S> class Subdomain final : public Functional {
 public:
   /// \param cells at the points. \param mesh Delaunay. \param triangles each once.
@@ -51,7 +51,7 @@ public:
     return {cells_, part_.faces, {x_.begin(), part_.sites.size()}};
   }
   std::int32_t movable() const { return patch_.owned; } ///< sites that move: the first ones
-  /// In the mesh: those that move, ascending, then the others.
+  /// The sites' numbers in the mesh: first those that move, ascending, then the others.
   std::span<const std::int32_t> sites() const { return part_.sites; }
   const Points3& points() const { return points_; } ///< of the generators that move
   std::int64_t triangles() const { return part_.faces.triangles.cols(); }
@@ -60,7 +60,8 @@ public:
 
   /// Writes the generators and the triangles back. Edges of the subdomain may not be Delaunay.
   /// \param changed triangles that have other vertices or neighbours are added.
-  /// \param rim triangles at the edge and beyond, whose edges may not be, are added.
+  /// \param rim triangles at the subdomain's boundary and beyond it, whose edges may not be
+  /// Delaunay, are added.
   void write(Connectivity& mesh, Points3& points, std::vector<std::int32_t>& changed,
              std::vector<std::int32_t>& rim) const;
 
@@ -76,7 +77,7 @@ public:
   void make_tangential(Points3& vectors, const Points3& x, base_detail::Part part) const override {
     cells_.make_tangential(vectors, x, part);
   }
-  /// Not used by the method of a local descent.
+  /// A local descent uses no Laplacian.
   Laplacian laplacian(const Points3&) override { return {}; }
 
 private:
@@ -100,9 +101,9 @@ private:
   bool flipped_ = false;
 };
 
-/// Descends in a subdomain from a start, by L-BFGS, until `ended` is true, for the last accepted
-/// evaluation and the number of all, or no step lowers the value. \returns the last evaluation;
-/// with an infinite energy if the mesh was not Delaunay at the start.
+/// Descends in a subdomain from a start, by L-BFGS. It ends when ended(evaluation, count) is true
+/// of the last accepted evaluation and the number of evaluations, or when no step lowers the value.
+/// \returns the last evaluation; its energy is infinite if the mesh was not Delaunay at the start.
 template <Space S>
 Evaluation descend(Subdomain<S>& part, const Points3& start, const LocalInput& input,
                    const ShapePenalty& penalty,
@@ -123,14 +124,13 @@ struct DisjointSurroundings {
 DisjointSurroundings choose_disjoint(const Connectivity& mesh,
                                      std::span<const std::array<std::int32_t, 2>> seeds);
 
-/// What is done in a subdomain; false if it is to be left out, as without a mesh.
+/// A task in a subdomain; false if its result must be discarded, as without a valid mesh.
 template <Space S> using LocalTask = std::function<bool(std::size_t index, Subdomain<S>& part)>;
 
-/// Runs a task in the subdomain of each of some surroundings, without a common triangle, and writes
-/// them back.
+/// Runs a task in the subdomain of each of some surroundings and writes the results back.
 /// \param mesh of the tessellation, which stays Delaunay.
 /// \param task called with the index of the surroundings in the list.
-/// \param changed triangles that are then others are added.
+/// \param changed triangles that have changed are added.
 /// \returns false if flips do not make the mesh Delaunay; it is then unusable.
 template <Space S>
 bool work_in(std::span<const Surroundings> surroundings, const LocalTask<S>& task,

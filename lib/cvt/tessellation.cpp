@@ -24,8 +24,8 @@ Tessellation<S>::Tessellation(Cells<S> cells, const Points3& points,
     : cells_(std::move(cells)), generators_(points.cols()), decomposition_(decomposition) {
   cells_.move(points);
   Sites sites = level.sites ? std::move(*level.sites) : cells_.sites();
-  if (sites.size() != generators_) // two points have met
-    cells_.triangulate();          // which says it
+  if (sites.size() != generators_) // two points coincide
+    cells_.triangulate();          // refuses them
   Regions regions = delaunay_detail::divide(sites, decomposition_);
   Owners owners = rank_owners(sites, regions);
   if (!level.mesh) {

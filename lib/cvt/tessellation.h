@@ -21,7 +21,8 @@
 
 namespace calotte::cvt_detail {
 
-/// The data of a level's points at its start: from the sort of the start, or from the level before.
+/// The data of a level's points at its start: from the sort of the start, or from the previous
+/// level.
 struct Level {
   std::optional<Sites> sites; ///< whose ids and ranks are the points' columns; with a mesh, their
                               ///< points may be gone
@@ -36,9 +37,8 @@ struct Effort {
   double seconds_exchange = 0, seconds_repair = 0, seconds_moments = 0;
 };
 
-/// The findings and costs of a region's task. Positions and moments live only during the task:
-/// those of the active threads fit in cache, while those of all regions would take a third of the
-/// memory.
+/// The findings and costs of a region's task. Positions and moments exist only during the task:
+/// those of the active threads fit in cache; those of all regions would take a third of the memory.
 struct RegionWork {
   std::vector<std::int32_t> suspects;
   Faults faults;
@@ -54,8 +54,8 @@ struct Division {
 };
 
 /// The Voronoi cells of points that move, divided into regions, each with a task of its own. The
-/// mesh is kept between evaluations and repaired where points have moved out of it; the regions are
-/// chosen anew when points have drifted.
+/// mesh is kept between evaluations and repaired where it is no longer Delaunay. The regions are
+/// chosen again when points have drifted.
 ///
 /// An evaluation at new points is
 ///
@@ -82,7 +82,8 @@ public:
   /// The faults of the mesh at the points.
   Faults find_faults(Effort& effort);
 
-  /// The result of a region's task: moments by local number, complete for the patch's own sites.
+  /// Receives the result of a region's task: moments by local number, complete for the patch's own
+  /// sites.
   using Receiver = std::function<void(const Patch& patch, const Array<Vec3>& x,
                                       const Array<CellMoments>& moments)>;
 
@@ -97,7 +98,7 @@ public:
   /// Makes the mesh Delaunay, by flips or a new triangulation.
   void make_delaunay(Effort& effort);
 
-  /// The mesh with the site_count of its sites.
+  /// The mesh with the positions of its sites.
   PositionedMesh<S> positioned() const { return {cells_, mesh_, cells_.positions().points}; }
 
   /// Moves out the mesh, made Delaunay at the points; empty if flips do not suffice.
@@ -106,8 +107,8 @@ public:
   const Cells<S>& cells() const { return cells_; }
   const Connectivity& mesh() const { return mesh_; }
 
-  /// Changes triangles of the mesh, and leaves it Delaunay. Returns the numbers of those that are
-  /// then others, which may repeat; nothing if the mesh is unusable.
+  /// Changes triangles of the mesh, and leaves it Delaunay. Returns the numbers of the changed
+  /// triangles, which may repeat; nothing if the mesh has become unusable.
   using Change = std::function<std::optional<std::vector<std::int32_t>>(Connectivity&)>;
 
   /// Lets `change` move the points and change the mesh with them.
@@ -117,7 +118,7 @@ public:
   std::vector<CvtRegion> regions() const;
 
 private:
-  /// The owner of each position of the mesh.
+  /// The owner of each site of the mesh.
   struct Owners {
     Array<std::int32_t> owner;
     std::int32_t regions;
