@@ -22,7 +22,8 @@ struct Sample {
   Array<double> density; ///< of samples around each, up to a factor
 };
 
-/// Computed from the mean step along the curve over a few samples before and after each sample.
+/// The density at samples, from the mean step along the curve over a few samples before and after
+/// each.
 Array<double> densities(const Array<Vec3>& unit) {
   constexpr std::int64_t reach = 8;
   Array<double> density(unit.size());

@@ -15,8 +15,8 @@ namespace calotte::delaunay_detail {
 /// triangulation of a region stays in cache and its halo is a small part of it.
 int default_region_count(std::int64_t sites);
 
-/// The centres that the options give, or as many as the number of regions, but at most one per
-/// site.
+/// The given centres of the options, or computed ones: as many as the number of regions, but at
+/// most one per site.
 /// \throws Error invalid_argument (fewer than one region, centres without a direction).
 std::vector<Vec3> make_centres(const Sites& sites, const Decomposition& decomposition);
 

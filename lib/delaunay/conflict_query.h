@@ -73,8 +73,8 @@ private:
   double normal_error_ = 0, cap_radius_ = 0; ///< the latter a chord, and rounded up
 };
 
-/// f(x) = n.(x - a) - q |x - a|^2 is positive inside the circle, n and q the lifted triangle's
-/// normal (see plane_chart.h); beyond a hull's edge, an infinite circle, q = 0.
+/// f(x) = n.(x - a) - q |x - a|^2 is positive inside the circle, with n and q the lifted triangle's
+/// normal (see plane_chart.h). Beyond an edge of the hull, the circle is infinite and q = 0.
 template <> class Zone<PlaneChart> {
 public:
   Zone(FaceOf<PlaneChart> face, const PlaneChart&) {
@@ -133,9 +133,10 @@ inline bool are_members(const std::vector<Run>& members, const Sites& sites, int
   return are_members(members, i * width, std::min((i + 1) * width, sites.size()));
 }
 
-/// The sites in conflict with a face, found from the nearest cells on: at most a few, because each
-/// changes the triangulation around it. No member of the region is among them, because the circle
-/// of a face contains no member. If the circle meets only boxes of members, no site is tested.
+/// Finds sites in conflict with a face, from the nearest boxes on. It returns a few at most,
+/// because each changes the triangulation around it. No member of the region is among them, because
+/// the circle of a face contains no member. If the circle meets only boxes of members, no site is
+/// tested.
 template <class Chart> class ConflictQuery {
 public:
   ConflictQuery(Triangulation<Chart>& triangulation, const Sites& sites,
@@ -157,7 +158,7 @@ public:
 private:
   static constexpr std::size_t enough = 8;
 
-  /// Nodes begin to end - 1 of a level, the nearest first.
+  /// Visits the nodes begin to end - 1 of a level, the nearest first.
   void descend(int level, std::int64_t begin, std::int64_t end, const Zone<Chart>& zone) {
     const SiteBoxes& boxes = sites_.boxes;
     std::array<std::pair<double, std::int64_t>, SiteBoxes::width> order;

@@ -13,8 +13,8 @@
 #include <vector>
 
 /// The cull test (Jacobsen et al., 2013, Eq. 1 and Sect. 3.2): true if the circumcap of a triangle
-/// lies in the part of the domain of which a region holds all sites. It runs in doubles with
-/// bounded errors.
+/// lies in the part of the domain of which a region has all sites. It runs in doubles with bounded
+/// errors.
 namespace calotte::delaunay_detail {
 
 template <class Chart> using FaceOf = typename Triangulation<Chart>::Face;

@@ -50,7 +50,7 @@ bool is_open(FaceOf<Chart> face, const std::vector<HalfSpace>& covered, CullCoun
   return false;
 }
 
-/// The faces that are still to be certified.
+/// The faces that are not yet certified.
 template <class Chart>
 std::vector<FaceOf<Chart>> open_faces(Triangulation<Chart>& triangulation,
                                       const std::vector<HalfSpace>& covered, CullCounts& counts) {

@@ -7,7 +7,7 @@
 #include "delaunay/sphere_chart.h"
 #include "delaunay/triangulate.h"
 
-/// For the charts SphereChart and PlaneChart.
+/// The stages gather and cull, for the charts SphereChart and PlaneChart.
 namespace calotte::delaunay_detail {
 
 struct CullCounts {
@@ -20,11 +20,11 @@ template <class Chart>
 std::vector<Member> gather(const Sites& sites, const Regions& regions, std::int32_t k);
 
 /// Certifies every triangle with an owned vertex. The paper's cull test (Jacobsen et al., 2013, Eq.
-/// 1 and Sect. 3.2) shows that the circumcap lies where the region holds all sites. If it fails, a
+/// 1 and Sect. 3.2) shows that the circumcap lies where the region has all sites. If it fails, a
 /// query searches the circumcap for sites; those found are inserted, and the test repeats. Where
-/// many triangles fail it, they are first tested in patches (see patches.h). These
-/// faces, and no others, are marked as certified. In the plane an infinite face at an owned site is
-/// certified, too: no site lies beyond its edge of the hull.
+/// many triangles fail it, they are first tested in patches (see patches.h). These faces, and no
+/// others, are marked as certified. In the plane an infinite face at an owned site is certified,
+/// too: no site lies beyond its edge of the hull.
 ///
 /// \return true if all owned sites have closed stars, within reasonable effort. False if the focus
 ///         lies in one of their circumcaps, as with a few sites, or if all sites are in a
@@ -33,7 +33,7 @@ template <class Chart>
 bool certify(Triangulation<Chart>& triangulation, const Sites& sites, const Regions& regions,
              std::int32_t k, CullCounts& counts);
 
-/// Marks every finite face as certified, for a set as a whole, from which no site is left out.
+/// Marks every finite face as certified. \pre the triangulation has all sites.
 template <class Chart> void certify_all(Triangulation<Chart>& triangulation);
 
 } // namespace calotte::delaunay_detail

@@ -40,7 +40,7 @@ void add(DelaunayReport& report, const PredicateCounts& counts) {
   report.exact_predicates += counts.exact;
 }
 
-/// Throws for sites that span no triangle.
+/// Refuses sites that span no triangle.
 [[noreturn]] void refuse_degenerate(const Sites& sites) {
   throw Error(ErrorCode::degenerate,
               sites.frame
@@ -77,7 +77,8 @@ struct CapResult {
   double seconds = 0;
 };
 
-/// One region: gather, project, triangulate, cull and certify. False if that fails for its cap.
+/// Triangulates one region: gather, project, triangulate, cull and certify. False if that fails for
+/// its cap.
 template <class Chart>
 bool triangulate_cap(const Sites& sites, const Regions& regions, std::int32_t k, Reports& reports,
                      CapResult& result) {
@@ -140,8 +141,9 @@ void add_incomplete(const std::vector<CapResult>& caps, const Array<std::int32_t
     failed[k] |= static_cast<char>(caps[k].owned != owned[k]);
 }
 
-/// All regions, each in its own task. Those that cannot certify their sites are merged, and these
-/// and their neighbours are triangulated again. Empty if that is not enough.
+/// Triangulates all regions, each in its own task. Regions that cannot certify their sites are
+/// merged; the merged regions and their neighbours are triangulated again. Empty if that does not
+/// suffice.
 template <class Chart>
 std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
                                         DelaunayReport& report, Monitor& monitor) {
@@ -161,8 +163,7 @@ std::optional<Reports> triangulate_caps(const Sites& sites, Regions& regions,
       CapResult cap;
       const bool done = triangulate_cap<Chart>(sites, regions, k, reports, cap);
       if (!done)
-        failures +=
-            cap.cull.hull ? std::ssize(caps) : 1; // where there is a hull, merging is no help
+        failures += cap.cull.hull ? std::ssize(caps) : 1; // merging does not help at a hull
       failed[static_cast<std::size_t>(k)] = static_cast<char>(!done);
       caps[static_cast<std::size_t>(k)] = done ? std::move(cap) : CapResult{};
       monitor.step();

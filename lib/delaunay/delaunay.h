@@ -15,14 +15,14 @@ namespace calotte::delaunay_detail {
 Mesh mesh_of_sphere(const Points3Ref& points, const DelaunayOptions& options,
                     DelaunayReport& report);
 
-/// The same for points handed over: the mesh takes them, unless some of them merge.
+/// The same for points that the mesh may take over. It does so unless some of them merge.
 Mesh mesh_of_sphere(Points3&& points, const DelaunayOptions& options, DelaunayReport& report);
 
-/// In the plane, with z = 0.
+/// The mesh of points in the plane, with z = 0.
 Mesh mesh_of_plane(const Points2Ref& points, const DelaunayOptions& options,
                    DelaunayReport& report);
 
-/// In a doubly periodic box. \pre the surface is one.
+/// The mesh of points in a doubly periodic box. \pre the surface is one.
 Mesh mesh_of_box(const Points2Ref& points, const Surface& box, const DelaunayOptions& options,
                  DelaunayReport& report);
 

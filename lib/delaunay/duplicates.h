@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-/// The inputs that stand for one site: equal ones, and those nearer than a distance.
+/// Duplicate inputs: equal ones, and those nearer than a distance.
 namespace calotte::delaunay_detail {
 
 /// Orders a run of inputs of equal keys along a curve over the square that their cube points fill,
@@ -68,7 +68,7 @@ void link_duplicates(const Input& input, std::span<std::int32_t> run,
 }
 
 /// Merges each input into an earlier input that stays and is nearer than `within`, if there is one.
-/// A grid of cubes wider than the distance, including rounding, holds the inputs that stay.
+/// The inputs that stay are in a grid of cubes wider than the distance, including rounding.
 template <class Input>
 void link_near(const Input& input, double within, std::vector<std::int32_t>& lowest) {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();

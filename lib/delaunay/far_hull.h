@@ -8,8 +8,8 @@
 #include <calotte/mesh.h>
 #include <calotte/surface.h>
 
-/// Points outside a bounded surface: in the triangulation of the unbounded one, sites inside
-/// together with these all have closed stars.
+/// Points outside a bounded surface. Triangulated together with them on the unbounded surface, all
+/// sites inside have closed stars.
 namespace calotte::delaunay_detail {
 
 /// Directions that are not near the boundary of a region.

@@ -36,7 +36,7 @@ public:
   void run(const QuadtreeCell& cell) { own(cell, 0); }
 
 private:
-  /// The candidates are those from index `first` on.
+  /// Finds the owners of a cell's sites. The candidates are those from index `first` on.
   void own(const QuadtreeCell& cell, std::size_t first) {
     const std::size_t end = candidates_.size();
     push_possible(bounding_ball(cell), first);

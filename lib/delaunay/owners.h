@@ -15,7 +15,7 @@ constexpr std::int64_t leaf_size = 16;
 /// Cells of similar size that together contain all sites, in curve order: the tasks of a descent.
 std::vector<QuadtreeCell> task_cells(const Quadtree& tree);
 
-/// The numbers of all centres.
+/// The indices of all centres.
 std::vector<std::int32_t> all_of(const std::vector<Vec3>& centres);
 
 /// The nearest centre of each of several directions sorted along the curve; a tie goes to the

@@ -10,8 +10,8 @@
 /// the circumcap of each useless in doubles.
 namespace calotte::delaunay_detail {
 
-/// Certifies patches of faces that are surrounded by certified ones, if the disc around a patch
-/// are_members_within members of the region only.
+/// Certifies patches of faces that are surrounded by certified faces, if the disc around a patch
+/// contains only members of the region.
 ///
 /// The rim of a patch consists of edges of certified triangles, which no edge of the triangulation
 /// of all sites crosses, and no site but members lies within. Both that triangulation and the
@@ -25,8 +25,8 @@ public:
           const std::vector<HalfSpace>& covered)
       : triangulation_(triangulation), sites_(sites), members_(members), covered_(covered) {}
 
-  /// The faces of the patch that are_members_within a face, each marked by its number; none if it
-  /// reaches the hull, or a disc around it may hold a site that is not a member.
+  /// The faces of the patch that contains a face, each marked by its number. None if the patch
+  /// reaches the hull, or if a disc around it may contain a site that is not a member.
   const std::vector<FaceOf<Chart>>& around(FaceOf<Chart> face) {
     patch_.assign(1, face);
     face->number = seen;
@@ -44,7 +44,7 @@ public:
 
   bool is_marked(FaceOf<Chart> face) const { return face->number == seen; }
 
-  /// Takes all marks away.
+  /// Removes all marks.
   ~Patches() {
     for (const FaceOf<Chart> face : marked_)
       face->number = -1;
@@ -93,7 +93,7 @@ private:
   }
   static bool is_before_focus(const PlaneChart&) { return true; }
 
-  /// Of the sites of nodes begin to end - 1 of a level.
+  /// Whether all sites within the disc, of the nodes begin to end - 1 of a level, are members.
   bool are_members_within(int level, std::int64_t begin, std::int64_t end) const {
     const double most = radius_ * radius_ * (1 + 1e-12);
     for (std::int64_t i = begin; i != end; ++i) {

@@ -16,7 +16,7 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// A box's sites, id by id, then copies of them.
+/// The sites of a box in the order of their ids, then copies of them.
 struct Copies {
   std::vector<Image> images;
   std::vector<std::int32_t> site; ///< of each image
@@ -51,8 +51,9 @@ struct Circle {
   double radius;
 };
 
-/// Computed from the corner across from the longest side. Differences of sites come first, so that
-/// copies with the same shift have the offsets of their sites to the last digits.
+/// The circumcircle, computed from the corner across from the longest side. Differences of sites
+/// come first, so that copies with the same shift have the offsets of their sites to the last
+/// digits.
 Circle circle_of(const std::array<Image, 3>& corner, const Eigen::Vector2d& period) {
   const double unit = period.maxCoeff();
   const auto side = [&](std::size_t from, std::size_t to) {
@@ -105,7 +106,7 @@ MarginVerdict judge(const Mesh& mesh, const Copies& copies, std::int64_t sites,
   return found;
 }
 
-/// Of each triangle the copy whose lowest site is in the box, in canonical order.
+/// One copy of each triangle, that whose lowest site is in the box, in canonical order.
 Triangles one_copy_each(const Mesh& mesh, std::int64_t sites,
                         const std::vector<std::int32_t>& site) {
   const auto site_of = [&](std::int32_t copy) { return site[static_cast<std::size_t>(copy)]; };

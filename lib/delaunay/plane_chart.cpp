@@ -6,7 +6,7 @@
 namespace calotte::delaunay_detail {
 namespace {
 
-/// Bounds the scaled coordinates.
+/// An upper bound of the scaled coordinates.
 double largest(const Frame& frame) {
   return std::max(std::abs(frame.centre.x), std::abs(frame.centre.y)) + frame.half;
 }

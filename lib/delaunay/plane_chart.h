@@ -11,9 +11,9 @@
 
 namespace calotte::delaunay_detail {
 
-/// The plane as a region sees it, the second model of a Chart (see sphere_chart.h). The projection
-/// is the identity. The doubles of a point filter both signs; the exact predicates on the given
-/// coordinates decide the rest.
+/// The plane as seen from one region, the second model of a Chart (see sphere_chart.h). The
+/// projection is the identity. The doubles of a point filter both signs; the exact predicates on
+/// the given coordinates decide the rest.
 class PlaneChart {
 public:
   struct Point {
@@ -49,7 +49,7 @@ public:
   /// Prefetches the data that point() reads: the given coordinates are in input order.
   void expect(std::int64_t rank) const { __builtin_prefetch(&sites_->given(sites_->id[rank])); }
 
-  /// The point of a site; widens the error bounds if the site exceeds them.
+  /// The chart's point of a site; widens the error bounds if the site exceeds them.
   Point point(std::int64_t rank);
 
   const PredicateCounts& counts() const { return counts_; }

@@ -12,8 +12,7 @@ namespace calotte::delaunay_detail {
 namespace {
 
 /// Mean step along the curve between sites of one owner, by region: the local spacing, up to a
-/// factor near 1. For a region of one or two sites, as with as many regions as sites, the mean of
-/// all sites.
+/// factor near 1. A region of one or two sites has the mean of all sites.
 std::vector<double> mean_steps(const Sites& sites, const Array<std::int32_t>& owner,
                                std::size_t regions) {
   std::vector<double> sum(regions, 0), count(regions, 0);
@@ -157,7 +156,7 @@ Side side(const Ball& ball, const std::vector<HalfSpace>& half_spaces) {
   return result;
 }
 
-/// Descends the quadtree together with the regions whose half-spaces may hold a part of a cell's
+/// Descends the quadtree together with the regions whose half-spaces may contain a part of a cell's
 /// sites. The regions are kept on a stack, as in a descent to owners.
 class MemberDescent {
 public:
@@ -171,7 +170,7 @@ public:
   }
 
 private:
-  /// The candidates are those from index `first` on.
+  /// Collects the members in a cell. The candidates are those from index `first` on.
   void collect(const QuadtreeCell& cell, std::size_t first) {
     const std::size_t end = candidates_.size();
     const Ball ball = bounding_ball(cell);
@@ -270,7 +269,7 @@ std::vector<std::int32_t> group_failed(const Regions& regions, const std::vector
   return group;
 }
 
-/// Number of sites beyond its own that a merged region holds: some rings around them.
+/// Number of sites beyond its own that a merged region has: some rings around them.
 constexpr std::int64_t merged_halo = 500;
 
 /// Radius, as a chord, of a cap around the sites of a region and its halo.

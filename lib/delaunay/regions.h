@@ -38,11 +38,11 @@ struct Regions {
 Regions make_regions(const Sites& sites, std::vector<Vec3> centres, const IdLists& adjacent,
                      RegionOverlap overlap);
 
-/// Merges regions whose caps cannot certify their sites: those that share members become one, which
-/// holds all sites of a cap around theirs.
+/// Merges regions whose caps cannot certify their sites. Those that share members become one
+/// region, which has all sites of a cap around their sites.
 /// \param failed by region.
 /// \return the regions to triangulate again: the merged ones, and those with a member of theirs.
-///         None if a merged region would hold most sites or more than a cap of 60 degrees.
+///         None if a merged region would have most sites or more than a cap of 60 degrees.
 std::vector<std::int32_t> merge_failed(const Sites& sites, const std::vector<char>& failed,
                                        Regions& regions);
 

@@ -52,7 +52,7 @@ SiteBox around_boxes(const Array<SiteBox>& boxes, std::int64_t begin, std::int64
   return rounded(extent);
 }
 
-/// \param around around(begin, end): the box of items of the level below.
+/// Makes a level of boxes. \param around around(begin, end) is the box of items of the level below.
 template <class Around> Array<SiteBox> make_level(std::int64_t below, const Around& around) {
   constexpr std::int64_t width = SiteBoxes::width;
   Array<SiteBox> level((below + width - 1) / width);

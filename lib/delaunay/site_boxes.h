@@ -29,7 +29,8 @@ public:
   /// Levels of nodes; level 0 is that of the leaves, the highest has `width` nodes at most.
   int levels() const { return static_cast<int>(levels_.size()); }
   std::int64_t nodes(int level) const { return levels_[static_cast<std::size_t>(level)].size(); }
-  /// Over the nodes i * width to (i + 1) * width - 1 of the level below, or as many sites.
+  /// The box of the nodes i * width to (i + 1) * width - 1 of the level below; at level 0, of these
+  /// sites.
   const SiteBox& box(int level, std::int64_t i) const {
     return levels_[static_cast<std::size_t>(level)][i];
   }

@@ -47,7 +47,7 @@ struct Directions {
   }
 };
 
-/// Pairs of doubles.
+/// Points of the plane: pairs of doubles.
 struct PlanePoints {
   const Points2Ref points;
   Frame frame;
@@ -73,8 +73,8 @@ struct PlanePoints {
     return {std::clamp(q.x, -1.0, 1.0), std::clamp(q.y, -1.0, 1.0), 0};
   }
   double distance(double within) const { return within * frame.scale / frame.half; }
-  /// Halved, so that differences do not overflow, and in units of `within`, so that squares do not
-  /// vanish.
+  /// Coordinates are halved, so that differences do not overflow, and in units of `within`, so that
+  /// squares do not vanish.
   bool are_within(std::int64_t i, std::int64_t j, double within) const {
     const double dx = (points(0, i) / 2 - points(0, j) / 2) / (within / 2),
                  dy = (points(1, i) / 2 - points(1, j) / 2) / (within / 2);
@@ -119,7 +119,7 @@ inline Frame frame_of(const Points2Ref& points) {
   return frame;
 }
 
-/// Images of sites, at their rounded points.
+/// Images of sites, as rounded points.
 struct Images : PlanePoints {
   static bool same(std::int64_t, std::int64_t) { return false; }
 };

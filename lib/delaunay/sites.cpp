@@ -106,8 +106,8 @@ template <class Input> void require_count(std::int64_t n, const char* kind) {
   require(n <= most_points, "there are {} points: 32-bit triangle ids allow 2^30 at most", n);
 }
 
-/// \param all_points returns the input's points in the form of Sites; called at most once, after
-///         the last read of the input's points.
+/// Makes the sites of an input. \param all_points returns the input's points in the form of Sites;
+///         called at most once, after the last read of the input's points.
 template <class Input, class AllPoints>
 Sites make_input_sites(const Input& input, Duplicates duplicates, double merge_within,
                        Monitor* monitor, const AllPoints& all_points) {

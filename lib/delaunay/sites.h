@@ -39,7 +39,7 @@ struct Sites {
   std::vector<std::int32_t> site_of_input; ///< id for each input column
   Array<std::int32_t> id;                  ///< by rank
   Array<Vec3> unit;           ///< by rank: normalised to 5 roundoffs; in a plane the frame's, to 3
-  Quadtree cells;             ///< over the ranks: what stands where
+  Quadtree cells;             ///< over the ranks
   SiteBoxes boxes;            ///< over the ranks, too
   std::optional<Frame> frame; ///< of a plane
   std::vector<Image> images;  ///< by id: of sites of a periodic box and their copies, else none
@@ -65,8 +65,8 @@ Sites make_sites(Points3&& points, Duplicates duplicates, double merge_within,
 Sites make_planar_sites(const Points2Ref& points, Duplicates duplicates, double merge_within,
                         Monitor* monitor = nullptr);
 
-/// Sites of a periodic box together with copies: `points` are the images, each coordinate rounded
-/// once.
+/// Sites of a periodic box together with their copies. The `points` are the images, each coordinate
+/// rounded once.
 /// \pre the images are distinct.
 Sites make_sites(std::vector<Image> images, const Vec2& period);
 

@@ -10,7 +10,7 @@
 
 namespace calotte::delaunay_detail {
 
-/// The sphere as a region sees it, the first model of a Chart.
+/// The sphere as seen from one region, the first model of a Chart.
 ///
 /// A Chart views its domain from one region. It provides `Point`, the coordinates that the
 /// triangulation stores in a vertex; `point`, which makes one from a site that `has_point`;
@@ -50,16 +50,17 @@ public:
   /// sites.
   SphereChart(const Sites& sites, const Vec3& centre, double reach);
 
-  /// True if a site has a point: all sites do except one at the focus itself.
+  /// True if a site has a point in the chart. All sites have one, except a site at the focus
+  /// itself.
   bool has_point(std::int64_t rank) const;
 
-  /// Announces the use of a point: needs no prefetch, because ranks are consecutive in memory.
+  /// Announces the use of a point. No prefetch is needed, because ranks are consecutive in memory.
   static void expect(std::int64_t) {}
 
   /// True if all sites within that chord of the centre have points.
   static constexpr bool has_all_points(double reach) { return reach < 1.9; }
 
-  /// The point of a site; widens the error bounds if the site exceeds them.
+  /// The chart's point of a site; widens the error bounds if the site exceeds them.
   Point point(std::int64_t rank);
 
   const View& view() const { return view_; }

@@ -129,7 +129,7 @@ private:
   Vertex infinity_;
   Face hint_;
   std::vector<Member> members_;
-  // Scratch of one insertion, kept for its memory, whose size is never 0.
+  // Scratch memory of insertions; its size is never 0.
   std::vector<Edge> inner_edges_ = std::vector<Edge>(64), rim_ = std::vector<Edge>(64);
   std::vector<Face> conflicting_ = std::vector<Face>(64);
   std::size_t conflicts_ = 0, rim_size_ = 0;
@@ -137,7 +137,7 @@ private:
 
 template <class Chart> auto Triangulation<Chart>::make_vertex(const Member& member) -> Vertex {
   Vertex vertex = store_.create_vertex();
-  // Constructed there: a copy of what was just written would wait for the writes.
+  // Constructed in its final memory: a copy would wait for the writes.
   ::new (&vertex->point) Point(chart_.point(member.rank));
   vertex->local = static_cast<std::int32_t>(members_.size());
   vertex->depth = member.depth;
@@ -193,8 +193,8 @@ CALOTTE_ALL_INSTRUCTIONS bool Triangulation<Chart>::build(std::span<const Member
   abc->circle = chart_.circle(a->point, b->point, c->point);
   hint_ = abc;
 
-  // Along the curve, walks take few steps; in rounds from coarse to fine, the hull is soon complete
-  // and stars stay small.
+  // Members are inserted along the curve, so that walks take few steps, and in rounds from coarse
+  // to fine, so that the hull is soon complete and stars stay small.
   const std::int64_t n = std::ssize(members);
   constexpr std::array<std::int64_t, 3> strides{256, 16, 1}; // powers of two, for the mask
   for (std::size_t round = 0; round < strides.size(); ++round)
@@ -260,7 +260,7 @@ template <class Chart> bool Triangulation<Chart>::is_beyond(Face face, const Poi
 /// are known before the last result, so that the processor overlaps their tests.
 /// \return false, with no face marked, if the scratch is too small.
 template <class Chart> bool Triangulation<Chart>::find_conflicts(Face start, const Point& p) {
-  // The ends of the lists are pointers in registers: as members, each edge would wait for them.
+  // Local pointers stay in registers: as members, they would make each edge wait for memory.
   Face* conflicting = conflicting_.data();
   Edge *inner = inner_edges_.data(), *end = inner, *rim = rim_.data();
   const Edge* const last_with_room = inner + inner_edges_.size() - 2;

@@ -61,7 +61,7 @@ template <class Chart> AllFound<Chart> find_faces(Triangulation<Chart>& triangul
   return found;
 }
 
-/// Numbers faces member by member, those of one by their second site.
+/// Numbers faces member by member; the faces of one member are in the order of their second sites.
 /// \returns the numbers with which the members begin; behind them are the faces whose lowest site
 ///          the region does not own.
 template <class Chart>
@@ -145,7 +145,7 @@ namespace {
 
 /// The seam triangles whose lowest site one region owns, by their sites, with open addressing. A
 /// table of all seam triangles would be as large as a cache, with random access; the tables of a
-/// region and its neighbours, which hold all of its seams, are small.
+/// region and its neighbours, which contain all of its seams, are small.
 class SeamTable {
 public:
   SeamTable() = default;
@@ -153,7 +153,7 @@ public:
   explicit SeamTable(std::int64_t triangles)
       : slots_(static_cast<std::size_t>(triangles + triangles / 2 + 1)) {}
 
-  /// Enters a triangle and its index in the mesh, reported once. One thread calls it, before others
+  /// Adds a triangle, with its index in the mesh and one report. One thread calls it, before others
   /// read.
   void enter(const Seam& seam, std::int32_t index) {
     Slot& slot = find(seam.sites);
@@ -172,7 +172,7 @@ public:
     return slot.index;
   }
 
-  /// Throws unless each triangle was reported by all of its owners.
+  /// \throws Error internal unless each triangle was reported by all of its owners.
   void require_agreement() const {
     for (const Slot& slot : slots_)
       if (slot.reports.load(std::memory_order_relaxed) != slot.reporters)

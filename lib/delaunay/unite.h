@@ -27,9 +27,9 @@ struct Seam {
                          ///< from vertex i
 };
 
-/// The report of one region: its triangles with an owned vertex, each from its lowest site on.
-/// First come those whose lowest site the region owns, site by site, those of a site by their
-/// second site.
+/// The report of one region: its triangles with an owned vertex, each from its lowest site on. The
+/// triangles whose lowest site the region owns come first, in the order of their lowest and then
+/// their second sites.
 struct RegionTriangles {
   Array<Triple> sites;      ///< counter-clockwise
   Array<Triple> neighbours; ///< across from each vertex, as numbers in the report; -1 if not here

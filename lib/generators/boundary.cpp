@@ -49,7 +49,7 @@ std::vector<Curve<S>> make_curves(const Surface& surface, const DemandedSpacing&
   return curves;
 }
 
-/// Rounding may put a point of the boundary outside; some roundoffs farther in it is inside.
+/// Moves a point of the boundary inside by some roundoffs if rounding has put it outside.
 template <Space S>
 Vec3 inside(const OutlineOf<S>& outline, const Vec3& on, const Segment& segment) {
   const Vec3 left = left_of<S>(segment);
@@ -65,9 +65,10 @@ Vec3 inside(const OutlineOf<S>& outline, const Vec3& on, const Segment& segment)
   return x;
 }
 
-/// The number of cells in a lattice without a boundary that has the spacing of n generators, b of
-/// which are on the boundary and have half a cell each. b is inverse to the spacing: with b_0 edges
-/// for the spacing of n such cells, n s^2 - b_0 s / 2 - n = 0 for the ratio s of the spacings.
+/// The number of cells of a lattice without a boundary that has the spacing of n generators, b of
+/// which are on the boundary and have half a cell each. b is inversely proportional to the spacing:
+/// with b_0 edges at the spacing of n whole cells, the ratio s of the spacings satisfies n s^2 -
+/// b_0 s / 2 - n = 0.
 double whole_cells(double n, double edges) {
   const double s = (edges / 2 + std::sqrt(edges * edges / 4 + 4 * n * n)) / (2 * n);
   return n / (s * s);

@@ -11,7 +11,7 @@
 
 namespace calotte::generators_detail {
 
-/// As boundary_points(), even if there are more of them than generators.
+/// boundary_points() without the limit by the number of generators.
 Points3 all_boundary_points(const Surface& surface, std::int64_t cells, const Density& density);
 
 } // namespace calotte::generators_detail

@@ -14,7 +14,7 @@
 namespace calotte::generators_detail {
 namespace {
 
-/// On the sphere an angle.
+/// The length of a segment; on the sphere an angle.
 template <Space S> double length_of(const Segment& segment) {
   const double chord = norm(segment.to - segment.from);
   return S::on_sphere ? 2 * base_detail::arc_sine(std::min(1.0, chord / 2)) : chord;
@@ -51,7 +51,7 @@ Curve<S>::Curve(const DemandedSpacing& spacing, double longest, std::vector<Segm
   marks_.push_back({corners_.back(), segments_.size() - 1, length_of<S>(segments_.back())});
 }
 
-/// Demanded edges in a unit of length.
+/// The number of demanded edges per unit of length.
 template <Space S> double Curve<S>::rate_at(std::size_t segment, double along) const {
   const double spacing = spacing_.at(point_at<S>(segments_[segment], along));
   return 1 / hexagon_width(spacing * spacing);
@@ -117,10 +117,9 @@ template <Space S> std::vector<double> Curve<S>::kept_corners() const {
 }
 
 template <Space S> std::vector<double> Curve<S>::stops() const {
-  constexpr double fewest = 3; // of a closed curve
-  // Longer edges would let other generators come between their ends, and a boundary is closed.
-  // Along a line they may: shapes beside generators that do not move are better if these are not
-  // dense.
+  constexpr double fewest = 3; // stops of a closed curve
+  // Between the ends of longer edges, other generators could lie. On a boundary that must not
+  // happen. Along a line it may: shapes beside fixed generators are better if these are not dense.
   const double wide = closed_ ? 1 : 1.1, slack = closed_ ? 0.25 : 0.5;
   const auto number = [&](double edges) { return std::max(1.0, std::ceil(edges / wide - slack)); };
   std::vector<double> corners = kept_corners();

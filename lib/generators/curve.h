@@ -17,8 +17,8 @@ using Segment = Arc;
 /// A curve of segments, measured in the edges between neighbours that a density demands along it.
 template <Space S> class Curve {
 public:
-  /// \param spacing which must outlive this.
-  /// \param longest steps in which it is measured, in the unit of the space.
+  /// \param spacing must outlive this.
+  /// \param longest maximum step of the measurement, in the unit of the space.
   /// \param segments one or more, each beginning where the one before ends. \param closed whether
   ///        the last ends where the first begins.
   Curve(const DemandedSpacing& spacing, double longest, std::vector<Segment> segments, bool closed);
@@ -34,11 +34,11 @@ public:
   /// The position after a number of edges, from 0 to edges().
   Position position(double edges) const;
 
-  /// Where generators stand, ascending: at the corners that are kept, and between two of them at
-  /// equal numbers of edges, from 5/8 to 5/4, of an open curve from 2/3 to 5/3. Corners where the
-  /// curve turns by 20 degrees or more are kept, unless one that comes first is nearer than two
-  /// thirds of an edge; the ends of an open curve come first, then sharper corners. A closed curve
-  /// has three or more.
+  /// The positions of generators in numbers of edges, ascending. Generators are at the kept
+  /// corners, and between two of these at equal distances: from 5/8 to 5/4 edges, on an open curve
+  /// from 2/3 to 5/3. A corner where the curve turns by 20 degrees or more is kept, unless a corner
+  /// of higher priority is nearer than two thirds of an edge; the ends of an open curve have the
+  /// highest priority, then sharper corners. A closed curve has three or more generators.
   std::vector<double> stops() const;
 
 private:
@@ -56,14 +56,14 @@ private:
   const DemandedSpacing& spacing_;
   std::vector<Segment> segments_;
   bool closed_;
-  std::vector<Mark> marks_;           ///< a tenth of an edge apart; the last one is the end
+  std::vector<Mark> marks_;           ///< a tenth of an edge apart; the last mark is the end
   std::vector<double> corners_ = {0}; ///< edges at the starts of segments, and at the end
 };
 
-/// To the left of a segment; a unit vector.
+/// The unit vector to the left of a segment.
 template <Space S> Vec3 left_of(const Segment& segment);
 
-/// The longest steps in which curves of a surface are measured: a share of its extent.
+/// The maximum step of the measurement of curves on a surface: a share of its extent.
 template <Space S> double longest_step(const Surface& surface);
 
 extern template class Curve<Sphere>;

@@ -67,7 +67,7 @@ CosSin cos_sin(std::uint64_t turns) {
 
 using Triple = std::array<std::int32_t, 3>;
 
-/// A triangle's vertices, from the lowest on, and the triangles across from them.
+/// A triangle's vertices, starting with the lowest, and the triangles across from them.
 struct LinkedTriangle {
   Triple vertices, neighbours;
 };
@@ -78,8 +78,8 @@ LinkedTriangle from_lowest(const Triple& v, const Triple& across) {
   return {{v[first], v[second], v[third]}, {across[first], across[second], across[third]}};
 }
 
-/// Each site of the hexagons has two triangles: 2i contains the next site in its row, 2i + 1 has
-/// its tip at the site.
+/// The triangles of a hexagonal lattice, two for each site i: 2i contains the next site in the row,
+/// 2i + 1 has its tip at site i.
 std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_t rows) {
   std::vector<LinkedTriangle> out;
   out.reserve(static_cast<std::size_t>(2 * columns * rows));
@@ -98,7 +98,7 @@ std::vector<LinkedTriangle> hexagons_triangles(std::int64_t columns, std::int64_
   return out;
 }
 
-/// Sorted by their vertices.
+/// Sets the triangles of a hexagonal lattice, sorted by their vertices.
 void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, Mesh& mesh) {
   const std::vector<LinkedTriangle> triangles = hexagons_triangles(columns, rows);
   std::vector<std::int32_t> order(triangles.size()), index(triangles.size());
@@ -121,7 +121,7 @@ void set_hexagons_triangles(std::int64_t columns, std::int64_t rows, Mesh& mesh)
   }
 }
 
-/// Leaves out the points from the first on that lie outside.
+/// Removes the points from index `first` on that lie outside.
 Points3 inside_after(std::int64_t first, Points3&& points, const Surface& surface) {
   std::int64_t next = first;
   for (std::int64_t i = first; i < points.cols(); ++i)
@@ -171,7 +171,7 @@ Points3 fibonacci_sphere(std::int64_t n) {
   constexpr std::uint64_t golden_high = 0x61c8864680b583ea, golden_next = 0x0c633f9fa31237cb;
   Points3 points(3, n);
   for (std::int64_t i = 0; i < n; ++i) {
-    // The lower half is worth i * golden_next / 2^64 < 2^30 units: the top 32 bits of it suffice.
+    // The lower half contributes i * golden_next / 2^64 < 2^30 units: its top 32 bits suffice.
     const auto count = static_cast<std::uint64_t>(i);
     const CosSin longitude = cos_sin(count * golden_high + ((count * (golden_next >> 32)) >> 32));
     const double z = static_cast<double>(n - (2 * i + 1)) / static_cast<double>(n);

@@ -37,7 +37,7 @@ struct Row {
   std::int64_t from = std::numeric_limits<std::int64_t>::min(), to = -(from + 1);
   bool empty = false;
 
-  /// Those with slope x + constant > 0.
+  /// Restricts the range to x with slope x + constant > 0.
   void bound(std::int64_t slope, std::int64_t constant) {
     if (slope > 0)
       from = std::max(from, ceiling(1 - constant, slope));
@@ -96,7 +96,7 @@ Points3 make_points(const Net& net) {
   return points;
 }
 
-/// Whether a bisected icosahedron has 10 times as many points, and two.
+/// Whether a bisected icosahedron has 10 `square` + 2 points.
 bool is_power_of_four(std::int64_t square) {
   while (square % 4 == 0)
     square /= 4;

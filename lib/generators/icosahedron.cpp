@@ -47,8 +47,8 @@ namespace {
 using namespace generators_detail;
 using Triple = EdgeMesh::Triple;
 
-/// Splits every triangle in four. The midpoint of edge e is vertex `vertices` + e; e becomes the
-/// edges 2e, at its first vertex, and 2e + 1; the edges inside the triangles follow.
+/// Divides every triangle in four. The midpoint of edge e is vertex `vertices` + e. Edge e becomes
+/// the edges 2e, at its first vertex, and 2e + 1. The edges inside the triangles follow.
 EdgeMesh refine(const EdgeMesh& coarse, std::int32_t vertices) {
   EdgeMesh fine;
   const std::size_t edge_count = coarse.edges.size(), triangle_count = coarse.triangles.size();

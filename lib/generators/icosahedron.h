@@ -24,7 +24,7 @@ inline constexpr std::size_t icosahedron_vertices = 12, icosahedron_edges = 30;
 /// The unit vertices (0, +-1, +-phi) and their cyclic shifts, normalised.
 std::array<Vec3, icosahedron_vertices> icosahedron_points();
 
-/// Its 20 faces.
+/// The 20 faces of the icosahedron.
 EdgeMesh icosahedron();
 
 } // namespace calotte::generators_detail

@@ -58,7 +58,8 @@ private:
     near(b).push_back(a);
   }
 
-  /// From a point to its neighbour and on, to a point that is an end or a confluence, or back.
+  /// Follows a chain from a point by way of a neighbour to an end or a confluence, or back to the
+  /// point.
   void follow(std::int32_t from, std::int32_t to) {
     std::vector<std::int32_t>& chain = chains_.emplace_back();
     chain.push_back(from);
@@ -79,7 +80,7 @@ private:
         follow(from, to);
   }
 
-  /// In an order that depends on the points alone where the lines leave a choice.
+  /// Traces all chains. Where the lines leave a choice, the order depends on the points alone.
   void trace() {
     const auto count = static_cast<std::int32_t>(points_.size());
     const auto before = [&](std::int32_t a, std::int32_t b) {

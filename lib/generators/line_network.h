@@ -11,17 +11,18 @@
 
 namespace calotte::generators_detail {
 
-/// Lines as one network: how they are cut into parts does not matter, and what several of them
-/// share is there once.
+/// Lines as one network. It does not depend on how the lines are cut into parts, and contains
+/// shared parts of lines once.
 struct LineNetwork {
   std::vector<Vec3> points;    ///< distinct; unit vectors on the sphere
   std::vector<int> neighbours; ///< of each point: 1 at an end, 3 or more at a confluence
-  /// Ways from an end or confluence to the next one, or round a loop that has neither: indices of
-  /// points, two or more; of a single point one.
+  /// Chains from an end or confluence to the next one, or around a loop that has neither, as
+  /// indices of two or more points. A single point is a chain of one.
   std::vector<std::vector<std::int32_t>> chains;
 };
 
-/// \param lines each 3 x n, on the sphere directions. \param sphere or in the plane.
+/// \param lines each 3 x n; directions on the sphere. \param sphere whether they lie on the sphere;
+/// else in the plane.
 /// \throws Error invalid_argument as domain_detail::checked_line().
 LineNetwork make_network(const std::vector<Points3>& lines, bool sphere);
 

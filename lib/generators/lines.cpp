@@ -24,7 +24,7 @@ namespace {
 using namespace generators_detail;
 using base_detail::require;
 
-/// A tree of positions; those of a plane are in the order of lines, which keeps neighbours
+/// A tree of positions. In a plane the positions are in the order of lines, which keeps neighbours
 /// together.
 BoxTree tree_of(const std::vector<Vec3>& positions, bool sphere) {
   std::vector<Box3> boxes;
@@ -83,8 +83,8 @@ double edge_at(const DemandedSpacing& spacing, const Vec3& x) {
   return hexagon_width(h * h);
 }
 
-/// Those of some positions that are not nearer than two thirds of the demanded edge to one before
-/// them, or to other points.
+/// Selects positions that are no nearer than two thirds of the demanded edge to a previously
+/// selected position or to other points.
 std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>& positions,
                         const DemandedSpacing& spacing, bool sphere) {
   constexpr double nearest = 2.0 / 3;
@@ -107,8 +107,7 @@ std::vector<Vec3> apart(const std::vector<Vec3>& others, const std::vector<Vec3>
   return kept;
 }
 
-/// The largest distance of a position on curves from the nearest of some points, over the demanded
-/// edge there.
+/// The largest distance of positions on curves from the nearest of some points, in demanded edges.
 template <Space S>
 double farthest(const std::vector<Curve<S>>& curves, const LineDistance& from_points,
                 const DemandedSpacing& spacing) {

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-// The nets are a lattice in 20 dimensions, of which only the number of points is prescribed. All is
-// decided in integers.
+// The nets form a lattice in 20 dimensions. Only the number of points is prescribed. All decisions
+// are made in integers.
 
 namespace calotte::generators_detail {
 namespace {
@@ -62,7 +62,7 @@ bool turns_no_face_over(const Net& net) {
 
 // ---- Moves: short nets that generate all others
 
-/// The edge after another one, counter-clockwise around a vertex.
+/// The edge after a given one, counter-clockwise around a vertex.
 std::size_t next_spoke(std::int32_t vertex, std::size_t spoke) {
   for (std::size_t face = 0; face < solid().triangles.size(); ++face)
     for (std::size_t i = 0; i < 3; ++i)
@@ -71,7 +71,7 @@ std::size_t next_spoke(std::int32_t vertex, std::size_t spoke) {
   return spoke;
 }
 
-/// The ends of an edge move against each other, and no other vertex moves.
+/// The move of the two ends of an edge in opposite directions; no other vertex moves.
 Net move_of_edge(std::size_t e) {
   Net net{};
   net[e] = {1, 1};
@@ -101,9 +101,9 @@ Side across(const Side& side) {
   return side;
 }
 
-/// One row of cells more along a Petrie polygon, the zigzag of ten edges around an axis through two
-/// vertices.
-/// \param side where it begins.
+/// The move that adds a row of cells along a Petrie polygon, the zigzag of ten edges around an axis
+/// through two vertices.
+/// \param side where the zigzag begins.
 Net move_of_zigzag(Side side) {
   Net net{};
   for (int sixths = 0; net[side.edge()] == Step(); sixths = 1 - sixths) {
@@ -113,11 +113,12 @@ Net move_of_zigzag(Side side) {
   return net;
 }
 
-/// All moves, and what a search adds up.
+/// All moves, and their terms that a search sums.
 struct Moves {
   std::vector<Net> nets;
-  std::vector<std::size_t> first; ///< one edge's and one polygon's: the others are rotations
-  std::vector<std::int64_t> triangles, with_1, with_w; ///< the latter mixed with regular nets
+  std::vector<std::size_t> first; ///< of an edge and of a polygon: others are rotations
+  /// The number of triangles, and the mixed terms with regular nets.
+  std::vector<std::int64_t> triangles, with_1, with_w;
   std::vector<std::vector<std::int64_t>> mixed;
 
   void add(const Net& net) {
@@ -154,8 +155,8 @@ Moves make_moves() {
 
 // ---- The net of a number of points
 
-/// The vectors with a length within `reach` of that of a regular net, but for turns by a sixth; the
-/// ones whose number of points is nearest to n first.
+/// Vectors with a length within `reach` of that of a regular net of n points, up to turns by a
+/// sixth. Those whose number of points is nearest to n come first.
 std::vector<Step> steps_near(std::int64_t n, double reach) {
   const double length = std::sqrt(static_cast<double>(n - 2) / 10);
   const double most = length + reach, least = std::max(length - reach, 0.0);
@@ -191,7 +192,8 @@ struct Best {
   }
 };
 
-/// Offers the nets of so many triangles that up to three moves away from a regular one make.
+/// Searches for nets with the wanted number of triangles that are up to three moves away from a
+/// regular net.
 void search_around(const Step& step, std::int64_t wanted, const Moves& moves, Best& best) {
   const Net start = regular(step);
   const std::size_t count = moves.nets.size();

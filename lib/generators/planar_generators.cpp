@@ -46,13 +46,14 @@ struct Lattice {
   }
 
 private:
-  /// Bounded by the count of a box of most_points points that is as narrow as the spacing.
+  /// The number of rows or columns, at most that of a box with most_points points that is as narrow
+  /// as the spacing.
   static std::int64_t count(double extent, double step) {
     return static_cast<std::int64_t>(std::min(extent / step + 1, double(8 * most_points)));
   }
 };
 
-/// body(row, column) for the points of some rows that are inside.
+/// Calls body(point) for the points of some rows that are inside.
 template <class Body>
 void for_each_inside(const Outline& outline, const Lattice& lattice, std::int64_t row,
                      const Body& body) {
@@ -79,8 +80,8 @@ std::int64_t count_inside(const Outline& outline, double spacing) {
   return sum;
 }
 
-/// Among the spacings that the bisection tries, the one whose number is nearest to n. A wider
-/// spacing gives fewer points on the whole, but not monotonically.
+/// Finds, among the spacings that a bisection tries, the one whose number of points is nearest to
+/// n. A wider spacing gives fewer points in general, but not monotonically.
 double spacing_for(std::int64_t n, const Outline& outline) {
   const double first = std::sqrt(outline.area() / (rise * static_cast<double>(n)));
   std::int64_t best_miss = std::numeric_limits<std::int64_t>::max();
@@ -93,7 +94,8 @@ double spacing_for(std::int64_t n, const Outline& outline) {
     }
     return miss;
   };
-  // A boundary may have any length; a factor of 2 in the spacing gives 4 times as many points.
+  // Brackets the spacing: a boundary may have any length, and halving the spacing gives 4 times as
+  // many points.
   double low = first, high = first;
   constexpr int most_steps = 24;
   const std::int64_t miss = misses(first);
@@ -130,7 +132,7 @@ struct Grid {
   std::int64_t columns = 0, rows = 0;
 };
 
-/// The sum of the relative misses, see the header.
+/// The sum of the relative errors of shape and number, see the header.
 double relative_error(const Grid& grid, std::int64_t n, const Eigen::Vector2d& period) {
   const auto columns = static_cast<double>(grid.columns), rows = static_cast<double>(grid.rows);
   const double shape = (period.y() / rows) / (period.x() / columns) / rise;

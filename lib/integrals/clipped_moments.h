@@ -11,7 +11,7 @@
 
 #include <vector>
 
-/// Cells that a boundary may clip, each by itself.
+/// Moments of single cells that a boundary may clip.
 namespace calotte::integrals_detail {
 
 /// The square of the distance from a triangle's corners to its circumcentre.
@@ -24,14 +24,14 @@ bool near_boundary(const Outline& outline, const Vec3& x, double square);
 
 /// The moments of the part of a site's cell inside the boundary.
 ///
-/// The cell is seen in the plane, on the sphere in the one that touches it at the site, see
+/// The cell is computed in a plane; on the sphere, in the tangent plane at the site, see
 /// TangentLift, where bisectors and boundary are straight lines. Its sides are the parts of its
-/// Voronoi edges inside the boundary and the parts of the boundary inside the cell, whatever pieces
-/// these bound. A density may be asked for outside of the surface, but within the cell.
+/// Voronoi edges inside the boundary and the parts of the boundary inside the cell. The density may
+/// be evaluated outside of the surface, but within the cell.
 ///
-/// Where the centroid lies outside, as it may beside a boundary that is not convex, `first` is that
-/// of a cell whose centroid is the nearest point of the boundary within the cell, so that a
-/// generator at its centroid is inside, and rests where it can come no nearer to the true one.
+/// Beside a boundary that is not convex, the centroid may lie outside. Then `first` is that of a
+/// cell whose centroid is the nearest point of the boundary within the cell, so that a generator at
+/// its centroid is inside, as near to the true centroid as possible.
 /// \param neighbours of the cell, in any order.
 CellMoments clipped_moments(const Integrand& integrand, const SphericalOutline& outline,
                             const Vec3& site, const std::vector<Vec3>& neighbours);

@@ -13,10 +13,10 @@
 namespace calotte::integrals_detail {
 namespace {
 
-/// As many nodes of a rule, an orbit, are integrated together.
+/// The number of nodes that are integrated together, an orbit of a rule.
 constexpr std::size_t group = 3;
 
-/// A value on the half kite of each edge's first end, then on that of the second.
+/// Values on the half kites at the edges' first ends, then at their second ends.
 using HalfRows = std::array<double, 2 * lanes>;
 
 /// A group of nodes on both half kites of an edge: mirror images, at the same distance from the
@@ -28,15 +28,15 @@ struct alignas(64) NodeRows {
   std::array<HalfRows, group> rho;
 };
 
-/// One edge of each triangle, with what lies across.
+/// One edge of each triangle of a batch, with the data across from it.
 struct Edge {
   const Rows3 &first, &second; ///< its ends
   const CentreRows& centres;
   const Row &quarter, &cotangent;
 };
 
-/// Shares of an edge's ends and of the circumcentre in a node on the first half kite. On the second
-/// the ends change positions.
+/// The weights of an edge's ends and of the circumcentre in a node on the first half kite. On the
+/// second half kite the ends are swapped.
 struct Shares {
   double near, far, centre;
 
@@ -61,10 +61,10 @@ struct NodeSquare {
   CALOTTE_INLINE double operator()(double s, double k) const { return s * (along + across * k); }
 };
 
-/// How a node counts.
+/// The position and weight of a lifted node.
 struct Lifted {
-  double scale;  ///< from the flat triangle to where the density is asked for
-  double weight; ///< over that of the rule
+  double scale;  ///< from the flat triangle to the point where the density is evaluated
+  double weight; ///< relative to that of the rule
   double square; ///< of the distance to the end
 };
 
@@ -112,7 +112,7 @@ ChordLift lift_of(const SphericalTriangles&, const QuadratureRule::Node& node) {
 }
 NoLift lift_of(const FlatTriangles&, const QuadratureRule::Node& node) { return NoLift(node); }
 
-/// Sets the rows of a node of each edge, but for the density.
+/// Sets the rows of a node of each edge, except the density.
 template <class Lift>
 CALOTTE_VECTOR_WIDTHS void set_node(const Lift& given_lift, const Shares& given_shares,
                                     const Edge& edge, std::size_t k, NodeRows& nodes) {

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <vector>
 
-/// Moments of cells that a boundary may clip. A plane shows the part of such a cell inside as a
-/// polygon, with the site at 0: the fan of triangles with a corner there, one on each side, signed
-/// by their orientation.
+/// Moments of cells that a boundary may clip. In a plane, the part of such a cell inside is a
+/// polygon with the site at 0: a fan of triangles with a corner at 0, one for each side, signed by
+/// their orientation.
 namespace calotte::integrals_detail {
 
 /// Integrals over a fan.
@@ -33,12 +33,12 @@ struct FanSums {
   }
 };
 
-/// For cells in the plane itself.
+/// The lift of cells in the plane itself: the identity.
 class FlatLift {
 public:
   explicit FlatLift(const Vec2& site) : site_(site) {}
 
-  /// Where the density is asked for.
+  /// The point where the density is evaluated.
   Vec3 position(const Vec2& u) const { return {site_.x + u.x, site_.y + u.y, 0}; }
   /// The integrands at u, for rho = 1.
   static FanSums at(const Vec2& u) { return {u, 1, dot(u, u)}; }
@@ -56,7 +56,7 @@ private:
   Vec2 site_;
 };
 
-/// For cells on the sphere, in the plane that touches it at the site: y = (x_i + u) / sqrt(1 +
+/// The lift of cells on the sphere, from the tangent plane at the site: y = (x_i + u) / sqrt(1 +
 /// u^2). Bisectors and boundary are straight lines there.
 class TangentLift {
 public:
@@ -66,13 +66,15 @@ public:
     const Vec3 there = plane_->lifted(u);
     return (1 / norm(there)) * there;
   }
-  /// An area of the plane is (1 + u^2)^(3/2) times that on the sphere.
+  /// The integrands at u, for rho = 1. An area in the plane is (1 + u^2)^(3/2) times that on the
+  /// sphere.
   static FanSums at(const Vec2& u) {
     const double square = dot(u, u), root = std::sqrt(1 + square);
     return (1 / ((1 + square) * (1 + square))) *
            FanSums{u, 1, 2 * square / (root + 1)}; // |y - x|^2 = 2 (1 - 1/root)
   }
-  /// The first moment is half of the side's arc times its normal.
+  /// The integrals over the triangle at a side, for rho = 1. The first moment is half of the side's
+  /// arc times its normal.
   static FanSums over(const CellSide& side) {
     const Halves halves(side);
     return {(0.5 * halves.arc() * halves.to.cosine) * halves.across,
@@ -87,8 +89,8 @@ public:
   }
 
 private:
-  /// The triangle at a side is the difference of two right ones, from the site to the nearest point
-  /// of the side's line and on to the side's ends.
+  /// The two right triangles whose difference is the triangle at a side: from the site to the
+  /// nearest point of the side's line, and on to the side's ends.
   struct Halves {
     explicit Halves(const CellSide& side) {
       const Vec2 way = side.q - side.p;
@@ -114,7 +116,8 @@ private:
   const TangentPlane* plane_;
 };
 
-/// Uniform density in closed form, others by the integrand's rule on each triangle.
+/// Sums the integrals over a fan: in closed form for uniform density, else by the integrand's rule
+/// on each triangle.
 template <class Lift>
 FanSums sum_fan(const Integrand& integrand, const Lift& lift, const std::vector<CellSide>& sides) {
   FanSums sums;

@@ -9,9 +9,9 @@
 
 namespace calotte::integrals_detail {
 
-/// The right spherical triangle from a site along an arc of less than pi/2 to its end, there to the
-/// left by a signed arc, and back: half of a kite, where the first arc is half of an edge and the
-/// second one ends in the circumcentre.
+/// Half of a kite, a right spherical triangle. Its first leg is half of an edge, an arc of less
+/// than pi/2 from the site; its second leg is a signed arc to the left, which ends in the
+/// circumcentre.
 struct HalfEdge {
   double sine, cosine; ///< of the first arc
   double arc, tangent; ///< the signed arc, and the tangent of half of it
@@ -21,7 +21,7 @@ struct HalfEdge {
 /// \param cotangent of the flat triangle's angle across.
 CALOTTE_INLINE HalfEdge half_edge(double quarter, double cotangent) {
   const double sine = std::sqrt(quarter), cosine = std::sqrt(1 - quarter);
-  // Rounding can pass 1 where the circumcap is a hemisphere.
+  // Rounding can exceed 1 where the circumcap is a hemisphere.
   const double raw = sine / cosine * cotangent, low = raw < -1 ? -1 : raw;
   const double sine_of_arc = low > 1 ? 1 : low;
   return {sine, cosine, arc_sine(sine_of_arc),
@@ -48,9 +48,9 @@ CALOTTE_INLINE double arc_tangent_excess(double z) {
                                                        z * (1.0 / 23 - z * (1.0 / 25))))))))))));
 }
 
-/// The integral of |y - x|^2, x the site: twice the area less the arc times the sine. With p and q
-/// the tangents of half of both arcs and c = 1/(1 + p^2), the sine is 2 p c. Where the arc is
-/// small, the series of atan(p q) and atan(q) are subtracted term by term.
+/// The integral of |y - x|^2 over half a kite, x the site: twice the area minus the arc times the
+/// sine. With p and q the tangents of half of both arcs and c = 1/(1 + p^2), the sine is 2 p c.
+/// Where the arc is small, the series of atan(p q) and atan(q) are subtracted term by term.
 CALOTTE_INLINE double half_energy(const HalfEdge& half) {
   const double p = half.sine / (1 + half.cosine);
   const double q = half.tangent;
@@ -63,7 +63,7 @@ CALOTTE_INLINE double half_energy(const HalfEdge& half) {
   return 4 * (low ? by_series : direct);
 }
 
-/// What half an edge adds to both of its ends.
+/// The terms that half an edge adds to both of its ends.
 struct EdgeTerms {
   double pull; ///< arc / (2 |a-b|): the first moment's part is that times (a - b) for a
   double energy;
@@ -73,7 +73,7 @@ CALOTTE_INLINE EdgeTerms edge_terms(const HalfEdge& half) {
   return {0.25 * half.arc / half.sine, half_energy(half)};
 }
 
-/// The same by series in S and w, where both are small. With s = |a-b|/2 the sine of half of the
+/// The terms by series in S and w, where both are small. With s = |a-b|/2 the sine of half of the
 /// edge's arc, S = s^2, u = s cot(C)/sqrt(1-S) the sine of the signed arc and w = u^2.
 class ShortEdge {
 public:

@@ -4,7 +4,8 @@
 namespace calotte::integrals_detail {
 namespace {
 
-/// The nodes of a rule on each of divisions^2 similar parts of a triangle, as nodes on the whole.
+/// The nodes of a rule on each of divisions^2 similar parts of a triangle, in the coordinates of
+/// the whole triangle.
 std::vector<QuadratureRule::Node> composite(const QuadratureRule& rule, int divisions) {
   std::vector<QuadratureRule::Node> nodes;
   const double step = 1.0 / divisions;

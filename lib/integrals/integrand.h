@@ -16,7 +16,8 @@ namespace calotte::integrals_detail {
 struct Integrand {
   DensityEvaluator density;
   bool uniform = true;
-  /// The density is evaluated at the sites only, and linear on each triangle; not in a plane.
+  /// Whether the density is evaluated at the sites only and is linear on each triangle; false in a
+  /// plane.
   bool at_sites = false;
   /// The nodes on all parts of a half kite, in threes; weights sum to 1. Empty for uniform density.
   std::vector<QuadratureRule::Node> nodes;

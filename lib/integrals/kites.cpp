@@ -55,7 +55,7 @@ void scatter_mass(const Batch& batch, const TriangleTerms& terms, Array<double>&
       mass[batch.locals[lane][v]] += terms[v].mass[lane];
 }
 
-/// Adds triangles that are not clear to the suspects.
+/// Adds triangles without a positive clearance to the suspects.
 void add_suspects(const Batch& batch, const TriangleRows& rows, std::size_t first,
                   std::vector<std::int32_t>& suspects) {
   for (std::size_t lane = 0; lane < batch.count; ++lane)
@@ -68,8 +68,8 @@ std::vector<Sliver> slivers_of(const SphericalTriangles&, const Batch& batch, Tr
 }
 std::vector<Sliver> slivers_of(const FlatTriangles&, const Batch&, TriangleRows&) { return {}; }
 
-/// Gives sites whose first moment is less than the rounding of its terms, as in a cluster, one of
-/// that size along the site: the direction of the sum is arbitrary, or there is none.
+/// Replaces first moments that are smaller than the rounding of their terms, as in a cluster, by a
+/// moment of that size along the site: the direction of the sum is arbitrary, or there is none.
 void set_vanishing(const std::vector<std::int32_t>& sites, const Array<Vec3>& x,
                    Array<CellMoments>& moments) {
   constexpr double rounding = 0x1p-50;

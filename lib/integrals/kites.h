@@ -15,11 +15,11 @@ namespace calotte::integrals_detail {
 
 /// Moments of the Voronoi cell of a site x_i.
 struct CellMoments {
-  Vec3 first;    ///< integral of rho x; in the plane those of rho (x - x_i), rho (y - y_i) and rho
+  Vec3 first;    ///< integral of rho x; in the plane of rho (x - x_i), rho (y - y_i) and rho
   double energy; ///< integral of rho |x - x_i|^2
 };
 
-/// Where the sums over triangles go, by local number of a site.
+/// The output of sums over triangles, by local number of a site.
 struct CellSums {
   Array<CellMoments>& moments;
   Array<double>* mass = nullptr; ///< integral of rho, if not null; on the sphere alone
@@ -34,12 +34,13 @@ struct CellSums {
 /// sin(theta/2). Obtuse triangles contribute signed arcs. Triangles that the stored corners do not
 /// resolve are integrated from their directions without rounding, see slivers.h.
 ///
-/// Other densities: on the flat triangle, whose plane is at the distance D from the centre and
-/// touches the sphere of radius D in the circumcentre, integral f = D integral of f(p/|p|)/|p|^3
-/// over the half kite, which central projection makes exact but for the rule: good where cells are
-/// small beside the density's changes and their circumcaps beside a hemisphere.
+/// Other densities are integrated on the flat triangle. Its plane is at the distance D from the
+/// centre and touches the sphere of radius D in the circumcentre. By central projection, integral f
+/// = D integral of f(p/|p|)/|p|^3 over the half kite, exact except for the rule. The rule is
+/// accurate where cells are small compared with the changes of the density, and their circumcaps
+/// small compared with a hemisphere.
 ///
-/// In the plane the same without curvature.
+/// In the plane the same formulas hold without curvature.
 /// \param suspects triangles, by their position, that are not clearly acute and counter-clockwise
 ///        are added.
 void sum_kites(const SphericalTriangles& sphere, const Integrand& integrand,

@@ -9,14 +9,14 @@
 namespace calotte::integrals_detail {
 namespace {
 
-/// The shares of the corners in the circumcentre, which is the sum of (1 - cot B cot C)/2 times
-/// corner A, and the density there.
+/// The barycentric coordinates of the circumcentre, (1 - cot B cot C)/2 for corner A, and the
+/// density there.
 struct alignas(64) CentreShares {
   Rows3 corner;
   Row rho;
 };
 
-/// The shares of the corners in the first moment of each vertex.
+/// The coefficients of the corners in the first moment of each vertex.
 using MomentRows = std::array<Rows3, 3>; ///< [vertex][corner]
 
 CALOTTE_VECTOR_WIDTHS
@@ -91,7 +91,7 @@ void set_first(const SphericalTriangles&, const Batch& batch, const MomentRows& 
   }
 }
 
-/// From the vertex on, and the mass.
+/// The first moments in the plane, relative to the vertex, with the mass.
 CALOTTE_VECTOR_WIDTHS
 void set_first(const FlatTriangles&, const Batch& batch, const MomentRows& moments,
                TriangleTerms& terms) {

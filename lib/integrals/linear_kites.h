@@ -7,9 +7,10 @@
 
 namespace calotte::integrals_detail {
 
-/// Sets the terms of triangles with a density that is linear on each half kite: between its values
-/// at the two ends of the half edge and at the circumcentre. The density at the circumcentre is
-/// linear on the triangle, between the least and the greatest of the corners.
+/// Sets the terms of triangles with a density that is linear on each half kite, interpolated
+/// between its values at the two ends of the half edge and at the circumcentre. The density at the
+/// circumcentre is that of linear interpolation on the triangle, clamped to the range of the
+/// corners.
 ///
 /// On the sphere the terms are those of the flat triangle: they differ from the sphere's by its
 /// circumradius squared, as the density does from a smooth one.

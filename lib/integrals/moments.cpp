@@ -24,8 +24,8 @@ FlatTriangles triangles_in(const Generators<Plane>& of, const Array<Vec3>& x) {
   return {of.space, largest};
 }
 
-/// The sites of a patch whose cells are within a boundary or cut by it; its other sites are halo,
-/// or have no cells.
+/// The sites of a patch whose cells are inside a boundary or cut by it. Its other sites are in the
+/// halo, or have no cells.
 struct CellsByBoundary {
   std::vector<std::uint8_t> whole; ///< by local number: 1 inside the boundary
   std::vector<std::int32_t> clipped;
@@ -55,7 +55,7 @@ CellsByBoundary by_boundary(const Generators<S>& of, const Patch& patch, const A
   return cells;
 }
 
-/// The triangles of whole cells: no density is asked for elsewhere.
+/// The triangles of whole cells: the density is not evaluated elsewhere.
 std::vector<Triple> triangles_of(const CellsByBoundary& cells, const Patch& patch) {
   std::vector<Triple> triangles;
   for (const Triple& t : patch.corners)

@@ -23,18 +23,18 @@ namespace calotte::integrals_detail {
 template <Space S> struct Generators {
   S space;
   const OutlineOf<S>* outline = nullptr; ///< the boundary, which clips the cells; null without one
-  std::int64_t count = 0; ///< sites from this number on close the mesh, and have no cells
+  std::int64_t count = 0; ///< number of generators; later sites close the mesh and have no cells
 };
 
-/// Moments of the cells of a patch's own sites, by local number; those of its halo are not whole.
-/// Each is summed over the site's triangles in the patch's order: the same bits for any partition.
-/// See sum_kites(), and clipped_moments() for cells that the boundary reaches.
+/// Computes the moments of the cells of a patch's own sites, by local number; those of its halo are
+/// incomplete. Each is summed over the site's triangles in the patch's order: the same bits for any
+/// partition. See sum_kites(), and clipped_moments() for cells that the boundary reaches.
 ///
 /// \param x by local number: unit vectors, or positions with z = 0, in a periodic box inside it.
 /// \param sums with masses only on the sphere without a boundary.
 /// \param suspects triangles of the patch, by index in its list, that are not clearly acute and
-///        counter-clockwise, are added. Where none is, the mesh is Delaunay: the angles across
-///        each edge sum to less than two right ones.
+///        counter-clockwise, are added. Without suspects the mesh is Delaunay: the angles across
+///        each edge sum to less than pi.
 template <Space S>
 void integrate(const Integrand& integrand, const Generators<S>& of, const Patch& patch,
                const Array<Vec3>& x, const CellSums& sums, std::vector<std::int32_t>& suspects);
@@ -60,13 +60,13 @@ struct Moments {
   Array<double> energy; ///< integral of rho |x - x_i|^2
 };
 
-/// \param sites of a closed mesh, the generators first; as integrate() takes them.
+/// \param sites of a closed mesh, the generators first; see integrate().
 /// \param of not a region of the sphere.
 template <Space S>
 Moments cell_moments(const Generators<S>& of, std::span<const Vec3> sites,
                      const Triangles& triangles, const Integrand& integrand);
 
-/// The same of a mesh of the sphere. \param mesh closed, of unit columns.
+/// The moments of a mesh of the sphere. \param mesh closed, of unit columns.
 Moments mesh_moments(const Mesh& mesh, const Density& density, int rule = 6, int divisions = 1);
 
 } // namespace calotte::integrals_detail

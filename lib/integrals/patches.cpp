@@ -15,7 +15,8 @@ using Triple = std::array<std::int32_t, 3>;
 struct ByKey {
   const Triangles& triangles;
 
-  /// Lowest site and the one that follows it: no two triangles of a mesh share them.
+  /// The key of a triangle: its lowest site and the next one. No two triangles of a mesh share
+  /// both.
   std::uint64_t key_of(std::int32_t t) const {
     const Triple sites = sites_from_lowest(triangles, t);
     return std::uint64_t{static_cast<std::uint32_t>(sites[0])} << 32 |
@@ -124,7 +125,7 @@ Triple sites_from_lowest(const Triangles& triangles, std::int32_t t) {
 }
 
 void sort_by_sites(std::vector<std::int32_t>& list, const Triangles& triangles) {
-  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // true for the library's meshes
+  if (!std::is_sorted(list.begin(), list.end(), ByKey{triangles})) // sorted in the library's meshes
     std::sort(list.begin(), list.end(), ByKey{triangles});
 }
 

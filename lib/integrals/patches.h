@@ -13,7 +13,7 @@
 
 namespace calotte::integrals_detail {
 
-/// Which region owns each site.
+/// The regions that own the sites.
 struct Ownership {
   Array<std::int32_t> owner;                    ///< by site; negative if no region owns it
   Array<std::int32_t> index;                    ///< by site: its index among those of its owner
@@ -23,29 +23,29 @@ struct Ownership {
 /// \param owner by site: a region from 0 to regions - 1, or a negative number for none.
 Ownership make_ownership(Array<std::int32_t>&& owner, std::int32_t regions);
 
-/// The part of a closed mesh that a region's task reads: the triangles with a site of its own, and
-/// the sites of these. It holds no positions; the task copies them after each move.
+/// The part of a closed mesh that a region's task reads: the triangles with a site that the region
+/// owns, and the sites of these. It has no positions; the task copies them after each move.
 struct Patch {
   std::int32_t region = 0;
   std::vector<std::int32_t>
       sites; ///< by local number: those it owns, then its halo; each ascending
   std::int32_t owned = 0;
-  /// Numbers in the mesh, ordered by the triangles' lowest site and the one that follows it there:
-  /// an order that the triangulation alone determines, whatever the partition and the history.
+  /// Numbers in the mesh, ordered by the triangles' lowest site and the site after it. The
+  /// triangulation alone determines the order, for any partition and history.
   std::vector<std::int32_t> triangles;
   /// The corners of these triangles, from their lowest site on, as local numbers.
   std::vector<std::array<std::int32_t, 3>> corners;
 };
 
-/// The sites of a triangle from the lowest on: the moments have the same bits only if they start at
-/// the same corner.
+/// The sites of a triangle, starting with the lowest: moments have the same bits only if they start
+/// at the same corner.
 std::array<std::int32_t, 3> sites_from_lowest(const Triangles& triangles, std::int32_t t);
 
-/// Sorts triangles as a patch has them.
+/// Sorts triangles in the order of a patch.
 /// \param list their numbers, each once.
 void sort_by_sites(std::vector<std::int32_t>& list, const Triangles& triangles);
 
-/// True if some of a patch's own sites follow each other in the mesh, as most do that are numbered
+/// True if some of a patch's own sites are consecutive in the mesh, as most are that are numbered
 /// along a curve.
 /// \param first, count of their local numbers.
 inline bool are_consecutive(const Patch& patch, std::int64_t first, std::int64_t count) {
@@ -53,7 +53,7 @@ inline bool are_consecutive(const Patch& patch, std::int64_t first, std::int64_t
   return first + count <= patch.owned && sites[count - 1] - sites[0] == count - 1;
 }
 
-/// \param triangles counter-clockwise, in any order.
+/// Makes the patch of each region. \param triangles counter-clockwise, in any order.
 std::vector<Patch> make_patches(const Triangles& triangles, const Ownership& ownership);
 
 /// Updates the patches after changes of some triangles of the mesh.

@@ -8,8 +8,8 @@ namespace calotte::integrals_detail {
 
 using Quad = double __attribute__((vector_size(32)));
 
-/// Four doubles at any address of doubles. A copy by std::memcpy would go through the stack in
-/// halves; a vector type of lower alignment is not enough for clang.
+/// A view of four doubles at any address of doubles. A copy by std::memcpy would go through the
+/// stack in halves; a vector type of lower alignment is not enough for clang.
 struct [[gnu::packed, gnu::aligned(8), gnu::may_alias]] QuadView {
   Quad value;
 };
@@ -19,7 +19,7 @@ CALOTTE_INLINE const QuadView& quad_at(const void* from) {
 }
 CALOTTE_INLINE QuadView& quad_at(void* to) { return *static_cast<QuadView*>(to); }
 
-/// Replaces the rows of a matrix of 4 x 4 by its columns.
+/// Transposes a 4 x 4 matrix.
 CALOTTE_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
              ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7),

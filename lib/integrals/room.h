@@ -3,7 +3,7 @@
 
 #include "density/room.h"
 
-/// Integrals over Voronoi cells: quadrature rules, the patch of the mesh that a region sees, and
+/// Integrals over Voronoi cells: quadrature rules, the patch of the mesh that a region reads, and
 /// masses, first moments and energies of its cells in rows of vector code.
 ///
 /// In: a region's triangles, positions and a density. Out: the moments of the cells that it owns.

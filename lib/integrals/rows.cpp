@@ -75,7 +75,7 @@ void gather_density(const Array<double>& rho, Batch& batch) {
 
 namespace {
 
-/// What is known of a triangle abc when its clearance is asked for.
+/// The input of the clearance of a triangle abc.
 struct Triangle {
   Vec3 ab, ac;
   double height;
@@ -162,7 +162,7 @@ void spherical_centres(const TriangleRows& rows, CentreRows& out) {
   }
 }
 
-/// From the middle of the first edge, at right angles to it.
+/// Sets the circumcentres, from the middle of the first edge, perpendicular to it.
 CALOTTE_VECTOR_WIDTHS
 void flat_centres(const Batch& batch, const TriangleRows& rows, CentreRows& out) {
   CALOTTE_VECTOR_LOOP

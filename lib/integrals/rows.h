@@ -60,7 +60,7 @@ struct FlatTriangles {
   double largest; ///< coordinate, or period
 };
 
-/// Up to `lanes` consecutive triangles; the last fills the lanes that are left.
+/// Up to `lanes` consecutive triangles; the last one fills the remaining lanes.
 struct alignas(64) Batch {
   std::array<Rows3, 3> corner; ///< [vertex][x, y, z]; in the plane relative to the first one
   Rows3 rho;                   ///< [vertex]: the density there; set by gather_density()
@@ -68,8 +68,8 @@ struct alignas(64) Batch {
   const Triple* locals; ///< of the first
 };
 
-/// Corners a and b are nearly antipodal if 1 - |a-b|^2/4 is below this: an edge between them hardly
-/// has a middle.
+/// Corners a and b are nearly antipodal if 1 - |a-b|^2/4 is below this: the middle of an edge
+/// between them is not well defined.
 constexpr double antipodal = 0x1p-40;
 
 /// Quantities derived from the corners, per edge or corner, named by the vertex across or there.
@@ -80,7 +80,8 @@ struct alignas(64) TriangleRows {
   Row scale;       ///< 1/|normal|
   Row height;      ///< positive when counter-clockwise: the normal times a, in the plane its z
   /// Positive only if the triangle is certainly acute and counter-clockwise, and no two corners are
-  /// nearly antipodal; in a periodic box, if its circumcircle is also small beside the box.
+  /// nearly antipodal; in a periodic box, only if its circumcircle is also small compared with the
+  /// box.
   Row clearance;
 };
 
@@ -96,7 +97,7 @@ void gather_density(const Array<double>& rho, Batch& batch);
 bool triangle_rows(const SphericalTriangles&, const Batch& batch, TriangleRows& out);
 bool triangle_rows(const FlatTriangles& plane, const Batch& batch, TriangleRows& out);
 
-/// The flat triangles' circumcentres, in the plane from the first corner on.
+/// The circumcentres of the flat triangles; in the plane relative to the first corner.
 struct alignas(64) CentreRows {
   Rows3 centre;
   Row distance; ///< of the triangle's plane from the sphere's centre; 0 in the plane

@@ -12,15 +12,15 @@
 namespace calotte::integrals_detail {
 namespace {
 
-/// The relative error of a cotangent that is admitted.
+/// The admissible relative error of a cotangent.
 constexpr double tolerance = 0x1p-34;
 
 using PreciseVec3 = Vec3Of<mpf_class>;
 
 mpf_class length(const PreciseVec3& a) { return sqrt(dot(a, a)); }
 
-/// Bits that resolve the determinant of three directions, a product of their least bits, beside
-/// products of lengths.
+/// The number of bits that resolve the determinant of three directions, a product of their last
+/// bits, relative to products of lengths.
 mp_bitcnt_t precision_of(const std::array<Vec3, 3>& corners) {
   int least = 0;
   for (const Vec3& x : corners)
@@ -45,9 +45,9 @@ Vec3 rounded(const PreciseVec3& a) { return {a.x.get_d(), a.y.get_d(), a.z.get_d
 
 /// True if rows in doubles do not resolve a triangle. Corners lie up to a roundoff above or below
 /// the sphere, which tilts the triangle by that over its altitude. The tilt changes the normal's
-/// length by its square and, as far as the normal is not upright already, in proportion. Where the
-/// circumcap is nearly a hemisphere, the arc to its centre follows from its cosine alone.
-/// Squares of lengths may underflow to a tilt that is NaN.
+/// length by its square and, as far as the normal is already tilted, in proportion. Where the
+/// circumcap is nearly a hemisphere, the arc to its centre follows from its cosine alone. Squares
+/// of lengths may underflow to a tilt that is NaN.
 bool is_sliver(const TriangleRows& rows, std::size_t lane) {
   constexpr double roundoff = 0x1p-52;
   const double a = rows.quarter[0][lane], b = rows.quarter[1][lane], c = rows.quarter[2][lane];
@@ -63,7 +63,7 @@ bool is_sliver(const TriangleRows& rows, std::size_t lane) {
 HalfEdge precise_half_edge(const PreciseVec3& a, const PreciseVec3& b, const mpf_class& cotangent,
                            const mpf_class& height) {
   const mpf_class sine = 0.5 * length(a - b), cosine = 0.5 * length(a + b);
-  if (cosine == 0) // of a mesh that is no longer Delaunay
+  if (cosine == 0) // a mesh that is no longer Delaunay
     return {1, 0, 0, 0};
   const mpf_class sine_of_arc = sine * cotangent / cosine;
   const mpf_class cosine_of_arc = height > 0 ? mpf_class(height / cosine) : mpf_class(0);
@@ -71,8 +71,8 @@ HalfEdge precise_half_edge(const PreciseVec3& a, const PreciseVec3& b, const mpf
   return {sine.get_d(), cosine.get_d(), 2 * arc_tangent(tangent), tangent};
 }
 
-/// As triangle_rows(). False if the corners span no triangle: a mesh that is no longer Delaunay may
-/// have such corners.
+/// Sets the rows of a sliver, see triangle_rows(). False if the corners span no triangle: a mesh
+/// that is no longer Delaunay may have such corners.
 bool resolve(const Batch& batch, Sliver& sliver, TriangleRows& rows) {
   const std::size_t lane = sliver.lane;
   const std::array<Vec3, 3> given{at(batch.corner[0], lane), at(batch.corner[1], lane),

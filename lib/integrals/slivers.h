@@ -12,17 +12,17 @@
 
 namespace calotte::integrals_detail {
 
-/// A triangle whose circumcentre follows from digits that its corners as stored do not have.
+/// A triangle whose circumcentre the stored digits of its corners do not determine.
 struct Sliver {
   std::size_t lane;
   std::array<Vec3, 3> side; ///< unit vectors along b - c, c - a and a - b
   std::array<HalfEdge, 3> half;
 };
 
-/// Computes the rows of slivers again, from the directions of their corners without rounding:
-/// triangles of three sites close together, of two beside each other and one far away, or of two
-/// that are nearly antipodal. Their circumcentres follow from the last digits of the directions:
-/// with those of the stored corners, the cells of a cluster would overlap.
+/// Recomputes the rows of slivers, from the directions of their corners without rounding. Slivers
+/// are triangles of three sites close together, of two close sites and one far away, or of two
+/// nearly antipodal sites. Their circumcentres depend on the last digits of the directions: with
+/// rounded corners, the cells of a cluster would overlap.
 /// \return the slivers of the batch.
 std::vector<Sliver> resolve_slivers(const Batch& batch, TriangleRows& rows);
 

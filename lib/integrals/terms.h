@@ -8,7 +8,7 @@
 
 namespace calotte::integrals_detail {
 
-/// What triangles add to the moments of one of their corners.
+/// The terms that triangles add to the moments of one of their corners.
 struct alignas(64) VertexTerms {
   Rows3 first;
   Row energy, mass;

@@ -16,7 +16,7 @@ struct alignas(64) EdgeRows {
   Rows3 area;
 };
 
-/// Pull and energy by their series. True where these hold for all lanes.
+/// Sets pull and energy by their series. True if the series are valid in all lanes.
 CALOTTE_VECTOR_WIDTHS
 bool short_edges(const Rows3& quarter, const Rows3& cotangent, Rows3& pull, Rows3& energy) {
   std::int64_t beyond = 0;
@@ -54,7 +54,8 @@ void half_areas(const Row& quarter, const Row& cotangent, Row& area) {
   }
 }
 
-/// Sums of edges at vertices: each is an end of the two edges that are named by the others.
+/// Sums the terms of edges at vertices: each vertex is an end of the two edges that are named by
+/// the other vertices.
 CALOTTE_VECTOR_WIDTHS
 void terms_of_edges(const Batch& batch, const EdgeRows& edges, TriangleTerms& terms) {
   for (std::size_t v = 0; v < 3; ++v) {
@@ -84,8 +85,9 @@ void set_first(const Sliver& sliver, TriangleTerms& terms) {
     put(part[(v + 2) % 3] - part[(v + 1) % 3], terms[v].first, sliver.lane);
 }
 
-/// Half a kite with the legs s and s cot: its area is s^2 cot/2, its first moment that times the
-/// mean of its corners, and its energy that times s^2 (3 + cot^2)/6.
+/// Sets the terms of flat triangles. Half a kite with the legs s and s cot has the area s^2 cot/2,
+/// the first moment area times the mean of its corners, and the energy area times s^2 (3 +
+/// cot^2)/6.
 CALOTTE_VECTOR_WIDTHS
 void flat_terms(const Batch& batch, const TriangleRows& rows, const Rows3& centres,
                 TriangleTerms& terms) {

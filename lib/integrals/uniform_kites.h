@@ -12,10 +12,10 @@ namespace calotte::integrals_detail {
 
 /// The terms of uniform density in closed form, see kites.h.
 /// \param slivers of the batch: their sides and halves replace the rows.
-/// \param with_mass otherwise the masses are not set.
+/// \param with_mass whether to set the masses.
 void uniform_terms(const SphericalTriangles&, const Batch& batch, const TriangleRows& rows,
                    const std::vector<Sliver>& slivers, bool with_mass, TriangleTerms& terms);
-/// In a plane the first moment has the mass.
+/// The same in a plane, where the first moment includes the mass.
 void uniform_terms(const FlatTriangles& plane, const Batch& batch, const TriangleRows& rows,
                    const std::vector<Sliver>&, bool, TriangleTerms& terms);
 

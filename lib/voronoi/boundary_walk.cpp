@@ -15,10 +15,10 @@
 namespace calotte::voronoi_detail {
 namespace {
 
-/// The next cell on the way along an edge of the boundary; none at the end of the edge.
+/// The next cell along an edge of the boundary; none at the end of the edge.
 struct Step {
   std::int32_t cell = -1;
-  double share = 2; ///< of the edge, where its cell begins
+  double share = 2; ///< position along the edge, 0 to 1, where its cell begins
   double gain = 0;  ///< progress in the direction of the edge
 };
 
@@ -42,14 +42,14 @@ public:
     throw Error(ErrorCode::internal, "the walk along the domain's boundary has no end");
   }
 
-  /// Whether two consecutive vertices are one point but for rounding.
+  /// Whether two consecutive vertices are equal up to rounding.
   bool near(const BoundaryVertex& a, const BoundaryVertex& b) const {
     const double rounding = 0x1p-50 * (std::abs(a.point.x) + std::abs(a.point.y));
     return norm(b.point - a.point) <= rounding + relative * norm(a.point - site(a.after));
   }
 
-  /// The crossings at a point where several cells meet, from one of them to another by the least
-  /// number of cells on the domain's side. None if rounding has put them in another order.
+  /// The crossings at a point where several cells meet: the path from one cell to another through
+  /// the fewest cells on the domain's side. None if rounding has changed their order.
   std::optional<std::vector<BoundaryVertex>> around(const Vec2& point, std::int32_t from,
                                                     std::int32_t to) const {
     std::vector<BoundaryVertex> path;
@@ -70,14 +70,16 @@ public:
 private:
   static constexpr double relative = 0x1p-44; ///< error of an offset or product
 
-  /// The angle by which the way from a point to one site turns right to that to another, 0 to 2 pi.
+  /// The angle, turning right, from the direction of one site to that of another, seen from a
+  /// point; 0 to 2 pi.
   double turn(const Vec2& point, std::int32_t from, std::int32_t to) const {
     const Vec2 a = site(from) - point, b = site(to) - point;
     const double angle = -std::atan2(cross(a, b), dot(a, b));
     return angle < 0 ? angle + 2 * std::numbers::pi : angle;
   }
 
-  /// The neighbour of a cell that is as near to a point, and comes next to another cell clockwise.
+  /// The neighbour of a cell that is equally near to a point and is the next one clockwise towards
+  /// another cell.
   std::int32_t towards(const Vec2& point, std::int32_t cell, std::int32_t last) const {
     const double all = turn(point, cell, last);
     std::int32_t farthest = -1;
@@ -132,7 +134,7 @@ void append(const Walk& walk, const BoundaryVertex& vertex, std::vector<Boundary
     ring.push_back(vertex);
 }
 
-/// The ring may end where it starts.
+/// Removes the last vertex if the ring ends where it starts.
 void close(const Walk& walk, std::vector<BoundaryVertex>& ring) {
   if (ring.size() < 2 || !walk.near(ring.back(), ring.front()))
     return;
@@ -142,7 +144,7 @@ void close(const Walk& walk, std::vector<BoundaryVertex>& ring) {
     ring.pop_back();
 }
 
-/// Where the boundary runs through a vertex of cells, those outside of the domain are left out.
+/// Removes cells outside of the domain where the boundary runs through a vertex of cells.
 std::vector<BoundaryVertex> straightened(const Walk& walk, std::vector<BoundaryVertex> ring) {
   const auto follows = [&](std::size_t k) {
     return walk.near(ring[k == 0 ? ring.size() - 1 : k - 1], ring[k]);
@@ -169,7 +171,7 @@ std::vector<BoundaryVertex> straightened(const Walk& walk, std::vector<BoundaryV
   return out;
 }
 
-/// \param cell at the first corner; receives that at the end.
+/// Walks along a ring once. \param cell the cell at the first corner; set to the one at the end.
 std::vector<BoundaryVertex> walk_once(const Walk& walk, const std::vector<Vec2>& corners,
                                       std::int32_t& cell) {
   std::vector<BoundaryVertex> ring;
@@ -184,7 +186,8 @@ std::vector<BoundaryVertex> walk_once(const Walk& walk, const std::vector<Vec2>&
   return ring;
 }
 
-/// Where several cells meet at the first corner, the first round shows in which of them it ends.
+/// Walks along a ring. Where several cells meet at the first corner, a first round finds the cell
+/// in which the walk ends.
 std::vector<BoundaryVertex> walk_ring(const Walk& walk, const std::vector<Vec2>& corners) {
   constexpr int most_rounds = 4;
   const auto ignore = [](std::int32_t, std::int32_t, const Vec2&) {};

@@ -30,10 +30,10 @@ struct BoundaryVertex {
 /// The vertices of each ring of the boundary, with the domain to the left.
 ///
 /// Along an edge of the boundary the squared distances of sites differ by linear functions, whose
-/// lower envelope is the sequence of cells: from each cell the walk goes on to the neighbour whose
-/// bisector comes first. Each step makes progress in the edge's direction, so that the walk ends,
-/// and the vertices of a ring form a closed walk in the triangulation, whatever the rounding. A
-/// bisector that runs along the boundary but for rounding belongs to the site on the domain's side.
+/// lower envelope is the sequence of cells: from each cell the walk continues to the neighbour
+/// whose bisector comes first. Each step makes progress in the edge's direction, so that the walk
+/// ends, and the vertices of a ring form a closed walk in the triangulation, whatever the rounding.
+/// A bisector that runs along the boundary up to rounding belongs to the site on the domain's side.
 std::vector<std::vector<BoundaryVertex>> walk_boundary(const Outline& outline, const Points3& sites,
                                                        const Neighbours& neighbours);
 

@@ -21,9 +21,9 @@
 #include <vector>
 
 // The Voronoi cells of a bounded plane. The boundary's vertices form closed walks in the
-// triangulation (boundary_walk.h). How often these turn around a triangle tells whether its
-// circumcentre is inside, and on each Voronoi edge the ends alternate: no rounding makes cells that
-// do not fit.
+// triangulation (boundary_walk.h). The winding number of these walks around a triangle tells
+// whether its circumcentre is inside, and on each Voronoi edge starts and ends alternate: rounding
+// cannot make cells that do not fit together.
 
 namespace calotte::voronoi_detail {
 namespace {
@@ -36,8 +36,8 @@ void require_mesh(const Mesh& mesh) {
 
 // ---- Edges of the triangulation
 
-/// An edge between two sites, and the triangles to the right and to the left of the way from the
-/// lower to the higher; none beyond the hull.
+/// An edge from the lower to the higher of two sites, with the triangles to its right and to its
+/// left; none beyond the hull.
 struct DelaunayEdge {
   std::int32_t low, high;
   std::int32_t right = none, left = none;
@@ -49,7 +49,7 @@ struct DelaunayEdge {
                  edge.low, edge.high));
 }
 
-/// Sorted by their sites.
+/// The edges, sorted by their sites.
 std::vector<DelaunayEdge> delaunay_edges(const Triangles& triangles, std::int64_t sites) {
   std::vector<DelaunayEdge> sides;
   sides.reserve(static_cast<std::size_t>(triangles.size()));
@@ -100,10 +100,10 @@ struct Crossing {
   std::size_t edge;
   bool starts;  ///< the part of the edge inside the domain starts here, seen from its lower site
   double along; ///< its position on the edge, which has its lower site to the left
-  std::int32_t vertex; ///< of all of the boundary
+  std::int32_t vertex; ///< number in the whole boundary
 };
 
-/// In their order on each edge.
+/// Finds the crossings, in their order on each edge.
 std::vector<Crossing> find_crossings(const std::vector<std::vector<BoundaryVertex>>& rings,
                                      const std::vector<DelaunayEdge>& edges, const Points3& sites) {
   std::vector<Crossing> crossings;
@@ -127,7 +127,7 @@ std::vector<Crossing> find_crossings(const std::vector<std::vector<BoundaryVerte
   return crossings;
 }
 
-/// A neighbour of a triangle, and how often more the boundary turns around it.
+/// A neighbour of a triangle, and by how much its winding number is larger.
 struct Beyond {
   std::int32_t triangle = none;
   int more = 0;
@@ -141,8 +141,8 @@ void add(std::array<Beyond, 3>& list, const Beyond& beyond) {
     }
 }
 
-/// How often the boundary turns around each triangle, which is 0 or 1 by the rings' orientation.
-/// To the left of an edge it turns once more for each crossing that starts there.
+/// The winding number of the boundary around each triangle, 0 or 1 by the rings' orientation. To
+/// the left of an edge it is larger by one for each crossing that starts there.
 std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges,
                                           const std::vector<int>& starts, const Mesh& mesh) {
   constexpr std::int8_t unknown = -1;
@@ -177,7 +177,8 @@ std::vector<std::int8_t> triangles_inside(const std::vector<DelaunayEdge>& edges
   return inside;
 }
 
-/// From the corner across from the longest side, which keeps the most digits.
+/// The circumcentre, computed from the corner across from the longest side, which keeps the most
+/// digits.
 Vec3 circumcentre_of(const Points3& sites, const Triangles& triangles, std::int64_t t) {
   const auto at = [&](int i) {
     const std::int32_t site = triangles(i % 3, t);
@@ -203,7 +204,7 @@ struct ClippedSide {
   std::int32_t beyond; ///< the cell across, or none
 };
 
-/// Of the Voronoi edges: the parts of each start and end in turn.
+/// Adds the sides along Voronoi edges. On each edge, starts and ends of parts alternate.
 void add_inner_sides(const std::vector<DelaunayEdge>& edges, const std::vector<Crossing>& crossings,
                      const std::vector<std::int32_t>& vertex_of_triangle,
                      std::int32_t first_of_boundary, std::vector<ClippedSide>& sides) {
@@ -245,7 +246,7 @@ void add_boundary_sides(const std::vector<std::vector<BoundaryVertex>>& rings,
                   "encloses an island in it, and a cell is one polygon; give more sites there");
 }
 
-/// Appends the vertices of a cell, the end of the side towards the lowest neighbour first.
+/// Appends the vertices of a cell, starting with the end of the side towards the lowest neighbour.
 /// \param sides of the cell, sorted by their first vertex.
 void append_cell(const ClippedSide* begin, const ClippedSide* end,
                  std::vector<std::int32_t>& vertices) {

@@ -18,7 +18,7 @@ DoubleVector relative_density(const Voronoi& voronoi, const Density& density);
 double spacing_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::spacing
 double quality_at(const Voronoi& voronoi, std::int64_t cell); ///< CellFields::quality
 
-/// As nominal_spacing(fields). \param density empty if it is uniform.
+/// The nominal spacing, see nominal_spacing(fields). \param density empty if it is uniform.
 double nominal_spacing(const DoubleVector& area, const DoubleVector& density);
 
 } // namespace calotte::voronoi_detail

@@ -9,16 +9,16 @@
 
 namespace calotte::voronoi_detail {
 
-/// On the cell's side of an edge. The great circle runs from the lower vertex to the higher one; it
-/// belongs to its left side.
+/// Whether x is on the cell's side of an edge. The edge's great circle runs from the lower vertex
+/// to the higher one and belongs to its left side.
 bool CellWalk::is_inside(std::int32_t cell, std::size_t index, const Vec3& x) const {
   const std::int32_t a = start_of(cells_, cell, index), b = cells_.vertices_on_cell[cell][index];
   const Vec3 &from = column(cells_.vertices, a), &to = column(cells_.vertices, b);
   return a < b ? turn(from, to, x) >= 0 : turn(to, from, x) < 0;
 }
 
-/// The great circle of the arc leaves a cell through the edge, counter-clockwise, that passes to
-/// its left; the arc ends before it or beyond.
+/// The great circle of the arc leaves a cell through the edge whose start is to its right and whose
+/// end is to its left. The arc ends before that edge or beyond it.
 std::optional<std::size_t> CellWalk::find_exit(std::int32_t cell, const Arc& arc) const {
   const std::span<const std::int32_t> vertices = cells_.vertices_on_cell[cell];
   const auto is_left = [&](std::int32_t vertex) {

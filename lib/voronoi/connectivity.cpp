@@ -22,8 +22,8 @@ namespace {
 
 // ---- Rings: the triangles around a site, counter-clockwise
 
-/// Calls body(corner) around a site.
-/// \returns the corner whose next does not match, or none.
+/// Calls body(corner) for the corners at a site.
+/// \returns the corner whose next one does not match, or none.
 template <class Body>
 Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, const Body& body) {
   return walk_around(
@@ -31,8 +31,7 @@ Corner walk_ring(const Faces& surface, std::int32_t first, std::int32_t site, co
       [&](Corner corner) { return fitting_next(surface, corner); }, body);
 }
 
-/// For each site a triangle at it. The choice may vary; the order of the rings does not depend on
-/// it.
+/// A triangle at each site. The choice may vary; the order of the rings does not depend on it.
 Array<std::int32_t> some_triangles(const Faces& surface) {
   Array<std::int32_t> some(surface.sites());
   for_each_block(surface.sites(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -58,8 +57,8 @@ Array<std::int32_t> some_triangles(const Faces& surface) {
   return some;
 }
 
-/// Sets the lengths of the lists instead of their starts: of edges_on_cell, and in the rings
-/// first_edge.
+/// Sets the lengths of lists in the arrays of their starts: in edges_on_cell, and in first_edge of
+/// the rings.
 Rings count_rings(const Faces& surface, Voronoi& out) {
   Rings rings{some_triangles(surface), Array<std::int32_t>(surface.sites())};
   make_room(out.edges_on_cell.begin, surface.sites() + 1, 1);
@@ -92,7 +91,7 @@ Rings count_rings(const Faces& surface, Voronoi& out) {
   return rings;
 }
 
-/// Throws for a site whose triangles form more than the one ring that was found.
+/// Refuses a site whose triangles form more than one ring.
 [[noreturn]] void refuse_second_ring(const Faces& surface, const Voronoi& out) {
   std::vector<std::int64_t> corners(static_cast<std::size_t>(surface.sites()));
   for (const std::int32_t site : surface.triangle_ids.reshaped())

@@ -11,7 +11,8 @@
 #include <cstdint>
 #include <numbers>
 
-/// What geometry.cpp measures in vector code on the unit sphere and in a periodic plane.
+/// The measures that geometry.cpp computes in vector code, on the unit sphere and in a periodic
+/// plane.
 ///
 /// Operations per lane have no branches, so that the loops over lanes become vector code.
 namespace calotte::voronoi_detail::dual {
@@ -20,7 +21,7 @@ namespace calotte::voronoi_detail::dual {
 
 inline constexpr double pi = std::numbers::pi;
 
-/// The angle of (x, y) from the first axis, -pi to pi; 0 of the zero vector. Of any norm.
+/// The angle of a vector (x, y) of any norm from the first axis, -pi to pi; 0 for the zero vector.
 CALOTTE_INLINE double angle_of(double x, double y) {
   const double across = std::abs(y), along = std::abs(x);
   const bool steep = across > along;
@@ -45,18 +46,18 @@ CALOTTE_INLINE Vec3 direction_or(const Vec3& a, const Vec3& other) {
 
 // ---- Measures on the sphere and in a periodic plane
 
-/// The half kites at an edge of a triangle: those at its two ends are mirror images.
+/// A half kite at an edge of a triangle. Those at the edge's two ends are mirror images.
 struct HalfKite {
   double arc;  ///< signed, from the edge's middle to the circumcentre
-  double area; ///< signed, of either
+  double area; ///< signed, of one half kite
 };
 
 /// The unit sphere; points are unit vectors.
 struct SphereMeasures {
-  const Array<double>& surplus; ///< by cell: by how much its norm exceeds 1
+  const Array<double>& surplus; ///< by cell: its norm minus 1
 
-  /// Computed as if both points were exactly on the sphere: for a short edge, the rounding of norms
-  /// is large.
+  /// The difference of two cells as if both were exactly on the sphere: for a short edge, the
+  /// rounding of norms would be large.
   Vec3 difference(const Points3& cells, std::int32_t from, std::int32_t to) const {
     const Vec3 &a = column(cells, from), &b = column(cells, to);
     return (b - a) + (surplus[from] * a - surplus[to] * b);

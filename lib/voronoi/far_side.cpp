@@ -30,7 +30,7 @@ namespace {
          site);
 }
 
-/// The sites of the boundary, the mesh to the left.
+/// The sites of the boundary, in the direction with the mesh to the left.
 std::vector<std::int32_t> trace_boundary(const Mesh& mesh) {
   const std::int64_t n = mesh.points.cols();
   std::vector<std::int32_t> following(static_cast<std::size_t>(n), -1);
@@ -74,8 +74,8 @@ void require_convex(const Mesh& mesh, const std::vector<std::int32_t>& ring) {
   }
 }
 
-/// A triangulation of a polygon by indices in its ring, halved until triangles are left: flips are
-/// few from it.
+/// Triangulates a polygon, by indices in its ring: it is halved until triangles are left. From that
+/// triangulation, few flips are needed.
 void halve(std::int32_t from, std::int32_t to, Triangles& out, Eigen::Index& count) {
   if (to - from < 2)
     return;

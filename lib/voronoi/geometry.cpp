@@ -23,8 +23,8 @@ using namespace dual;
 
 // ---- Triangles
 
-/// Up to `lanes` triangles; the last fills the lanes that are left. [vertex], or [of the side
-/// across from it].
+/// Up to `lanes` triangles; the last one fills the remaining lanes. Arrays of three are indexed by
+/// vertex, or by the vertex across from a side.
 struct alignas(64) TriangleBatch {
   std::array<Rows3, 3> corner;
   std::array<Rows3, 3> side; ///< from the next vertex to the one before
@@ -208,7 +208,7 @@ void set_edges(const Measures& measures, std::int64_t begin, std::int64_t end, V
   }
 }
 
-/// body(measures) of the tessellation's.
+/// Calls body(measures) with the measures of the tessellation's space.
 template <class Body>
 void with_measures(const Voronoi& of, const Array<double>& surplus, const Body& body) {
   if (of.surface.is_sphere())

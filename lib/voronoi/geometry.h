@@ -21,16 +21,16 @@ namespace calotte::voronoi_detail {
 /// delta/4. A Voronoi edge is as long as the sum of both its deltas, which keeps more digits than
 /// the distance of two close circumcentres.
 ///
-/// Of three sites that are one but for rounding, the deltas are 0.
+/// The deltas of three sites that are equal up to rounding are 0.
 void measure(Voronoi& out);
 
-/// The same in parts, for callers that use positions and angles as they are computed and store
-/// neither: first begin_measures(); then all vertices; then all edges. measure_areas() may follow
-/// the vertices. Several threads may measure disjoint ranges.
+/// measure() in parts, for callers that use positions and angles as they are computed and store
+/// neither. The order is begin_measures(), all vertices, all edges; measure_areas() may follow the
+/// vertices. Several threads may measure disjoint ranges.
 
 /// Makes room for kites, dv and dc.
-/// \returns for the functions below, by cell the amount by which its norm exceeds 1, to a few
-///          digits; nothing in a plane.
+/// \returns the argument `surplus` of the functions below: by cell its norm minus 1, to a few
+///          digits; empty in a plane.
 Array<double> begin_measures(Voronoi& out);
 
 /// Sets the kites of vertices begin to end - 1.

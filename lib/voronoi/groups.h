@@ -12,8 +12,8 @@
 
 namespace calotte::voronoi_detail {
 
-/// Sorts items by a key from 0 to keys - 1, and those of one key by `less`, which is to tell all of
-/// them apart. The time is linear if few items share a key.
+/// Sorts items by a key from 0 to keys - 1, and items of one key by `less`, which must be a strict
+/// order of them. Linear time if few items share a key.
 /// \returns for each key where its items begin, and their number.
 template <class Item, class Key, class Less>
 std::vector<std::int64_t> sort_in_groups(std::int64_t keys, const Key& key, const Less& less,

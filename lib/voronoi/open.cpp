@@ -31,7 +31,7 @@ struct CellSide {
   std::size_t index;
 };
 
-/// Sorted by their vertices, then by cell.
+/// The sides of cells, sorted by their vertices, then by cell.
 std::vector<CellSide> list_sides(const Voronoi& of) {
   std::vector<CellSide> sides;
   sides.reserve(static_cast<std::size_t>(of.vertices_on_cell.items.size()));
@@ -57,7 +57,7 @@ struct Edge {
   bool inner() const { return cell[1] >= 0; }
 };
 
-/// Two sides of one edge run in opposite directions.
+/// Whether two sides form an edge: they run in opposite directions.
 bool fit(const Voronoi& of, const CellSide& a, const CellSide& b) {
   return a.cell != b.cell && start_of(of, a.cell, a.index) == of.vertices_on_cell[b.cell][b.index];
 }
@@ -144,7 +144,7 @@ std::vector<VertexSectors> sectors_at_vertices(const Voronoi& of) {
   return at_vertices;
 }
 
-/// Which sector follows an edge counter-clockwise; 3 for none.
+/// The index of the sector that follows an edge counter-clockwise; 3 for none.
 int sector_from(const VertexSectors& around, std::int32_t edge) {
   for (int k = 0; k < around.count; ++k)
     if (around.sectors[static_cast<std::size_t>(k)].from == edge)
@@ -152,8 +152,8 @@ int sector_from(const VertexSectors& around, std::int32_t edge) {
   return 3;
 }
 
-/// The sector that follows the open part around the vertex; for a complete one, that of the lowest
-/// cell, which is the first.
+/// The sector that follows the open part around the vertex. Around a vertex without an open part,
+/// it is the first sector, that of the lowest cell.
 int first_sector(const Voronoi& of, const VertexSectors& around) {
   for (int k = 0; k < around.count; ++k)
     if (of.cells_on_edge(1, around.sectors[static_cast<std::size_t>(k)].from) < 0)
@@ -196,7 +196,7 @@ double length(const Plane& plane, const Vec3& a, const Vec3& b) { return norm(pl
 Vec3 to_the_right(const Sphere&, const Vec3& way, const Vec3& at) { return cross(way, at); }
 Vec3 to_the_right(const Plane&, const Vec3& way, const Vec3&) { return {way.y, -way.x, 0}; }
 
-/// Of a direction at a point, from east.
+/// The angle of a direction at a point, from east.
 double angle(const Sphere&, const Vec3& at, const Vec3& direction) {
   const Vec3 east{-at.y, at.x, 0};
   return std::atan2(dot(direction, cross(at, east)), dot(direction, east));
@@ -205,14 +205,14 @@ double angle(const Plane&, const Vec3&, const Vec3& direction) {
   return eastern(std::atan2(direction.y, direction.x), 2 * std::numbers::pi);
 }
 
-/// The index, length and angle of an edge.
+/// The midpoint, length and angle of an edge.
 struct EdgeMeasure {
   Vec3 middle;
   double dc;
   Vec3 normal;
 };
 
-/// \param cut the index of an edge that halves the way to a missing cell; null for other edges.
+/// \param cut the midpoint of an edge half way to a missing cell; null for other edges.
 template <Space S>
 EdgeMeasure measured(const S& space, std::int64_t e, const Vec3* cut, const Voronoi& of) {
   const Vec3& from = column(of.cells, of.cells_on_edge(0, e));
@@ -241,7 +241,7 @@ void measure_edge(const S& space, std::int64_t e, const Points3& cut_edges, Voro
   out.angle[e] = angle(space, edge.middle, edge.normal);
 }
 
-/// The kites of cells that are there, between edges that are.
+/// Measures the kites at a vertex of existing cells between existing edges.
 template <Space S> void measure_kites(const S& space, std::int64_t v, Voronoi& out) {
   out.vertex_area[v] = 0;
   for (int j = 0; j < 3; ++j) {
@@ -259,7 +259,7 @@ template <Space S> void measure_kites(const S& space, std::int64_t v, Voronoi& o
   }
 }
 
-/// The around of triangles from the site.
+/// Measures a cell as a fan of triangles from its site.
 template <Space S> void measure_cell(const S& space, std::int32_t i, Voronoi& out) {
   double sum = 0;
   const std::span<const std::int32_t> vertices = out.vertices_on_cell[i];

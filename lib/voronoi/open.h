@@ -13,15 +13,15 @@ namespace calotte::voronoi_detail {
 /// without missing cells the list starts with the lowest.
 /// \pre vertices_on_cell is in range; each vertex is on a cell.
 /// \throws Error invalid_argument, naming the cell or vertex, for cells that overlap, for a vertex
-///         with more than three edges, and for one between two cells only that is not on the
+///         with more than three edges, and for a vertex of two cells only that is not on the
 ///         boundary.
 void connect_open(Voronoi& out);
 
-/// Sets edges, lengths, angles and areas from the cells, the vertices and all ids, of which any may
-/// be -1 but those of an edge's first cell, its vertices, and the edges and vertices of cells. An
-/// edge of one cell has its middle between its vertices, and dc = sqrt(3) dv (MPAS-Tools).
-/// \param cut_edges 3 x e: an edge of one cell with a finite column lies there, and halves the way
-///        to the cell that is missing. Default: none.
+/// Sets edges, lengths, angles and areas from the cells, the vertices and all ids. Ids may be -1,
+/// except those of an edge's first cell, of its vertices, and of the edges and vertices of cells.
+/// An edge of one cell has its middle between its vertices, and dc = sqrt(3) dv (MPAS-Tools).
+/// \param cut_edges 3 x e: a finite column is the midpoint of an edge of one cell, half way to the
+///        missing cell. Default: none.
 /// \pre cells and vertices are unit columns; in a plane, z = 0.
 void measure_open(Voronoi& out, const Points3& cut_edges = {});
 

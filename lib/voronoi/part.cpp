@@ -20,8 +20,8 @@ namespace calotte {
 namespace voronoi_detail {
 namespace {
 
-/// What is around kept sites, counter-clockwise: triangle k lies between neighbours k and k + 1.
-/// The lowest neighbour is the first.
+/// The triangles and neighbours around kept sites, counter-clockwise from the lowest neighbour on:
+/// triangle k lies between neighbours k and k + 1.
 struct KeptStars {
   std::vector<std::int32_t> site;
   IdLists triangles, neighbours; ///< both with the same `begin`
@@ -37,7 +37,7 @@ KeptStars kept_stars(const Mesh& mesh, const Ids& mask) {
       continue;
     int corners = 0;
     const bool closed = stars.for_each_corner(site, [&](Corner) { ++corners; });
-    if (!closed || corners != stars.size(site)) // of one fan
+    if (!closed || corners != stars.size(site)) // the triangles form several fans
       refuse_at(site, "site {} is to have a cell, but triangles do not surround it; leave it "
                       "out, or mesh more points around it");
     out.site.push_back(site);
@@ -63,7 +63,8 @@ KeptStars kept_stars(const Mesh& mesh, const Ids& mask) {
   return out;
 }
 
-/// The triangles of the stars, ascending. \param lists receive their centres among these.
+/// The triangles of the stars, ascending. \param lists ids of triangles, replaced by indices in the
+/// result.
 std::vector<std::int32_t> number_triangles(const Mesh& mesh, IdLists& lists) {
   std::vector<std::int32_t> vertex(static_cast<std::size_t>(mesh.triangles.cols()), none), used;
   for (const std::int32_t t : lists.items)
@@ -78,7 +79,7 @@ std::vector<std::int32_t> number_triangles(const Mesh& mesh, IdLists& lists) {
   return used;
 }
 
-/// Of edges half way to a cell that is missing, the centres; NaN for the others.
+/// The midpoints of edges half way to a missing cell; NaN for other edges.
 template <class S>
 Points3 cut_edges(const S& space, const IdLists& neighbours, const Points3& sites,
                   const Voronoi& cells) {

@@ -13,10 +13,10 @@ namespace calotte::voronoi_detail {
 /// Some cells of the tessellation dual to a mesh.
 struct CellPart {
   Voronoi voronoi;
-  std::vector<std::int32_t> site; ///< by cell: that of the mesh, ascending
+  std::vector<std::int32_t> site; ///< by cell: its site in the mesh, ascending
 };
 
-/// As voronoi(mesh, mask). \pre the mesh is valid, with a mask for each site.
+/// The cells of voronoi(mesh, mask). \pre the mesh is valid, with a mask for each site.
 CellPart part_of(const Mesh& mesh, const Ids& mask);
 
 } // namespace calotte::voronoi_detail

@@ -4,8 +4,8 @@
 #include "delaunay/room.h"
 #include "integrals/room.h"
 
-/// The Voronoi tessellation that is dual to a mesh, as a C-grid model staggers it: edges, kites,
-/// lengths, areas, angles, tangential weights, and fields on the cells.
+/// The Voronoi tessellation that is dual to a mesh, with the data of a staggered C-grid: edges,
+/// kites, lengths, areas, angles, tangential weights, and fields on the cells.
 ///
 /// In: a closed mesh, or one of the plane with its domain. Out: flat arrays of connectivity and
 /// measures.

@@ -22,14 +22,14 @@ bool has_all_neighbours(const Voronoi& voronoi, std::int64_t cell) {
   return std::none_of(neighbours.begin(), neighbours.end(), [](std::int32_t id) { return id < 0; });
 }
 
-/// Whether a cell's area tells of its spacing.
+/// Whether a cell is whole, so that its area gives its spacing.
 bool is_whole(const Voronoi& voronoi, std::int64_t cell) {
   return voronoi.cell_area[cell] > 0 && has_all_neighbours(voronoi, cell);
 }
 
-/// Replaces the logarithms of cells by the mean of themselves and of the mean of their neighbours,
-/// several times: a weight that reaches two cells far (its variance grows by half a spacing squared
-/// in each pass). Cells without a number stay so.
+/// Smooths the logarithms of cells: several times, each is replaced by the mean of itself and of
+/// its neighbours' mean. The resulting weight extends over two cells (its variance grows by half a
+/// spacing squared in each pass). Cells without a number keep none.
 void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
   constexpr int passes = 8;
   DoubleVector next(logarithms.size());
@@ -52,7 +52,7 @@ void smooth(const Voronoi& voronoi, DoubleVector& logarithms) {
   }
 }
 
-/// \returns the values at a share of the sorted numbers; without numbers none.
+/// Quantiles: \returns the values at given shares of the sorted numbers; none without numbers.
 template <std::size_t n>
 std::array<double, n> quantiles(const DoubleVector& of, const std::array<double, n>& shares) {
   std::vector<double> known;
@@ -87,7 +87,7 @@ double deviation(const DoubleVector& of) {
   return count > 0 ? std::sqrt(std::max(squares / count - sum / count * (sum / count), 0.0)) : 0;
 }
 
-/// Gives cells along a boundary the mean of those next to them, from these on outwards.
+/// Gives cells along a boundary the mean of their neighbours, from the inside outwards.
 void extend(const Voronoi& voronoi, DoubleVector& logarithms) {
   for (bool grew = true; grew;) {
     grew = false;

@@ -7,21 +7,21 @@
 
 #include <cstdint>
 
-/// The spacing of cells, and the spacing that a density stands for.
+/// The spacing of cells, compared with the spacing that a density prescribes.
 namespace calotte::voronoi_detail {
 
-/// The nominal spacing as nominal_spacing(fields), over the cells that have all their neighbours: a
-/// boundary cuts the others. Over all cells with an area if none has all neighbours.
+/// The nominal spacing, see nominal_spacing(fields), over the cells that have all their neighbours,
+/// as a boundary cuts the others. If there are none, over all cells with an area.
 /// \param density by cell, with the maximum 1; empty if it is uniform.
 double nominal_spacing(const Voronoi& voronoi, const DoubleVector& density);
 
-/// How the spacing of cells differs from h = nominal density^(-1/4). Both are that of hexagons of a
-/// cell's area. The ratios are smoothed over neighbours, in logarithms, which removes the scatter
-/// of single cells: a wrong density is wrong over many.
+/// The ratios of the spacing of cells to h = nominal density^(-1/4). The spacing is that of a
+/// hexagon of the cell's area. The logarithms of the ratios are smoothed over neighbours, which
+/// removes the scatter of single cells: a wrong density is wrong over many cells.
 struct SpacingFit {
-  double median = 1;        ///< of spacing over h
-  double low = 1, high = 1; ///< of 5% of the cells it is less than `low`, of 5% more than `high`
-  std::int64_t cells = 0;   ///< with all their neighbours and a density above 0; 0: nothing to tell
+  double median = 1;        ///< of the spacing over h
+  double low = 1, high = 1; ///< 5% and 95% quantiles of the ratio
+  std::int64_t cells = 0;   ///< cells compared: with all neighbours, density > 0
 };
 /// \param density as above. \param nominal in the unit of voronoi; > 0.
 SpacingFit spacing_fit(const Voronoi& voronoi, const DoubleVector& density, double nominal);

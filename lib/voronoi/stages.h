@@ -10,8 +10,8 @@
 /// own the mesh: begun(), connect(), then measure() or its parts.
 namespace calotte::voronoi_detail {
 
-/// The centres of cells: unit columns, in a plane z = 0. \throws Error invalid_argument, naming the
-/// first site without a direction, or outside of the plane's box.
+/// The centres of cells: unit columns; in a plane with z = 0. \throws Error invalid_argument,
+/// naming the first site without a direction, or outside of the plane's box.
 Points3 checked_centres(const Mesh& mesh);
 
 struct BegunVoronoi {

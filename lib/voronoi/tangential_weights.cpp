@@ -12,7 +12,7 @@ namespace calotte {
 namespace voronoi_detail {
 namespace {
 
-/// Sets the weights of a cell's other edges for an edge, counter-clockwise from it on.
+/// Sets the weights of a cell's other edges for an edge, counter-clockwise from that edge.
 /// \param sign 1 if the edge's normal leaves the cell, -1 if it enters it.
 /// \returns the number of weights.
 std::int64_t set_weights_of_cell(const Voronoi& of, std::int32_t edge, std::int32_t cell,

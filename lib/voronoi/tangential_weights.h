@@ -9,7 +9,7 @@
 
 namespace calotte::voronoi_detail {
 
-/// The number of an edge's tangential weights: of its cells' other edges.
+/// The number of an edge's tangential weights, one for each other edge of its cells.
 inline std::int64_t weight_count(const Voronoi& of, std::int64_t edge) {
   std::int64_t count = 0;
   for (const std::int32_t cell : of.cells_on_edge.col(edge))

@@ -22,8 +22,8 @@ namespace calotte {
 namespace voronoi_detail {
 namespace {
 
-/// A norm that is 1 up to rounding is kept, so that unit columns keep their bits: normalised
-/// columns err by 5 units of roundoff, their squares by twice that and 3 of their own.
+/// The unit vector of x. A vector of norm 1 up to rounding keeps its bits: normalised columns err
+/// by 5 units of roundoff, their squares by twice that plus 3.
 Vec3 unit_column(const Vec3& x) { return std::abs(dot(x, x) - 1) <= 0x1p-49 ? x : normalised(x); }
 
 /// \throws Error invalid_argument for a mesh that does not cover its space.
@@ -45,7 +45,7 @@ void set_space(const Mesh& mesh, Voronoi& out) {
   out.surface = mesh.surface;
 }
 
-/// Sets cells, where their edges begin, and the kind of the space.
+/// Sets the cells, the starts of their lists of edges, and the kind of space.
 Rings begin(const Mesh& mesh, Voronoi& out) {
   set_space(mesh, out);
   constexpr std::int64_t most_cells = std::int64_t{1} << 29;
@@ -74,8 +74,8 @@ Voronoi voronoi_of_closed(const Mesh& mesh) {
   return out;
 }
 
-/// Of an open mesh: measures centre corners on the near side, thus those of the far side are set
-/// here.
+/// The tessellation of an open mesh. The measures put corners on the near side, so the corners of
+/// the far side are set here.
 Voronoi voronoi_of_open(const Mesh& mesh) {
   const Mesh hull = triangulate_hull(mesh);
   Voronoi out;
