@@ -14,7 +14,7 @@ namespace calotte::base_detail {
 
 inline constexpr std::int32_t none = -1; ///< where a list or a table has no id
 
-/// The list that holds an item. \param item its index among all items.
+/// The list that contains an item. \param item its index among all items.
 template <class Items, class Begin>
 std::int64_t list_of(const Lists<Items, Begin>& lists, std::int64_t item) {
   return std::upper_bound(lists.begin.begin(), lists.begin.end(), item) - lists.begin.begin() - 1;
@@ -27,7 +27,7 @@ std::int32_t next_in_list(const Lists<Items, Begin>& lists, std::int32_t item) {
   return item + 1 == lists.begin[list + 1] ? lists.begin[list] : item + 1;
 }
 
-/// Lists of items by a key from 0 to keys - 1, in the order in which they come.
+/// Groups items by a key from 0 to keys - 1. Items of one key keep their order.
 /// \tparam Items a std::vector.
 /// \param for_each(put) calls put(key, item) for each item; it is called twice.
 template <class Items, class ForEach>

@@ -54,7 +54,8 @@ void set_near(const double* longitudes, const double* latitudes, std::int64_t n,
     out[i] = unit_vector(cos_sin(turned_near(longitudes[i])), cos_sin(latitudes[i]));
 }
 
-/// The vector, or one by a power of two longer or shorter whose squares are doubles.
+/// The vector, scaled by a power of two if the squares of its coordinates would overflow or
+/// underflow.
 Vec3 of_moderate_norm(const Vec3& a) {
   const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
   if (size > 1e-100 && size < 1e100)

@@ -13,10 +13,10 @@ namespace calotte::base_detail {
 /// gives the same bits.
 Vec3 from_lonlat(double longitude, double latitude);
 
-/// The same at n points.
+/// The same for n pairs of longitude and latitude.
 void from_lonlats(const double* longitudes, const double* latitudes, std::int64_t n, Vec3* out);
 
-/// Degrees.
+/// A longitude and a latitude, degrees.
 struct LonLat {
   double longitude, latitude;
 };
@@ -29,7 +29,7 @@ LonLat lonlat_of(const Vec3& direction);
 /// The same with a longitude from 0 to below 360. No angle is -0.
 LonLat eastern_lonlat_of(const Vec3& direction);
 
-/// An angle in degrees from -180 to 180, which differs by whole turns. Exact.
+/// The angle reduced by whole turns to -180 to 180 degrees. Exact.
 double turned_back(double degrees);
 
 } // namespace calotte::base_detail

@@ -22,9 +22,9 @@
 
 namespace calotte::base_detail {
 
-/// Memory that one task frees for the next. oneTBB keeps it for later blocks; the C library would
-/// return blocks of some hundred kilobytes to the system, and faulting them in again would cost a
-/// tenth of a triangulation.
+/// Allocates memory that oneTBB keeps for later blocks after one task has freed it. The C library
+/// would return blocks of some hundred kilobytes to the system, and faulting them in again would
+/// cost a tenth of a triangulation.
 /// \returns null if there is no memory.
 void* pool_allocate(std::size_t bytes);
 void pool_free(void* block);

@@ -17,8 +17,8 @@
 /// of them are inline.
 namespace calotte::base_detail {
 
-/// A number as it was given, if nine digits hold it, else with six. So a value that misses a bound
-/// by little does not look like the bound.
+/// A number with all of its digits if these are at most nine, else with six. So a value just beyond
+/// a bound does not look like the bound.
 inline std::string shortly(double value) {
   const auto with = [value](int digits) {
     char text[32]; // to_chars() is the same in any locale
@@ -49,7 +49,7 @@ inline std::string counted(std::int64_t number, const std::string& thing) {
   return std::to_string(number) + ' ' + thing + (number == 1 ? "" : "s");
 }
 
-/// A text with one {} for each of some values; another number of them does not compile.
+/// A text with one {} for each value. A different number of {} does not compile.
 template <class... Values> struct Pattern {
   template <std::size_t size>
   consteval Pattern(const char (&literal)[size]) // NOLINT(google-explicit-constructor): its purpose

@@ -17,11 +17,11 @@ namespace calotte::base_detail {
 
 int thread_count();
 
-/// call(body, i) for 0 <= i < n, each in its own task. Of one type for all loops, as each type of a
-/// task costs tenths of a second to compile.
+/// Calls call(body, i) for 0 <= i < n, each in its own task. All loops use this one function: each
+/// further type of task would take tenths of a second to compile.
 void run_tasks(std::int64_t n, void (*call)(const void* body, std::int64_t i), const void* body);
 
-/// body(i) for 0 <= i < n, each in its own task.
+/// Calls body(i) for 0 <= i < n, each in its own task.
 template <class Body> void for_each_task(std::int64_t n, const Body& body) {
   run_tasks(
       n, [](const void* of, std::int64_t i) { (*static_cast<const Body*>(of))(i); }, &body);
@@ -34,7 +34,7 @@ inline std::int64_t block_count(std::int64_t n) {
   return (n + block - 1) / block;
 }
 
-/// body(block, begin, end) for consecutive blocks of [0, n).
+/// Calls body(block, begin, end) for consecutive blocks of [0, n), in parallel.
 template <class Body> void for_each_block(std::int64_t n, const Body& body) {
   const std::int64_t blocks = block_count(n);
   for_each_task(blocks, [&](std::int64_t block) {
@@ -96,8 +96,8 @@ template <class T> T exclusive_scan(std::span<T> values) {
   return total;
 }
 
-/// Does work during which this thread takes no other task, so that it may be done under a lock or
-/// once for all threads.
+/// Runs work during which this thread executes no unrelated task. The work may therefore run under
+/// a lock or within std::call_once().
 void in_isolation(const std::function<void()>& work);
 
 } // namespace calotte::base_detail

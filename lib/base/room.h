@@ -5,5 +5,6 @@
 /// the purpose of the library. Every other room uses them. Raw oneTBB loops are in parallel.h and
 /// nowhere else.
 ///
-/// In: numbers. Out: numbers; the same bits for any number of threads and on every x86-64 machine.
+/// In: numbers. Out: numbers, with the same bits for any number of threads and on every x86-64
+/// machine.
 namespace calotte::base_detail {}

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-/// What the library takes of Eigen's solvers.
+/// The solvers that the library takes from Eigen.
 namespace calotte::base_detail {
 
 /// The factors L D L^T of a small sparse matrix I - W, symmetric and positive definite.
@@ -27,7 +27,7 @@ private:
 };
 
 /// The largest eigenvalue of a symmetric tridiagonal matrix.
-/// \param beside the elements beside the diagonal, one fewer.
+/// \param beside the elements next to the diagonal, one fewer than those on it.
 double largest_tridiagonal_eigenvalue(std::span<const double> diagonal,
                                       std::span<const double> beside);
 

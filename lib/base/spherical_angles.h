@@ -15,18 +15,18 @@ CALOTTE_INLINE double angle_of_squares(double a, double b) {
   return steep ? 1.57079632679489661923 - angle : angle;
 }
 
-/// From -pi to pi; 0 at the poles.
+/// The longitude of a vector, from -pi to pi; 0 at the poles.
 CALOTTE_INLINE double longitude_of(double x, double y) {
   const double angle = angle_of_squares(x * x, y * y);
   return std::copysign(x < 0 ? 3.14159265358979323846 - angle : angle, y);
 }
 
-/// From -pi/2 to pi/2.
+/// The latitude of a vector, from -pi/2 to pi/2.
 CALOTTE_INLINE double latitude_of(double x, double y, double z) {
   return std::copysign(angle_of_squares(x * x + y * y, z * z), z);
 }
 
-/// An angle from minus half a turn to half a turn, from 0 to below a turn.
+/// Moves an angle from [-turn/2, turn/2] to [0, turn).
 CALOTTE_INLINE double eastern(double angle, double turn) {
   const double turned = angle < 0 ? angle + turn : angle;
   // An angle below 0 by less than the spacing of doubles at a turn is rounded to it; -0 becomes 0.

@@ -11,8 +11,8 @@ struct HalfArea {
   double sine, cosine;
 };
 
-/// Of the triangle of unit vectors; the sine is positive if they run counter-clockwise. Half of the
-/// area is from -pi to pi.
+/// The half area of a triangle of unit vectors, from -pi to pi. Its sine is positive if they run
+/// counter-clockwise.
 ///
 /// tan(area/2) = det(a,b,c) / ((a+b).(a+c)) (Van Oosterom and Strackee, IEEE Trans. Biomed. Eng.
 /// 30, 1983). The determinant is one of small differences, which keep the digits of small

@@ -13,7 +13,7 @@
 namespace calotte::base_detail {
 namespace {
 
-/// value(i) for each column.
+/// A matrix with the columns value(i).
 template <class Value> Points3 make_columns(Eigen::Index n, const Value& value) {
   Points3 result(3, n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

@@ -43,8 +43,8 @@ inline double square_from(const Box3& box, const Vec3& p) {
 
 /// Items sorted along the space-filling curve, below a binary tree of their bounds: node k has the
 /// children 2k and 2k + 1.
-/// \tparam Bounds what is known of an item, or of all items below a node: by default that there are
-///         none; joined(a, b) holds for those of a and of b.
+/// \tparam Bounds bounds of an item, or of all items below a node. By default they are empty;
+///         joined(a, b) are those of the items of a and of b.
 template <class Bounds> class BoundsTree {
 public:
   BoundsTree() = default;
@@ -72,7 +72,7 @@ public:
 
   /// Calls body(item) once for each item whose bounds satisfy meets(bounds). The order of the calls
   /// is a function of the items alone.
-  /// \param meets true for bounds that contain some for which it is true.
+  /// \param meets must be true for the bounds of a node if it is true for those of an item below.
   template <class Meets, class Body> void visit(const Meets& meets, const Body& body) const {
     if (order_.empty())
       return;

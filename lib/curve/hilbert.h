@@ -85,13 +85,13 @@ std::uint64_t curve_key(const CubePoint& c);
 /// The keys of four points, in about the time of one.
 std::array<std::uint64_t, 4> curve_keys(const std::array<CubePoint, 4>& points);
 
-/// The keys of vectors that follow each other in memory: those by to_cube(), in vector code.
-/// \param count at least 0; as many keys.
+/// Sets the keys of consecutive vectors, those of to_cube(), in vector code.
+/// \param count number of vectors and of keys, >= 0.
 /// \return false if a vector is zero, not finite, or so long that the sum of its coordinates
 /// overflows: its key is then meaningless.
 bool set_curve_keys(const Vec3* points, std::int64_t count, std::uint64_t* keys);
 
-/// body(i, key of square(i)) for begin <= i < end.
+/// Calls body(i, key of square(i)) for begin <= i < end.
 template <class Square, class Body>
 void for_each_curve_key(std::int64_t begin, std::int64_t end, const Square& square,
                         const Body& body) {

@@ -22,10 +22,10 @@ namespace calotte::curve_detail {
 /// patch, with its sites and its triangles, fits in cache.
 class Traversal {
 public:
-  /// In the order of their numbers.
+  /// Visits triangles in the order of their numbers.
   Traversal() = default;
 
-  /// By patches of some thousand sites, which are cells of a grid on each face.
+  /// Visits triangles by patches of some thousand sites: cells of a grid on each face.
   /// \param square(t) position of triangle t: a face, below `faces`, and u and v in [-1, 1].
   /// \pre fewer than 2^31 triangles.
   template <class Square>

@@ -17,17 +17,17 @@ struct Arc {
 };
 
 /// A direction as a unit vector. A vector whose norm is 1 up to round-off keeps its bits, so that
-/// the function changes no result of its own.
+/// the function is idempotent.
 inline Vec3 as_unit(const Vec3& x) {
   constexpr double tolerance = 0x1p-47; // of a square; normalised() errs by less than 2^-49
   const double excess = dot(x, x) - 1;
   return excess >= -tolerance && excess <= tolerance ? x : normalised(x);
 }
 
-/// body(part) for an arc of at most a quarter turn, or for the parts of a longer one: lengths and
-/// areas lose digits where the ends are nearly opposite. The sum of the ends lies on the arc, as
-/// the few digits that it has are exact, though not in the middle if one end is longer by rounding.
-/// \param most_cuts an end to the cuts for arcs that rounding has made half circles.
+/// Calls body(part) for an arc of at most a quarter turn, or for the parts of a longer one: lengths
+/// and areas lose digits where the ends are nearly opposite. The sum of the ends lies on the arc,
+/// as its few digits are exact; it is not the middle if one end is longer by rounding.
+/// \param most_cuts maximum number of cuts, for arcs that are half circles by rounding.
 template <class Body> void for_each_part(const Arc& arc, const Body& body, int most_cuts = 64) {
   if (!(dot(arc.from, arc.to) < 0) || most_cuts == 0) {
     body(arc);
@@ -38,7 +38,8 @@ template <class Body> void for_each_part(const Arc& arc, const Body& body, int m
   for_each_part({between, arc.to}, body, most_cuts - 1);
 }
 
-/// body(part) for the parts of an arc, which is bisected until their chords are at most `longest`.
+/// Calls body(part) for the parts of an arc, which is bisected until their chords are at most
+/// `longest`.
 template <class Body> void for_each_short_part(const Arc& arc, double longest, const Body& body) {
   const Vec3 apart = arc.to - arc.from;
   if (dot(apart, apart) <= longest * longest)
@@ -76,11 +77,11 @@ inline bool crosses(const Vec3& start, const Vec3& end, const Arc& arc) {
 /// True if two arcs have a common point; exact.
 bool meet(const Arc& a, const Arc& b);
 
-/// True if two arcs have more in common than the end of a, where b begins; exact.
+/// True if two consecutive arcs share more than the end of a, where b begins; exact.
 bool fold(const Arc& a, const Arc& b);
 
-/// True if the last part of a path to the corner between two arcs, which the path does not touch,
-/// lies to the left of both arcs' common boundary; exact.
+/// True if a path to the corner between two arcs arrives from the left of the boundary that the
+/// arcs form. The path does not touch the arcs elsewhere. Exact.
 /// \pre neither great circle of an arc contains `start`.
 bool reaches_from_left(const Vec3& start, const Arc& before, const Arc& after);
 

@@ -11,7 +11,7 @@
 namespace calotte::domain_detail {
 namespace {
 
-/// A convex polygon's part where normal.x <= offset.
+/// The part of a convex polygon where normal.x <= offset.
 /// \param beyond the generator across the new side, or 0.
 std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& normal,
                             double offset, const Vec2& beyond = {0, 0}) {
@@ -28,8 +28,7 @@ std::vector<CellCorner> cut(const std::vector<CellCorner>& polygon, const Vec2& 
   return part;
 }
 
-/// Cells along the hull extend far beyond the domain; the remainder extends only slightly beyond
-/// it.
+/// Cuts a cell to a slightly enlarged box: cells along the hull extend far beyond the domain.
 std::vector<CellCorner> cut_to_box(std::vector<CellCorner> cell, const Box2& box,
                                    const Vec2& site) {
   const Vec2 margin = 0.01 * (box.high - box.low), low = box.low - site - margin,
@@ -62,19 +61,20 @@ std::vector<Outline::Edge> boundary_near(const AnyOutline& outline, const Box2& 
 }
 
 /// The bisector with the generator of a neighbouring cell, seen from this cell's generator. It
-/// decides about the edges of the boundary on both sides, so that both cells agree about a boundary
-/// along it.
+/// decides on which side edges of the boundary are, for both cells, so that the cells agree about a
+/// boundary along it.
 struct Bisector {
   Vec2 beyond;
 
   bool none() const { return beyond.x == 0 && beyond.y == 0; }
-  /// Positive on the cell's side: the distance, times that of the generators.
+  /// The distance from the bisector times the distance of the generators; positive on the cell's
+  /// side.
   double over(const Vec2& p) const { return dot(beyond, 0.5 * beyond - p); }
   /// The position along the cell's side, counter-clockwise, times the distance of the generators.
   double along(const Vec2& p) const { return cross(beyond, p); }
 };
 
-/// The part of a boundary's edge inside a cell (Cyrus and Beck, 1978).
+/// Adds the part of a boundary's edge inside a cell (Cyrus and Beck, 1978).
 void add_boundary(const std::vector<CellCorner>& cell, const Vec2& from, const Vec2& to,
                   std::vector<CellSide>& sides) {
   double first = 0, last = 1;
@@ -106,9 +106,9 @@ public:
         along_(from.along + (to.along - from.along) / 2),
         noise_(1e-9 * (norm(from.point) + norm(to.point))) {}
 
-  /// True if the domain contains the part; its middle decides. If the boundary is so close that
-  /// rounding could move it across the middle, a point farther inside decides, together with the
-  /// edges between the two, which are those that add_boundary() counts as the cell's.
+  /// True if the domain contains the part. Its middle decides. If rounding could move the boundary
+  /// across the middle, a point farther inside decides, together with the edges between the two
+  /// points, which are those that add_boundary() adds to the cell.
   template <class AnyOutline>
   bool inside(const AnyOutline& outline, const Vec2& site,
               const std::vector<Outline::Edge>& boundary) const {
@@ -135,7 +135,7 @@ public:
   }
 
 private:
-  /// The distance to an edge on the cell's side, in the normal direction from the middle.
+  /// The distance from the middle to an edge on the cell's side, in the normal direction.
   std::optional<double> intersect(const Vec2& from, const Vec2& to) const {
     const double a = bisector_.along(from), b = bisector_.along(to);
     if ((a <= along_) == (b <= along_))
@@ -164,7 +164,7 @@ void add_inner(const AnyOutline& outline, const Vec2& site,
   for (const Outline::Edge& edge : boundary) {
     const Vec2 a = edge.from - site, b = edge.to - site;
     const double start = bisector.over(a), share = start / (start - bisector.over(b));
-    // A crossing that rounding adds only divides a part in two.
+    // A crossing due to rounding is harmless: it only divides a part in two.
     if (!(share > -1e-9 && share < 1 + 1e-9))
       continue;
     const Vec2 point = a + share * (b - a);
@@ -179,7 +179,7 @@ void add_inner(const AnyOutline& outline, const Vec2& site,
       sides.push_back({p.point, q.point, false});
 }
 
-/// Finds the point of segments that is nearest to a given one.
+/// Finds the nearest point of segments to a given point.
 class Nearest {
 public:
   explicit Nearest(const Vec2& to) : to_(to) {}

@@ -30,7 +30,7 @@ struct CellCorner {
 bool near_boundary(const Outline& outline, const Vec2& site, double reach);
 bool near_boundary(const Outline& outline, const Vec2& site, const std::vector<CellCorner>& cell);
 
-/// The part of a convex polygon on the cell's side of the bisector with a generator.
+/// The part of a convex polygon that is on the cell's side of the bisector with another generator.
 std::vector<CellCorner> cut_by_bisector(const std::vector<CellCorner>& polygon, const Vec2& beyond);
 
 /// A side of the part of a cell in the domain, which lies to the left of the direction from p to q.
@@ -49,14 +49,14 @@ std::vector<CellSide> clipped_cell(const AnyOutline& outline, const Vec2& site,
 std::vector<CellSide> parts_inside(const Outline& outline, const Vec2& site,
                                    const CellCorner& corner, const Vec2& to);
 
-/// The point inside the domain that is nearest to one outside, moved towards the generator by a
-/// billionth of the distance and relative to the generator. Only the boundary within the cell
-/// counts. None if the boundary can nowhere be entered.
+/// The nearest point inside the domain to a point outside, relative to the generator. It is moved
+/// inside by a billionth of the distance from the generator. Only the boundary within the cell
+/// counts. None if no point inside is found.
 template <class AnyOutline>
 std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const std::vector<CellSide>& sides, const Vec2& outside);
 
-/// The same for all of the domain's boundary no farther from the point than the generator.
+/// The same, for the whole boundary that is no farther from the point than the generator is.
 template <class AnyOutline>
 std::optional<Vec2> nearest_inside(const AnyOutline& outline, const Vec2& site,
                                    const Vec2& outside);

@@ -110,8 +110,8 @@ public:
     std::iota(same_as_.begin(), same_as_.end(), 0);
   }
 
-  /// False if no corner is near an edge elsewhere; or if a great part of the corners are near each
-  /// other, which is no cut, and the search would be long.
+  /// False if no corner is near another edge, or if a large part of the corners are near each
+  /// other: that is no cut, and the search would take long.
   bool search() {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(rings_.arcs.items.size()); ++i) {
       compare(i);
@@ -121,7 +121,7 @@ public:
     return near_ > 0;
   }
 
-  /// The rings with the corners that were found moved.
+  /// The rings after the corners that were found are moved.
   std::vector<WrittenRing> snapped(std::vector<WrittenRing> rings) {
     for (std::size_t r = 0; r < rings.size(); ++r) {
       rings[r].corners.clear();

@@ -11,9 +11,9 @@
 
 namespace calotte::domain_detail {
 
-/// The points of a line: unit vectors, joined by arcs shorter than a half circle, or x y 0 of a
-/// plane, joined straight. Equal ones may follow each other.
-/// \param line 3 x n. \param number of it, for messages.
+/// The points of a line: unit vectors joined by arcs shorter than a half circle, or x y 0 of a
+/// plane joined by straight lines. Consecutive points may be equal.
+/// \param line 3 x n. \param number index of the line, for messages.
 /// \throws Error invalid_argument, naming line and point: no direction, or no point of a plane;
 ///         opposite neighbours on the sphere.
 std::vector<Vec3> checked_line(const Points3& line, std::int64_t number, bool sphere);

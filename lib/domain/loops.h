@@ -7,9 +7,9 @@
 
 namespace calotte::domain_detail {
 
-/// A ring without the loops in which it crosses or touches itself, as simplified coasts do. Of the
-/// two ways from one arc to another that it meets, the one with fewer corners is left out, until no
-/// arcs meet. A ring of which a tenth of the corners would go at once is returned as it is.
+/// A ring without the loops in which it crosses or touches itself, as simplified coasts do. Where
+/// two arcs meet, the part of the ring between them with fewer corners is removed, until no arcs
+/// meet. If that would remove a tenth of the corners at once, the ring is returned unchanged.
 /// \param ring 3 x corners.
 /// \throws Error as rings_of().
 Points3 without_loops(const Points3& ring);

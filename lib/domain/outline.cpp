@@ -50,7 +50,7 @@ bool meet(const Outline::Edge& a, const Outline::Edge& b) {
   return on_edge(a, b.from) || on_edge(a, b.to) || on_edge(b, a.from) || on_edge(b, a.to);
 }
 
-/// True if two consecutive edges of a ring have more in common than the corner between them.
+/// True if two consecutive edges of a ring share more than the corner between them.
 bool fold(const Outline::Edge& a, const Outline::Edge& b) {
   return on_edge(a, b.to) || on_edge(b, a.from);
 }

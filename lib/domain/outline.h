@@ -14,7 +14,7 @@
 
 namespace calotte::domain_detail {
 
-/// x from `low.x` to `high.x`, y likewise.
+/// A box of x from `low.x` to `high.x` and y from `low.y` to `high.y`.
 struct Box2 {
   Vec2 low, high;
 };
@@ -33,7 +33,7 @@ public:
   /// \pre there are rings. \throws Error as Surface::within().
   explicit Outline(const Surface::Rings& rings);
 
-  const Box2& box() const { return box_; } ///< the least one around it
+  const Box2& box() const { return box_; } ///< the bounding box
   double area() const { return area_; }
   const std::vector<Edge>& edges() const { return edges_.items; } ///< ring by ring
   /// The corners of each ring in the order that has the domain to the left.
@@ -63,7 +63,7 @@ private:
     return {{std::min(edge.from.x, edge.to.x), std::min(edge.from.y, edge.to.y)},
             {std::max(edge.from.x, edge.to.x), std::max(edge.from.y, edge.to.y)}};
   }
-  std::int64_t strip(double y) const; ///< clamped to those there are
+  std::int64_t strip(double y) const; ///< clamped to existing strips
   const Edge& edge(std::int32_t e) const { return edges_.items[static_cast<std::size_t>(e)]; }
   void make_strips();
   void require_simple() const;

@@ -34,12 +34,12 @@ void append_ring(const Points3& corners, std::int64_t r, std::vector<Arc>& arcs)
     append_arc(corners, r, i, arcs);
 }
 
-/// True if two arcs have more in common than rings allow.
+/// True if two arcs share more than simple rings allow.
 bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
   const Arc &a = rings.arc(e), &b = rings.arc(f);
   if (e == f)
     return false;
-  // Neighbours meet; that is not asked, as the answer is slow where it is exact.
+  // Consecutive arcs always meet. The exact test for that would be slow.
   if (f == next_in_list(rings.arcs, e))
     return fold(a, b);
   return e == next_in_list(rings.arcs, f) ? fold(b, a) : meet(a, b);
@@ -47,7 +47,7 @@ bool conflict(const Rings& rings, std::int32_t e, std::int32_t f) {
 
 constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
 
-/// The first arc that conflicts with one, or none.
+/// The first arc that conflicts with a given one, or none.
 std::int32_t first_conflict(const Rings& rings, const ArcTree& tree, std::int32_t e) {
   std::int32_t first = none;
   const Box3 own = box_of(rings.arc(e));

@@ -41,7 +41,7 @@ Rings rings_of(const Surface::Rings& corners);
 /// The first arc that meets another elsewhere than in the corner that joins them; -1 for none.
 std::int64_t first_meeting(const Rings& rings, const ArcTree& tree);
 
-/// Throws where arcs meet elsewhere than in the corner that joins them.
+/// Refuses rings in which arcs meet elsewhere than in the corner that joins them.
 /// \throws Error invalid_argument, naming ring and corner of the first arc that meets another. Its
 ///         index() is the ring.
 /// \return the rings.
@@ -57,13 +57,13 @@ inline std::string corner_name(std::int64_t ring, std::int64_t corner) {
   return message("ring {}, corner {}", ring, corner);
 }
 
-/// That of the corner at which an edge begins. \param edges of each ring.
+/// The name of the corner at which an edge begins. \param edges lists of each ring.
 template <class Edges> std::string start_name(const Edges& edges, std::int32_t edge) {
   const std::int64_t ring = list_of(edges, edge);
   return corner_name(ring, edge - edges.begin[static_cast<std::size_t>(ring)]);
 }
 
-/// What is wrong with two edges that meet.
+/// The message for two edges that meet.
 template <class Edges>
 std::string meeting_fault(const Edges& edges, std::int32_t e, std::int32_t f) {
   return message("the edges from {} and from {} meet; rings may neither cross nor touch themselves "
@@ -71,13 +71,13 @@ std::string meeting_fault(const Edges& edges, std::int32_t e, std::int32_t f) {
                  start_name(edges, e), start_name(edges, f));
 }
 
-/// What is wrong with a ring of one or two corners.
+/// The message for a ring of one or two corners.
 inline std::string few_corners_fault(const std::string& ring, std::int64_t corners) {
   return message("{} has {} and encloses nothing; give three at least", ring,
                  counted(corners, "corner"));
 }
 
-/// Ends in an error on a region.
+/// Refuses a region.
 /// \throws Error invalid_argument, always.
 [[noreturn]] void refuse_region(const std::string& what, std::int64_t ring = -1);
 

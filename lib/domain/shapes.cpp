@@ -47,7 +47,7 @@ void require_corners(int corners) {
           corners);
 }
 
-/// The ring of point(cosine, sine) for the angles of a regular polygon.
+/// The ring of the points point_at(cosine, sine) at the angles of a regular polygon.
 template <class PointAt> Points3 ring_of(int corners, const PointAt& point_at) {
   Points3 ring(3, corners);
   for (int i = 0; i < corners; ++i)
@@ -89,8 +89,8 @@ Surface circle(const Eigen::Vector3d& centre, double radius, int corners) {
       })});
 }
 
-// A plane that touches the sphere at the centre shows the ellipse as an ellipse of the semi-axes
-// tan(semi_major) and tan(semi_minor), as great circles are its lines.
+// In the plane that touches the sphere at the centre, great circles are straight lines, and the
+// ellipse is an ellipse of the semi-axes tan(semi_major) and tan(semi_minor).
 Surface ellipse(const Eigen::Vector3d& centre, double semi_major, double semi_minor, double bearing,
                 int corners) {
   const auto [up, east, north] = compass_at(centre, "ellipse");

@@ -88,7 +88,7 @@ Vec3 SideCells::free_probe(const Square& square, std::span<const std::int32_t> i
   return probe_in(square, number);
 }
 
-/// A probe of the square around a corner, and whether it is on the side to the left of that corner.
+/// A probe of the square around a corner, and whether the probe is to the left of that corner.
 /// \param ids the arcs in the square.
 std::pair<Vec3, bool> SideCells::probe_at_corner(Corner corner, const Square& square,
                                                  std::span<const std::int32_t> ids) const {

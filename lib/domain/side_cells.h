@@ -14,8 +14,8 @@ namespace calotte::domain_detail {
 
 /// The sides of closed polygons on the sphere, prepared for many queries: squares on the faces of a
 /// cube, bisected until few arcs pass through each. A square without arcs lies on one side. In any
-/// other the side of one direction is known, the square's probe; the parity of the crossings of the
-/// path from there decides.
+/// other square the side of one direction, its probe, is known: the parity of the crossings of the
+/// path from the probe gives the side of a query.
 class SideCells {
 public:
   /// Two consecutive arcs, by index.
@@ -82,8 +82,9 @@ private:
   std::span<const std::int32_t> ids_of(const Cell& cell) const;
 
   std::vector<Arc> arcs_;
-  /// The squares, the six faces first: of a bisected one the first of four nodes, of one through
-  /// which no arc passes `all_inside` or `all_outside`, of others first_cell - index.
+  /// The squares, the six faces first. The entry of a bisected square is the first of four nodes;
+  /// that of a square without arcs is `all_inside` or `all_outside`; that of others is first_cell -
+  /// index.
   std::vector<std::int32_t> nodes_;
   static constexpr std::int32_t all_inside = -1, all_outside = -2, first_cell = -3;
   std::vector<Cell> cells_;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr DoubleDouble sphere{4 * std::numbers::pi, 4 * 1.2246467991473532e-16};
 
-/// Points to sum triangles from: the mean direction of the arcs, and those of a cube's faces, edges
-/// and corners.
+/// Candidate origins for sums of triangles: the mean direction of the arcs, and the directions of a
+/// cube's faces, edges and corners.
 std::vector<Vec3> origins(std::span<const Arc> arcs) {
   Vec3 sum{0, 0, 0};
   for (const Arc& arc : arcs)
@@ -30,7 +30,7 @@ std::vector<Vec3> origins(std::span<const Arc> arcs) {
   return points;
 }
 
-/// The one whose opposite is farthest from all arcs.
+/// The origin whose opposite is farthest from all arcs.
 Vec3 best_origin(std::span<const Arc> arcs) {
   Vec3 best{0, 0, 1};
   double farthest = -1;

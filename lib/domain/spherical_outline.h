@@ -13,8 +13,7 @@
 
 namespace calotte::domain_detail {
 
-/// The boundary of a region of the sphere, prepared for many queries. It is not changed afterwards:
-/// any number of threads may call it.
+/// The boundary of a region of the sphere, prepared for many queries. Immutable and thread-safe.
 class SphericalOutline {
 public:
   /// The region lies to the left of an arc, which is shorter than a half circle; unit vectors.
@@ -30,9 +29,9 @@ public:
   /// whose norm is not 1 up to round-off are rounded to unit vectors first, as the corners are.
   Side side(const Vec3& point) const { return cells_.side(as_unit(point)); }
 
-  /// Calls body(edge) once for each edge that may come within a distance of a point. It calls it
-  /// for all edges that do, and few others. The order of the calls is a function of the edges and
-  /// the point.
+  /// Calls body(edge) once for each edge that may come within a distance of a point. It calls the
+  /// body for all edges that do, and for few others. The order of the calls is a function of the
+  /// edges and the point.
   /// \param point unit vector. \param reach angle in radians.
   template <class Body>
   void for_each_edge_near(const Vec3& point, double reach, const Body& body) const {

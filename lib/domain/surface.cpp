@@ -17,7 +17,7 @@
 
 namespace calotte {
 
-/// What is prepared for queries is made by the first of them.
+/// The first query makes the data that queries need.
 struct Surface::Bounds {
   explicit Bounds(Rings given) : rings(std::move(given)) {}
 

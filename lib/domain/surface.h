@@ -17,7 +17,7 @@ namespace calotte::domain_detail {
 /// Makes surfaces without a check.
 struct UncheckedSurface {
   static Surface of_sphere(Surface::Rings rings);
-  /// \param period without effect if there are rings.
+  /// \param period has no effect if there are rings.
   static Surface of_plane(Surface::Rings rings, const Eigen::Vector2d& period);
   /// See outline_of().
   static const SphericalOutline* outline_on_sphere(const Surface& surface);
@@ -30,7 +30,7 @@ template <Space S> using OutlineOf = std::conditional_t<S::on_sphere, SphericalO
 /// The boundary of a surface, prepared for queries; null without one. It lives as long as the
 /// surface and its copies.
 /// \pre the surface lies in the space.
-/// \throws Error as Surface::within(), for a surface that was made without a check.
+/// \throws Error as Surface::within(), for a surface made without a check.
 template <Space S> const OutlineOf<S>* outline_of(const Surface& surface) {
   if constexpr (S::on_sphere)
     return UncheckedSurface::outline_on_sphere(surface);
@@ -38,7 +38,7 @@ template <Space S> const OutlineOf<S>* outline_of(const Surface& surface) {
     return UncheckedSurface::outline_in_plane(surface);
 }
 
-/// The side of a point; inside of a surface without a boundary.
+/// The side of a point; always inside on a surface without a boundary.
 template <Space S> Side side_of(const OutlineOf<S>* outline, const Vec3& x) {
   if (outline == nullptr)
     return Side::inside;

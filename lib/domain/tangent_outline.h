@@ -35,8 +35,8 @@ public:
   Vec3 lifted(const Vec2& u) const { return at_ + tangent(u); }
   Vec3 tangent(const Vec2& u) const { return u.x * first_ + u.y * second_; }
 
-  /// The point in the plane whose bisector with 0 is the projection of the bisector of a direction
-  /// with the point: the line u.t = 1 - x.at, t = along(x).
+  /// The mirror image of 0: the point in the plane whose bisector with 0 is the projection of the
+  /// bisector of x and the tangent point, which is the line u.t = 1 - x.at, t = along(x).
   Vec2 mirrored(const Vec3& x) const {
     const Vec2 t = along(x);
     const Vec3 apart = x - at_;
@@ -48,8 +48,7 @@ private:
 };
 
 /// The boundary of a region of the sphere in the plane that touches the sphere at a site: Voronoi
-/// cells and the region have straight sides there. It shows what is within some 76 degrees of the
-/// site.
+/// cells and the region have straight sides there. It extends to some 76 degrees from the site.
 class TangentOutline {
 public:
   static constexpr double reach = 4; ///< in the plane
@@ -64,7 +63,8 @@ public:
 
   Side side(const Vec2& point) const { return outline_->side(plane_->lifted(point)); }
 
-  /// Calls body(edge) for the edges, where they are in front, whose box meets a box.
+  /// Calls body(edge) for the edges, clipped to the part in front of the plane's horizon, whose box
+  /// meets a box.
   template <class Body> void for_each_edge_near(const Box2& box, const Body& body) const {
     const Vec2 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
     // A line of length l at a distance of at least 1 is seen under an angle of 2 atan(l/2) at most.
@@ -79,7 +79,7 @@ public:
   }
 
 private:
-  /// The part of an edge in front of the plane's horizon, a little nearer than that.
+  /// The part of an edge slightly in front of the plane's horizon.
   std::optional<Outline::Edge> projected(const SphericalOutline::Edge& edge) const {
     constexpr double least = 0.01;
     const double from = plane_->height(edge.from), to = plane_->height(edge.to);

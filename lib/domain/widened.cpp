@@ -26,8 +26,8 @@ using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false, false>; ///< counter-clockwise, not closed
 using MultiPolygon = bg::model::multi_polygon<Polygon>;
 
-/// The stereographic projection from the point across from a centre; distances at the centre are
-/// right, others are enlarged.
+/// The stereographic projection from the point opposite to a centre. Its scale is 1 at the centre
+/// and larger elsewhere.
 class Stereographic {
 public:
   explicit Stereographic(const Vec3& centre) : plane_(centre) {}
@@ -41,7 +41,7 @@ public:
     const double square = dot(u, u);
     return (1 / (1 + square)) * ((1 - square) * plane_.at() + 2 * plane_.tangent(u));
   }
-  /// How much longer a distance is in the plane, at an angle from the centre.
+  /// The scale of the projection at an angle from the centre.
   static double scale(double angle) {
     const double tangent = std::tan(angle / 2);
     return 1 + tangent * tangent;
@@ -63,8 +63,8 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return 2 * std::atan2(norm(a - b), norm(a + b));
 }
 
-/// A ring's corners, and points on its arcs at most a hundredth apart, so that straight lines
-/// between them are near the arcs.
+/// The projection of a ring's corners, and of points on its arcs at most 1/100 apart, so that
+/// straight lines between them are near the arcs.
 Polygon::ring_type projected(const Points3& ring, const Stereographic& map) {
   constexpr double step = 0.01;
   Polygon::ring_type out;
@@ -103,7 +103,8 @@ MultiPolygon polygons_of(const Surface::Rings& rings, const Stereographic& map) 
   return polygons;
 }
 
-/// \param least distance between corners; others are left out, which rounding could make one.
+/// \param least minimum distance between corners; nearer corners, which rounding could merge, are
+/// removed.
 Points3 lifted(const Polygon::ring_type& ring, double least, const Stereographic& map) {
   Polygon::ring_type corners;
   for (const Point& point : ring)

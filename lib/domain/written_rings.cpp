@@ -61,7 +61,7 @@ std::optional<std::size_t> take(std::string_view& text, std::string_view word, s
   return number;
 }
 
-/// The sides of joined rings, as if the region were to the left of the first one.
+/// The sides of joined rings, with the region to the left of the first one.
 SideCells sides_of(const std::vector<WrittenRing>& rings) {
   require(!rings.empty(), "the rings bound nothing; give a ring with a region on one side");
   return with_origins(rings, [&] {
@@ -70,7 +70,7 @@ SideCells sides_of(const std::vector<WrittenRing>& rings) {
   });
 }
 
-/// Rings of which each has the inside of the cells to its left, or else the outside.
+/// The rings, turned so that each has the inside of the cells to its left, or else the outside.
 std::vector<WrittenRing> turned(std::vector<WrittenRing> rings, const SideCells& cells,
                                 bool inside) {
   std::int32_t begin = 0;
@@ -108,7 +108,7 @@ bool enclose_left(std::span<const Arc> arcs) {
   const double from_north = square_from(arcs, north), from_south = square_from(arcs, -north);
   if (std::min(from_north, from_south) <= nearby * nearby || std::abs(turn_about_axis(arcs)) > 1e-6)
     return left <= sphere / 2 + equal;
-  // Seen from a pole, the area to the left lacks that of the sphere if the other pole is there.
+  // The area to the left, seen from a pole, lacks 4 pi if the opposite pole is to the left.
   const Vec3 origin = from_south > from_north ? north : -north;
   return left - area_seen_from(origin, arcs) < sphere / 2;
 }

@@ -48,10 +48,10 @@ struct Image {
   int i, j;
 };
 
-/// As above, exact in the sums, and as fast if all are copies in one box. A period of 0, with i and
-/// j 0, means a plane without period. The sites decide ties; the shifts of the copies decide only
-/// between copies of one site. If circles are small compared with the box, the mesh is therefore as
-/// periodic as the sites.
+/// The predicates above for copies. They are exact in the sums, and as fast if all are copies in
+/// one box. A period of 0, with i and j 0, means a plane without period. The sites decide ties; the
+/// shifts of the copies decide only between copies of one site. If circles are small compared with
+/// the box, the mesh is therefore as periodic as the sites.
 int orientation(const Vec2& period, const Image& a, const Image& b, const Image& c);
 int compare_distances(const Vec2& period, const Image& p, const Image& a, const Image& b);
 bool between(const Vec2& period, const Image& a, const Image& p, const Image& b);

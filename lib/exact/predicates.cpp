@@ -261,7 +261,7 @@ int orientation(const View& view, const Vec3& a, const Vec3& b, const Vec3& c) {
 // way as ab.
 bool between(const View& view, const Vec3& a, const Vec3& p, const Vec3& b) {
   constexpr std::array<Vec3, 4> tetrahedron{
-      Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}}; // no plane holds all four
+      Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}}; // no plane contains all four
   for (const Vec3& g : tetrahedron) {
     if (view.from_centre) {
       const int way = orientation(a, b, g);

@@ -17,7 +17,7 @@
 /// change if an argument is multiplied by a positive number.
 namespace calotte::exact_detail {
 
-/// How often each tier passed a decision to the next.
+/// The number of decisions that each tier passed to the next.
 struct PredicateCounts {
   std::int64_t filtered = 0; ///< undecided in doubles
   std::int64_t exact = 0;    ///< undecided in 106 bits

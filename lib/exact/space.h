@@ -61,7 +61,7 @@ public:
 
   static Vec3 wrapped(const Vec3& x) { return x; }
   static Vec3 offset(const Vec3& a, const Vec3& b) { return b - a; }
-  /// Of the shorter arc; a unit vector.
+  /// The midpoint of the shorter arc; a unit vector.
   static Vec3 midpoint(const Vec3& a, const Vec3& b);
   static double area_term(const Vec3& a, const Vec3& b, const Vec3& c) {
     return dot(a, cross(b - a, c - a));
@@ -105,7 +105,7 @@ public:
     const int i = k % 3 - 1, j = k / 3 - 1;
     return {p.site, p.i + (period_.x > 0 ? i : 0), p.j + (period_.y > 0 ? j : 0)};
   }
-  /// Of two that are equally near, see periods_between().
+  /// The nearest copy. Of two that are equally near, see periods_between().
   Position near(const Vec3& x, const Position& p) const {
     return {{x.x, x.y},
             static_cast<int>(p.i + periods_between(p.site.x, x.x, period_.x)),
@@ -137,12 +137,12 @@ public:
   Vec3 wrapped(const Vec3& x) const {
     return {wrapped(x.x, period_.x), wrapped(x.y, period_.y), x.z};
   }
-  /// To the copy of b nearest to a; offset(b, a) is the opposite.
+  /// The offset from a to the copy of b nearest to a. offset(b, a) is the opposite.
   Vec3 offset(const Vec3& a, const Vec3& b) const {
     return {b.x - a.x + periods_between(a.x, b.x, period_.x) * period_.x,
             b.y - a.y + periods_between(a.y, b.y, period_.y) * period_.y, 0};
   }
-  /// Of the shorter way between points in the box; in the box.
+  /// The midpoint of the shortest path between points in the box; in the box.
   Vec3 midpoint(const Vec3& a, const Vec3& b) const {
     return {middle(a.x, b.x, period_.x), middle(a.y, b.y, period_.y), 0};
   }
@@ -160,8 +160,8 @@ public:
 
 private:
   /// The shift of the copy of b nearest to a, in whole periods; 0 if there is no period. Of two
-  /// that are equally near it is the one on the other side of a than b: b's own copy half a period
-  /// away is not chosen, and the shift of the copy of a nearest to b is the opposite.
+  /// that are equally near, it is the copy across from b: b's own copy half a period away is not
+  /// chosen, and the shift of the copy of a nearest to b is the opposite.
   static double periods_between(double a, double b, double period) {
     return period > 0 ? -std::round((b - a) / period) : 0;
   }
@@ -179,13 +179,13 @@ private:
   static int boxes(double x, double period) {
     return period > 0 ? -static_cast<int>(std::floor(x / period)) : 0;
   }
-  bool is_box() const { return period_.x > 0 && period_.y > 0; } ///< both ways
+  bool is_box() const { return period_.x > 0 && period_.y > 0; } ///< periodic in both directions
   Vec2 way(const Position& from, const Position& to) const;
 
   Vec2 period_{0, 0};
 };
 
-/// What Sphere and Plane have in common. An exact sign takes positions, which are points on the
+/// The operations of Sphere and Plane. An exact sign takes positions, which are points on the
 /// sphere and copies of points in a plane; a measure takes points.
 template <class S>
 concept Space = requires(const S space, const Vec3& x, const typename S::Position& p, int k) {
@@ -200,7 +200,7 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
   /// The copy of a point that is nearest to a position.
   { space.near(x, p) } -> std::same_as<typename S::Position>;
   { space.coordinates(p) } -> std::same_as<Vec3>; ///< rounded; on the sphere a unit vector
-  /// A position in a frame of another one: from the sphere's centre, or from that position.
+  /// A position in the frame of another: relative to the sphere's centre, or to that position.
   { space.seen(p, p) } -> std::same_as<Vec3>;
   /// 1 when three positions run counter-clockwise, seen from outside; 0 on one line.
   { space.orientation(p, p, p) } -> std::same_as<int>;
@@ -210,15 +210,17 @@ concept Space = requires(const S space, const Vec3& x, const typename S::Positio
   { space.compare_distances(p, p, p) } -> std::same_as<int>;     ///< -1: the second is nearer to p
   /// Whether the angle at the first is acute beyond rounding.
   { space.is_clearly_acute(p, p, p) } -> std::same_as<bool>;
-  /// Whether a side is clearly shorter than half of each period: no other copy is as near.
+  /// Whether a side is shorter than half of each period beyond rounding: no other copy is as near.
   { space.is_short(p, p) } -> std::same_as<bool>;
   { space.wrapped(x) } -> std::same_as<Vec3>;           ///< the copy in the half-open period
   { space.offset(x, x) } -> std::same_as<Vec3>;         ///< the chord to the nearest copy
   { space.midpoint(x, x) } -> std::same_as<Vec3>;       ///< the same bits in either order
   { space.area_term(x, x, x) } -> std::same_as<double>; ///< twice the area, or nearly; signed
-  /// Of a triangle, signed; in a periodic plane of the copies that are nearest to the first point.
+  /// The signed area of a triangle; in a periodic plane, of the copies that are nearest to the
+  /// first point.
   { space.area(x, x, x) } -> std::same_as<double>;
-  /// Of the same triangle, counter-clockwise; on the sphere a unit vector, in a period inside it.
+  /// The circumcentre of the same triangle, counter-clockwise; on the sphere a unit vector, in a
+  /// periodic plane inside the box.
   { space.circumcentre(x, x, x) } -> std::same_as<Vec3>;
 };
 

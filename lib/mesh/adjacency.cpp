@@ -39,8 +39,9 @@ bool are_twins(const HalfEdge& a, const HalfEdge& b) {
   return a.runs_up() != b.runs_up() || a.lower == a.higher;
 }
 
-/// For each column the one that stands for its site: a column in a triangle for itself, any other
-/// for the lowest equal one in a triangle, or if there is none the lowest equal one.
+/// For each column, the column that represents its site. A column in a triangle represents itself.
+/// Any other is represented by the lowest equal column in a triangle, or by the lowest equal column
+/// if none is in a triangle.
 /// \param compare(a, b) the order of sites; 0 for equal ones.
 template <class Compare>
 std::vector<std::int32_t> stands_for(const Compare& compare, const std::vector<bool>& in_triangle) {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-/// The laws of a mesh's arrays: ids in range, canonical order, mutual neighbours. The answer of a
-/// law is empty where it holds.
+/// The laws of a mesh's arrays: ids in range, canonical order, mutual neighbours. A law returns its
+/// failure; empty if it holds.
 namespace calotte::mesh_detail {
 
 inline std::string shape_failure(const Mesh& mesh) {
@@ -56,7 +56,7 @@ inline std::string order_failure(const Faces& s, std::int64_t t) {
   return {};
 }
 
-/// Of the edge across from vertex i.
+/// The failure at the edge across from vertex i.
 inline std::string neighbour_failure(const Faces& s, std::int64_t t, int i) {
   const std::int32_t other = s.neighbour(t, i);
   if (other < 0)

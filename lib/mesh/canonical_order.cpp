@@ -61,7 +61,7 @@ std::int32_t highest_id(const Triangles& triangles) {
   return highest.empty() ? 0 : *std::max_element(highest.begin(), highest.end());
 }
 
-/// A triangle from its lowest vertex on, and which one it was.
+/// A triangle that starts at its lowest vertex, with its old index.
 struct Moved {
   Triple ids;
   std::int32_t from;

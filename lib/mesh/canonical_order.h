@@ -21,9 +21,9 @@ namespace calotte::mesh_detail {
 void make_canonical(Triangles& triangles, Triangles& neighbours,
                     std::span<const std::int32_t> new_id = {});
 
-/// The order of the triangles in canonical order, for arrays that follow them.
+/// The canonical order of triangles, for arrays with an entry for each.
 struct CanonicalOrder {
-  Array<std::int32_t> index; ///< of each triangle
+  Array<std::int32_t> index; ///< new index of each triangle
   Array<std::int8_t> first;  ///< which of its old vertices comes first
 };
 

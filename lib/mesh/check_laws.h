@@ -14,25 +14,24 @@
 #include <cstdint>
 #include <string>
 
-/// The laws that check() proves, for a surface of either kind: a Surface has Faces and knows
-///   circle                     what the predicate's circle is called, after "circum"
-///   orientation(a, b, c)       of three sites near a
-///   in_circle(a, b, c, d)      of four sites near a, ties resolved
-///   stored(site)               address of the coordinates that the predicates read first
-///   cube_faces, square(site)   where it is, for a Traversal
-///   own_failure(t)             of a triangle, what only this kind of surface demands
-///   euler(boundary edges)      the characteristic that it must have
-///   area(t)                    of a triangle known to be counter-clockwise
-///   set_area(sum, result)      sets what result tells of the areas
-///   area_failure(sum, result)  of the areas' sum
+/// The laws that check() proves, for a surface of either kind: a Surface has Faces and knows circle
+///   what the predicate's circle is called, after "circum" orientation(a, b, c) of three sites near
+///   a in_circle(a, b, c, d) of four sites near a, ties resolved stored(site) address of the
+///   coordinates that the predicates read first cube_faces, square(site) its position, for a
+///   Traversal own_failure(t) the failure of a triangle that is specific to this surface
+///   euler(boundary edges) the characteristic that it must have area(t) of a triangle known to be
+///   counter-clockwise set_area(sum, result) sets what result tells of the areas area_failure(sum,
+///   result) of the areas' sum
 namespace calotte::mesh_detail {
 
-/// What a mesh is proven to be: the Delaunay triangulation of its points, or a surface of
-/// counter-clockwise triangles that need be neither Delaunay nor convex nor simply connected.
+/// The property to prove: that a mesh is the Delaunay triangulation of its points, or that it is a
+/// surface of counter-clockwise triangles, which need be neither Delaunay nor convex nor simply
+/// connected.
 enum class Proof { delaunay, surface };
 
-/// The laws in an order in which each may rely on those before it.
-/// \param site_failure(i) of a site alone; surface() is asked for when all sites are sound.
+/// Tests the laws in an order in which each may rely on those before it.
+/// \param site_failure(i) the failure of a site alone; surface() is called when all sites are
+/// valid.
 template <class SiteFailure, class MakeSurface>
 std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
                              const MakeSurface& surface, Proof proof, CheckReport& result,
@@ -54,7 +53,7 @@ std::string first_broken_law(const Mesh& mesh, const SiteFailure& site_failure,
       (result.boundary_edges == 0 && is_proven_closed(s, result, monitor)))
     return failure;
 
-  // What is open or broken is looked at one law after the other.
+  // An open mesh, or one with a failure, is tested law by law.
   if (!holds(triangles, [&](std::int64_t t) { return order_failure(s, t); }) ||
       !holds_of_edges([&](std::int64_t t, int i) { return neighbour_failure(s, t, i); }) ||
       !holds(triangles, [&](std::int64_t t) { return s.own_failure(t); }) ||

@@ -15,8 +15,8 @@
 /// Checks all laws of a closed mesh in one pass over its triangles.
 namespace calotte::mesh_detail {
 
-/// The results of a block's triangles, each for itself and for its edges to triangles of higher
-/// numbers.
+/// The results of a block's triangles. Each triangle contributes itself and its edges to triangles
+/// of higher numbers.
 struct Tally {
   bool good = true;
   std::int64_t up = 0, down = 0; ///< neighbours of higher and of lower numbers

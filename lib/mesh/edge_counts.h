@@ -26,7 +26,7 @@ inline void join(EdgeCounts& all, const EdgeCounts& block) {
     all.first = block.first;
 }
 
-/// The edge across from vertex i, seen from the triangle of the lower number.
+/// Counts the edge across from vertex i, at its triangle of the lower number.
 template <class Surface>
 void count_edge(const Surface& s, std::int64_t t, int i, EdgeCounts& counts) {
   constexpr double rounding = 1e-9;
@@ -52,8 +52,8 @@ void count_edge(const Surface& s, std::int64_t t, int i, EdgeCounts& counts) {
   counts.shortest = std::min(counts.shortest, length);
 }
 
-/// The boundary as one successor for each of its sites; -1 elsewhere. Of a site at which the
-/// boundary passes more than once, one passage.
+/// The boundary as one successor for each of its sites; -1 elsewhere. A site at which the boundary
+/// passes more than once has one of its successors.
 inline std::vector<std::int32_t> boundary_successors(const Faces& s) {
   std::vector<std::int32_t> next(static_cast<std::size_t>(s.sites()), -1);
   for (std::int64_t t = 0; t < s.triangles(); ++t)

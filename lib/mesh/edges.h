@@ -19,8 +19,8 @@ template <class AnyMesh> bool is_first(const AnyMesh& mesh, std::int64_t t, int 
   return mesh.neighbours(i, t) < 0 || mesh.neighbours(i, t) > t;
 }
 
-/// body(a, b) for the ends of each edge that is first at a triangle of a range, in the order of the
-/// triangles, edge i of a triangle across from its vertex i.
+/// Calls body(a, b) for the ends of each edge whose first triangle is in a range, in the order of
+/// the triangles. Edge i of a triangle lies across from its vertex i.
 template <class AnyMesh, class Body>
 void for_each_edge_of(const AnyMesh& mesh, std::int64_t begin, std::int64_t end, const Body& body) {
   for (std::int64_t t = begin; t != end; ++t)
@@ -65,12 +65,13 @@ template <class AnyMesh> EdgeCount count_edges(const AnyMesh& mesh) {
   return edges;
 }
 
-/// body(a, b) for the ends of each edge, one after the other. \pre the vertices are in the mesh.
+/// Calls body(a, b) for the ends of each edge, one after the other. \pre the vertices are in the
+/// mesh.
 template <class AnyMesh, class Body> void for_each_edge(const AnyMesh& mesh, const Body& body) {
   for_each_edge_of(mesh, 0, mesh.triangles.cols(), body);
 }
 
-/// body(e, a, b) for each edge e, in parallel.
+/// Calls body(e, a, b) for each edge e, in parallel.
 /// \param edges of the mesh, as count_edges() gives them.
 template <class AnyMesh, class Body>
 void for_each_edge(const AnyMesh& mesh, const EdgeCount& edges, const Body& body) {

@@ -51,7 +51,7 @@ template <Space S> class LocatorIn {
 public:
   using Position = typename S::Position;
 
-  /// \param known number of triangles that the grid is made of, at most all.
+  /// \param known number of triangles that the grid is made from, at most all.
   LocatorIn(const Mesh& mesh, const S& space, std::int64_t known)
       : space_(space), mesh_(mesh), seen_(mesh, space), faces_(faces_of(mesh)),
         grid_(mesh, space, std::min(known, mesh.triangles.cols())) {}
@@ -78,9 +78,9 @@ public:
 private:
   static constexpr std::int32_t outside = -1, lost = -2; ///< instead of a triangle
 
-  /// Calls body(p, t, i) for each position, which returns a triangle near it. t is near, too: the
-  /// hint; without hints that of the position before along the curve, or of few positions that of
-  /// the grid.
+  /// Calls body(p, t, i) for each position; it returns a triangle near the position. The triangle t
+  /// is near, too: the hint, or without hints the triangle of the previous position along the
+  /// curve. For few positions, the grid gives it.
   template <class Body>
   void for_each_position(const PointsRef& positions, const Ids& hints, const Body& body) const {
     checked_positions(space_, positions);
@@ -126,10 +126,10 @@ private:
 
   /// Crosses edges that separate p from the triangle: in a Delaunay triangulation each step leads
   /// to a higher plane of the convex hull over p, so that no triangle comes twice. Returns the
-  /// triangle that contains p; `outside` where it leaves the mesh; `lost` where a mesh that is not
-  /// Delaunay leads round.
+  /// triangle that contains p; `outside` where it leaves the mesh; `lost` where the walk runs in a
+  /// circle, as in a mesh that is not Delaunay.
   std::int32_t walk(const Position& p, std::int32_t t) const {
-    int came = 3; // from across this vertex: p is on the inner side there
+    int came = 3; // the vertex across from the edge crossed last: p is on the inner side of it
     for (std::int64_t steps = 0; steps <= mesh_.triangles.cols(); ++steps) {
       int v = 0;
       while (v < 3 && (v == came || seen_.side(t, v, p) >= 0))
@@ -145,8 +145,8 @@ private:
     return lost;
   }
 
-  /// Whether p is not beyond the edge that a walk came across last. Half a period away the next
-  /// triangle may see another copy of p.
+  /// Whether p is not beyond the edge that a walk crossed last. Half a period away the next
+  /// triangle may use another copy of p.
   bool is_behind(std::int32_t t, int came, const Position& p) const {
     return came == 3 || mesh_.surface.period().isZero() || seen_.side(t, came, p) >= 0;
   }
@@ -155,7 +155,7 @@ private:
     return seen_.side(t, 0, p) >= 0 && seen_.side(t, 1, p) >= 0 && seen_.side(t, 2, p) >= 0;
   }
 
-  /// Of all triangles, the lowest that contains p, or `outside`.
+  /// The lowest of all triangles that contain p, or `outside`.
   std::int32_t search(const Position& p) const {
     std::int32_t lowest = outside;
     for (int k = 0; k < S::copies; ++k) {
@@ -170,7 +170,7 @@ private:
     return lowest;
   }
 
-  /// Of the triangles that p is outside of by rounding alone, the lowest, or `outside`.
+  /// The lowest triangle that p is outside of by rounding alone, or `outside`.
   std::int32_t search_rim(const Position& p) const {
     std::int32_t lowest = outside;
     for (int k = 0; k < S::copies; ++k) {
@@ -186,7 +186,7 @@ private:
     return lowest;
   }
 
-  /// Of the triangles that meet where p is, the lowest.
+  /// The lowest of the triangles that meet at p.
   std::int32_t lowest_at(std::int32_t t, const Position& p) const {
     std::array<bool, 3> on{};
     int count = 0;
@@ -210,8 +210,8 @@ private:
     return lowest;
   }
 
-  /// The corners at a site, from one of them in both directions. Returns the last one before a
-  /// boundary, or none.
+  /// Calls body(corner) for the corners at a site, from one of them in both directions. Returns the
+  /// last corner before a boundary, or none.
   template <class Body> Corner for_each_around(Corner corner, const Body& body) const {
     const auto next = [&](Corner c) { return next_around(faces_, c); };
     const Corner last = walk_around(corner, next, body);
@@ -226,8 +226,9 @@ private:
     return last;
   }
 
-  /// Calls body(site, corner at it) for the neighbours of a site. Returns whether it has all that
-  /// it has in a triangulation of all of the space: the mesh has no boundary there.
+  /// Calls body(neighbour, corner at it) for the neighbours of a site. Returns whether these are
+  /// all neighbours that it has in a triangulation of the whole space: the mesh has no boundary
+  /// there.
   template <class Body> bool for_each_neighbour(Corner corner, const Body& body) const {
     const Corner last = for_each_around(corner, [&](Corner c) {
       body(following_site(faces_, c), Corner{c.triangle, next_vertex(c.vertex)});
@@ -242,8 +243,9 @@ private:
     std::int32_t site, triangle;
   };
 
-  /// From site to site, each nearer than the last. A site of a Delaunay triangulation is nearest if
-  /// none of its neighbours is nearer; where the mesh lacks some, all sites are searched.
+  /// Walks from site to site, each nearer than the previous one. A site of a Delaunay triangulation
+  /// is the nearest if none of its neighbours is nearer. Where the mesh lacks neighbours, all sites
+  /// are searched.
   Near nearest_from(std::int32_t t, const Position& p) const {
     for (Corner here{t, 0};;) {
       Corner best = here;
@@ -264,7 +266,7 @@ private:
     }
   }
 
-  /// The lowest of the sites that are as near: their circle is empty, so that edges connect them.
+  /// The lowest of the equally near sites. Their circle is empty, so that edges connect them.
   std::int32_t lowest_tie(Corner from, const Position& p) const {
     std::vector<Corner> found{from};
     std::int32_t lowest = site_at(faces_, from);
@@ -283,7 +285,8 @@ private:
     return lowest;
   }
 
-  /// Of all sites, also those without triangles. \param t a triangle whose sites may be near.
+  /// The nearest of all sites, including those without triangles. \param t a triangle whose sites
+  /// may be near.
   std::int32_t nearest_of_all(std::int32_t t, const Position& p) const {
     std::int32_t best = mesh_.triangles(0, t);
     const auto square_to = [&](std::int32_t site) {
@@ -324,7 +327,8 @@ private:
     look_at_boundary();
     return convex_;
   }
-  /// Whether sites at the boundary have all neighbours that they have anywhere.
+  /// Whether sites at the boundary have all neighbours that they have in a triangulation of the
+  /// whole space.
   bool has_all_sites() const {
     look_at_boundary();
     return has_all_sites_;
@@ -390,7 +394,8 @@ template <class Body> decltype(auto) in_space_of_mesh(const Mesh& mesh, const Bo
   });
 }
 
-/// For one search only the grid knows few triangles: to look at all takes longer than the walks.
+/// For a single search the grid is made from few triangles: visiting all would take longer than the
+/// walks.
 Locations locate(const Mesh& mesh, const PointsRef& positions, Rim rim) {
   constexpr std::int64_t known = 4096;
   return in_space_of_mesh(mesh, [&](const Space auto& space) {

@@ -15,8 +15,8 @@ base_detail::Points3Ref checked_positions(const exact_detail::Sphere& sphere,
                                           const PointsRef& given);
 base_detail::Points2Ref checked_positions(const exact_detail::Plane& plane, const PointsRef& given);
 
-/// As locate(), but a position that is outside of an open mesh by rounding alone is on its
-/// boundary: less than 1e-15 from it, in the plane of the largest coordinate.
+/// Does what locate() does, but a position that is outside of an open mesh by rounding alone counts
+/// as on its boundary: less than 1e-15 from it, in the plane of the largest coordinate.
 Locations locate_within_rounding(const Mesh& mesh, const PointsRef& positions);
 
 } // namespace calotte::mesh_detail

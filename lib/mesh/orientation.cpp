@@ -22,7 +22,7 @@ void join(Orientations& all, const Orientations& block) {
   all.clockwise += block.clockwise;
 }
 
-/// \param sign(a, b, c) of three vertices.
+/// Counts orientations. \param sign(a, b, c) orientation of three vertices.
 template <class Sign> Orientations tally(const Triangles& triangles, const Sign& sign) {
   std::vector<Orientations> blocks(static_cast<std::size_t>(block_count(triangles.cols())));
   for_each_block(triangles.cols(), [&](std::int64_t block, std::int64_t begin, std::int64_t end) {

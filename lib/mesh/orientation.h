@@ -7,22 +7,23 @@
 
 #include <cstdint>
 
-/// Which way the triangles of a file run.
+/// The orientations of the triangles of a file.
 namespace calotte::mesh_detail {
 
-/// How many triangles run each way, in exact arithmetic. Flat ones run neither way.
+/// The numbers of triangles of each orientation, exact. Flat triangles count in neither.
 struct Orientations {
   std::int64_t counter_clockwise = 0, clockwise = 0;
   std::int64_t first_counter_clockwise = -1, first_clockwise = -1; ///< -1 for none
 
   bool contradict() const { return counter_clockwise > 0 && clockwise > 0; }
-  /// The first triangle of the rarer orientation; of a tie, the first clockwise one.
+  /// The first triangle of the rarer orientation; in a tie, the first clockwise one.
   std::int64_t first_exception() const {
     return clockwise <= counter_clockwise ? first_clockwise : first_counter_clockwise;
   }
 };
 
-/// In a periodic plane a triangle's corners are the nearest copies of its sites.
+/// Counts the orientations of triangles. In a periodic plane a triangle's corners are the nearest
+/// copies of its sites.
 /// \pre ids are in range; points are directions, or finite ones of the plane within the periods.
 Orientations orientations_of(const Points3& points, const Triangles& triangles,
                              const Surface& surface = {});

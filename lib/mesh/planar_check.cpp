@@ -41,7 +41,7 @@ int scale_of(const Mesh& mesh) {
   return -exponent;
 }
 
-/// (b - a) x (c - a) / 2 of coordinates that err by `off` each.
+/// The area p x q / 2 of offsets whose coordinates err by `off` each.
 ///
 /// With d the largest difference, a product of two errs by 2 d off + off^2 and by u d^2 in its
 /// evaluation, as does their difference by 2 u d^2.
@@ -71,8 +71,9 @@ struct InPlane : mesh_detail::Faces {
   bool is_box() const { return period.x > 0 && period.y > 0; }
   Vec2 given(std::int32_t site) const { return {mesh.points(0, site), mesh.points(1, site)}; }
 
-  /// Of two copies that are equally near the stored one, unlike Plane::near(): a triangle of points
-  /// in the box that is exactly half as wide is valid as stored.
+  /// The number of periods to the nearest copy. Of two that are equally near it is the stored copy,
+  /// unlike in Plane::near(): a triangle of points in the box that is exactly half as wide is valid
+  /// as stored.
   static int boxes_to(double from, double to, double length) {
     if (!(length > 0))
       return 0;
@@ -95,7 +96,7 @@ struct InPlane : mesh_detail::Faces {
 
   const void* stored(std::int32_t site) const { return &mesh.points(0, site); }
 
-  /// For a periodic box; an open mesh is not visited by a traversal.
+  /// For a periodic box; an open mesh has no traversal.
   static constexpr int cube_faces = 1;
   curve_detail::CubePoint square(std::int32_t site) const {
     const Vec2 p = given(site);
@@ -119,7 +120,8 @@ struct InPlane : mesh_detail::Faces {
 
   double scaled(double x) const { return std::ldexp(x, scale); }
 
-  /// From a site to another's nearest copy, scaled. It errs by two roundings of at most 2.
+  /// The scaled offset from a site to another's nearest copy. It errs by two roundings of numbers
+  /// of at most 2.
   Vec2 way(std::int32_t from, std::int32_t to) const {
     const Vec2 a = given(from);
     const Image b = image(to, from);
@@ -149,8 +151,8 @@ struct InPlane : mesh_detail::Faces {
 
   Area area(std::int64_t t) const { return scaled_area(vertex(t, 0), vertex(t, 1), vertex(t, 2)); }
 
-  /// What an edge of the boundary of a channel adds to the area: that between it and a line along
-  /// the period, through the origin. The products' factors are at most 2.
+  /// The area between an edge of a channel's boundary and a line along the period through the
+  /// origin. The factors of the products are at most 2.
   Area beside(std::int32_t from, std::int32_t to) const {
     const Vec2 along = way(from, to), at = given(from);
     const double area = period.x > 0 ? -(scaled(at.y) + along.y / 2) * along.x
@@ -158,14 +160,14 @@ struct InPlane : mesh_detail::Faces {
     return {area, 32 * roundoff};
   }
 
-  /// Of a coordinate of the sites, or its period; it errs by a rounding.
+  /// The extent of the sites along an axis, or the axis's period. It errs by one rounding.
   double extent(int axis) const {
     const auto row = mesh.points.row(axis);
     const double length = axis == 0 ? period.x : period.y;
     return length > 0 ? scaled(length) : scaled(row.maxCoeff()) - scaled(row.minCoeff());
   }
 
-  /// Of the box, of a channel between straight walls, or of what the boundary encloses.
+  /// The area of the box, of a channel between straight walls, or inside the boundary.
   Area whole() const {
     if (periodic() && proof == Proof::delaunay) {
       const double area = extent(0) * extent(1);
@@ -197,7 +199,7 @@ struct InPlane : mesh_detail::Faces {
     result.expected_area = std::ldexp(whole().value, -2 * scale);
   }
 
-  /// In a box with a boundary the areas may sum to less.
+  /// The failure of the sum of areas. In a box with a boundary the sum may be smaller.
   std::string area_failure(const Area& area, const CheckReport& result) const {
     if (is_box() && result.boundary_edges > 0)
       return {};

@@ -8,10 +8,10 @@
 
 namespace calotte::mesh_detail {
 
-/// What check() or check_surface() finds. \pre the mesh is one of the plane.
+/// The report of check() or check_surface() for a mesh of the plane. \pre the mesh is in a plane.
 CheckReport check_in_plane(const Mesh& mesh, Proof proof, const ProgressCallback& progress);
 
-/// As count_edges(). \pre as above.
+/// count_edges() for a mesh of the plane. \pre as above.
 EdgeCounts count_edges_in_plane(const Mesh& mesh);
 
 } // namespace calotte::mesh_detail

@@ -36,7 +36,7 @@ void require_directions(const Points3& points) {
     require_direction(column(points, i), i);
 }
 
-/// body(i, curve key of point i) for begin <= i < end.
+/// Calls body(i, curve key of point i) for begin <= i < end.
 template <class Body>
 void for_each_key(const Points3& points, std::int64_t begin, std::int64_t end, const Body& body) {
   for_each_curve_key(
@@ -77,7 +77,7 @@ template <Space S> Array<std::int32_t> order_along_curve(const Points3& points) 
       .items;
 }
 
-/// Along the curve in the bounding box of points of the plane.
+/// The order along the curve in the bounding box of points of the plane.
 Array<std::int32_t> curve_order_in_plane(const Points3& points) {
   if (points.cols() == 0)
     return {};

@@ -12,8 +12,8 @@
 /// ids of the sites in their new order.
 namespace calotte::mesh_detail {
 
-/// Along the space-filling curve, in a plane that in the box around the points; sites of one finest
-/// cell keep their order. Linear time.
+/// The order along the space-filling curve; in a plane, along the curve in the points' bounding
+/// box. Sites of one finest cell keep their order. Linear time.
 /// \throws Error not_finite, and on the sphere zero_vector.
 Array<std::int32_t> curve_order(const Points3& points, const Surface& surface = {});
 

@@ -18,9 +18,8 @@ namespace calotte::mesh_detail {
 /// left half plane or in the right one; the walk has turned around once each time it comes from the
 /// right to the left. A fan of at most half a turn has all on the left, the last perhaps behind:
 /// the boundary is convex there.
-/// \param convex whether the boundary must be; a fan may else turn by up to a whole turn, and a
-/// site
-///        where the boundary passes more than once has several fans, of which one is examined.
+/// \param convex whether the boundary must be convex. Otherwise a fan may have up to a whole turn,
+///        and at a site where the boundary passes more than once, one of the fans is examined.
 template <class Surface>
 std::string ring_failure(const Surface& s, const Stars& stars, std::int32_t site,
                          bool convex = true) {

@@ -12,10 +12,10 @@
 /// Growth by rows: of sites, cells or triangles next to each other.
 namespace calotte::mesh_detail {
 
-/// The row that follows one: what is next to its ids.
-/// \param next_to(id) the ids next to one, as a range.
-/// \param take(id) whether the row gets an id; asked for each that is next to one of the row, and
-///        true once for each.
+/// The row after a given one: the ids next to its ids.
+/// \param next_to(id) the ids next to an id, as a range.
+/// \param take(id) whether to add an id to the new row; called for each id next to one of the given
+///        row. It must be true only once for each id.
 template <class NextTo, class Take>
 std::vector<std::int32_t> next_row(const std::vector<std::int32_t>& row, const NextTo& next_to,
                                    const Take& take) {
@@ -27,7 +27,7 @@ std::vector<std::int32_t> next_row(const std::vector<std::int32_t>& row, const N
   return next;
 }
 
-/// Marks with those of the ids within some rows of neighbours around them.
+/// Marks, extended to the ids within some rows of neighbours.
 inline std::vector<std::uint8_t> grown(const IdLists& neighbours, std::vector<std::uint8_t> marks,
                                        int rows) {
   std::vector<std::int32_t> row;

@@ -18,8 +18,8 @@
 
 namespace calotte::mesh_detail {
 
-/// A mesh as positions see it, for Locator and interpolation: on which side of an edge a position
-/// is, whether it is in a circle, and which site is nearer, all exact.
+/// The predicates of positions and a mesh, for Locator and interpolation: the side of an edge on
+/// which a position is, whether it is in a circle, and which site is nearer. All are exact.
 template <Space S> class SeenMesh {
 public:
   using Position = typename S::Position;
@@ -30,14 +30,15 @@ public:
 
   const Mesh& mesh() const { return mesh_; }
 
-  /// In a box, the copy inside. On the sphere x has any norm.
+  /// The position of x; in a box its copy inside. On the sphere x has any norm.
   Position position(const Vec3& x) const { return space_.position(x); }
-  /// The k-th of the copies around the box, which are one alone without periods.
+  /// The k-th of the copies of a position around the box. Without periods there is only one.
   Position copy(const Position& p, int k) const { return space_.copy(p, k); }
   Vec3 coordinates(const Position& p) const { return space_.coordinates(p); }
   Vec3 vertex(std::int32_t site) const { return coordinates(position(at(site))); }
-  /// Whether a walk that leaves the mesh leaves it for good, and sites at the boundary have all
-  /// neighbours that they have anywhere. Beside a part of the sphere there is its far side.
+  /// Whether the boundary is convex: a walk that leaves the mesh does not return, and sites at the
+  /// boundary have all of their neighbours. A mesh of a part of the sphere has no convex boundary,
+  /// as the far side is beside it.
   bool has_convex_boundary() const {
     if constexpr (S::on_sphere)
       return mesh_.closed();
@@ -60,7 +61,7 @@ public:
     return space_.in_circle(corner[0], corner[1], corner[2], p);
   }
 
-  /// A site as p sees it, and p itself: points of one frame.
+  /// The points of a site and of p, in a common frame.
   Vec3 seen(std::int32_t site, const Position& p) const { return space_.seen(near(site, p), p); }
   Vec3 seen(const Position& p) const { return space_.seen(p, p); }
 
@@ -71,7 +72,7 @@ public:
                         coordinates(preceding(corner, v)));
   }
 
-  /// How far a position is beyond the edges of a triangle, roughly; <= 0 inside.
+  /// The approximate distance of a position from a triangle; <= 0 inside.
   double distance_outside(std::int64_t t, const Position& p) const {
     const Corners corner = corners(t, p);
     double farthest = -std::numeric_limits<double>::infinity();
@@ -98,9 +99,10 @@ private:
   using Corners = std::array<Position, 3>;
 
   const Vec3& at(std::int32_t site) const { return column(mesh_.points, site); }
-  /// A site's copy that is nearest to a position, one of them where several are.
+  /// The copy of a site that is nearest to a position; one of them where several are equally near.
   Position near(std::int32_t site, const Position& p) const { return space_.near(at(site), p); }
-  /// Those of a triangle: the first as near as may be, the others as near to it.
+  /// The corners of a triangle: the copy of the first that is nearest to p, and the copies of the
+  /// others that are nearest to the first.
   Corners corners(std::int64_t t, const Position& p) const {
     const Position first = near(mesh_.triangles(0, t), p);
     return {first, near(mesh_.triangles(1, t), first), near(mesh_.triangles(2, t), first)};

@@ -47,7 +47,7 @@ struct Area {
   double value = 0, error = 0;
 };
 
-/// Of some triangles, summed one after the other.
+/// The area of some triangles, summed one after the other.
 struct AreaSum {
   Area area;
   std::int64_t count = 0;

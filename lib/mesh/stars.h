@@ -9,8 +9,8 @@
 namespace calotte::mesh_detail {
 
 /// The triangles around the sites of a mesh, open or closed. A walk starts in the first triangle at
-/// a site, along a boundary in that at which the boundary leaves it. Of a site where the boundary
-/// passes more than once it meets one of the fans.
+/// a site; at a boundary, in the triangle at which the boundary leaves the site. At a site where
+/// the boundary passes more than once, the walk visits one of the fans.
 class Stars {
 public:
   /// \pre neighbours are -1 or match the triangles.
@@ -26,7 +26,7 @@ public:
       }
   }
 
-  /// Where the walk around a site starts; none for a site in no triangle.
+  /// The corner where the walk around a site starts; none for a site in no triangle.
   Corner first(std::int32_t site) const { return first_[static_cast<std::size_t>(site)]; }
   /// The number of triangles at a site, in all its fans.
   std::int32_t size(std::int32_t site) const { return size_[static_cast<std::size_t>(site)]; }

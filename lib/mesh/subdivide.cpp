@@ -20,7 +20,7 @@ struct Coarse {
   std::int64_t size() const { return triangles.cols(); }
 };
 
-/// By triangle: how many edges come before the first of its own.
+/// By triangle, the number of edges before the first of its own.
 Array<std::int32_t> first_edges(const Coarse& mesh) {
   Array<std::int32_t> first(mesh.size());
   for_each_block(mesh.size(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -51,8 +51,7 @@ std::int32_t midpoint(const Coarse& mesh, const Array<std::int32_t>& first, std:
   return static_cast<std::int32_t>(mesh.points + edge);
 }
 
-/// Beyond the edge across from vertex i, the part at that end of the edge which is the start or the
-/// end here.
+/// The part beyond the edge across from vertex i that is at the edge's start, or at its end.
 std::int32_t part_beyond(const Coarse& mesh, std::int64_t t, int i, bool start) {
   const std::int32_t beyond = mesh.neighbours(i, t);
   if (beyond < 0)

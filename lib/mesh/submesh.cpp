@@ -48,7 +48,7 @@ void take_triangles(const Triangles& triangles, const Triangles& neighbours, Sub
   }
 }
 
-/// Where an edge of the rim is in its list.
+/// The index of an edge in the list of the rim.
 std::size_t index_in(const Rim& rim, std::int32_t from, std::int32_t to) {
   const auto at = std::lower_bound(
       rim.begin(), rim.end(), std::pair{from, to}, [](const auto& edge, const auto& ends) {

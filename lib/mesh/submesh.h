@@ -11,9 +11,9 @@
 
 namespace calotte::mesh_detail {
 
-/// Some triangles of a mesh by themselves, and their sites, with numbers of their own.
+/// Some triangles of a mesh with their sites, under local numbers.
 struct Submesh {
-  /// An edge with the part to its left and none of it to its right.
+  /// An edge of the part's boundary. The part is to its left.
   struct RimEdge {
     std::int32_t triangle; ///< in the mesh: where the edge was
     int across;            ///< from this vertex of it there
@@ -26,20 +26,20 @@ struct Submesh {
   std::vector<RimEdge> rim = {};            ///< ascending by `from`, then by `to`
 };
 
-/// A part of a mesh. Its sites ascend; its triangles start at their lowest site, whatever the mesh
-/// has.
+/// Extracts a part of a mesh. Its sites ascend; its triangles start at their lowest sites, even
+/// where those of the mesh do not.
 /// \param triangles, neighbours of the mesh.
 /// \param part numbers of its triangles, each once; they keep their order.
 Submesh extract(const Triangles& triangles, const Triangles& neighbours,
                 std::vector<std::int32_t> part);
 
-/// Numbers the sites of a part anew: first those with a mark; both kinds keep their order.
+/// Renumbers the sites of a part: first those with a mark, then the others, each in their order.
 /// \param marks by own number.
-/// \returns how many have one.
+/// \returns the number of marked sites.
 std::int32_t put_first(Submesh& part, const std::vector<std::uint8_t>& marks);
 
-/// Writes the triangles of a part back into the mesh. They may have been flipped since they were
-/// extracted, but for edges of the rim; what is beyond the rim may have changed, too.
+/// Writes the triangles of a part back into the mesh. Their edges may have been flipped since they
+/// were extracted, except those of the rim. The mesh beyond the rim may have changed, too.
 /// \pre no two edges of the rim have the same ends.
 void splice(const Submesh& part, Connectivity& mesh);
 

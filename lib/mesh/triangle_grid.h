@@ -18,15 +18,15 @@
 
 namespace calotte::mesh_detail {
 
-/// Where to start looking in a mesh: squares over it, and a triangle near the middle of each. From
-/// there a walk in rounded arithmetic leads to the triangle at a at, for many points in loops
-/// over a density; LocatorIn, which is exact, starts there too.
+/// The triangles in which to start a search: squares over a mesh, and a triangle near the middle of
+/// each. From there a walk in rounded arithmetic leads to the triangle at a point, for loops over
+/// many points of a density. LocatorIn, which is exact, starts there, too.
 ///
 /// It refers to the mesh, which must outlive it.
 template <Space S> class TriangleGrid {
 public:
-  /// \param known number of triangles, evenly spaced in their order, that the squares are made of:
-  ///        all, or few where the grid serves one search only.
+  /// \param known number of triangles, evenly spaced in their order, that the squares are made
+  ///        from: all, or a few where the grid serves a single search.
   /// \pre 0 < known <= triangles of the mesh; its points have positions.
   TriangleGrid(const Mesh& mesh, const S& space, std::int64_t known)
       : mesh_(mesh), space_(space), squares_(mesh.points) {
@@ -44,7 +44,7 @@ public:
     fill_empty();
   }
 
-  /// A triangle, and the weights of its vertices at a at: not negative, with the sum 1.
+  /// A triangle, and the weights of its vertices at a point: >= 0, with the sum 1.
   struct Location {
     std::int32_t triangle;
     std::array<double, 3> weight;
@@ -55,10 +55,10 @@ public:
   /// \pre on the sphere x and the points of the mesh are unit vectors.
   Location locate(const Vec3& x) const { return locate_from(start(x), x); }
 
-  /// A triangle near a at, on the sphere near a direction of any norm.
+  /// A triangle near a point; on the sphere, near a direction of any norm.
   std::int32_t start(const Vec3& x) const { return start_[bucket_of(x)]; }
 
-  /// The key of a at along the curve through the squares.
+  /// The key of a point along the curve through the squares.
   std::uint64_t key_of(const Vec3& x) const { return curve_key(squares_(x)); }
 
   std::int64_t cells() const { return std::ssize(start_); }
@@ -66,13 +66,13 @@ public:
 private:
   static constexpr int faces = CurveSquares<S>::count;
 
-  /// The part of a face that the cells cover; a at beyond is in the nearest cell.
+  /// The part of a face that the cells cover. A point beyond it is in the nearest cell.
   struct Frame {
     double low_u = -1, low_v = -1, half_u = 1, half_v = 1;
-    bool covered = true; ///< holds vertices
+    bool covered = true; ///< contains vertices
   };
 
-  /// Around every `step`-th vertex of a mesh that covers a part of the faces.
+  /// Fits the frames to every `step`-th vertex, for a mesh that covers a part of the faces.
   void fit_frames(std::int64_t step) {
     constexpr double least = 1e-12; // half the width
     std::array<CubePoint, faces> low, high;
@@ -103,12 +103,12 @@ private:
         return {t, weights_of(sides)};
       t = beyond;
     }
-    if constexpr (!S::on_sphere) // half a period away a walk may lead round
+    if constexpr (!S::on_sphere) // half a period away a walk may run in a circle
       t = find_containing(x, t);
     return {t, weights_of(sides_of(t, x))};
   }
 
-  /// Of all triangles; `otherwise` if there is none.
+  /// Searches all triangles for one that contains x; `otherwise` if there is none.
   std::int32_t find_containing(const Vec3& x, std::int32_t otherwise) const {
     for (std::int32_t t = 0; t < mesh_.triangles.cols(); ++t) {
       const std::array<double, 3> sides = sides_of(t, x);
@@ -118,8 +118,8 @@ private:
     return otherwise;
   }
 
-  /// Where triangles are larger than the cells, most of these hold no vertex: their walks start at
-  /// the triangle of their middle, which a walk from the cell before finds.
+  /// Where triangles are larger than the cells, most cells contain no vertex. Their walks start at
+  /// the triangle of their middle, which a walk from the previous cell finds.
   void fill_empty() {
     std::int32_t t = 0;
     for (int face = 0; face < faces; ++face)
@@ -137,7 +137,7 @@ private:
         }
   }
 
-  /// Of a row or column of cells, -1 to 1.
+  /// The middle of a row or column of cells, from -1 to 1.
   double middle(std::int64_t cell) const {
     return (2 * static_cast<double>(cell) + 1) / static_cast<double>(cells_a_side_) - 1;
   }
@@ -162,8 +162,9 @@ private:
     return column(mesh_.points, mesh_.triangles(v, t));
   }
 
-  /// For each corner of a triangle the area of x and the edge across from it, up to a factor:
-  /// negative beyond that edge. In a periodic plane of the copies of the corners near x.
+  /// For each corner of a triangle, the signed area of x and the edge across from the corner, up to
+  /// a factor: negative if x is beyond that edge. In a periodic plane the corners are the copies
+  /// near x.
   std::array<double, 3> sides_of(std::int32_t t, const Vec3& x) const {
     const Vec3 &a = vertex(t, 0), &b = vertex(t, 1), &c = vertex(t, 2);
     if constexpr (S::on_sphere) {

@@ -27,7 +27,8 @@ void gather_ring(const Faces& mesh, Corner start, std::vector<Corner>& ring);
 
 VertexRings make_vertex_rings(const Mesh& mesh);
 
-/// For the first `sites` sites of a mesh only, whose rings are closed; the other rings may be open.
+/// The rings of the first `sites` sites of a mesh, which must be closed; the other rings may be
+/// open.
 /// \param neighbours as in Mesh.
 VertexRings make_vertex_rings(const Triangles& triangles, const Triangles& neighbours,
                               std::int64_t sites);
