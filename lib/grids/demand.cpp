@@ -30,8 +30,8 @@ struct Samples {
   }
 };
 
-/// A lattice in each triangle with a site that may change. A position on an edge is that of the
-/// triangle with the lower number.
+/// Samples a lattice in each triangle with a site that may change. A position on an edge belongs to
+/// the triangle with the lower number.
 template <Space S>
 Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const Marks& may_change,
                 double least) {
@@ -71,8 +71,8 @@ Samples lattice(const Mesh& mesh, const S& space, const DoubleVector& own, const
   return samples;
 }
 
-/// Along the boundary of a region, a quarter of the width of the cells there apart, each for the
-/// nearest site.
+/// Samples the boundary of a region at steps of a quarter of the local cell width. Each position is
+/// for the nearest site.
 Samples along_boundary(const Mesh& mesh, const DoubleVector& own, const Surface& region) {
   constexpr std::int64_t most = 1 << 20;
   Samples samples;
@@ -157,7 +157,7 @@ DoubleVector Demand::on_cells(const Mesh& mesh, const DoubleVector& own, const M
           continue;
         const Vec3 way = space.offset(measured_point(space, column(mesh.points, site)),
                                       measured_point(space, samples.positions[k]));
-        if (norm(way) < own[site]) // not where the mesh ends far from the position
+        if (norm(way) < own[site]) // false where the mesh ends far from the position
           widths[site] = std::min(widths[site], width + gradient * norm(way));
       }
   });

@@ -17,36 +17,38 @@ namespace calotte::grids_detail {
 /// its widths and the demand must outlive it.
 class Demand {
 public:
-  /// \param own widths of the mesh, of which those of a region are a part.
+  /// \param own widths of the mesh; a demand on a region is a part of these.
   Demand(const WidthDemand& demand, Way way, const Mesh& mesh, const DoubleVector& own);
   Demand(const Demand&) = delete; // one part refers to another
   Demand& operator=(const Demand&) = delete;
 
-  /// At positions. Infinite where nothing finer is demanded, 0 where nothing coarser is.
+  /// The demanded widths at positions: infinite where nothing finer is demanded, 0 where nothing
+  /// coarser is.
   DoubleVector at(const Points3& points) const;
 
-  /// By site of a mesh the finest demand on its cell: at the site, or, wider by the gradient times
-  /// the distance from it, at a position in the triangles around it. The positions are a lattice in
-  /// each triangle, as dense as the least demand, up to sixteen times as dense as the sites and
-  /// some millions in all; of a region they lie along its boundary. \param own widths of that mesh.
+  /// By site of a mesh, the finest demand on its cell: that at the site, or at a position in the
+  /// triangles around it, increased by the gradient times the distance. The positions are a lattice
+  /// in each triangle, as dense as the least demand, up to sixteen times as dense as the sites and
+  /// some millions in all. For a region they lie along its boundary. \param own widths of that
+  /// mesh.
   /// \param may_change by site; infinite for others.
   DoubleVector on_cells(const Mesh& mesh, const DoubleVector& own, const Marks& may_change,
                         double gradient) const;
 
-  /// Of finer cells, widths anywhere; null where they are known at sites only.
+  /// The widths anywhere, for finer cells; null where they are known at sites only.
   const FineWidths* fine() const { return fine_ ? &*fine_ : nullptr; }
 
 private:
   DoubleVector of_region(const Points3& points) const;
-  DoubleVector within_region(const Points3& points) const; ///< at positions that it has
+  DoubleVector within_region(const Points3& points) const; ///< at positions inside the region
 
   const WidthDemand& demand_;
   const DoubleVector& own_;
-  std::optional<Locator> sites_; ///< of the mesh as it was given, for a region
+  std::optional<Locator> sites_; ///< of the original mesh, for a region
   std::optional<Widths> widths_; ///< on the sphere that they refer to
-  double unit_;                  ///< of a width, in that of the mesh
+  double unit_;                  ///< the unit of a width, in that of the mesh
   double factor_;
-  double nothing_; ///< what stands for no demand
+  double nothing_; ///< the value for no demand
   std::optional<FineWidths> fine_;
 };
 

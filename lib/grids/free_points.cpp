@@ -26,11 +26,11 @@ using delaunay_detail::owners;
 /// Points that follow the density, and the points next to them.
 struct Candidates {
   Points3 points;
-  Array<std::int32_t> nearest; ///< fixed generator
-  DoubleVector distance;       ///< from it, over the demanded distance of neighbours
+  Array<std::int32_t> nearest; ///< the nearest fixed generator
+  DoubleVector distance;       ///< from that generator, over the demanded distance of neighbours
 };
 
-/// What a surface supplies.
+/// The input that depends on the surface.
 struct Supply {
   const Points3& fixed;
   const Surface& surface;
@@ -44,7 +44,7 @@ struct Supply {
                ? delaunay_detail::make_sites(points, Duplicates::merge, 0)
                : delaunay_detail::make_planar_sites(points.topRows<2>(), Duplicates::merge, 0);
   }
-  /// In the frame of sites: the fixed ones, then their copies in a periodic plane.
+  /// The fixed generators in the frame of sites, then their copies in a periodic plane.
   std::vector<Vec3> centres(const Sites& in) const {
     std::vector<Vec3> points;
     if (surface.is_sphere()) {
@@ -62,7 +62,8 @@ struct Supply {
   }
 };
 
-/// The mean of 1/density over points that follow it is area / integral, whence the spacing.
+/// Draws candidates. The mean of 1/density over points that follow the density is area / integral,
+/// which gives the spacing.
 Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, std::uint64_t seed) {
   Candidates out{from.draw(n, seed), Array<std::int32_t>(n), DoubleVector(n)};
   const DoubleVector inverse = evaluate(from.sites, out.points, from.surface).cwiseInverse();
@@ -85,9 +86,9 @@ Candidates candidates(const Supply& from, std::int64_t n, std::int64_t cells, st
   return out;
 }
 
-/// Whether candidates are farther than some distance from the fixed generators, next to a gap. The
-/// centres of hexagons are no farther than 0.577 of their distance from any point: beyond 0.65
-/// there is a gap.
+/// Whether candidates are farther than some distance from the fixed generators, next to a gap. In a
+/// lattice of hexagons, no point is farther than 0.577 of the distance of neighbours from the
+/// nearest centre: beyond 0.65 there is a gap.
 std::vector<bool> have_room(const Candidates& in, std::int64_t fixed, double distance) {
   constexpr double gap = 0.65;
   std::vector<bool> next_to_gap(static_cast<std::size_t>(fixed), false);
@@ -102,15 +103,15 @@ std::vector<bool> have_room(const Candidates& in, std::int64_t fixed, double dis
   return room;
 }
 
-/// Candidates per cell tell the gaps, as far as memory allows.
+/// The number of candidates: enough per cell to find gaps, as far as memory allows.
 std::int64_t candidates_for(std::int64_t cells) {
   constexpr std::int64_t most = 4'000'000, for_each_cell = 32;
   return std::max(cells, std::min(most, for_each_cell * cells));
 }
 
-/// Columns of candidates: those with room in the order of the draw, then the farthest others. In
-/// the pockets between fixed generators none starts: it might be one too many there, which could
-/// not leave. A descent moves others there if there is room.
+/// The columns of the selected candidates: those with room, in the order of the draw, then the
+/// farthest of the others. No generator starts in a pocket between fixed generators: it might be
+/// surplus there and could not leave. A descent moves others there if there is room.
 std::vector<std::int64_t> best(const Candidates& in, std::int64_t fixed, std::int64_t count) {
   constexpr double beyond_pockets = 0.85;
   const std::vector<bool> room = have_room(in, fixed, beyond_pockets);

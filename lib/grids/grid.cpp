@@ -64,7 +64,7 @@ Points3 generators(const Schedule& schedule) {
   return all;
 }
 
-/// See CvtReport::off_boundary.
+/// The number of CvtReport::off_boundary.
 std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   const std::int64_t last = schedule.recipe.fixed.cols(), first = last - schedule.on_boundary;
   if (first == last)
@@ -81,7 +81,7 @@ std::int64_t off_boundary(const Mesh& mesh, const Schedule& schedule) {
   return std::max(away, std::abs(outer - schedule.on_boundary));
 }
 
-/// Throws, before any work, for what plan() has not made.
+/// Refuses, before any work, a schedule that plan() has not made.
 void require_schedule(const Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
   base_detail::require(cvt_detail::are_actions(schedule.actions, recipe.fixed.cols()) &&

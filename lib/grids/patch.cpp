@@ -31,7 +31,7 @@ using mesh_detail::grown;
 using mesh_detail::Stars;
 using mesh_detail::Submesh;
 
-/// From one site to another, in the unit of widths.
+/// The offset from one site to another, in the unit of widths.
 template <Space S>
 Vec3 chord(const S& space, const Mesh& mesh, std::int32_t from, std::int32_t to) {
   return space.offset(measured_point(space, column(mesh.points, from)),
@@ -44,7 +44,7 @@ template <Space S> double flat_area(const S& space, const Mesh& mesh, std::int64
                           chord(space, mesh, corners[0], corners[2])));
 }
 
-/// A third of the triangles around each site; 0 at the boundary.
+/// The area of a third of the triangles around each site; 0 at the boundary.
 template <Space S>
 DoubleVector cell_areas(const Mesh& mesh, const S& space, const Stars& stars,
                         const Marks& at_boundary) {
@@ -60,8 +60,8 @@ DoubleVector cell_areas(const Mesh& mesh, const S& space, const Stars& stars,
   return areas;
 }
 
-/// The triangles around some sites; all of them where a boundary passes through a site more than
-/// once.
+/// Marks the triangles around some sites, including all fans where a boundary passes through a site
+/// more than once.
 Marks mark_stars(const Mesh& mesh, const Marks& sites) {
   Marks triangles(static_cast<std::size_t>(mesh.triangles.cols()), 0);
   for_each_block(mesh.triangles.cols(), [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -76,9 +76,9 @@ Marks mark_stars(const Mesh& mesh, const Marks& sites) {
 /// Values of sites from which a field spreads.
 using Sources = std::vector<std::pair<double, std::int32_t>>;
 
-/// Lowers a field at sites to what the values of sources allow, which grow by distance along the
-/// edges. (Dijkstra, Numer. Math. 1, 1959.)
-/// \param may(site) whether it may be lowered there.
+/// Lowers a field at sites so that it is at most each source's value plus the gradient times the
+/// distance along edges (Dijkstra, Numer. Math. 1, 1959).
+/// \param may(site) whether the field may be lowered at a site.
 template <class May>
 void spread(const Mesh& mesh, const IdLists& neighbours, const Sources& sources, double gradient,
             DoubleVector& field, const May& may) {
@@ -104,13 +104,13 @@ void spread(const Mesh& mesh, const IdLists& neighbours, const Sources& sources,
 
 // ---- Triangles of patches
 
-/// Whether the edge across from a vertex of a triangle with a mark leads to one without, or none.
+/// Whether the edge across from a vertex of a marked triangle leads to an unmarked one, or to none.
 bool is_rim(const Mesh& mesh, const Marks& triangles, std::int64_t t, int i) {
   const std::int32_t beyond = mesh.neighbours(i, t);
   return beyond < 0 || triangles[static_cast<std::size_t>(beyond)] == 0;
 }
 
-/// Adds the stars of sites where the triangles with a mark touch each other in a vertex only.
+/// Adds the stars of sites where marked triangles touch each other in a vertex only.
 void separate(const Mesh& mesh, Marks& triangles) {
   for (std::int64_t before = -1, count = 0; count != before;) {
     std::unordered_map<std::int32_t, int> fans; // by site: edges of the rim that begin there
@@ -129,7 +129,7 @@ void separate(const Mesh& mesh, Marks& triangles) {
   }
 }
 
-/// The triangles that hang together with one, which lose their marks.
+/// The component of marked triangles that contains a given one. Their marks are removed.
 std::vector<std::int32_t> take_component(const Mesh& mesh, Marks& triangles, std::int32_t first) {
   std::vector<std::int32_t> found{first};
   triangles[static_cast<std::size_t>(first)] = 0;
@@ -179,8 +179,9 @@ PatchRegion make_patch(const Mesh& mesh, const Marks& is_free,
   return patch;
 }
 
-/// The ends of open edges. Where the circumcentre of a triangle lies beyond one, as of the thin
-/// ones along a hull, cells reach out of the mesh: its other edges count as open.
+/// Marks the ends of open edges. Where the circumcentre of a triangle lies beyond an open edge, as
+/// in thin triangles along a hull, cells extend out of the mesh: the triangle's other edges then
+/// count as open.
 template <Space S> Marks sites_at_open_edges(const Mesh& mesh, const S& space) {
   const Faces faces = faces_of(mesh);
   Marks marks(static_cast<std::size_t>(mesh.points.cols()), 0),
@@ -266,7 +267,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Ma
     changed.push_back(i);
   }
 
-  // Finer cells spread from all that change, coarser ones from those that do not, beside them.
+  // Finer widths spread from all sites that change, coarser ones from unchanged sites beside them.
   Sources narrow;
   for (const std::int32_t i : changed) {
     if (finer)
@@ -281,7 +282,7 @@ WantedWidths wanted_widths(const Mesh& mesh, const IdLists& neighbours, const Ma
   if (!finer)
     return wanted;
 
-  // Beside those that stay, cells are as wide as they are, less what the gradient allows.
+  // Beside sites that stay, the width differs from their width by at most what the gradient allows.
   Sources wide;
   for (std::int32_t i = 0; i < own.size(); ++i)
     if (has(wanted.stays, i) && own[i] > 0)

@@ -25,7 +25,7 @@ namespace {
 using base_detail::require;
 using mesh_detail::Submesh;
 
-/// The sites of a patch: on the sphere unit columns, in a periodic plane as in one without periods.
+/// The sites of a patch: on the sphere unit columns, in a periodic plane unwrapped.
 /// \throws Error invalid_argument for a patch that leads around a periodic plane.
 template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const Submesh& part) {
   Points3 out(3, std::ssize(part.sites));
@@ -36,7 +36,7 @@ template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const 
     for (std::int32_t k = 0; k < out.cols(); ++k)
       set_column(out, k, domain_detail::as_unit(given(k)));
   } else {
-    // From one triangle to the next, each corner in the copy nearest to the corners before.
+    // Visits triangle after triangle; each corner is the copy nearest to the previous corners.
     const auto& [triangles, neighbours] = part.faces;
     std::vector<std::uint8_t> is_set(part.sites.size(), 0);
     const auto set_corner = [&](std::int32_t k, const auto& beside) {
@@ -68,7 +68,7 @@ template <Space S> Points3 local_points(const Mesh& mesh, const S& space, const 
   return out;
 }
 
-/// A patch by itself.
+/// A patch as a mesh of its own.
 Mesh local_mesh(const Mesh& mesh, const Submesh& part) {
   Mesh out = as_mesh(part, mesh);
   out.points = in_space_of(
@@ -77,13 +77,13 @@ Mesh local_mesh(const Mesh& mesh, const Submesh& part) {
   return out;
 }
 
-/// The density of widths, whose least has the density 1.
+/// The density of widths, interpolated between sites; it is 1 at the least width.
 Density density_between(const Mesh& local, const DoubleVector& width) {
   return interpolated_density(local, (width / width.minCoeff()).array().pow(-4).matrix());
 }
 
-/// The density of widths at sites, and of finer ones between them. Where sites beside a boundary
-/// are to be wider than demanded, so are the positions around them.
+/// The density of widths at sites, and of finer widths between them. Where sites beside a boundary
+/// have wider cells than demanded, the positions around them do, too.
 Density make_density(const Mesh& local, const DoubleVector& width, const FineWidths* fine,
                      double tolerance) {
   const double least = width.minCoeff();
@@ -112,7 +112,7 @@ Density make_density(const Mesh& local, const DoubleVector& width, const FineWid
   return result;
 }
 
-/// The widths of a density over those that the mesh had, at some positions.
+/// The widths of a density divided by the mesh's old widths, at some positions.
 /// \param least width at which the density is 1.
 DoubleVector width_ratio(const Mesh& local, const DoubleVector& own, const Density& density,
                          double least, const Points3& positions) {
@@ -136,7 +136,7 @@ Surface make_surface(const Mesh& mesh, const PatchRegion& patch, const Mesh& loc
   return rings.empty() ? mesh.surface : local.surface.within(std::move(rings));
 }
 
-/// The number of sites that a patch is to have.
+/// The number of sites of the new patch.
 std::int64_t choose_count(const PatchRegion& patch, const DoubleVector& own,
                           const DoubleVector& wanted) {
   double sum = 0;
@@ -147,8 +147,9 @@ std::int64_t choose_count(const PatchRegion& patch, const DoubleVector& own,
   return patch.fixed + std::max<std::int64_t>(std::llround(sum), 1);
 }
 
-/// Midpoints of the edges that are too long, again and again; none between fixed sites. They keep
-/// the directions of the rows of cells, so that few dislocations are needed beside the patch.
+/// The sites, with midpoints of edges that are too long, added repeatedly; none between fixed
+/// sites. Midpoints keep the directions of the rows of cells, so that few dislocations are needed
+/// beside the patch.
 /// \param local the patch. \param surface of the patch, whose rings may be concave: edges across
 /// them have none. \param least width at which the density is 1.
 Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t fixed,
@@ -185,7 +186,7 @@ Points3 with_midpoints(const Mesh& local, const Surface& surface, std::int64_t f
   return std::move(mesh.points);
 }
 
-/// The run of a patch from points, whose choices are made here.
+/// The schedule of a patch's run from given points.
 Schedule make_schedule(const Surface& surface, const Density& density, std::int64_t cells,
                        std::int64_t fixed, const Points3& points) {
   constexpr double tolerance = 1e-4;
@@ -207,9 +208,9 @@ Schedule make_schedule(const Surface& surface, const Density& density, std::int6
   return schedule;
 }
 
-/// The Delaunay triangles of the sites of a patch, of which the fixed ones come first, within its
-/// rings: what is reached from their left without crossing them. Where the rings are straight up to
-/// rounding, it takes more than a triangle's centre to tell.
+/// The Delaunay triangles of a patch's sites within its rings: those reached from the left of the
+/// rings without crossing them. The fixed sites come first. Where rings are straight up to
+/// rounding, a triangle's centre would not decide.
 Mesh mesh_within(Points3&& points, const Submesh& part, const Surface& surface) {
   const auto key = [](std::int32_t from, std::int32_t to) {
     return static_cast<std::uint64_t>(from) << 32 | static_cast<std::uint32_t>(to);

@@ -11,16 +11,16 @@
 /// The run that makes new sites for a patch.
 namespace calotte::grids_detail {
 
-/// What replaces a patch.
+/// The replacement of a patch.
 struct Replacement {
   /// The triangles within the rings, without neighbours; the fixed sites of the patch come first.
-  /// In a periodic plane unwrapped.
+  /// In a periodic plane the points are unwrapped.
   Mesh mesh;
-  DoubleVector width_ratio; ///< by site that is not fixed, as of ChangedMesh
+  DoubleVector width_ratio; ///< by site that is not fixed, see ChangedMesh
   ChangedPatch change;
 };
 
-/// Widths that are known beyond those at sites.
+/// Widths that are known everywhere, not only at sites.
 struct FineWidths {
   const Widths& widths;
   double scale; ///< from their unit to that of the mesh
@@ -28,9 +28,8 @@ struct FineWidths {
 
 /// Runs a patch on the surface that its rings bound, where its fixed sites stay and the mesh ends
 /// at the rings.
-/// \param own, wanted as of wanted_widths(). \param fine limits widths between sites; null for
-/// none. \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic
-/// plane.
+/// \param own, wanted see wanted_widths(). \param fine limits widths between sites; null for none.
+/// \throws Error as make_grid(); invalid_argument for a patch that leads around a periodic plane.
 Replacement make_replacement(const Mesh& mesh, const PatchRegion& patch, const DoubleVector& own,
                              const DoubleVector& wanted, const FineWidths* fine,
                              const RefineOptions& options);

@@ -39,7 +39,7 @@ bool draws(CvtStart::Kind kind) {
          kind == CvtStart::Kind::random;
 }
 
-/// The numbers of a shape and kind that do not depend on others.
+/// Refuses values of a recipe that are out of range by themselves.
 void require_values(const Recipe& recipe) {
   const bool plane = !recipe.surface.is_sphere();
   if (recipe.cells != 0) // before any work; the least number follows below
@@ -80,7 +80,7 @@ void require_fixed_points(const Recipe& recipe) {
   }
 }
 
-/// The density, and the widths that give it; those of one size give a uniform one.
+/// Sets the density, and the widths that give it. Constant widths give a uniform density.
 /// \throws Error invalid_argument for an ill-formed density, even if the start does not use it.
 void take_resolution(Schedule& schedule) {
   const Recipe& recipe = schedule.recipe;
@@ -147,7 +147,7 @@ void choose_start(Recipe& recipe, bool uniform) {
   require(!start.insertion_rounds || start.kind == CvtStart::Kind::multilevel,
           "rounds of insertion apply to the start multilevel only; leave them out");
   if (start.kind == CvtStart::Kind::multilevel &&
-      !start.insertion_rounds) // on the boundary none counts
+      !start.insertion_rounds) // generators on the boundary do not count
     start.insertion_rounds = beside ? rounds_beside_fixed : usual_rounds;
 }
 
@@ -175,7 +175,7 @@ std::int64_t reachable(const Schedule& schedule, double implied) {
   return (cells - 2 + parts / 2) / parts * parts + 2;
 }
 
-/// The number of cells with generators on the boundary, if any, which have half a cell each.
+/// The number of cells including generators on the boundary, if any, which have half a cell each.
 double with_boundary(const Schedule& schedule, double implied) {
   const Recipe& recipe = schedule.recipe;
   double cells = implied;
@@ -190,7 +190,7 @@ double with_boundary(const Schedule& schedule, double implied) {
 }
 
 /// The number of cells for the widths in a part of the sphere.
-/// \param implied by the widths, without half a cell of each generator on the boundary.
+/// \param implied number by the widths, without the half cells of generators on the boundary.
 double cells_in_part(const Schedule& schedule, const Surface& asked, double implied) {
   const Recipe& recipe = schedule.recipe;
   constexpr double fewest = 40;
@@ -205,7 +205,7 @@ double cells_in_part(const Schedule& schedule, const Surface& asked, double impl
   return with_boundary(schedule, implied);
 }
 
-/// Sets the number of cells where it follows from widths. \returns what they imply.
+/// Sets the number of cells where it follows from widths. \returns the number that they imply.
 double take_cells(Schedule& schedule, const Surface& asked) {
   Recipe& recipe = schedule.recipe;
   const bool counts = recipe.cells == 0 && recipe.start.kind != CvtStart::Kind::points;
@@ -324,8 +324,8 @@ FirstLevel first_level(const Schedule& schedule) {
                        fixed);
 }
 
-/// Throws, before any work, for fewer generators than a mesh has, or more than it or the method can
-/// hold.
+/// Refuses, before any work, fewer generators than a mesh needs, or more than the mesh or the
+/// method allows.
 void require_room(const Recipe& recipe, const FirstLevel& first) {
   if (const std::int64_t fewest = fewest_generators(recipe.surface); first.cells < fewest)
     throw Error(

@@ -87,7 +87,7 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
     if (id == 0)
       id = kept++;
 
-  // Columns of the sphere have the norm of those beside them.
+  // On the sphere new columns get the norm of the old ones.
   Points3 positions(3, added);
   std::int64_t next = 0;
   for (std::size_t p = 0; p < patches.size(); ++p) {
@@ -119,7 +119,8 @@ NewSites new_sites(const Mesh& mesh, const S& space, const std::vector<PatchRegi
   return out;
 }
 
-/// Where a patch touches itself across a narrow gap in the surface, it may reach over that.
+/// Refuses new sites outside the surface: where a patch touches itself across a narrow gap in the
+/// surface, they may lie in the gap.
 void require_inside(const Mesh& mesh, const std::vector<PatchRegion>& patches,
                     const NewSites& sites) {
   if (!mesh.surface.is_bounded())
@@ -166,7 +167,7 @@ Triangles new_triangles(const Mesh& mesh, const std::vector<PatchRegion>& patche
   return out;
 }
 
-/// Whether each edge of a triangle with a site of a patch is Delaunay.
+/// Whether all edges of triangles with a site of a patch are Delaunay.
 template <Space S>
 bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_t>& of_patch) {
   return base_detail::holds_for_blocks(mesh.triangles.cols(), [&](std::int64_t begin,
@@ -194,8 +195,8 @@ bool is_delaunay(const Mesh& mesh, const S& space, const std::vector<std::uint8_
   });
 }
 
-/// The triangles of all sites, where a patch does not fit: around irregular cells the circles of
-/// triangles reach farther than the rows that stay, so that these get other triangles, too.
+/// Triangulates all sites again, where a patch does not fit: around irregular cells, circumcircles
+/// may extend beyond the rows that stay, so that these rows get other triangles, too.
 /// \throws Error invalid_argument, for a mesh that is not Delaunay where it changes, and for an
 /// open
 ///         one, whose boundary the sites do not tell.
@@ -214,7 +215,7 @@ void triangulate_anew(const Mesh& old, const S& space, const std::vector<PatchRe
   mesh = delaunay(std::move(mesh.points), mesh.surface);
 }
 
-/// Replaces the patches by their replacements.
+/// Assembles the mesh with the replacements instead of the patches.
 template <Space S>
 ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchRegion>& patches,
                       std::vector<Replacement>&& replacements) {
@@ -252,7 +253,7 @@ ChangedMesh assembled(const Mesh& mesh, const S& space, const std::vector<PatchR
   return out;
 }
 
-/// What is known of a mesh.
+/// A mesh with its neighbours, boundary and widths.
 struct Given {
   explicit Given(const Mesh& of)
       : mesh(of), around(neighbours(mesh)), at_boundary(sites_at_boundary(mesh)),
@@ -273,7 +274,7 @@ WantedWidths want_widths(const Given& given, const DoubleVector& demanded, Way w
 ChangedMesh changed_once(const Given& given, const Demand& demand, const WantedWidths& wanted,
                          const RefineOptions& options) {
   const Mesh& mesh = given.mesh;
-  // Beside sites that stay a polish has less freedom: more rows that adapt give it more.
+  // Beside sites that stay a polish has little freedom; more rows that adapt give it more.
   constexpr int first_rows = 3, last_rows = 7;
   for (int rows = first_rows;; rows += 2) {
     const std::vector<PatchRegion> patches =
@@ -294,14 +295,14 @@ ChangedMesh changed_once(const Given& given, const Demand& demand, const WantedW
   }
 }
 
-/// The cells that are wider than wanted by more than the irregularity of cells explains.
+/// The number of cells that are wider than wanted by more than the irregularity of cells explains.
 std::int64_t missed(const DoubleVector& own, const WantedWidths& wanted) {
   constexpr double irregular = 1.3;
   return (own.array() > irregular * wanted.width.array()).count();
 }
 
-/// The cells that are narrower than demanded, if all are to which a coarser demand applies: cells
-/// grow from those around it, and a small part ends before they are wide.
+/// The number of cells that are narrower than demanded, if all cells with a coarser demand are:
+/// widths grow from the cells around the part, and a small part ends before they are wide.
 std::int64_t nowhere_as_wide(const DoubleVector& own, const DoubleVector& demanded,
                              const WantedWidths& wanted, double tolerance) {
   const auto coarser = demanded.array() > (1 + tolerance) * own.array(),
@@ -309,7 +310,7 @@ std::int64_t nowhere_as_wide(const DoubleVector& own, const DoubleVector& demand
   return (coarser && !narrower).any() ? 0 : (coarser && narrower).count();
 }
 
-/// The new sites whose cells are beyond the limits of shapes, whatever the spacing demanded.
+/// The number of new sites whose cells are beyond the limits of shapes, for any demanded spacing.
 std::int64_t bad_shapes(const ChangedMesh& changed) {
   using namespace cvt_detail;
   return in_space_of(changed.mesh.surface, [&]<Space S>(const S& space) {
@@ -329,8 +330,8 @@ std::int64_t bad_shapes(const ChangedMesh& changed) {
   });
 }
 
-/// One change after another as one change of the first mesh: the sites that stayed, then the new
-/// ones along the curve.
+/// Combines two consecutive changes to one change of the first mesh: the sites that stayed, then
+/// the new ones along the curve.
 ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
   ChangedMesh out;
   out.held = first.held;
@@ -371,7 +372,7 @@ ChangedMesh joined(ChangedMesh&& first, ChangedMesh&& second) {
     if (out.old_of_new[k] >= 0)
       out.new_of_old[out.old_of_new[k]] = k;
   }
-  // What the later run made better does not count against the whole.
+  // Shapes that the second change has repaired do not count.
   const bool was_bad = std::ranges::any_of(
       first.patches, [](const ChangedPatch& patch) { return !patch.report.well_centred; });
   const bool is_good = was_bad && bad_shapes(out) == 0;
@@ -394,8 +395,8 @@ Marks new_sites(const ChangedMesh& changed) {
   return marks;
 }
 
-/// Finer cells where the demand lies between sites are made in steps: those of a step are the sites
-/// that see the demand of the next.
+/// Changes a mesh. Finer cells are made in steps where the demand lies between sites: the new sites
+/// of a step sample the demand of the next.
 ChangedMesh changed(const Mesh& mesh, const WidthDemand& wanted, Way way,
                     const RefineOptions& options) {
   require_demand(mesh, wanted, way, options);

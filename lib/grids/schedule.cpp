@@ -14,7 +14,7 @@ namespace {
 using Kind = CvtAction::Kind;
 namespace course = cvt_detail::course;
 
-/// \param rounds of the last level.
+/// The number of rounds of a level. \param rounds of the last level.
 int rounds_of_level(int rounds, int bisections_left) {
   return std::min(rounds * (bisections_left + 1), std::max(rounds, course::most_rounds));
 }
@@ -26,7 +26,7 @@ std::int64_t cells_of_level(const Surface& surface, std::int64_t cells, int bise
   return cells;
 }
 
-/// The end of all descents of a run with insertion but the last.
+/// The end of all descents but the last of a run with insertion.
 CvtAction early(CvtAction end) {
   end.tolerance = end.norm == Norm::l2_scaled ? std::max(course::early_tolerance, end.tolerance)
                                               : course::early_tolerance;

@@ -11,7 +11,7 @@
 namespace calotte::grids_detail {
 
 /// The actions of a run, see cvt/stages.h.
-/// \param recipe whose choices are made, but for the number of bisections.
+/// \param recipe with all choices made, except the number of bisections.
 std::vector<CvtAction> actions_of(const Recipe& recipe, const FirstLevel& first);
 
 } // namespace calotte::grids_detail

@@ -24,8 +24,8 @@ using base_detail::with_z;
 using cvt_detail::bisected;
 using cvt_detail::fewest_generators;
 
-/// With fewer, cells of five neighbours are so near to each other that a descent may change the
-/// neighbours of cells.
+/// The minimum number of generators of a geodesic start. With fewer, cells of five neighbours are
+/// so near to each other that a descent may change the neighbours of cells.
 constexpr std::int64_t fewest_geodesic = 150;
 
 bool is_icosahedral(std::int64_t n) {
@@ -43,7 +43,7 @@ int icosahedral_level(std::int64_t n) {
   return level;
 }
 
-/// How many points that follow a density spread over the sphere: on average 12 lie in the emptiest
+/// The number of points distributed as a density of which on average 12 lie in the emptiest
 /// hemisphere. A descent from fewer may lose the last of these, so that no triangulation exists.
 std::int64_t spreading(const Density& sites) {
   constexpr double in_hemisphere = 12;
@@ -59,9 +59,9 @@ std::int64_t spreading(const Density& sites) {
              : generators_detail::most_points;
 }
 
-/// How many generators of a density leave no empty circle as wide as half of a periodic box, which
-/// would hold no triangulation: the largest of independent random points has a diameter of
-/// about 2.5 spacings. 0 of other planes.
+/// The number of generators of a density that leave no empty circle as wide as half of a periodic
+/// box, with which no triangulation exists. The largest empty circle of independent random points
+/// has a diameter of about 2.5 spacings. 0 for other planes.
 std::int64_t spreading_in_plane(const Density& density, const Surface& surface) {
   if (surface.is_bounded())
     return 0;
@@ -113,7 +113,7 @@ std::int64_t start_on_sphere(std::int64_t cells, int bisections) {
   return n;
 }
 
-/// The same in a plane: in a box n cells become 4n; elsewhere midpoints outside are left out.
+/// The same in a plane: in a box n cells become 4n; elsewhere midpoints outside are not added.
 std::int64_t start_in_plane(std::int64_t cells, int bisections, bool box) {
   const std::int64_t divisor = std::int64_t{1} << (2 * bisections), n = cells / divisor;
   require(n >= fewest_generators(Surface::plane()),

@@ -35,8 +35,8 @@ double mean_root(const Density& density, const Surface& box, const Points3& poin
   return evaluate(density, points, box).cwiseSqrt().mean();
 }
 
-/// A callable that sees beyond a wall the points from 0 on as those before 0, from the middle of
-/// the gap on.
+/// The density between the walls, extended over the gap by the periodic box: from the middle of the
+/// gap on, points count as those before 0.
 Density unwrapped(const Density& density, const Eigen::Vector2d& extent,
                   const Eigen::Vector2d& period) {
   const Density::Callable given = density_detail::make_callable(density);

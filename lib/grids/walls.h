@@ -10,12 +10,13 @@
 
 namespace calotte::grids_detail {
 
-/// A run in a doubly periodic box, of which the cells between walls are taken. Beyond the walls the
-/// box has a gap four cells wide, so that the cells at one wall are neighbours of none at the
+/// A run in a doubly periodic box, of which the cells between walls are kept. Beyond the walls the
+/// box has a gap four cells wide, so that no cell at one wall is a neighbour of a cell at the
 /// other.
 struct WallsRun {
   Surface box;
-  Density density;        ///< of the box: that between the walls, beyond them of what is nearest
+  Density density; ///< of the box: between the walls the given one, in the gap that of the nearest
+                   ///< point
   std::int64_t cells = 0; ///< of the box
 };
 

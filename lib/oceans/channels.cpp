@@ -20,7 +20,7 @@
 #include <vector>
 
 // The circumcentres of the Delaunay triangles of points along the coast sample the medial axis of
-// the sea: the points with two nearest points of the coast or more.
+// the sea: the points with two or more nearest points of the coast.
 
 namespace calotte {
 namespace oceans_detail {
@@ -34,7 +34,7 @@ using domain_detail::for_each_short_part;
 struct CoastPoints {
   struct Position {
     std::int32_t line;
-    double along; ///< the line, radians
+    double along; ///< position along the line, radians
   };
   Points3 points;
   std::vector<Position> positions;
@@ -108,7 +108,7 @@ bool lies_across(const Circle& circle, const CoastPoints& coast) {
   return false;
 }
 
-/// By site of a mesh the first point of the input.
+/// By site of a mesh, the index of its first input point.
 std::vector<std::int32_t> first_inputs(const Mesh& mesh) {
   std::vector<std::int32_t> inputs(static_cast<std::size_t>(mesh.points.cols()), -1);
   for (std::size_t k = mesh.site_of_input.size(); k-- > 0;)
@@ -132,7 +132,8 @@ std::vector<Disc> find_discs(const CoastPoints& coast, const CoastSides& sides,
       const double width = 2 * radius_km * circle.radius;
       if (width <= rule.widest && lies_across(circle, coast) && sides.is_sea(circle.centre))
         of_block[static_cast<std::size_t>(block)].push_back(
-            // A little larger, as between two circles some of the coast is in neither.
+            // The disc is slightly larger than the circle: the coast between two circles is in
+            // neither.
             {circle.centre, circle.radius + 0.25 * step, std::max(rule.least, width / rule.cells)});
     }
   });

@@ -13,12 +13,13 @@
 namespace calotte {
 namespace {
 
-/// A profile of distances in the sea, negative on land; or on one side.
+/// The curve of a profile over distances that are positive in the sea and negative on land, or on
+/// one side only.
 density_detail::ProfileCurve curve_of(const WidthProfile& profile, CoastSide side) {
   constexpr double farthest = density_detail::farthest_on_sphere;
   const bool both = side == CoastSide::both;
   const density_detail::ProfileCurve curve(profile, "a distance", both ? -farthest : 0, farthest);
-  constexpr double rounding = 1e-6; // km: the arcs itself is of both sides
+  constexpr double rounding = 1e-6; // km: the coast itself belongs to both sides
   return both ? curve : curve.within(-rounding, std::numeric_limits<double>::infinity());
 }
 

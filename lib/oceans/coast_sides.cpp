@@ -23,7 +23,7 @@ namespace {
 using domain_detail::as_unit;
 using exact_detail::same_direction;
 
-/// Without those that repeat the one before.
+/// The corners of a ring, without those that repeat the previous one.
 std::vector<Vec3> corners_of(const Points3& ring, std::int64_t number) {
   domain_detail::require_directions(ring, number);
   std::vector<Vec3> corners;
@@ -58,7 +58,7 @@ std::vector<CoastArc> joined_lines(const std::vector<Arc>& arcs) {
   std::vector<bool> used(arcs.size());
   const auto after = [&](std::size_t arc) {
     const std::array<double, 3> end = coordinates(arcs[arc].to);
-    // Where several begin, the ring goes on with the next one.
+    // Where several arcs begin, the line continues with the next arc of the ring.
     if (arc + 1 < arcs.size() && !used[arc + 1] && coordinates(arcs[arc + 1].from) == end)
       return arc + 1;
     for (auto next = std::lower_bound(starts.begin(), starts.end(), ArcStart{end, 0});
@@ -93,7 +93,8 @@ std::vector<SideCells::Corner> corners_between(const std::vector<CoastArc>& arcs
   return corners;
 }
 
-/// Most corners have land to their left; at some, coasts that are simplified cross themselves.
+/// Whether the inside is land, by the majority of the corners, which have land to their left. At
+/// some corners, simplified coasts cross themselves.
 bool inside_is_land(const SideCells& cells, const std::vector<SideCells::Corner>& corners) {
   const auto left = std::count_if(corners.begin(), corners.end(), [&](SideCells::Corner corner) {
     return cells.inside_is_left(corner);

@@ -23,7 +23,7 @@ public:
     east_ = normalised(cross(aside, up));
     north_ = cross(up, east_);
   }
-  /// The angle of the way from one direction to another, from -pi to pi.
+  /// The change of azimuth from one direction to another, from -pi to pi.
   double turn(const Vec3& from, const Vec3& to) const {
     const double x = dot(from, east_), y = dot(from, north_), u = dot(to, east_),
                  v = dot(to, north_);

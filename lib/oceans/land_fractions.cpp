@@ -20,9 +20,9 @@
 #include <vector>
 
 // The land in a cell is bounded by parts of the coast and parts of the cell's edges. Its area is
-// the sum of the signed triangles from the generator to these: those of the edges, where there is
-// land, times the number of areas of land there, which changes by one at each crossing of the
-// coast.
+// the sum of the signed triangles from the generator to these parts. A triangle of an edge counts
+// as often as polygons of land cover the edge there; that number changes by one at each crossing of
+// the coast.
 
 namespace calotte {
 namespace oceans_detail {
@@ -36,14 +36,14 @@ constexpr double whole_sphere = 4 * std::numbers::pi;
 
 // ---- Arcs
 
-/// Turned by 1e-12 radians around an axis that is no axis of any lattice.
+/// The direction rotated by 1e-12 radians around an axis that is no axis of any lattice.
 Vec3 turned(const Vec3& x) {
   const Vec3 way = cross(Vec3{4.1e-13, -7.3e-13, 5.5e-13}, x);
   return normalised(x + way);
 }
 
-/// The arcs of all rings; those of rings near each other follow each other. `starts` is true for
-/// the first arc of a ring.
+/// The arcs of all rings; rings near each other are consecutive. `starts` is true for the first arc
+/// of a ring.
 struct Arcs {
   std::vector<Arc> arcs;
   std::vector<bool> starts;
@@ -71,7 +71,7 @@ Arcs make_arcs(const Coast& coast) {
   return all;
 }
 
-// ---- What the arcs leave in cells and on edges
+// ---- Crossings of edges by arcs, and pieces of arcs in cells
 
 /// A point where the coast crosses an edge, which runs from its lower to its higher vertex.
 struct Crossing {
@@ -81,7 +81,7 @@ struct Crossing {
   Vec3 point;
 };
 
-/// The triangles of a generator with arcs of the coast.
+/// The area of the triangles of a generator with arcs of the coast.
 struct Piece {
   std::int32_t cell;
   double area;
@@ -115,7 +115,8 @@ private:
     out_.pieces.back().area += triangle_area(column(cells_.cells, cell), from, to);
   }
 
-  /// The arc leaves the cell, so that the edge, counter-clockwise, passes to its left.
+  /// Records the crossing where the arc leaves the cell: the edge, counter-clockwise, passes to the
+  /// arc's left. Returns the point.
   Vec3 cross_edge(std::int32_t cell, std::size_t k, const Arc& arc) {
     const std::int32_t a = start_of(cells_, cell, k), b = cells_.vertices_on_cell[cell][k];
     const Vec3 &low = column(cells_.vertices, std::min(a, b)),
@@ -158,7 +159,7 @@ Traces trace_coast(const Voronoi& cells, const Arcs& arcs) {
   return all;
 }
 
-// ---- Numbers of areas of land
+// ---- Numbers of polygons of land
 
 /// The crossings of each edge, along it.
 using EdgeCrossings = Lists<std::vector<Crossing>, std::vector<std::int64_t>>;
@@ -176,7 +177,7 @@ EdgeCrossings by_edge(std::vector<Crossing> crossings, std::int64_t edges) {
   return out;
 }
 
-/// Along all of an edge.
+/// The change of the number of polygons of land along a whole edge.
 std::int32_t change_along(std::span<const Crossing> edge) {
   std::int32_t sum = 0;
   for (const Crossing& crossing : edge)
@@ -186,7 +187,7 @@ std::int32_t change_along(std::span<const Crossing> edge) {
 
 constexpr std::int32_t unknown = INT32_MIN;
 
-/// By vertex: the number of areas of land there, less that at one of them.
+/// By vertex, the number of polygons of land that cover it, minus that at one vertex.
 std::vector<std::int32_t> counts_at_vertices(const Voronoi& cells, const EdgeCrossings& crossings) {
   std::vector<std::int32_t> counts(static_cast<std::size_t>(cells.vertices.cols()), unknown);
   const auto at = [&](std::int32_t v) -> std::int32_t& {
@@ -220,7 +221,8 @@ std::vector<std::int32_t> counts_at_vertices(const Voronoi& cells, const EdgeCro
 
 // ---- Areas
 
-/// The triangles from a cell's generator to the parts of an edge, times the numbers of land there.
+/// The area of the triangles from a cell's generator to the parts of an edge, times the numbers of
+/// polygons of land there.
 double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
                   const std::vector<std::int32_t>& counts, std::int32_t cell, std::size_t k) {
   const std::int32_t a = start_of(cells, cell, k), b = cells.vertices_on_cell[cell][k],
@@ -243,7 +245,7 @@ double land_along(const Voronoi& cells, const EdgeCrossings& crossings,
 }
 
 struct CellAreas {
-  DoubleVector land, whole; ///< the land less as many spheres as counts are too low
+  DoubleVector land, whole; ///< the land minus as many spheres as counts are too low
 };
 
 CellAreas sum_areas(const Voronoi& cells, const EdgeCrossings& crossings,
@@ -270,7 +272,8 @@ CellAreas sum_areas(const Voronoi& cells, const EdgeCrossings& crossings,
   return areas;
 }
 
-/// The fractions, once it is known how many spheres the areas are too low.
+/// The fractions of land. The given area of all land determines how many whole spheres the areas
+/// lack.
 DoubleVector make_fractions(const CellAreas& areas, double area) {
   const double excess = (area - areas.land.sum()) / whole_sphere, spheres = std::round(excess);
   require(std::abs(excess - spheres) < 1e-6,

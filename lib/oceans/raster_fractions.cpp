@@ -32,7 +32,7 @@ DoubleVector land_fractions(const Voronoi& cells, const Raster& land) {
       overlaps.set(corners, shared);
       if (shared.empty()) // a cell of no area
         shared.push_back({tiling.box_at(column(cells.cells, i)), 1});
-      // The excess over one of the values is exactly 0 where all are equal.
+      // Values are summed as differences from one of them, which are exactly 0 where all are equal.
       const double usual = land.values.data()[shared[0].column];
       double area = 0, excess = 0;
       for (const auto& [box, part] : shared) {

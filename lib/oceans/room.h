@@ -9,12 +9,12 @@
 #include "domain/arcs.h"
 #include "exact/predicates.h"
 
-/// Coasts, land and sea: the shores of a coast and their sides, the land around a point, the
-/// fraction of each cell that is land, and which cells are the sea.
+/// Coasts, land and sea: the lines of a coast and their sides, the land around a point, the
+/// fraction of each cell that is land, and the cells of the sea.
 ///
-/// Of the class Widths, which is of the room density, two members are defined here, since they know
-/// shores: by_distance(), by the distance from them, and by_channel(), by the width of straits. The
-/// rules that they return are those of density.
+/// Two members of the class Widths of the room density are defined here, since they need coasts:
+/// by_distance(), by the distance from a coast, and by_channel(), by the width of straits. They
+/// return rules of density.
 ///
 /// In: a coast or a raster of land, the cells of a tessellation. Out: fractions, masks, widths.
 namespace calotte::oceans_detail {

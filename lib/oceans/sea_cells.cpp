@@ -14,7 +14,7 @@ using base_detail::require;
 
 constexpr std::int32_t land = -1, sea = 0;
 
-/// Sets cells. \returns the number of those that were something else.
+/// Sets cells to a value. \returns the number of cells that had another value.
 std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids& of_cell) {
   std::int64_t changed = 0;
   for (const std::int32_t cell : cells) {
@@ -25,7 +25,8 @@ std::int64_t set(const std::vector<std::int32_t>& cells, std::int32_t value, Ids
   return changed;
 }
 
-/// Makes land of cells of the sea with fewer than two neighbours in it. \returns their number.
+/// Turns cells of the sea with fewer than two neighbours in the sea into land. \returns their
+/// number.
 std::int64_t fill(const IdLists& cells_on_cell, Ids& of_cell) {
   const auto is_dead_end = [&](std::int32_t cell) {
     int neighbours = 0;

@@ -20,7 +20,7 @@ namespace calotte {
 namespace quality_detail {
 namespace {
 
-/// Measures of n cells and m triangles, none of them set but the degrees, which are 0.
+/// Measures of n cells and m triangles. None is set except the degrees, which are 0.
 CellMeasures unset_measures(Eigen::Index n, Eigen::Index m) {
   CellMeasures out;
   out.spacing = DoubleVector::Constant(n, no_value);
@@ -30,8 +30,8 @@ CellMeasures unset_measures(Eigen::Index n, Eigen::Index m) {
   return out;
 }
 
-/// Sets what follows from the triangles: their angles and quality, and by site the number of
-/// triangles and their largest angle.
+/// Sets the measures of triangles: their angles and quality, and by site the number of triangles
+/// and their largest angle.
 void set_angles(const Subject& subject, CellMeasures& out) {
   constexpr double degrees = 180 / std::numbers::pi;
   for (std::int64_t t = 0; t < subject.shapes.size(); ++t) {
@@ -64,8 +64,8 @@ void set_fits(const Subject& subject, CellMeasures& out) {
     }
 }
 
-/// The cells that triangles surround.
-/// \param delaunay whether all edges are.
+/// Sets the measures of cells that are surrounded by triangles.
+/// \param delaunay whether all edges are Delaunay.
 void set_surrounded(const std::vector<Sides>& cells, bool delaunay, CellMeasures& out) {
   for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
     const Sides& cell = cells[static_cast<std::size_t>(i)];
@@ -80,7 +80,7 @@ void set_surrounded(const std::vector<Sides>& cells, bool delaunay, CellMeasures
   }
 }
 
-/// Cells of the plane, which a boundary may clip.
+/// Sets the measures of cells of the plane, which a boundary may clip.
 void set_clipped(const Voronoi& cells, CellMeasures& out) {
   for (Eigen::Index i = 0; i < out.spacing.size(); ++i) {
     Tally arcs, voronoi;
@@ -101,7 +101,8 @@ void set_clipped(const Voronoi& cells, CellMeasures& out) {
   }
 }
 
-/// What the density demands, and how far generators are from the centroids of their cells.
+/// Sets the demand of the density, and the distances of generators from the centroids of their
+/// cells.
 void set_demand(const ClosedMesh& closed, const Density& density, Subject& subject,
                 CellMeasures& out) {
   const Points3& points = closed.mesh.points;
@@ -110,14 +111,14 @@ void set_demand(const ClosedMesh& closed, const Density& density, Subject& subje
   set_fits(subject, out);
   const Moments moments = moments_of(closed, density);
   for (std::int64_t i = 0; i < closed.generators; ++i) {
-    if (std::isnan(out.spacing[i])) // in no triangle
+    if (std::isnan(out.spacing[i])) // a site in no triangle
       continue;
     require_centroid(closed, moments, i);
     out.off_centroid[i] = norm(off_centroid(closed, moments, i)) / out.spacing[i];
   }
 }
 
-/// Values by triangle of a part of a mesh, for all of its triangles.
+/// Extends values by triangle of a part of a mesh to all of its triangles.
 DoubleVector of_all(const DoubleVector& values, const std::vector<std::int32_t>& triangle,
                     Eigen::Index triangles) {
   DoubleVector all = DoubleVector::Constant(triangles, no_value);

@@ -49,7 +49,7 @@ public:
 
 private:
   Vec2 at(std::int64_t site) const { return {(*points_)(0, site), (*points_)(1, site)}; }
-  /// The circumcentre, seen from a corner.
+  /// The circumcentre, relative to a corner.
   Vec2 centre_of(const Triangles& triangles, std::int64_t t, int v) const {
     const Vec2 here = at(triangles(v, t));
     return circumcentre(at(triangles(next_vertex(v), t)) - here,
@@ -61,7 +61,7 @@ private:
   std::int64_t generators_;
 };
 
-/// 1 where has(i), for 0 <= i < n. Empty without a boundary of the plane.
+/// Flags: 1 where has(domain, i), for 0 <= i < n. Empty without a boundary of the plane.
 template <class Has>
 Array<std::uint8_t> flags(const ClosedMesh& closed, std::int64_t n, const Has& has) {
   if (closed.surface.is_sphere() || !closed.surface.is_bounded())

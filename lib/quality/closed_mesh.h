@@ -17,17 +17,18 @@ namespace calotte::quality_detail {
 /// The generators of a surface in a mesh in which all of them have closed stars.
 struct ClosedMesh {
   Surface surface; ///< the whole sphere, or a plane whose boundary clips the cells
-  /// Of the generators, which are unit vectors, or in a periodic box inside it, and after them the
-  /// hull of a bounded plane, see far_hull().
+  /// The mesh of the generators, then of the hull of a bounded plane, see far_hull(). Generators
+  /// are unit vectors; in a periodic plane they are inside the box.
   Mesh mesh;
   std::int64_t generators = 0;
 };
 
-/// The mesh itself; rings of its surface have no effect.
+/// A closed mesh of the sphere. Rings of its surface have no effect.
 /// \pre closed, of unit columns; there is a point.
 ClosedMesh closed_on_sphere(Mesh mesh);
 
-/// A new mesh of the points. \pre there is a point; the plane is finite.
+/// A closed mesh made of the points of a mesh of the plane. \pre there is a point; the plane is
+/// finite.
 /// \throws Error duplicate with the index of a point that equals an earlier one.
 ClosedMesh closed_in_plane(const Mesh& mesh);
 
@@ -36,19 +37,18 @@ ClosedMesh closed_in_plane(const Mesh& mesh);
 Moments moments_of(const ClosedMesh& closed, const Density& density, int rule = 6,
                    int divisions = 1);
 
-/// From generator i to the centroid of its cell.
+/// The offset from generator i to the centroid of its cell.
 Vec3 off_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i);
 
 /// \throws Error invalid_argument with the index if cell i has no centroid.
 void require_centroid(const ClosedMesh& closed, const Moments& moments, std::int64_t i);
 
-/// For each triangle 1 if it is one of the domain's, otherwise 0: its circumcentre is in it, and
-/// none of its corners is a point of the hull. Empty if all are.
+/// Flags the triangles of the domain: the domain contains the circumcentre, and no corner is a
+/// point of the hull. Empty if all triangles are flagged.
 /// \param triangles of the generators, and of the hull.
 Array<std::uint8_t> triangles_inside(const ClosedMesh& closed, const Triangles& triangles);
 
-/// For each generator 1 if it is inside and the boundary passes through no interior of its cell,
-/// otherwise 0. Empty if there is no boundary.
+/// Flags the generators inside whose cells the boundary does not cut. Empty without a boundary.
 Array<std::uint8_t> unclipped_cells(const ClosedMesh& closed, const VertexRings& rings);
 
 } // namespace calotte::quality_detail

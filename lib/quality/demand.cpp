@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t batch = 512;
 
-/// Rows of coordinates, evaluated when they are full.
+/// Collects nodes in rows of coordinates, which are evaluated when they are full.
 class Batch {
 public:
   explicit Batch(const DensityEvaluator& density) : density_(&density) {}
@@ -48,8 +48,8 @@ private:
   double sum_ = 0;
 };
 
-/// The nodes of a flat triangle, seen from the centre: the solid angle of an area A in a plane at
-/// the distance D is D A / |p|^3, and D times the triangle's area is half the determinant.
+/// Adds the nodes of a flat triangle, projected from the centre: the solid angle of an area A in a
+/// plane at the distance D is D A / |p|^3, and D times the triangle's area is half the determinant.
 void add_triangle(const std::array<Vec3, 3>& corner, std::span<const QuadratureRule::Node> nodes,
                   Batch& out) {
   const double twice = dot(corner[0], cross(corner[1], corner[2]));
@@ -60,8 +60,8 @@ void add_triangle(const std::array<Vec3, 3>& corner, std::span<const QuadratureR
   }
 }
 
-/// Into how many squared a triangle is divided: an error of 1e-6 for rasters of 1 degree, whose
-/// kinks cost more than a bump of 8:1.
+/// A triangle is divided into the square of this number. The error is 1e-6 for rasters of 1 degree,
+/// whose kinks cause larger errors than a bump of 8:1.
 int divisions_for(std::int64_t triangles) {
   constexpr double enough = 200000, most = 128;
   return static_cast<int>(

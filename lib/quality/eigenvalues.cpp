@@ -41,7 +41,7 @@ void fill_with_noise(Values& x) {
 /// \param row(x, i) the product of row i with x.
 template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
   constexpr int most_steps = 300, between = 8;
-  constexpr int first_test = 24;  // noise holds little of an eigenvector of one short edge
+  constexpr int first_test = 24;  // noise contains little of an eigenvector of one short edge
   constexpr double enough = 1e-3; // change of the Ritz value over `between` steps
   Values now(n), before(n), product(n);
   fill_with_noise(now);
@@ -63,7 +63,7 @@ template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
       }
     })[0]);
     diagonal.push_back(along);
-    const bool complete = !(rest > 1e-12 * std::abs(along)); // the space holds the eigenvector
+    const bool complete = !(rest > 1e-12 * std::abs(along)); // the space contains the eigenvector
     if ((step >= first_test && step % between == 0) || complete) {
       const double ritz = largest_tridiagonal_eigenvalue(diagonal, beside);
       if (complete || ritz - found <= enough * ritz)
@@ -81,7 +81,7 @@ template <class Row> double largest_eigenvalue(std::int64_t n, const Row& row) {
   return found;
 }
 
-/// 1 / sqrt(area), 0 where there is none.
+/// By cell or vertex 1 / sqrt(area); 0 where there is no area.
 template <class Area> Values inverse_roots(std::int64_t n, const Area& area) {
   Values roots(n);
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

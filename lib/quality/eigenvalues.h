@@ -13,12 +13,12 @@
 /// Computations, 10.1). Lost orthogonality repeats eigenvalues, but makes no larger ones.
 namespace calotte::quality_detail {
 
-/// Of the negative divergence of the gradient at cells: w = dv / dc. Edges of one cell have no
-/// flux.
+/// The largest eigenvalue of the negative divergence of the gradient at cells: w = dv / dc. Edges
+/// of one cell have no flux.
 double primal_eigenvalue(const Voronoi& of);
 
-/// Of the negative curl of the rotated gradient at vertices: w = dc / dv. Edges of
-/// vertices without three cells do not count. Infinite if an edge has no length.
+/// The largest eigenvalue of the negative curl of the rotated gradient at vertices: w = dc / dv.
+/// Edges of vertices without three cells do not count. Infinite if an edge has no length.
 double dual_eigenvalue(const Voronoi& of);
 
 } // namespace calotte::quality_detail

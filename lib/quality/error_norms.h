@@ -14,9 +14,9 @@
 /// Sums and extremes of errors, which have the same bits for any number of threads.
 namespace calotte::quality_detail {
 
-using Errors = Array<double>; ///< by index; NaN without a complete stencil
+using Errors = Array<double>; ///< by cell, edge or vertex; NaN without a complete stencil
 
-/// Squares at one index, summed over the fields.
+/// Squares at one point, summed over the fields.
 struct Squares {
   double error = 0, exact = 0;
 
@@ -51,14 +51,14 @@ struct NormPart {
 };
 
 /// The norms of errors at n points, over the root mean square of the exact values.
-/// \param weight(i) of a index; 0 without a complete stencil.
-/// \param measure(i) its Squares.
+/// \param weight(i) of point i; 0 without a complete stencil.
+/// \param measure(i) the Squares of point i.
 /// \param errors receives the relative errors.
-/// \returns `cell` is the index of the worst index, the first of several.
+/// \returns norms whose `cell` is the index of the largest error, the first of several.
 template <class Weight, class Measure>
 ErrorNorms error_norms(std::int64_t n, const Weight& weight, const Measure& measure,
                        Errors& errors) {
-  if (errors.size() != n) // the memory of another operator serves
+  if (errors.size() != n) // reuses the memory of another operator
     errors = Errors(n);
   const auto sum = join_blocks<NormPart>(n, [&](NormPart& part, std::int64_t i) {
     errors[i] = no_value;
@@ -83,8 +83,8 @@ ErrorNorms error_norms(std::int64_t n, const Weight& weight, const Measure& meas
   return out;
 }
 
-/// The norms of distances at n points, of equal weight; `cell` is the index.
-/// \param distance(i) NaN for a index to leave out.
+/// The norms of distances at n points of equal weight; `cell` is the index of the largest.
+/// \param distance(i) NaN for a point to skip.
 template <class Distance> ErrorNorms distance_norms(std::int64_t n, const Distance& distance) {
   Errors distances(n), squares;
   for_each_block(n, [&](std::int64_t, std::int64_t begin, std::int64_t end) {

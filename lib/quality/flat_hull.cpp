@@ -16,7 +16,8 @@ namespace {
 /// few times that.
 constexpr double rounding = 1e-14;
 
-/// Whether side i, across from vertex i, is the longest, and as near to the vertex as rounding.
+/// Whether side i, across from vertex i, is the longest, and its distance from the vertex is at
+/// most rounding.
 bool is_flat(const Mesh& mesh, std::int32_t t, int i) {
   const Vec3 &p = column(mesh.points, mesh.triangles(i, t)),
              &a = column(mesh.points, mesh.triangles(next_vertex(i), t)),
@@ -54,7 +55,7 @@ WithoutFlatHull without_flat_hull(Mesh mesh) {
   }
   WithoutFlatHull out{std::move(mesh), base_detail::themselves(triangles)};
   std::erase_if(out.triangle, [&](std::int32_t t) { return removed[static_cast<std::size_t>(t)]; });
-  if (std::ssize(out.triangle) < triangles) { // the sites of those that are removed stay
+  if (std::ssize(out.triangle) < triangles) { // the sites of removed triangles stay
     mesh_detail::Submesh part =
         mesh_detail::extract(out.mesh.triangles, out.mesh.neighbours, out.triangle);
     out.mesh.triangles = Triangles(out.mesh.triangles(Eigen::all, out.triangle));

@@ -8,15 +8,16 @@
 #include <cstdint>
 #include <vector>
 
-/// Sites that lie on one great circle but for rounding, such as those on a meridian, are at the
-/// border of a mesh no straight line in exact arithmetic: triangles of no width fill its hull
-/// there. They are Delaunay, and say nothing of the mesh.
+/// Removes flat triangles from the hull of a mesh. Sites on one great circle up to rounding, such
+/// as those of a meridian at the border of a mesh, are not on a straight line in exact arithmetic:
+/// triangles of width 0 fill the hull there. They are Delaunay, and irrelevant for the quality of
+/// the mesh.
 namespace calotte::quality_detail {
 
-/// A mesh without them.
+/// A mesh without flat triangles.
 struct WithoutFlatHull {
   Mesh mesh;
-  std::vector<std::int32_t> triangle; ///< by triangle of the mesh: its number in the whole one
+  std::vector<std::int32_t> triangle; ///< by triangle of the mesh: its number in the whole mesh
 };
 
 /// Removes triangles whose longest side is on the boundary, and less than 1e-14 from the vertex

@@ -34,7 +34,7 @@ void set_position(const Points3& cells, ErrorNorms& norms) {
     norms.position = cells.col(norms.cell);
 }
 
-/// All but off_centroid.
+/// Measures all errors except off_centroid.
 OperatorErrors measure_errors(const Voronoi& cells) {
   OperatorErrors out;
   set_truncation(cells, out);
@@ -43,7 +43,7 @@ OperatorErrors measure_errors(const Voronoi& cells) {
   return out;
 }
 
-/// \param first(i) the first moment of a cell; zero to leave it out.
+/// \param first(i) the first moment of a cell; zero to skip the cell.
 template <class First> ErrorNorms off_centroid(const Voronoi& cells, const First& first) {
   ErrorNorms norms = distance_norms(cells.cells.cols(), [&](std::int64_t i) {
     const Vec3 moment = first(i);
@@ -96,7 +96,7 @@ Vec3 first_moment(const Voronoi& cells, std::int64_t i) {
   return sum;
 }
 
-/// From numbers of cells to those of their sites.
+/// Replaces numbers of cells by those of their sites.
 void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, OperatorErrors& out) {
   for (ErrorNorms* norms :
        {&out.divergence, &out.gradient, &out.laplacian, &out.curl, &out.tangential,
@@ -113,7 +113,8 @@ void renumber(const std::vector<std::int32_t>& site, std::int64_t sites, Operato
   }
 }
 
-/// The mask of sites that triangles surround. \throws Error invalid_argument if there is none.
+/// The mask of sites that are surrounded by triangles. \throws Error invalid_argument if there is
+/// none.
 Ids surrounded(const Mesh& mesh) {
   const mesh_detail::Stars stars(faces_of(mesh));
   Ids mask(mesh.points.cols());

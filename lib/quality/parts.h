@@ -25,7 +25,7 @@
 /// plane.
 namespace calotte::quality_detail {
 
-/// Of what is not measured.
+/// The value of a measure that does not exist.
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Tolerance for angles that are exactly 0 or 90 degrees in lattices.
@@ -55,7 +55,7 @@ struct Tally {
   }
 };
 
-/// A triangle; [v] is of vertex v, or of the side across from it.
+/// The shape of a triangle; [v] is of vertex v, or of the side across from it.
 struct Shape {
   std::array<double, 3> angle; ///< flat
   std::array<double, 3> side;  ///< on the sphere an arc
@@ -71,10 +71,9 @@ struct Subject {
   const Triangles& neighbours;
   VertexRings rings; ///< of the sites with cells
   Shapes shapes;
-  DoubleVector inverse_spacing; ///< by site: 1/h of the density; none to leave it out
-  Array<std::uint8_t>
-      inside;                ///< by triangle: whether it is one of the domain's; of all others none
-  Array<std::uint8_t> whole; ///< by site: whether the domain holds its cell; of all others none
+  DoubleVector inverse_spacing; ///< by site: 1/h of the density; empty to skip it
+  Array<std::uint8_t> inside;   ///< by triangle: whether it is in the domain; empty if all are
+  Array<std::uint8_t> whole;    ///< by site: whether its cell is in the domain; empty if all are
 
   bool has(std::int64_t triangle) const { return inside.size() == 0 || inside[triangle] != 0; }
   /// Edge length over the spacing demanded, for the edge across from a triangle's vertex.
@@ -89,7 +88,7 @@ struct Subject {
 /// The Delaunay edge across from a triangle's vertex, and its Voronoi edge.
 struct Edge {
   double arc = 0;
-  double voronoi = 0; ///< length; 0 where no more than rounding is left of it
+  double voronoi = 0; ///< length; 0 if only rounding is left of it
   double offset = 0;  ///< of the Voronoi edge's midpoint from the Delaunay edge's
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double sphere_area = 4 * std::numbers::pi;
 
-/// \returns the sum of the triangles' areas.
+/// Checks the cells of a mesh. \returns the sum of the triangles' areas.
 double require_cells(const Mesh& mesh) {
   if (!mesh.surface.is_sphere())
     require_finite_plane(mesh.surface);
@@ -87,7 +87,7 @@ Quality measure(const ClosedMesh& closed, const Density& density) {
   return result;
 }
 
-/// \param cells whether the Voronoi cells are measured, too.
+/// \param cells whether to measure the Voronoi cells, too.
 Quality quality_of_open(const Mesh& mesh, bool cells) {
   const CheckReport found = require_surface(mesh);
   const bool on_sphere = mesh.surface.is_sphere();

@@ -14,7 +14,7 @@
 namespace calotte::quality_detail {
 namespace {
 
-/// sin(delta) = |a-b|/|a+b| cot(C), see kites.h.
+/// The shape of a triangle of the sphere, by sin(delta) = |a-b|/|a+b| cot(C), see kites.h.
 Shape shape_of(const Sphere&, const std::array<Vec3, 3>& p) {
   const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
   Shape shape{};
@@ -29,7 +29,7 @@ Shape shape_of(const Sphere&, const std::array<Vec3, 3>& p) {
   return shape;
 }
 
-/// Of lengths from each corner, in a box to the nearest copies.
+/// The shape of a triangle of the plane; in a periodic plane, lengths are to the nearest copies.
 Shape shape_of(const Plane& plane, const std::array<Vec3, 3>& p) {
   Shape shape{};
   for (std::size_t v = 0; v < 3; ++v) {
@@ -42,15 +42,15 @@ Shape shape_of(const Plane& plane, const std::array<Vec3, 3>& p) {
   return shape;
 }
 
-/// The part of a triangle that is nearer to one end of a side than to its other vertices, on that
-/// side's side of the circumcentre; signed (see Shape::delta).
+/// The signed area (see Shape::delta) of half a kite: the part of a triangle between a side and the
+/// circumcentre that is nearest to one end of the side.
 double half_kite(const Surface& surface, double side, double delta) {
   return surface.is_sphere() ? 2 * std::atan(std::tan(side / 4) * std::tan(delta / 2))
                              : side / 2 * delta / 2;
 }
 
-/// Adds a side of a triangle to the cells of its two ends; its edge, if it has not been added from
-/// the other triangle.
+/// Adds a side of a triangle to the cells of its two ends, and its edge, unless the other triangle
+/// has added it.
 void add_side(const Mesh& mesh, const Shapes& shapes, std::int64_t t, int v,
               std::vector<Sides>& cells) {
   const std::int32_t other = mesh.neighbours(v, t);

@@ -18,7 +18,7 @@ Mesh with_unit_columns(Mesh mesh);
 /// \param mesh of unit columns, or of the plane.
 Shapes make_shapes(const Mesh& mesh);
 
-/// The sides of a cell, as far as triangles surround it.
+/// Measures of the sides of a cell, as far as triangles surround it.
 struct Sides {
   Tally arcs;    ///< lengths of its Delaunay edges
   Tally voronoi; ///< lengths of its Voronoi edges
@@ -30,7 +30,7 @@ struct Sides {
   bool whole() const { return !open && arcs.count > 0; }
 };
 
-/// By site.
+/// The sides of cells, by site.
 /// \param mesh may be open; \param shapes of its triangles.
 std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes);
 
@@ -38,7 +38,7 @@ std::vector<Sides> sides_of_cells(const Mesh& mesh, const Shapes& shapes);
 /// surround. \returns the sum of their areas.
 double set_whole_cells(const std::vector<Sides>& cells, Quality& result);
 
-/// How many sites with a closed ring of triangles have each number of neighbours.
+/// By number of neighbours, the number of sites with a closed ring of triangles.
 std::vector<std::int64_t> inner_degrees(const std::vector<Sides>& cells);
 
 } // namespace calotte::quality_detail

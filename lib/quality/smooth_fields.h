@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <numbers>
 
-/// Smooth scalars for which errors are measured: all of a set have one norm.
+/// Smooth scalars for the measurement of errors. All of a set have one norm.
 namespace calotte::quality_detail {
 
 /// The real harmonics of degree 2 on the unit sphere, which satisfy div grad s = -6 s.

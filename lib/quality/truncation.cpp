@@ -18,7 +18,7 @@
 namespace calotte::quality_detail {
 namespace {
 
-/// The measurement for one set of smooth fields.
+/// The measurement of truncation errors for one set of smooth fields.
 template <class Fields> class Truncation {
 public:
   Truncation(const Voronoi& of, const Fields& fields) : of_(of), fields_(fields) {
@@ -47,7 +47,7 @@ private:
   static constexpr std::size_t count = Fields::count;
   using Values = typename Fields::Values;
 
-  /// Of grad s at the midpoint of an edge.
+  /// The components of grad s at the midpoint of an edge.
   struct Slopes {
     Values normal, along;
   };

@@ -8,7 +8,7 @@
 
 namespace calotte::quality_detail {
 
-/// \returns what check_surface() finds, which passed.
+/// Requires a valid surface. \returns the report of check_surface(), which has passed.
 /// \throws Error invalid_argument.
 inline CheckReport require_surface(const Mesh& mesh) {
   CheckReport found = check_surface(mesh);
@@ -17,10 +17,10 @@ inline CheckReport require_surface(const Mesh& mesh) {
   return found;
 }
 
-/// Throws unless the mesh is the Delaunay triangulation of its points, but for the other diagonals
-/// of cocircular sites, which make the same cells.
+/// Requires a mesh that is the Delaunay triangulation of its points. Other diagonals between
+/// cocircular sites are allowed: they give the same cells.
 /// \param mesh of the sphere or the plane.
-/// \returns what check() or, with such diagonals, check_surface() finds.
+/// \returns the report of check() or, with such diagonals, of check_surface().
 /// \throws Error invalid_argument.
 inline CheckReport require_voronoi_mesh(const Mesh& mesh) {
   CheckReport found = check(mesh);

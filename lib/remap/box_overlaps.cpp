@@ -16,7 +16,7 @@ using base_detail::longitude_of;
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-/// Of an arc of a great circle: how it turns around the axis, and the area between it and a
+/// The turn of an arc of a great circle around the axis, and the area between the arc and a
 /// parallel.
 struct Turn {
   double angle; ///< radians eastwards
@@ -68,7 +68,7 @@ Turn turn_of(const MapPoint& from, const MapPoint& to, const Height& parallel) {
   return {angle, angle * above + std::copysign(1, t) * less};
 }
 
-/// Where the arc meets the meridian to its east or west.
+/// The point where the arc meets the meridian to its east or west.
 MapPoint at_meridian(const MapPoint& from, const MapPoint& to, const Vec3& meridian) {
   const auto side = [&](const MapPoint& p) {
     return p.radius * (meridian.x * p.east_y - meridian.y * p.east_x);
@@ -81,15 +81,16 @@ MapPoint at_meridian(const MapPoint& from, const MapPoint& to, const Vec3& merid
   return {meridian.x, meridian.y, radius, {z, radius * radius / (1 + std::abs(z))}};
 }
 
-/// Where an arc along which the height grows or falls crosses a parallel: p cos x + w sin x with
-/// the tangent w at p has the height z cos x + w_z sin x, and the slope w_z cos x - z sin x, whose
-/// square is that of the circle's greatest height less that of the parallel's: as well that of the
-/// parallel's radius less that of the height of the circle's normal, which is exact near a pole.
+/// The point where an arc of monotonic height crosses a parallel. With the tangent w at p, the
+/// point p cos x + w sin x has the height z cos x + w_z sin x and the slope w_z cos x - z sin x.
+/// The square of the slope is the square of the circle's greatest height minus that of the
+/// parallel's height. It is also the square of the parallel's radius minus that of the height of
+/// the circle's normal, which is exact near a pole.
 ///
-/// An end of the arc may lie on the parallel to the last bit, or the arc touch it. Then rounding
-/// decides where the circles meet, or whether; the crossing stays on the arc. Where it lies hardly
-/// matters: between two such points arc and parallel have the same height up to rounding, and so
-/// the areas of the boxes on both sides of the parallel.
+/// An end of the arc may lie on the parallel to the last bit, or the arc may touch the parallel.
+/// Then rounding decides where the circles meet, or whether they do; the crossing is clamped to the
+/// arc. Its exact position does not matter: between two such points, arc and parallel have the same
+/// height up to rounding, and the areas of the boxes on both sides change by rounding only.
 MapPoint at_parallel(const MapPoint& from, const MapPoint& to, const Height& parallel,
                      double radius) {
   const auto with_longitude_of = [&](const MapPoint& end) {
@@ -122,8 +123,8 @@ MapPoint at_parallel(const MapPoint& from, const MapPoint& to, const Height& par
                       : with_longitude_of(from);
 }
 
-/// An arc through a pole takes half a turn to one of both sides: the polygons beside it, along
-/// which it runs in opposite directions, take it to the same one.
+/// An arc through a pole makes half a turn, to a fixed side: the polygons on both sides of the arc,
+/// which run along it in opposite directions, must use the same side.
 constexpr double half_turn = std::numbers::pi * (1 - 0x1p-50);
 bool is_first(const MapPoint& a, const MapPoint& b) {
   return std::pair(a.east_x, a.east_y) < std::pair(b.east_x, b.east_y);
@@ -176,7 +177,8 @@ void BoxOverlaps::set_path(std::span<const Vec3> corners) {
   }
 }
 
-/// Around the north pole the boundary goes there, round it, and back along the same meridian.
+/// The boundary of a polygon around the north pole is extended: to the pole, around it, and back
+/// along the same meridian.
 void BoxOverlaps::close_path() {
   const double around = path_.back().longitude - path_.front().longitude;
   contains_south_pole_ = around < -180;
@@ -196,9 +198,9 @@ void BoxOverlaps::add_piece(const MapPoint& from, const MapPoint& to) {
     pieces_.push_back({column_, row_, turn.angle, turn.area});
 }
 
-/// \param start, end of an arc along which the height grows or falls.
-/// \param from, to points of it in one column. Others follow from the ends of the arc, so that
-///        rounding does not add up.
+/// \param start, end of an arc of monotonic height.
+/// \param from, to points of the arc in one column. Further points are computed from the ends of
+///        the arc, so that rounding does not accumulate.
 void BoxOverlaps::trace_in_column(const PathPoint& start, const PathPoint& end, MapPoint from,
                                   const MapPoint& to) {
   const auto pass = [&](std::int64_t parallel) {
@@ -236,7 +238,7 @@ void BoxOverlaps::trace_monotone(const PathPoint& start, const PathPoint& end) {
   trace_in_column(start, end, from, end.point);
 }
 
-/// Round the north pole. Round the south pole there is nothing below.
+/// Traces the boundary around the north pole. Around the south pole there is no area below.
 void BoxOverlaps::trace_pole(const PathPoint& from, const PathPoint& to) {
   double longitude = from.longitude;
   const double high = rise(tiling_.height(row_), from.point.height);
@@ -256,7 +258,7 @@ void BoxOverlaps::trace_pole(const PathPoint& from, const PathPoint& to) {
   pass(to.longitude);
 }
 
-/// Cuts the arc where its height is greatest or least.
+/// Traces an arc, which is cut where its height is greatest or least.
 void BoxOverlaps::trace(const PathPoint& from, const PathPoint& to) {
   if (from.point.at_pole() && to.point.at_pole())
     return trace_pole(from, to);

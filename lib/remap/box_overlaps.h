@@ -13,10 +13,10 @@
 namespace calotte::remap_detail {
 
 /// The areas that polygons share with the boxes of a tiling. The boundary of a polygon is cut at
-/// meridians and parallels; each piece adds the area between it and the parallel below to its box,
-/// and that of whole boxes below it to these, with the sign of its direction: Green's theorem. So
-/// the areas of a polygon's parts sum to its own, and those of polygons that tile the sphere to the
-/// boxes', whatever their shapes.
+/// meridians and parallels. Each piece adds the area between it and the parallel below to its box,
+/// and the area of the strip in each box below to that box, with the sign of its direction (Green's
+/// theorem). So the areas of a polygon's parts sum to its own, and those of polygons that tile the
+/// sphere to the boxes', whatever their shapes.
 class BoxOverlaps {
 public:
   explicit BoxOverlaps(const BoxTiling& tiling) : tiling_(tiling) {}
@@ -27,7 +27,7 @@ public:
   double set(std::span<const Vec3> corners, WeightRow& out);
 
 private:
-  /// A point of a boundary, and its longitude in degrees, which grows without end eastwards.
+  /// A point of a boundary, and its longitude in degrees, which increases eastwards without bound.
   struct PathPoint {
     MapPoint point;
     double longitude;
@@ -36,9 +36,9 @@ private:
   struct Piece {
     std::int64_t column, row;
     double turn; ///< radians eastwards
-    double area; ///< above the parallel below; of the sign of the turn
+    double area; ///< above the parallel below; with the sign of the turn
   };
-  /// Of a window.
+  /// A column of a window.
   struct Column {
     std::int64_t wrapped;
     double wide; ///< radians

@@ -22,14 +22,14 @@ using base_detail::from_lonlat, base_detail::longitude_of, base_detail::lonlat_o
 
 constexpr double degree_in_radians = std::numbers::pi / 180;
 constexpr double slack =
-    1e-9; ///< degrees, of sides that rounding keeps from a pole or from closing
+    1e-9; ///< degrees, rounding of sides that should be at a pole or close the circle
 constexpr double widest = 180; ///< degrees, of a box; excluded
 
 std::string named_value(const std::string& name, Eigen::Index i, double value) {
   return message("{}[{}] = {}", name, i, value);
 }
 
-/// \param sign 1 for values that ascend, -1 if they descend.
+/// \param sign 1 for ascending values, -1 for descending ones.
 void require_order(const DoubleVector& values, const std::string& name, double sign) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i]))
@@ -51,7 +51,7 @@ void require_latitudes(const DoubleVector& values, const std::string& name) {
       refuse(named_value(name, i, values[i]) + " is outside -90 to 90; give degrees");
 }
 
-/// Half way between nodes, and half a step beyond the first and the last.
+/// The middles between nodes, and the points half a step beyond the first and the last node.
 DoubleVector middles(const DoubleVector& nodes) {
   const Eigen::Index n = nodes.size();
   DoubleVector sides(n + 1);
@@ -82,7 +82,7 @@ DoubleVector meridians_around(const DoubleVector& nodes) {
   return sides;
 }
 
-/// The side beyond a node, at the pole if that is less than a step away.
+/// The side beyond a node; at the pole if that is less than a step away.
 double reaching_pole(double node, double side) {
   const double step = 2 * (side - node), pole = std::copysign(90, step);
   return std::abs(pole - node) <= std::abs(step) * (1 + slack) ? pole : side;

@@ -9,19 +9,19 @@
 #include <cstdint>
 #include <vector>
 
-/// The boxes of a raster, completed to a tiling of the sphere by boxes outside of it, so that each
-/// point is in a box.
+/// The boxes of a raster, completed by outside boxes to a tiling of the sphere, so that each point
+/// is in a box.
 namespace calotte::remap_detail {
 
-/// The height of a parallel: the sine of its latitude, and what its magnitude lacks to 1, which
-/// keeps its digits near the poles.
+/// The height of a parallel: the sine of its latitude, and 1 minus its magnitude, which keeps its
+/// digits near the poles.
 struct Height {
   double sine, gap;
 };
 
 Height height_of(double latitude); ///< of a latitude in degrees
 
-/// From one to the other, upwards.
+/// The difference of two heights, upwards.
 inline double rise(const Height& from, const Height& to) {
   if (from.sine > 0.5 && to.sine > 0.5)
     return from.gap - to.gap;
@@ -30,7 +30,7 @@ inline double rise(const Height& from, const Height& to) {
   return to.sine - from.sine;
 }
 
-/// A point of the unit sphere as parallels and meridians see it. At a pole it keeps a longitude.
+/// A point of the unit sphere by its meridian and parallel. At a pole it keeps a longitude.
 struct MapPoint {
   double east_x, east_y; ///< the unit vector of its longitude
   double radius;         ///< of its parallel, the cosine of its latitude
@@ -40,10 +40,11 @@ struct MapPoint {
   bool at_pole() const { return radius == 0; }
 };
 
-/// Of a unit vector; one closer than 1e-15 to a pole is there, with longitude 0.
+/// The MapPoint of a unit vector. A point closer than 1e-15 to a pole becomes the pole, with
+/// longitude 0.
 MapPoint map_point_of(const Vec3& unit);
 
-/// Radians from one longitude to the other, -pi to pi.
+/// The angle from one longitude to the other, radians, -pi to pi.
 double turn_between(const MapPoint& from, const MapPoint& to);
 
 class BoxTiling {
@@ -54,7 +55,7 @@ public:
   std::int64_t columns() const { return std::ssize(column_of_); }
   std::int64_t rows() const { return std::ssize(row_of_); }
 
-  // ---- Columns from west to east; those beyond the last are the first ones again
+  // ---- Columns from west to east; beyond the last column they repeat
 
   std::int64_t wrapped(std::int64_t column) const {
     if (column >= 0 && column < columns())
@@ -62,13 +63,13 @@ public:
     const std::int64_t rest = column % columns();
     return rest < 0 ? rest + columns() : rest;
   }
-  /// The western meridian in degrees, ascending with the column without end.
+  /// The western meridian of a column in degrees, ascending with the column without bound.
   double west_of(std::int64_t column) const {
     const std::int64_t first = wrapped(column);
     const double west = meridians_[static_cast<std::size_t>(first)];
     return column == first ? west : west + 360.0 * ((column - first) / columns());
   }
-  /// The same as a unit vector of x and y.
+  /// The same meridian, as a unit vector of x and y.
   const Vec3& direction_of(std::int64_t column) const {
     return directions_[static_cast<std::size_t>(wrapped(column))];
   }
@@ -81,7 +82,7 @@ public:
   double radius(std::int64_t row) const { return radii_[static_cast<std::size_t>(row)]; }
   std::int64_t row_at(const Height& height) const;
 
-  /// The raster's number of a box; -1 outside of it.
+  /// The number of a box in the raster; -1 outside of it.
   std::int32_t box(std::int64_t wrapped_column, std::int64_t row) const {
     const std::int32_t i = column_of_[static_cast<std::size_t>(wrapped_column)],
                        j = row_of_[static_cast<std::size_t>(row)];

@@ -86,7 +86,7 @@ DoubleVector quotients(const DoubleVector& a, const DoubleVector& b) {
   return (b.array() > 0).select(a.array() / b.array(), 0.0);
 }
 
-/// \param shared areas, a row for each cell of the target; used up.
+/// \param shared areas, a row for each cell of the target; consumed.
 GridWeights weights_of_areas(Weights& shared, DoubleVector source_area, DoubleVector target_area) {
   const DoubleVector sums = row_sums(shared);
   GridWeights out{.weights = {},
@@ -146,13 +146,13 @@ GridWeights weights_in(const S& space, const Polygons& source, const Polygons& t
 
 // ---- Boxes with boxes
 
-/// What an interval shares with one of others.
+/// The length that an interval shares with another.
 struct SharedLength {
   std::int32_t other;
   double length;
 };
 
-/// Of columns: radians.
+/// The shared lengths of columns, radians.
 std::vector<std::vector<SharedLength>> shared_columns(const LonLatBoxes& target,
                                                       const LonLatBoxes& source) {
   constexpr double degree = std::numbers::pi / 180;
@@ -172,7 +172,7 @@ std::vector<std::vector<SharedLength>> shared_columns(const LonLatBoxes& target,
   return out;
 }
 
-/// Of rows: differences of sines.
+/// The shared heights of rows: differences of sines.
 std::vector<std::vector<SharedLength>> shared_rows(const LonLatBoxes& target,
                                                    const LonLatBoxes& source) {
   const auto bounds = [](const LonLatBoxes& boxes, Eigen::Index j) {
@@ -194,7 +194,7 @@ std::vector<std::vector<SharedLength>> shared_rows(const LonLatBoxes& target,
 
 // ---- Positions in boxes
 
-/// Two nodes around a longitude.
+/// The two nodes around a longitude.
 struct Bracket {
   std::int32_t first, second; ///< of the columns; the second is -1 for none
   double part;                ///< of the second, 0 to 1
@@ -259,7 +259,8 @@ private:
     return {k, k + 1, (longitude - all[k]) / (all[k + 1] - all[k])};
   }
 
-  /// Between the last latitude and the pole, or the edge of the raster.
+  /// Sets the weights of a position between the last latitude and the pole, or the edge of the
+  /// raster.
   void beyond(Eigen::Index last, double latitude, double pole, const Bracket& along,
               WeightRow& row) const {
     const double edge =

@@ -29,8 +29,9 @@ using mesh_detail::SeenMesh, mesh_detail::vertex_across;
 
 // ---- Natural neighbours
 
-/// An edge of the polygon around the triangles whose circumcaps hold a position, which lies to its
-/// left. The triangle is the one inside, with the edge across from its vertex `across`.
+/// An edge of the polygon around the triangles whose circumcaps contain a position; the position is
+/// to its left. The triangle is the one inside the polygon, and its vertex `across` is across from
+/// the edge.
 struct CavityEdge {
   std::int32_t triangle;
   int across;
@@ -51,7 +52,7 @@ public:
   explicit NaturalNeighbours(const SeenMesh<S>& mesh)
       : seen_(mesh), mesh_(mesh.mesh()), faces_(faces_of(mesh_)) {}
 
-  /// \param t the triangle that holds p, which is no site and not on an open edge.
+  /// \param t the triangle that contains p. \pre p is no site and not on an open edge.
   void set(const Position& p, std::int32_t t, WeightRow& out) const {
     std::vector<CavityEdge> sides; // counter-clockwise
     for (int v = 0; v < 3; ++v)
@@ -77,8 +78,8 @@ private:
     return mesh_.triangles(previous_vertex(side.across), side.triangle);
   }
 
-  /// The sides beyond an edge of a triangle inside, or the edge itself if none of those beyond it
-  /// is inside. The triangles inside form a tree, as no site is inside of all.
+  /// Adds the sides of the polygon beyond an edge of a triangle inside; the edge itself if the
+  /// triangle beyond it is not inside. The triangles inside form a tree, as they surround no site.
   void add_sides(const Position& p, const CavityEdge& edge, std::vector<CavityEdge>& out) const {
     const std::int32_t beyond = mesh_.neighbours(edge.across, edge.triangle);
     if (beyond < 0 || seen_.in_circle(beyond, p) <= 0) {
@@ -90,8 +91,8 @@ private:
     add_sides(p, {beyond, previous_vertex(back)}, out);
   }
 
-  /// On the sphere from the parts of the offsets along the tangent plane at p: what the norms of
-  /// unit vectors lack to 1 by rounding must not count, as p may be as near to a site.
+  /// The circumcentre with p. On the sphere it uses the components of offsets along the tangent
+  /// plane at p: rounding of the norms must not count, as p may be that near to a site.
   Vec3 centre_with(const Position& p, const CavityEdge& side) const {
     const Vec3 x = seen_.seen(p), start = seen_.seen(start_of(side), p),
                end = seen_.seen(end_of(side), p);
@@ -108,8 +109,8 @@ private:
                                seen_.seen(mesh_.triangles(2, t), p));
   }
 
-  /// What the cell of p takes from the cell of the site between two sides: the polygon of the new
-  /// vertices on either side, and the old ones between them, which p removes.
+  /// The area that the cell of p takes from the cell of the site between two sides: the polygon of
+  /// the new vertices on both sides and the old vertices between them, which p removes.
   double area_between(const Position& p, const CavityEdge& before, const CavityEdge& after) const {
     const Vec3& first = before.centre;
     Vec3 last = after.centre;
@@ -130,7 +131,7 @@ private:
   const SeenMesh<S>& seen_;
   const Mesh& mesh_;
   Faces faces_;
-  S frame_{}; ///< where a position sees points: a plane without period
+  S frame_{}; ///< the space around a position: a plane without period
 };
 
 // ---- Rows
@@ -142,9 +143,9 @@ void set_linear(const Triangles& triangles, const Locations& at, std::int64_t i,
       out.push_back({triangles(v, at.triangle[i]), at.weights(v, i)});
 }
 
-/// Whether a position is on an open edge, or is a site, up to rounding: its weights are those of
-/// the edge's ends. There the circumcentres with the position have no digits, and the linear
-/// weights differ from the natural ones by as little as the position from the edge or the site.
+/// Whether a position is on an open edge, or is a site, up to rounding. Its weights are then those
+/// of the edge's ends: the circumcentres with the position would have no correct digits, and linear
+/// weights differ from natural ones by no more than the position from the edge or site.
 bool on_boundary(const Triangles& neighbours, const Locations& at, std::int64_t i) {
   constexpr double rounding = 1e-12;
   int zeros = 0;

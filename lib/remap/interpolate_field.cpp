@@ -16,13 +16,13 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of the row's values that are no NaN.
+/// Sums over the values of a row that are not NaN.
 struct Valid {
   double sum;           ///< of weight times value
   double weight, whole; ///< of the weights of these values, and of all
 };
 
-/// \param values of the first cell of the source; those of the next are `stride` further.
+/// \param values of the source; that of the next cell is `stride` further.
 Valid sum_valid(const Weights& weights, std::int64_t row, const double* values,
                 std::int64_t stride) {
   Valid valid{0, 0, 0};

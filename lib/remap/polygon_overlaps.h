@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-/// The areas that polygons share with others: pairs that a tree of boxes finds, each clipped by
+/// The areas that polygons share with others. A tree of boxes finds pairs, which are clipped by
 /// half-spaces (Sutherland and Hodgman, Comm. ACM 17, 1974).
 namespace calotte::remap_detail {
 
@@ -35,7 +35,8 @@ struct SignedPart {
   double sign = 1;
 };
 
-/// Corners in the space, counter-clockwise; in a period those nearest to the first one.
+/// The corners of a polygon in the space, counter-clockwise; in a periodic plane, the copies
+/// nearest to the first corner.
 template <Space S>
 void set_corners(const S& space, const Polygons& polygons, std::int64_t i,
                  std::vector<Vec3>& corners) {
@@ -47,7 +48,7 @@ void set_corners(const S& space, const Polygons& polygons, std::int64_t i,
   }
 }
 
-/// Of a polygon: the sum of the triangles from its first corner.
+/// The area of a polygon: the sum of the triangles from its first corner.
 template <Space S> double area_of(const S& space, std::span<const Vec3> corners) {
   double sum = 0;
   for (std::size_t k = 2; k < corners.size(); ++k)
@@ -55,7 +56,7 @@ template <Space S> double area_of(const S& space, std::span<const Vec3> corners)
   return sum;
 }
 
-/// Whether it turns left, or not, at each corner, up to rounding.
+/// Whether a polygon turns right at no corner, up to rounding.
 template <Space S> bool is_convex(const S&, std::span<const Vec3> corners) {
   const std::size_t n = corners.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -67,8 +68,8 @@ template <Space S> bool is_convex(const S&, std::span<const Vec3> corners) {
   return true;
 }
 
-/// A concave polygon as the triangles from its first corner, those that run clockwise with the
-/// sign -1; a convex one as itself.
+/// The convex parts of a polygon: a convex polygon itself; for a concave one the triangles from its
+/// first corner, with the sign -1 if they run clockwise.
 template <Space S>
 void set_parts(const S& space, const std::vector<Vec3>& corners, std::vector<SignedPart>& parts) {
   parts.clear();
@@ -87,8 +88,9 @@ void set_parts(const S& space, const std::vector<Vec3>& corners, std::vector<Sig
   }
 }
 
-/// A side as short as rounding, between corners of cocircular sites, points anywhere. Without it a
-/// convex polygon is larger by less than the square of its length.
+/// Whether a side is longer than rounding. A shorter side, between corners of cocircular sites, has
+/// an arbitrary direction. Without it a convex polygon is larger by less than the square of its
+/// length.
 template <Space S> bool has_direction(const Vec3& from, const Vec3& to) {
   constexpr double rounding = 1e-13;
   const Vec3 way = to - from;
@@ -112,7 +114,7 @@ public:
   }
 
 private:
-  /// Keeps what is to the left of a side.
+  /// Keeps the part to the left of a side.
   void cut(const Vec3& from, const Vec3& to) {
     next_.clear();
     const std::size_t n = now_.size();
@@ -184,7 +186,7 @@ private:
   BoxTree tree_;
 };
 
-/// The areas that one polygon after the other shares with those of a source.
+/// Computes the areas that polygons, one after the other, share with the polygons of a source.
 template <Space S> class PolygonRow {
 public:
   explicit PolygonRow(const PolygonOverlaps<S>& overlaps)
@@ -219,7 +221,7 @@ public:
   }
 
 private:
-  /// body(shift) for the copies around a period.
+  /// Calls body(shift) for the copies in the periods around the box.
   template <class Body> void for_each_shift(const Body& body) const {
     if constexpr (S::on_sphere) {
       body(Vec3{0, 0, 0});
@@ -232,7 +234,7 @@ private:
     }
   }
 
-  /// By the signs of the convex parts that hold the point.
+  /// Whether a polygon contains a point, by the signs of the convex parts that contain it.
   bool contains(std::int32_t polygon, const Vec3& point) {
     constexpr double rounding = 1e-14;
     set_corners(overlaps_.space(), overlaps_.source(), polygon, others_);
@@ -250,7 +252,7 @@ private:
     return sum > 0;
   }
 
-  /// What the polygon shares when it is moved.
+  /// Adds the areas that the polygon shares when it is shifted.
   void add_copies(const Vec3& shift, WeightRow& out) {
     moved_.clear();
     for (const Vec3& corner : corners_)
